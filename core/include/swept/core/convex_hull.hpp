@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace swept {
+
+/// Solid convex hull of a set of points.
+///
+/// Keeps the points that are extreme; every given point lies in the hull of the kept ones grown by
+/// `error()`. Queries against a hull add that error to their rounding bound, so dropping a point can
+/// never make something Free.
+class ConvexHull {
+ public:
+  /// Throws std::invalid_argument when `points` is empty or holds a non-finite coordinate. Flat and
+  /// degenerate sets (a point, a segment, a polygon) are hulls too.
+  static ConvexHull of(std::span<const Eigen::Vector3d> points);
+
+  /// m, in the local frame.
+  const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }
+  /// Outward-oriented triangles over `vertices()`; empty when the hull has no volume.
+  const std::vector<Eigen::Vector3i>& faces() const { return data_->faces; }
+  double error() const { return data_->error; }  ///< m
+
+ private:
+  struct Data {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<Eigen::Vector3i> faces;
+    double error = 0.0;
+  };
+  explicit ConvexHull(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace swept

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Every tolerance of swept: its unit, its value and what breaks when it moves.
+namespace swept::tolerance {
+
+/// rad or m of motion, as metres of the moving geometry. A motion that keeps more than margin + this
+/// is always decided. Smaller: fewer Undecided, more time on motions that graze.
+inline constexpr double kMotion = 1e-3;
+
+/// Relative (no unit). Bound on the accumulated rounding of a pose and of one support evaluation,
+/// per unit of coordinate magnitude and per joint of the chain. A double has 1.1e-16; the longest
+/// chain of operations per joint (Rodrigues rotation, product, translation) has fewer than 60.
+/// Smaller than that product: a Free could be wrong by rounding. Larger: only more Undecided.
+inline constexpr double kRoundingPerJoint = 2e-14;
+
+/// m. Convergence of a distance query whose caller asks for no other: upper - lower.
+/// Smaller: more iterations on curved pairs, and no convergence below about 1e-14 of the coordinates.
+inline constexpr double kDistance = 1e-9;
+
+/// m. Accuracy of the libccd backend, which has no distance of its own (bisection on inflation).
+inline constexpr double kLibccdDistance = 1e-6;
+
+/// Relative to the mesh's size. Vertices closer than this are one vertex. Zero: STL files, which
+/// repeat every vertex per triangle, still weld, since equal numbers are equal. Larger would close
+/// real gaps, and a surface would be taken for a solid.
+inline constexpr double kWeld = 0.0;
+
+/// rad. How far a revolute or continuous value, and m for a prismatic one, may pass its limit and still be within it:
+/// the rounding of degrees to radians in files. Larger: hardware limits are not kept.
+inline constexpr double kLimit = 1e-9;
+
+/// Enforced cap on the intervals examined in one motion; what is left is Undecided.
+inline constexpr int kMaxIntervals = 1 << 20;
+
+/// Enforced cap on the iterations of one convex distance query.
+inline constexpr int kMaxGjkIterations = 128;
+
+}  // namespace swept::tolerance

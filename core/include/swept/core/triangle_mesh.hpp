@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "swept/core/convex_hull.hpp"
+
+namespace swept {
+
+namespace detail {
+class TriangleBvh;
+}
+
+/// What the closed parts of a mesh mean.
+enum class MeshInterior : std::uint8_t {
+  Solid,    ///< a point enclosed by a closed component belongs to the shape
+  Surface,  ///< only the triangles count (Pan, Chitta, Manocha 2012, section III)
+};
+
+/// What building a mesh did to its input.
+struct MeshReport {
+  int verticesGiven = 0;
+  int verticesKept = 0;         ///< after welding equal positions and dropping unused ones
+  int trianglesGiven = 0;
+  int degenerateDropped = 0;    ///< triangles with two equal corners
+  int duplicatesDropped = 0;    ///< triangles with the corners of an earlier one
+  int closedComponents = 0;     ///< every edge shared by exactly two triangles
+  int openComponents = 0;
+};
+
+/// Triangles with a hierarchy over them. Immutable; copies share the data.
+///
+/// A connected component (triangles joined by shared vertices' edges) in which every edge has exactly
+/// two triangles is closed. Under `MeshInterior::Solid` a point belongs to the shape when it lies on a
+/// triangle or inside any closed component, whichever way its triangles are oriented; cavities formed
+/// by a component inside another are filled. Open components are surfaces.
+class TriangleMesh {
+ public:
+  using Triangle = Eigen::Vector3i;  ///< indices into vertices()
+
+  /// Throws std::invalid_argument for an index out of range, a non-finite vertex, or when no triangle
+  /// with three distinct corners is left.
+  static TriangleMesh build(std::span<const Eigen::Vector3d> vertices,
+                            std::span<const Triangle> triangles,
+                            MeshInterior interior = MeshInterior::Solid);
+
+  const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }  ///< m
+  const std::vector<Triangle>& triangles() const { return data_->triangles; }
+  const MeshReport& report() const { return data_->report; }
+  MeshInterior interior() const { return data_->interior; }
+  /// True when every component is closed.
+  bool isClosed() const { return data_->report.openComponents == 0; }
+
+  /// Whether the solid contains `point` (m, mesh frame). Always false under `Surface` and for open
+  /// components. Proven unless `point` is within rounding of a triangle, where either answer may come.
+  bool encloses(const Eigen::Vector3d& point) const;
+
+  /// Hull of the vertices: an outer bound of the solid.
+  const ConvexHull& hull() const { return data_->hull; }
+  const detail::TriangleBvh& bvh() const { return *data_->bvh; }
+
+ private:
+  struct Data {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<Triangle> triangles;   ///< in the hierarchy's leaf order
+    std::vector<int> componentOf;      ///< per triangle; -1 when its component is open
+    MeshReport report;
+    MeshInterior interior = MeshInterior::Solid;
+    ConvexHull hull;
+    std::shared_ptr<const detail::TriangleBvh> bvh;
+  };
+  explicit TriangleMesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace swept

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace swept {
+
+/// A file (or a value given by the user) that cannot be used. what() is
+/// `file:line: error: message`; the message names the element, the value seen and what is allowed.
+class InputError : public std::runtime_error {
+ public:
+  /// line 0: the file has no lines that matter, and is named alone.
+  InputError(const std::string& file, int line, const std::string& message);
+  const std::string& file() const { return file_; }
+  int line() const { return line_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  std::string file_;
+  int line_;
+  std::string message_;
+};
+
+/// Maps the start of a `package://` path to a folder: name `a` or `a/b`. The longest match wins.
+struct PackageFolder {
+  std::string name;
+  std::filesystem::path folder;
+};
+
+/// How files are read.
+struct LoadOptions {
+  /// Searched first for `package://NAME/...`; then a folder NAME beside the file or beside one of its
+  /// parent folders; then the same below ROS_PACKAGE_PATH.
+  std::vector<PackageFolder> packages;
+  /// Receives one line per remark (`file:line: warning: ...`): open meshes, entries of an SRDF that
+  /// name links the robot does not have, and the like. Nothing is printed without it.
+  std::function<void(const std::string&)> warn;
+};
+
+}  // namespace swept

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "swept/robot_model/world.hpp"
+
+namespace swept {
+
+/// A start, goals and a world for some joints of a robot.
+struct PlanningProblem {
+  std::string set;
+  int index = 0;  ///< as the file numbers it
+  World world;
+  std::vector<std::string> jointNames;
+  std::vector<double> start;               ///< rad or m, in the order of jointNames
+  std::vector<std::vector<double>> goals;  ///< likewise
+};
+
+/// MotionBenchMaker problems in one JSON file:
+/// `{ SET: [ { "index", "world": {"sphere": [...], "cylinder": [...], "box": [...]}, "start", "goals",
+/// "joint_names" } ] }`. Orientations are x, y, z, w; boxes have half extents; cylinders a full length.
+class ProblemFile {
+ public:
+  /// Throws InputError.
+  static ProblemFile load(const std::filesystem::path& json);
+
+  std::vector<std::string> sets() const;
+  std::vector<int> indices(const std::string& set) const;
+  /// Throws InputError when there is no such set or index, and names those there are.
+  PlanningProblem problem(const std::string& set, int index) const;
+
+ private:
+  std::string file_;
+  std::vector<PlanningProblem> problems_;
+};
+
+}  // namespace swept
