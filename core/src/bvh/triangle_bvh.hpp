@@ -7,10 +7,14 @@
 
 namespace swept::detail {
 
-/// Binary tree of axis-aligned boxes over triangles, in depth-first order: the left child of node i is
-/// i + 1.
+/// Binary tree of axis-aligned boxes over triangles, in depth-first order: the left child of node i
+/// is i + 1.
 class TriangleBvh {
  public:
+  /// depth() never exceeds this, so a traversal's stack may be an array.
+  static constexpr int kMaxDepth = 64;
+  static constexpr int kMaxLeafTriangles = 2;
+
   struct Node {
     Eigen::Vector3d center;       ///< m, mesh frame
     Eigen::Vector3d halfExtents;  ///< m, rounded outward
@@ -19,7 +23,8 @@ class TriangleBvh {
     int triangleCount;
   };
 
-  /// Reorders `triangles` (and `componentOf` alike) into leaf order.
+  /// Reorders `triangles` (and `componentOf` alike) into leaf order. At least one and at most 2^30
+  /// triangles; `vertices` are finite.
   static TriangleBvh build(std::span<const Eigen::Vector3d> vertices,
                            std::vector<Eigen::Vector3i>& triangles, std::vector<int>& componentOf);
 

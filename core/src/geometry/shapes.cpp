@@ -1,1 +1,172 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace swept {
+namespace {
+
+void requireSize(std::string_view name, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return;
+  std::ostringstream message;
+  message << name << " is " << value << "; allowed: finite and not negative";
+  throw std::invalid_argument(message.str());
+}
+
+/// Upper bound of a length that was computed with fewer than 16 rounded operations on non-negative
+/// terms: each costs at most half an epsilon, and the last term covers results that underflow.
+double roundedUp(double length) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  return length * (1.0 + 8.0 * kEpsilon) + std::numeric_limits<double>::min();
+}
+
+double farthest(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& from,
+                Eigen::Vector3d& farthestPoint) {
+  double largest = -1.0;
+  for (const Eigen::Vector3d& point : points) {
+    const double squared = (point - from).squaredNorm();
+    if (squared > largest) {
+      largest = squared;
+      farthestPoint = point;
+    }
+  }
+  return largest;
+}
+
+Aabb boxOf(std::span<const Eigen::Vector3d> points) {
+  Aabb box{points.front(), points.front()};
+  for (const Eigen::Vector3d& point : points) {
+    box.lower = box.lower.cwiseMin(point);
+    box.upper = box.upper.cwiseMax(point);
+  }
+  return box;
+}
+
+/// Centre of a nearly smallest ball: Badoiu and Clarkson 2003 ("Smaller core-sets for balls"),
+/// which steps towards the farthest point by 1/(i + 1). Started from the box centre, and the best
+/// centre seen is kept, so symmetric sets get their exact centre.
+Eigen::Vector3d ballCenter(std::span<const Eigen::Vector3d> points) {
+  constexpr std::size_t kWork = 20'000'000;  // points looked at: bounds the time on large sets
+  const int steps = static_cast<int>(std::clamp<std::size_t>(kWork / points.size(), 16, 512));
+  const Aabb box = boxOf(points);
+  Eigen::Vector3d center = 0.5 * box.lower + 0.5 * box.upper;
+  Eigen::Vector3d best = center;
+  Eigen::Vector3d target = center;
+  double bestSquared = std::numeric_limits<double>::infinity();
+  for (int i = 1; i <= steps; ++i) {
+    const double squared = farthest(points, center, target);
+    if (squared < bestSquared) {
+      bestSquared = squared;
+      best = center;
+    }
+    center += (target - center) / (i + 1);
+  }
+  return best;
+}
+
+/// Contains `points` whatever `center` is: the radius is measured, not inferred.
+BoundingSphere ballAround(const Eigen::Vector3d& center, std::span<const Eigen::Vector3d> points) {
+  double radius = 0.0;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d offset = point - center;
+    radius = std::max(radius, std::hypot(offset.x(), offset.y(), offset.z()));
+  }
+  return {center, roundedUp(radius)};
+}
+
+struct SphereOf {
+  BoundingSphere operator()(const Sphere& sphere) const {
+    return {Eigen::Vector3d::Zero(), sphere.radius};
+  }
+  BoundingSphere operator()(const Box& box) const {
+    const Eigen::Vector3d& half = box.halfExtents;
+    return {Eigen::Vector3d::Zero(), roundedUp(std::hypot(half.x(), half.y(), half.z()))};
+  }
+  BoundingSphere operator()(const Cylinder& cylinder) const {
+    return {Eigen::Vector3d::Zero(), roundedUp(std::hypot(cylinder.radius, cylinder.halfLength))};
+  }
+  BoundingSphere operator()(const Capsule& capsule) const {
+    return {Eigen::Vector3d::Zero(), roundedUp(capsule.radius + capsule.halfLength)};
+  }
+  BoundingSphere operator()(const ConvexHull& hull) const {
+    BoundingSphere ball = ballAround(ballCenter(hull.vertices()), hull.vertices());
+    ball.radius = roundedUp(ball.radius + hull.error());
+    return ball;
+  }
+  BoundingSphere operator()(const TriangleMesh& mesh) const {
+    return ballAround(ballCenter(mesh.hull().vertices()), mesh.vertices());
+  }
+};
+
+struct BoxOf {
+  Aabb operator()(const Sphere& sphere) const { return symmetric(sphere.radius, sphere.radius); }
+  Aabb operator()(const Box& box) const { return {-box.halfExtents, box.halfExtents}; }
+  Aabb operator()(const Cylinder& cylinder) const {
+    return symmetric(cylinder.radius, cylinder.halfLength);
+  }
+  Aabb operator()(const Capsule& capsule) const {
+    return symmetric(capsule.radius, roundedUp(capsule.radius + capsule.halfLength));
+  }
+  Aabb operator()(const ConvexHull& hull) const {
+    Aabb box = boxOf(hull.vertices());
+    if (hull.error() > 0.0) {
+      // A sum of opposite signs rounds by its result, which is smaller than the terms; growing by a
+      // few epsilons of the coordinates covers it.
+      const double scale =
+          std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+      const double grow = roundedUp(hull.error() + std::numeric_limits<double>::epsilon() * scale);
+      box.lower.array() -= grow;
+      box.upper.array() += grow;
+    }
+    return box;
+  }
+  Aabb operator()(const TriangleMesh& mesh) const { return boxOf(mesh.vertices()); }
+
+ private:
+  static Aabb symmetric(double radial, double axial) {
+    const Eigen::Vector3d half(radial, radial, axial);
+    return {-half, half};
+  }
+};
+
+}  // namespace
+
+Sphere makeSphere(double radius) {
+  requireSize("sphere radius", radius);
+  return {radius};
+}
+
+Box makeBox(const Eigen::Vector3d& fullExtents) {
+  requireSize("box size x", fullExtents.x());
+  requireSize("box size y", fullExtents.y());
+  requireSize("box size z", fullExtents.z());
+  return {0.5 * fullExtents};
+}
+
+Cylinder makeCylinder(double radius, double fullLength) {
+  requireSize("cylinder radius", radius);
+  requireSize("cylinder length", fullLength);
+  return {radius, 0.5 * fullLength};
+}
+
+Capsule makeCapsule(double radius, double segmentLength) {
+  requireSize("capsule radius", radius);
+  requireSize("capsule length", segmentLength);
+  return {radius, 0.5 * segmentLength};
+}
+
+BoundingSphere boundingSphere(const Shape& shape) {
+  return std::visit(SphereOf{}, shape);
+}
+
+Aabb boundingBox(const Shape& shape) {
+  return std::visit(BoxOf{}, shape);
+}
+
+}  // namespace swept

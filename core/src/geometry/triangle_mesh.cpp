@@ -1,1 +1,271 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/triangle_mesh.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "bvh/triangle_bvh.hpp"
+#include "geometry/mesh_components.hpp"
+#include "geometry/ray_crossing.hpp"
+#include "geometry/weld.hpp"
+#include "swept/core/distance.hpp"
+
+namespace swept {
+namespace {
+
+/// Largest distance from the middle of a hull face to the mesh, over a sample of the faces.
+double estimateDent(const TriangleMesh& mesh) {
+  constexpr std::size_t kSamples = 256;
+  const ConvexHull& hull = mesh.hull();
+  const std::size_t stride = hull.faces().size() / kSamples + 1;
+  DistanceOptions options;
+  options.tolerance = 1e-3 * hull.extent();
+  double dent = 0.0;
+  for (std::size_t i = 0; i < hull.faces().size(); i += stride) {
+    const Eigen::Vector3i& face = hull.faces()[i];
+    Eigen::Isometry3d mesh_from_point = Eigen::Isometry3d::Identity();
+    mesh_from_point.translation() =
+        (hull.vertices()[face[0]] + hull.vertices()[face[1]] + hull.vertices()[face[2]]) / 3.0;
+    dent = std::max(dent, distance(mesh, Sphere{0.0}, mesh_from_point, options).lower);
+  }
+  return dent;
+}
+
+void requireUsable(std::span<const Eigen::Vector3d> vertices,
+                   std::span<const Eigen::Vector3i> triangles) {
+  // Three half edges per triangle and two tree nodes have to be counted in an int.
+  constexpr std::size_t kMaxCount = std::size_t{1} << 29;
+  std::ostringstream message;
+  if (vertices.size() > kMaxCount || triangles.size() > kMaxCount) {
+    message << "mesh has " << vertices.size() << " vertices and " << triangles.size()
+            << " triangles; allowed: at most " << kMaxCount << " of each";
+    throw std::invalid_argument(message.str());
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector3d& vertex = vertices[i];
+    if (vertex.allFinite()) continue;
+    message << "mesh vertex " << i << " is (" << vertex.x() << ", " << vertex.y() << ", "
+            << vertex.z() << "); allowed: finite coordinates";
+    throw std::invalid_argument(message.str());
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (int corner : triangles[i]) {
+      if (corner >= 0 && static_cast<std::size_t>(corner) < vertices.size()) continue;
+      message << "mesh triangle " << i << " has corner " << corner << "; allowed: 0 to "
+              << static_cast<long long>(vertices.size()) - 1;
+      throw std::invalid_argument(message.str());
+    }
+  }
+}
+
+/// Directions for the rays, well spread for every number taken: Roberts 2018 ("The unreasonable
+/// effectiveness of quasirandom sequences"), mapped to the sphere with equal areas.
+constexpr int kDirections = 32;
+std::array<Eigen::Vector3d, kDirections> spreadDirections() {
+  constexpr double kFirstRatio = 0.7548776662466927;  // 1 / g and 1 / g^2, g^3 = g + 1
+  constexpr double kSecondRatio = 0.5698402909980532;
+  std::array<Eigen::Vector3d, kDirections> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    double whole = 0.0;
+    const double z = 2.0 * std::modf(0.37 + i * kFirstRatio, &whole) - 1.0;
+    const double angle = 2.0 * std::numbers::pi * std::modf(0.21 + i * kSecondRatio, &whole);
+    const double radial = std::sqrt(1.0 - z * z);
+    directions[i] = {radial * std::cos(angle), radial * std::sin(angle), z};
+  }
+  return directions;
+}
+
+/// False only when the ray from `origin` certainly misses the box: slabs grown by more than the
+/// rounding of the comparison; a NaN compares as a hit.
+bool mayHit(const detail::TriangleBvh::Node& node, const Eigen::Vector3d& origin,
+            const Eigen::Vector3d& inverseDirection) {
+  constexpr double kGrow = 8.0 * std::numeric_limits<double>::epsilon();
+  double enter = 0.0;
+  double leave = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double middle = node.center[axis] - origin[axis];
+    const double half =
+        node.halfExtents[axis] + kGrow * (std::abs(middle) + node.halfExtents[axis]);
+    const double first = (middle - half) * inverseDirection[axis];
+    const double second = (middle + half) * inverseDirection[axis];
+    enter = std::max(enter, std::min(first, second));
+    leave = std::min(leave, std::max(first, second));
+  }
+  return !(enter > leave);
+}
+
+/// Signed crossings of one ray with each closed component whose box contains its origin. Their
+/// parity is that of the number of crossings.
+class CrossingCounts {
+ public:
+  void add(int component) {
+    if (size_ < kInline)
+      inline_[size_] = {component, 0};
+    else
+      more_.push_back({component, 0});
+    ++size_;
+  }
+  bool empty() const { return size_ == 0; }
+  void reset() {
+    for (Count& count : inlined()) count.crossings = 0;
+    for (Count& count : more_) count.crossings = 0;
+  }
+  /// Null for a component that cannot contain the origin.
+  int* find(int component) {
+    for (Count& count : inlined()) {
+      if (count.component == component) return &count.crossings;
+    }
+    for (Count& count : more_) {
+      if (count.component == component) return &count.crossings;
+    }
+    return nullptr;
+  }
+  template <typename Predicate>
+  bool any(const Predicate& predicate) const {
+    for (int i = 0; i < std::min(size_, kInline); ++i) {
+      if (predicate(inline_[i].component, inline_[i].crossings)) return true;
+    }
+    for (const Count& count : more_) {
+      if (predicate(count.component, count.crossings)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Count {
+    int component;
+    int crossings;
+  };
+  static constexpr int kInline = 64;
+  std::span<Count> inlined() {
+    return std::span(inline_).first(static_cast<std::size_t>(std::min(size_, kInline)));
+  }
+  std::array<Count, kInline> inline_;
+  std::vector<Count> more_;
+  int size_ = 0;
+};
+
+/// False when the ray passes within rounding of the border of a triangle that matters.
+bool countCrossings(const TriangleMesh& mesh, std::span<const int> componentOf,
+                    const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                    CrossingCounts& counts) {
+  const std::vector<detail::TriangleBvh::Node>& nodes = mesh.bvh().nodes();
+  const Eigen::Vector3d inverseDirection = direction.cwiseInverse();
+  std::array<int, detail::TriangleBvh::kMaxDepth> stack;
+  int pending = 0;
+  stack[pending++] = 0;
+  while (pending > 0) {
+    const int index = stack[--pending];
+    const detail::TriangleBvh::Node& node = nodes[index];
+    if (!mayHit(node, origin, inverseDirection)) continue;
+    if (node.rightChild >= 0) {
+      stack[pending++] = node.rightChild;
+      stack[pending++] = index + 1;
+      continue;
+    }
+    for (int i = node.firstTriangle; i < node.firstTriangle + node.triangleCount; ++i) {
+      int* const crossings = counts.find(componentOf[i]);
+      if (crossings == nullptr) continue;
+      const Eigen::Vector3i& corners = mesh.triangles()[i];
+      const Eigen::Vector3d a = mesh.vertices()[corners[0]] - origin;
+      const Eigen::Vector3d b = mesh.vertices()[corners[1]] - origin;
+      const Eigen::Vector3d c = mesh.vertices()[corners[2]] - origin;
+      switch (detail::rayCrossing(direction, a, b, c)) {
+        case detail::Crossing::Unsure:
+          return false;
+        case detail::Crossing::Miss:
+          break;
+        case detail::Crossing::Along:
+          ++*crossings;
+          break;
+        case detail::Crossing::Against:
+          --*crossings;
+          break;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
+                                 std::span<const Triangle> triangles, MeshInterior interior) {
+  requireUsable(vertices, triangles);
+  detail::WeldedMesh welded = detail::weld(vertices, triangles);
+  if (welded.triangles.empty()) {
+    std::ostringstream message;
+    message << "mesh has no triangle with three distinct corners (of " << triangles.size()
+            << " given)";
+    throw std::invalid_argument(message.str());
+  }
+  detail::MeshComponents parts = detail::ComponentFinder(welded.triangles).result();
+
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Component> components;
+  for (bool oriented : parts.oriented) {
+    components.push_back(
+        {Eigen::Vector3d::Constant(infinity), Eigen::Vector3d::Constant(-infinity), oriented});
+  }
+  for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
+    if (parts.componentOf[i] < 0) continue;
+    Component& component = components[parts.componentOf[i]];
+    for (int corner : parts.triangles[i]) {
+      component.lower = component.lower.cwiseMin(welded.vertices[corner]);
+      component.upper = component.upper.cwiseMax(welded.vertices[corner]);
+    }
+  }
+
+  std::vector<Eigen::Vector3d> componentPoints;
+  for (int corner : parts.cornerOf) componentPoints.push_back(welded.vertices[corner]);
+
+  MeshReport report;
+  report.verticesGiven = static_cast<int>(vertices.size());
+  report.verticesKept = static_cast<int>(welded.vertices.size());
+  report.trianglesGiven = static_cast<int>(triangles.size());
+  report.degenerateDropped = welded.degenerateDropped;
+  report.duplicatesDropped = parts.duplicatesDropped;
+  report.closedComponents = static_cast<int>(components.size());
+  report.openComponents = parts.openComponents;
+
+  auto bvh = std::make_shared<const detail::TriangleBvh>(
+      detail::TriangleBvh::build(welded.vertices, parts.triangles, parts.componentOf));
+  ConvexHull hull = ConvexHull::of(welded.vertices);
+  auto data = std::make_shared<Data>(Data{std::move(welded.vertices), std::move(parts.triangles),
+                                          std::move(parts.componentOf), std::move(components),
+                                          std::move(componentPoints), report, interior,
+                                          std::move(hull), std::move(bvh), 0.0});
+  TriangleMesh mesh(data);
+  data->dent = estimateDent(mesh);
+  return mesh;
+}
+
+bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
+  if (data_->interior == MeshInterior::Surface) return false;
+  CrossingCounts counts;
+  for (std::size_t i = 0; i < data_->components.size(); ++i) {
+    const Component& component = data_->components[i];
+    if ((point.array() >= component.lower.array()).all() &&
+        (point.array() <= component.upper.array()).all()) {
+      counts.add(static_cast<int>(i));
+    }
+  }
+  if (counts.empty()) return false;
+
+  static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
+  for (const Eigen::Vector3d& direction : directions) {
+    counts.reset();
+    if (!countCrossings(*this, data_->componentOf, point, direction, counts)) continue;
+    return counts.any([&](int component, int crossings) {
+      return data_->components[component].oriented ? crossings != 0 : crossings % 2 != 0;
+    });
+  }
+  // Only a point within rounding of a triangle leaves no direction: it touches the solid.
+  return true;
+}
+
+}  // namespace swept

@@ -3,12 +3,20 @@
 
 #include "swept/core/distance.hpp"
 
-/// libccd behind the interface of distance() and collide(). It has yes/no answers only, so a distance
-/// is found by bisection: the least r for which `a` grown by a ball of radius r meets `b`.
+/// libccd behind the interface of distance() and collide(), for comparison. Nothing here is proven:
+/// its answers are those of an iteration that stops by a tolerance of its own. Support mappings and
+/// the walk over meshes are separate from those of the native backend, so that the two can be
+/// tested against each other.
 namespace swept::detail {
 
+/// libccd has yes/no answers only, so a distance is found by bisection: the least r for which `a`
+/// grown by a ball of radius r meets `b`. `upper` is an estimate, larger than the distance by no
+/// more than about tolerance::kLibccdDistance when neither `enough` nor `contact` stopped the
+/// query; `lower`, the points and the normal stay zero.
 DistanceResult libccdDistance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                               const DistanceOptions& options);
+
+/// Estimate; false for a non-finite pose.
 bool libccdIntersect(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b);
 
 }  // namespace swept::detail

@@ -23,13 +23,15 @@ class ConvexHull {
   const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }
   /// Outward-oriented triangles over `vertices()`; empty when the hull has no volume.
   const std::vector<Eigen::Vector3i>& faces() const { return data_->faces; }
-  double error() const { return data_->error; }  ///< m
+  double error() const { return data_->error; }    ///< m
+  double extent() const { return data_->extent; }  ///< m, no vertex is farther from the origin
 
  private:
   struct Data {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<Eigen::Vector3i> faces;
     double error = 0.0;
+    double extent = 0.0;
   };
   explicit ConvexHull(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;

@@ -25,26 +25,32 @@ enum class MeshInterior : std::uint8_t {
 /// What building a mesh did to its input.
 struct MeshReport {
   int verticesGiven = 0;
-  int verticesKept = 0;         ///< after welding equal positions and dropping unused ones
+  int verticesKept = 0;  ///< after welding equal positions and dropping unused ones
   int trianglesGiven = 0;
-  int degenerateDropped = 0;    ///< triangles with two equal corners
-  int duplicatesDropped = 0;    ///< triangles with the corners of an earlier one
-  int closedComponents = 0;     ///< every edge shared by exactly two triangles
+  int degenerateDropped = 0;  ///< triangles with two equal corners
+  int duplicatesDropped = 0;  ///< triangles with the corners of an earlier one, in any order
+  int closedComponents = 0;   ///< every edge shared by an even number of triangles
   int openComponents = 0;
 };
 
 /// Triangles with a hierarchy over them. Immutable; copies share the data.
 ///
-/// A connected component (triangles joined by shared vertices' edges) in which every edge has exactly
-/// two triangles is closed. Under `MeshInterior::Solid` a point belongs to the shape when it lies on a
-/// triangle or inside any closed component, whichever way its triangles are oriented; cavities formed
-/// by a component inside another are filled. Open components are surfaces.
+/// A connected component (triangles joined by shared edges) in which every edge has an even number
+/// of triangles, nearly always two, is closed. Under `MeshInterior::Solid` a point belongs to the
+/// shape when it lies on a triangle or inside any closed component, whichever way its triangles are
+/// oriented; cavities formed by a component inside another are filled. Inside a component means:
+/// its winding number is not zero when its triangles are consistently oriented (so where it
+/// overlaps itself is inside), else a ray from the point crosses it an odd number of times. Open
+/// components are surfaces.
+///
+/// Triangles with the corners of an earlier one are dropped, except in a component that only they
+/// close: two boxes that share a face, for instance, repeat its triangles.
 class TriangleMesh {
  public:
   using Triangle = Eigen::Vector3i;  ///< indices into vertices()
 
-  /// Throws std::invalid_argument for an index out of range, a non-finite vertex, or when no triangle
-  /// with three distinct corners is left.
+  /// Throws std::invalid_argument for an index out of range, a non-finite vertex, or when no
+  /// triangle with three distinct corners is left.
   static TriangleMesh build(std::span<const Eigen::Vector3d> vertices,
                             std::span<const Triangle> triangles,
                             MeshInterior interior = MeshInterior::Solid);
@@ -57,22 +63,37 @@ class TriangleMesh {
   bool isClosed() const { return data_->report.openComponents == 0; }
 
   /// Whether the solid contains `point` (m, mesh frame). Always false under `Surface` and for open
-  /// components. Proven unless `point` is within rounding of a triangle, where either answer may come.
+  /// components, and for a non-finite point. Proven unless `point` is within rounding (about 1e-14
+  /// of the largest distance from it to the mesh) of a triangle, where either answer may come.
+  /// Allocates nothing unless the boxes of more than 64 closed components contain the point.
   bool encloses(const Eigen::Vector3d& point) const;
 
+  /// m. Estimate of how far the hull reaches beyond the mesh; guides searches, proves nothing.
+  double dent() const { return data_->dent; }
   /// Hull of the vertices: an outer bound of the solid.
   const ConvexHull& hull() const { return data_->hull; }
+  /// One vertex of each connected component, open or closed (m).
+  std::span<const Eigen::Vector3d> componentPoints() const { return data_->componentPoints; }
   const detail::TriangleBvh& bvh() const { return *data_->bvh; }
 
  private:
+  /// A closed component.
+  struct Component {
+    Eigen::Vector3d lower;  ///< m, corner of its box
+    Eigen::Vector3d upper;  ///< m
+    bool oriented;          ///< its winding number is defined
+  };
   struct Data {
     std::vector<Eigen::Vector3d> vertices;
-    std::vector<Triangle> triangles;   ///< in the hierarchy's leaf order
-    std::vector<int> componentOf;      ///< per triangle; -1 when its component is open
+    std::vector<Triangle> triangles;    ///< in the hierarchy's leaf order
+    std::vector<int> componentOf;       ///< per triangle; -1 when its component is open
+    std::vector<Component> components;  ///< the closed ones
+    std::vector<Eigen::Vector3d> componentPoints;
     MeshReport report;
     MeshInterior interior = MeshInterior::Solid;
     ConvexHull hull;
     std::shared_ptr<const detail::TriangleBvh> bvh;
+    double dent = 0.0;
   };
   explicit TriangleMesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+namespace swept::detail {
+
+/// A tetrahedron with its apex at the origin.
+struct Cone {
+  Eigen::Vector3d a;
+  Eigen::Vector3d b;
+  Eigen::Vector3d c;
+
+  /// x with x0 a + x1 b + x2 c = point, not finite for a flat cone.
+  Eigen::Vector3d coordinates(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d bc = b.cross(c);
+    return Eigen::Vector3d(point.dot(bc), point.dot(c.cross(a)), point.dot(a.cross(b))) / a.dot(bc);
+  }
+
+  /// Distance of `point` from some point of the tetrahedron, or of its base when the apex may not
+  /// be used: an upper bound of the distance from either, up to the rounding of these few
+  /// operations. The weights found are clamped to valid ones before the distance is measured, so it
+  /// holds however inaccurate they are; correcting them by what is left makes up for flat
+  /// tetrahedra.
+  double distanceBound(const Eigen::Vector3d& point, bool useApex) const {
+    constexpr int kCorrections = 3;
+    double bound = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d weights = coordinates(point);
+    for (int i = 0; i <= kCorrections; ++i) {
+      weights = weights.cwiseMax(0.0);
+      const double sum = weights.sum();
+      if (!useApex || sum > 1.0) weights /= sum;
+      if (!weights.allFinite()) break;
+      const Eigen::Vector3d left = point - (weights[0] * a + weights[1] * b + weights[2] * c);
+      bound = std::min(bound, left.norm());
+      weights += coordinates(left);
+    }
+    return bound;
+  }
+};
+
+}  // namespace swept::detail

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/separation.hpp"
+
+#include "narrowphase/piecewise.hpp"
+
+namespace swept {
+
+SeparationResult separate(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
+                          const SeparationQuery& query) {
+  SeparationResult result;
+  if (!a_from_b.matrix().allFinite()) return result;
+  detail::PieceGoal goal;
+  goal.approach = &query.approach;
+  goal.contact = query.contact;
+  goal.tolerance = query.tolerance;
+  goal.thorough = query.thorough;
+  const detail::PieceResult found =
+      detail::searchPieces(detail::Side::of(a), detail::Side::of(b), a_from_b, query.guess, goal);
+  result.upper = found.upper;
+  result.pointA = found.pointA;
+  result.pointB = found.pointB;
+  result.normal = found.hint;
+  if (found.upper <= query.contact) {
+    result.status = Separation::Contact;
+  } else if (found.satisfied) {
+    result.status = Separation::Separated;
+  }
+  return result;
+}
+
+}  // namespace swept

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace swept::detail {
+
+/// Up to four points of the Minkowski difference B - A with the points they come from.
+struct Simplex {
+  struct Vertex {
+    Eigen::Vector3d difference;  ///< b - a
+    Eigen::Vector3d a;
+    Eigen::Vector3d b;
+    double weight = 0.0;  ///< barycentric coordinate of the nearest point; the weights sum to 1
+  };
+  std::array<Vertex, 4> vertices;
+  int size = 0;
+
+  void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+  bool contains(const Eigen::Vector3d& difference) const;
+
+  /// Drops the vertices that do not support the point of the simplex nearest to the origin, sets
+  /// the weights and returns that point. Four vertices are left exactly when the origin is inside.
+  Eigen::Vector3d reduceToNearest();
+
+  Eigen::Vector3d pointA() const;
+  Eigen::Vector3d pointB() const;
+};
+
+}  // namespace swept::detail

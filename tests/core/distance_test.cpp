@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "reference_distance.hpp"
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using reference::Random;
+using swept::Box;
+using swept::Capsule;
+using swept::Contact;
+using swept::Cylinder;
+using swept::DistanceResult;
+using swept::Shape;
+using swept::Sphere;
+
+constexpr double kAccuracy =
+    2e-9;  // m, the query's default convergence and the reference's rounding
+
+/// The contract of distance(): an interval that holds the truth, witnessed by points, and
+/// converged.
+void expectInterval(const DistanceResult& result, double truth) {
+  EXPECT_LE(result.lower, truth + 1e-12);
+  EXPECT_GE(result.upper, truth - 1e-12);
+  EXPECT_LE(result.upper - result.lower, kAccuracy);
+  EXPECT_NEAR((result.pointB - result.pointA).norm(), result.upper, 1e-12);
+  if (result.lower > 0.0 && !result.normal.isZero()) {
+    EXPECT_NEAR(result.normal.norm(), 1.0, 1e-12);
+  }
+}
+
+/// Counts how a suite's cases fall, and asserts that both kinds are well represented.
+struct Mix {
+  int overlapping = 0;
+  int cases = 0;
+  void count(double truth) {
+    ++cases;
+    overlapping += truth <= 0.0;
+  }
+  ~Mix() {
+    EXPECT_GT(overlapping, cases / 5);
+    EXPECT_LT(overlapping, 4 * cases / 5);
+  }
+};
+
+TEST(Distance, SphereToEveryPrimitiveMatchesTheClosedForm) {
+  Random random(1);
+  Mix mix;
+  for (int i = 0; i < 4000; ++i) {
+    const double radius = random.uniform(0.01, 0.3);
+    const Isometry3d a_from_b = random.pose(0.6);
+    const Vector3d local = a_from_b.inverse().translation();  // a's centre in b's frame
+    const Vector3d half = random.vector(0.4).cwiseAbs() + Vector3d::Constant(0.01);
+    Shape other = Box{half};
+    double truth = reference::pointBox(local, half);
+    if (i % 4 == 1) {
+      other = Cylinder{half.x(), half.z()};
+      truth = reference::pointCylinder(local, half.x(), half.z());
+    } else if (i % 4 == 2) {
+      other = Capsule{half.x(), half.z()};
+      const Vector3d tip(0, 0, half.z());
+      truth = reference::pointSegment(local, -tip, tip) - half.x();
+    } else if (i % 4 == 3) {
+      other = Sphere{half.x()};
+      truth = local.norm() - half.x();
+    }
+    truth = std::max(0.0, truth - radius);
+    mix.count(truth);
+    expectInterval(swept::distance(Sphere{radius}, other, a_from_b), truth);
+  }
+}
+
+TEST(Distance, CapsulesMatchSegmentToSegment) {
+  Random random(2);
+  Mix mix;
+  for (int i = 0; i < 2000; ++i) {
+    const Capsule a{random.uniform(0.05, 0.2), random.uniform(0.0, 0.5)};
+    const Capsule b{random.uniform(0.05, 0.2), random.uniform(0.0, 0.5)};
+    const Isometry3d pose = random.pose(0.5);
+    const Vector3d tipA(0, 0, a.halfLength);
+    const Vector3d tipB(0, 0, b.halfLength);
+    const double axes = reference::segmentSegment(-tipA, tipA, pose * Vector3d(-tipB), pose * tipB);
+    const double truth = std::max(0.0, axes - a.radius - b.radius);
+    mix.count(truth);
+    expectInterval(swept::distance(a, b, pose), truth);
+  }
+}
+
+TEST(Distance, BoxesMatchTheirFeatures) {
+  Random random(3);
+  Mix mix;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d a = random.vector(0.4).cwiseAbs() + Vector3d::Constant(0.02);
+    const Vector3d b = random.vector(0.4).cwiseAbs() + Vector3d::Constant(0.02);
+    const Isometry3d pose = random.pose(0.7);
+    double truth = reference::surfaces(reference::boxTriangles(a, Isometry3d::Identity()),
+                                       reference::boxTriangles(b, pose));
+    if (reference::pointBox(pose.translation(), a) == 0.0) truth = 0.0;
+    if (reference::pointBox(pose.inverse().translation(), b) == 0.0) truth = 0.0;
+    mix.count(truth);
+    expectInterval(swept::distance(Box{a}, Box{b}, pose), truth);
+  }
+}
+
+/// Cylinders have no closed form: the truth is bracketed by alternating projections between the
+/// exact solids, which only ever come closer.
+TEST(Distance, CylindersAgreeWithAlternatingProjections) {
+  Random random(4);
+  const auto project = [](const Vector3d& p, const Cylinder& c) -> Vector3d {
+    const double across = std::hypot(p.x(), p.y());
+    const double scale = across > c.radius ? c.radius / across : 1.0;
+    return {p.x() * scale, p.y() * scale, std::clamp(p.z(), -c.halfLength, c.halfLength)};
+  };
+  int separate = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Cylinder a{random.uniform(0.02, 0.3), random.uniform(0.02, 0.4)};
+    const Cylinder b{random.uniform(0.02, 0.3), random.uniform(0.02, 0.4)};
+    const Isometry3d pose = random.pose(0.6);
+    const Isometry3d inverse = pose.inverse();
+    Vector3d p = Vector3d::Zero();
+    Vector3d q;
+    for (int k = 0; k < 20000; ++k) {
+      q = pose * project(inverse * p, b);
+      p = project(q, a);
+    }
+    const double above = (p - q).norm();
+    const DistanceResult result = swept::distance(a, b, pose);
+    EXPECT_LE(result.lower, above + 1e-12);
+    EXPECT_LE(result.upper - result.lower, kAccuracy);
+    EXPECT_LT((project(result.pointA, a) - result.pointA).norm(), 1e-9);
+    if (above > 1e-3) {
+      ++separate;
+      EXPECT_NEAR(result.upper, above, 1e-6);
+    }
+  }
+  EXPECT_GT(separate, 60);
+  EXPECT_LT(separate, 280);
+}
+
+swept::TriangleMesh ringMesh(double major, double minor, int around, int tube) {
+  std::vector<Vector3d> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < tube; ++j) {
+      const double u = 2 * std::numbers::pi * i / around;
+      const double v = 2 * std::numbers::pi * j / tube;
+      const double r = major + minor * std::cos(v);
+      vertices.emplace_back(r * std::cos(u), r * std::sin(u), minor * std::sin(v));
+      const int a = i * tube + j;
+      const int b = ((i + 1) % around) * tube + j;
+      const int c = ((i + 1) % around) * tube + (j + 1) % tube;
+      const int d = i * tube + (j + 1) % tube;
+      triangles.emplace_back(a, b, c);
+      triangles.emplace_back(a, c, d);
+    }
+  }
+  return swept::TriangleMesh::build(vertices, triangles);
+}
+
+reference::Triangles trianglesOf(const swept::TriangleMesh& mesh, const Isometry3d& pose) {
+  reference::Triangles result;
+  for (const auto& t : mesh.triangles()) {
+    result.push_back(
+        {pose * mesh.vertices()[t[0]], pose * mesh.vertices()[t[1]], pose * mesh.vertices()[t[2]]});
+  }
+  return result;
+}
+
+TEST(Distance, MeshesMatchBruteForceOverTheirTriangles) {
+  Random random(5);
+  const swept::TriangleMesh ring = ringMesh(0.3, 0.08, 16, 8);
+  const swept::TriangleMesh other = ringMesh(0.25, 0.06, 12, 6);
+  ASSERT_TRUE(ring.isClosed());
+  Mix mix;
+  for (int i = 0; i < 80; ++i) {
+    const Isometry3d pose = random.pose(0.5);
+    const double truth =
+        reference::surfaces(trianglesOf(ring, Isometry3d::Identity()), trianglesOf(other, pose));
+    mix.count(truth);
+    expectInterval(swept::distance(ring, other, pose), truth);
+  }
+}
+
+TEST(Distance, BoxAndMeshMatchBruteForceInBothOrders) {
+  Random random(6);
+  const swept::TriangleMesh ring = ringMesh(0.3, 0.08, 24, 10);
+  Mix mix;
+  for (int i = 0; i < 150; ++i) {
+    const Vector3d half = random.vector(0.2).cwiseAbs() + Vector3d::Constant(0.01);
+    const Isometry3d pose = random.pose(0.4);
+    double truth = reference::surfaces(trianglesOf(ring, Isometry3d::Identity()),
+                                       reference::boxTriangles(half, pose));
+    for (const Vector3d& v : ring.vertices()) {
+      if (reference::pointBox(pose.inverse() * v, half) == 0.0) truth = 0.0;
+    }
+    mix.count(truth);
+    expectInterval(swept::distance(ring, Box{half}, pose), truth);
+    expectInterval(swept::distance(Box{half}, ring, pose.inverse()), truth);
+  }
+}
+
+TEST(Distance, ABoxInsideTheTubeOfARingTouchesTheSolidAndNotTheSurface) {
+  const swept::TriangleMesh ring = ringMesh(0.3, 0.08, 48, 20);
+  Isometry3d inTube = Isometry3d::Identity();
+  inTube.translation() = Vector3d(0.3, 0.0, 0.0);
+  const Box small{Vector3d::Constant(0.01)};
+  EXPECT_EQ(swept::collide(ring, small, inTube), Contact::Touching);
+  EXPECT_EQ(swept::collide(small, ring, inTube.inverse()), Contact::Touching);
+  EXPECT_EQ(swept::collide(ring, small, Isometry3d::Identity()), Contact::Separate);
+
+  const auto surface =
+      swept::TriangleMesh::build(ring.vertices(), ring.triangles(), swept::MeshInterior::Surface);
+  EXPECT_EQ(swept::collide(surface, small, inTube), Contact::Separate);
+}
+
+TEST(Distance, StopsEarlyWithProvenBounds) {
+  Random random(7);
+  int early = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Box a{random.vector(0.3).cwiseAbs() + Vector3d::Constant(0.02)};
+    const Cylinder b{random.uniform(0.02, 0.2), random.uniform(0.02, 0.3)};
+    const Isometry3d pose = random.pose(0.8);
+    const DistanceResult full = swept::distance(a, b, pose);
+    swept::DistanceOptions options;
+    options.enough = 0.1;
+    const DistanceResult quick = swept::distance(a, b, pose, options);
+    EXPECT_LE(quick.lower, full.upper);
+    EXPECT_LE(quick.iterations, full.iterations);
+    EXPECT_EQ(quick.lower > options.enough, full.lower > options.enough) << full.lower;
+    early += quick.iterations < full.iterations;
+  }
+  EXPECT_GT(early, 300);
+}
+
+TEST(Distance, TouchingIsContactAndAHairlineGapIsNot) {
+  const Box box{Vector3d(0.5, 0.5, 0.5)};
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation().x() = 1.0;
+  EXPECT_EQ(swept::collide(box, box, pose), Contact::Touching);
+  pose.translation().x() = 1.0 + 1e-12;
+  EXPECT_EQ(swept::collide(box, box, pose), Contact::Separate);
+  pose.translation() = Vector3d(0.1, -0.2, 0.3);
+  EXPECT_EQ(swept::collide(box, box, pose), Contact::Touching);
+}
+
+TEST(Distance, NonFinitePosesGiveTheWidestInterval) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation().y() = std::numeric_limits<double>::quiet_NaN();
+  const DistanceResult result = swept::distance(Sphere{1.0}, Sphere{1.0}, pose);
+  EXPECT_EQ(result.lower, 0.0);
+  EXPECT_TRUE(std::isinf(result.upper));
+  EXPECT_EQ(swept::collide(Sphere{1.0}, Sphere{1.0}, pose), Contact::Unknown);
+}
+
+}  // namespace
