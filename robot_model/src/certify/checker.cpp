@@ -1,1 +1,152 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/checker.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "certify/checker_model.hpp"
+#include "certify/motion_check.hpp"
+#include "certify/state_check.hpp"
+
+namespace swept {
+
+namespace {
+
+void validate(const Robot& robot, const CheckerOptions& options) {
+  if (!(options.margin >= 0.0) || !std::isfinite(options.margin)) {
+    throw std::invalid_argument("Checker: margin " + std::to_string(options.margin) +
+                                " m must be a finite number that is not negative");
+  }
+  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
+    throw std::invalid_argument("Checker: tolerance " + std::to_string(options.tolerance) +
+                                " m must be a finite number greater than zero");
+  }
+  if (options.maxIntervals < 1) {
+    throw std::invalid_argument("Checker: maxIntervals " + std::to_string(options.maxIntervals) +
+                                " must be at least 1");
+  }
+  if (!options.reference) return;
+  const auto expected = static_cast<Eigen::Index>(robot.variables().size());
+  if (options.reference->size() != expected) {
+    throw std::invalid_argument("Checker: the reference has " +
+                                std::to_string(options.reference->size()) + " values, the robot " +
+                                std::to_string(expected) + " variables");
+  }
+  if (!options.reference->allFinite()) {
+    throw std::invalid_argument("Checker: the reference has a value that is not finite");
+  }
+}
+
+const Group& findGroup(const Robot& robot, std::string_view name) {
+  if (const Group* group = robot.findGroup(name)) return *group;
+  std::string known;
+  for (const Group& group : robot.groups()) known += (known.empty() ? "" : ", ") + group.name;
+  throw std::invalid_argument("Checker: robot '" + robot.name() + "' has no group '" +
+                              std::string(name) + "'; its groups are: " + known);
+}
+
+}  // namespace
+
+Workspace::Workspace(const Checker& checker)
+    : data_(std::make_unique<detail::WorkspaceData>(*checker.model_)) {}
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+Workspace::~Workspace() = default;
+
+Checker::Checker(std::shared_ptr<const Robot> robot, std::string_view group,
+                 std::shared_ptr<const World> world, const CheckerOptions& options) {
+  if (!robot || !world) throw std::invalid_argument("Checker: robot and world must not be null");
+  validate(*robot, options);
+  const Group& found = findGroup(*robot, group);
+  model_ = detail::compileChecker(std::move(robot), found, std::move(world), options);
+}
+
+const Robot& Checker::robot() const {
+  return *model_->robot;
+}
+const World& Checker::world() const {
+  return *model_->world;
+}
+const Group& Checker::group() const {
+  return model_->group;
+}
+const CheckerOptions& Checker::options() const {
+  return model_->options;
+}
+int Checker::dimension() const {
+  return model_->kinematics.dimension;
+}
+
+const std::vector<Checker::Pair>& Checker::checkedPairs() const {
+  return model_->checkedPairs;
+}
+const std::vector<Checker::Pair>& Checker::skippedPairs() const {
+  return model_->skippedPairs;
+}
+const std::vector<Checker::Pair>& Checker::standingContacts() const {
+  return model_->standingContacts;
+}
+
+void Checker::requireSize(std::span<const double> q) const {
+  if (static_cast<int>(q.size()) == dimension()) return;
+  throw std::invalid_argument("Checker: a configuration of group '" + group().name + "' has " +
+                              std::to_string(dimension()) + " values, not " +
+                              std::to_string(q.size()));
+}
+
+Verdict Checker::checkState(std::span<const double> q, Workspace& workspace) const {
+  requireSize(q);
+  return detail::checkState(*model_, q, *workspace.data_);
+}
+
+StateReport Checker::reportState(std::span<const double> q, Workspace& workspace) const {
+  requireSize(q);
+  return detail::reportState(*model_, q, *workspace.data_);
+}
+
+double Checker::clearance(std::span<const double> q, Workspace& workspace) const {
+  requireSize(q);
+  return detail::stateClearance(*model_, q, *workspace.data_);
+}
+
+MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span<const double> to,
+                                         Workspace& workspace, MotionQuery query) const {
+  requireSize(from);
+  requireSize(to);
+  return detail::certifyMotion(*model_, from, to, query, *workspace.data_);
+}
+
+MotionClearance Checker::motionClearance(std::span<const double> from, std::span<const double> to,
+                                         double accuracy, Workspace& workspace) const {
+  requireSize(from);
+  requireSize(to);
+  if (!(accuracy > 0.0)) {
+    throw std::invalid_argument("Checker: accuracy " + std::to_string(accuracy) +
+                                " m must be greater than zero");
+  }
+  return detail::motionClearance(*model_, from, to, accuracy, *workspace.data_);
+}
+
+bool Checker::withinLimits(std::span<const double> q) const {
+  requireSize(q);
+  const auto& kinematics = model_->kinematics;
+  for (int i = 0; i < kinematics.dimension; ++i) {
+    const bool inside = q[i] >= kinematics.lower[i] - tolerance::kLimit &&
+                        q[i] <= kinematics.upper[i] + tolerance::kLimit;
+    if (!inside) return false;
+  }
+  return true;
+}
+
+Eigen::VectorXd Checker::interpolate(std::span<const double> from, std::span<const double> to,
+                                     double t) const {
+  requireSize(from);
+  requireSize(to);
+  Eigen::VectorXd q(dimension());
+  detail::interpolateMotion(model_->kinematics, from, to, t,
+                            {q.data(), static_cast<std::size_t>(q.size())});
+  return q;
+}
+
+}  // namespace swept

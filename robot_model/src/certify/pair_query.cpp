@@ -1,1 +1,221 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "certify/pair_query.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "swept/core/distance.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// Velocities and travel bounds carry a relative rounding far below this.
+constexpr double kVelocityRounding = 1e-12;
+
+/// Share of the motion tolerance left to the distance query, and to stopping before the tolerance.
+constexpr double kQueryShare = 1.0 / 16.0;
+
+}  // namespace
+
+bool PairQuery::start(std::span<const double> from, std::span<const double> to) {
+  if (!compileMotion(model_.kinematics, from, to, workspace_.motion)) return false;
+  for (std::size_t i = 0; i < model_.travels.size(); ++i) {
+    const TravelSlot& slot = model_.travels[i];
+    workspace_.travels[i] =
+        travelBound(model_.kinematics, model_.robotGeometry[slot.geometry].levers, slot.firstJoint,
+                    workspace_.motion);
+  }
+  workspace_.wander = 0.0;
+  for (const JointMotion& joint : workspace_.motion) workspace_.wander += joint.wander;
+  std::fill(workspace_.hints.begin(), workspace_.hints.end(), Vector3d::Zero());
+  return true;
+}
+
+void PairQuery::moveTo(double t) {
+  evaluateMotion(model_.kinematics, workspace_.motion, t, workspace_.states);
+  ++workspace_.stamp;
+}
+
+const Vector3d& PairQuery::center(int geometry) {
+  WorkspaceData::Placed& placed = workspace_.placed[geometry];
+  if (placed.stamp != workspace_.stamp) {
+    const RobotGeometry& robot = model_.robotGeometry[geometry];
+    placed.center = workspace_.states[robot.body].world_from_body * robot.center;
+    placed.stamp = workspace_.stamp;
+    placed.posed = false;
+  }
+  return placed.center;
+}
+
+const Isometry3d& PairQuery::pose(int geometry) {
+  center(geometry);
+  WorkspaceData::Placed& placed = workspace_.placed[geometry];
+  if (!placed.posed) {
+    const RobotGeometry& robot = model_.robotGeometry[geometry];
+    placed.world_from_shape = workspace_.states[robot.body].world_from_body * robot.body_from_shape;
+    placed.posed = true;
+  }
+  return placed.world_from_shape;
+}
+
+double PairQuery::rounding(const GeometryPair& pair) const {
+  // Planar and floating joints move the coordinates' magnitude; the rest is known at compile time.
+  const double joints = static_cast<double>(model_.kinematics.bodies.size() + 2);
+  return pair.rounding + tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander;
+}
+
+double PairQuery::travel(const GeometryPair& pair, double half) const {
+  double speed = workspace_.travels[pair.travelA].speed;
+  if (pair.travelB >= 0) speed += workspace_.travels[pair.travelB].speed;
+  return half * speed * (1.0 + kVelocityRounding);
+}
+
+Vector3d PairQuery::relativeVelocity(const GeometryPair& pair) {
+  const auto& states = workspace_.states;
+  const BodyState& reference = states[pair.reference];
+  const auto relative = [&](int geometry) -> Vector3d {
+    const BodyState& state = states[model_.robotGeometry[geometry].body];
+    return state.linear - reference.linear +
+           (state.angular - reference.angular).cross(center(geometry));
+  };
+  Vector3d velocity = -relative(pair.a);
+  if (pair.self) velocity += relative(pair.b);
+  return velocity;
+}
+
+const Shape& PairQuery::shapeOfB(const GeometryPair& pair) const {
+  return pair.self ? model_.robotGeometry[pair.b].shape : model_.worldGeometry[pair.b].shape;
+}
+
+Isometry3d PairQuery::poseOfB(const GeometryPair& pair) {
+  return pair.self ? pose(pair.b) : model_.worldGeometry[pair.b].world_from_shape;
+}
+
+double PairQuery::coarseDistance(const GeometryPair& pair) {
+  const double radius = model_.robotGeometry[pair.a].radius;
+  if (pair.self) {
+    const double other = model_.robotGeometry[pair.b].radius;
+    return (center(pair.a) - center(pair.b)).norm() - radius - other - rounding(pair);
+  }
+  const WorldGeometry& world = model_.worldGeometry[pair.b];
+  const Vector3d local = world.box_from_world * center(pair.a);
+  const Vector3d outside = (local.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
+  return outside.norm() - radius - rounding(pair);
+}
+
+/// The containing balls (and the world geometry's box) alone, along the direction between them. A
+/// ball's own spin does not bring it closer.
+PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const ApproachBound& bound,
+                                           const Vector3d& velocity) {
+  Vector3d direction;
+  double gap = -model_.robotGeometry[pair.a].radius;
+  if (pair.self) {
+    direction = center(pair.b) - center(pair.a);
+    gap -= model_.robotGeometry[pair.b].radius;
+  } else {
+    const WorldGeometry& world = model_.worldGeometry[pair.b];
+    const Vector3d local = world.box_from_world * center(pair.a);
+    const Vector3d outside = (local.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
+    direction =
+        world.box_from_world.linear().transpose() * Vector3d(std::copysign(outside.x(), local.x()),
+                                                             std::copysign(outside.y(), local.y()),
+                                                             std::copysign(outside.z(), local.z()));
+  }
+  const double norm = direction.norm();
+  gap += norm;
+  if (!(norm > 0.0) || !(gap > bound.required)) return Coarse::Open;
+  const double directed = std::abs(direction.dot(velocity)) / norm + bound.curvature;
+  const double approach = std::min(bound.travel, directed);
+  if (gap > bound.required + approach) return Coarse::Apart;
+  // The bodies are apart now, but even their centres come closer than this: only shorter intervals
+  // help.
+  const bool hopeless =
+      approach > norm + model_.robotGeometry[pair.a].radius && approach > model_.options.tolerance;
+  return hopeless ? Coarse::TooFast : Coarse::Open;
+}
+
+void PairQuery::relativeMotion(const GeometryPair& pair, double half,
+                               const Eigen::Matrix3d& world_from_a, const Vector3d& velocity,
+                               ApproachBound& bound) {
+  const auto& states = workspace_.states;
+  const Vector3d& reference = states[pair.reference].angular;
+  const RobotGeometry& a = model_.robotGeometry[pair.a];
+  bound.linear = world_from_a.transpose() * velocity;
+  bound.spinA = world_from_a.transpose() * (half * (states[a.body].angular - reference));
+  bound.radiusA = a.radius;
+  if (!pair.self) return;
+  const RobotGeometry& b = model_.robotGeometry[pair.b];
+  bound.spinB = world_from_a.transpose() * (half * (states[b.body].angular - reference));
+  bound.radiusB = b.radius;
+}
+
+PairAnswer PairQuery::prove(std::uint32_t index, double half) {
+  const GeometryPair& pair = model_.pairs[index];
+  PairAnswer answer;
+  ApproachBound bound;
+  bound.travel = travel(pair, half);
+  double acceleration = workspace_.travels[pair.travelA].acceleration;
+  if (pair.travelB >= 0) acceleration += workspace_.travels[pair.travelB].acceleration;
+  bound.curvature = 0.5 * half * half * acceleration * (1.0 + kVelocityRounding);
+  bound.required = model_.options.margin + rounding(pair) + kVelocityRounding * bound.travel;
+  const Vector3d velocity = half * relativeVelocity(pair);
+  answer.travel = bound.travel;
+  const Coarse coarse = compareBounds(pair, bound, velocity);
+  if (coarse != Coarse::Open) {
+    answer.status = coarse == Coarse::Apart ? Separation::Separated : Separation::Unproven;
+    answer.culled = true;
+    return answer;
+  }
+
+  const Isometry3d& world_from_a = pose(pair.a);
+  const Isometry3d world_from_b = poseOfB(pair);
+  relativeMotion(pair, half, world_from_a.linear(), velocity, bound);
+  answer.travel = bound.most() - bound.required;
+  SeparationQuery query;
+  query.approach = bound;
+  query.contact = model_.options.margin;
+  query.tolerance = kQueryShare * model_.options.tolerance;
+  query.guess = workspace_.hints[index];
+  query.thorough = answer.travel <= model_.options.tolerance;
+  const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
+                                           world_from_a.inverse() * world_from_b, query);
+  workspace_.hints[index] = result.normal;
+  answer.status = result.status;
+  answer.pointA = world_from_a * result.pointA;
+  answer.pointB = world_from_a * result.pointB;
+  return answer;
+}
+
+PairDistance PairQuery::measure(std::uint32_t index, double enough, double accuracy) {
+  const GeometryPair& pair = model_.pairs[index];
+  const Isometry3d& world_from_a = pose(pair.a);
+  DistanceOptions options;
+  options.enough = enough + rounding(pair);
+  options.tolerance = accuracy;
+  const DistanceResult found = distance(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
+                                        world_from_a.inverse() * poseOfB(pair), options);
+  PairDistance result;
+  result.lower = std::max(0.0, found.lower - rounding(pair));
+  result.upper = found.upper;
+  result.pointA = world_from_a * found.pointA;
+  result.pointB = world_from_a * found.pointB;
+  return result;
+}
+
+Witness PairQuery::witness(std::uint32_t index, double t, const PairAnswer& answer) const {
+  const GeometryPair& pair = model_.pairs[index];
+  Witness witness;
+  witness.t = t;
+  witness.bodyA = model_.nameOfA(pair);
+  witness.bodyB = model_.nameOfB(pair);
+  witness.pointA = answer.pointA;
+  witness.pointB = answer.pointB;
+  witness.distance = (answer.pointB - answer.pointA).norm();
+  return witness;
+}
+
+}  // namespace swept::detail

@@ -1,1 +1,246 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "io/mesh_store.hpp"
+#include "io/numbers.hpp"
+#include "io/scene.hpp"
+#include "io/yaml.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+enum class PrimitiveType : std::uint8_t { Box, Sphere, Cylinder, Cone };
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// By name, or by the codes of shape_msgs/SolidPrimitive.
+PrimitiveType primitiveType(const YamlPlace& type) {
+  constexpr std::array<std::array<const char*, 2>, 4> kNames{
+      {{"box", "1"}, {"sphere", "2"}, {"cylinder", "3"}, {"cone", "4"}}};
+  const std::string given = lowerCase(type.text());
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (given == kNames[i][0] || given == kNames[i][1]) return static_cast<PrimitiveType>(i);
+  }
+  type.fail("is '" + type.text() + "'; allowed are box (1), sphere (2) and cylinder (3)");
+}
+
+std::vector<double> sizes(const YamlPlace& place, std::size_t count, const std::string& meaning) {
+  const auto elements = place.elements();
+  if (elements.size() != count) {
+    place.fail("has " + std::to_string(elements.size()) + " values; " + meaning);
+  }
+  std::vector<double> values;
+  for (const YamlPlace& element : elements) {
+    values.push_back(element.number());
+    if (!(values.back() > 0.0)) {
+      element.fail("is '" + element.text() + "'; it must be greater than 0");
+    }
+  }
+  return values;
+}
+
+Shape readPrimitive(const YamlPlace& place) {
+  const YamlPlace type = place.at("type");
+  const YamlPlace dimensions = place.at("dimensions");
+  switch (primitiveType(type)) {
+    case PrimitiveType::Box: {
+      const auto s = sizes(dimensions, 3, "a box has 3 [x, y, z]");
+      return makeBox({s[0], s[1], s[2]});
+    }
+    case PrimitiveType::Sphere:
+      return makeSphere(sizes(dimensions, 1, "a sphere has 1 [radius]")[0]);
+    case PrimitiveType::Cylinder: {
+      const auto s = sizes(dimensions, 2, "a cylinder has 2 [height, radius]");
+      return makeCylinder(s[1], s[0]);
+    }
+    case PrimitiveType::Cone:
+      break;
+  }
+  type.fail("is 'cone', which is not supported; allowed are box (1), sphere (2) and cylinder (3)");
+}
+
+class SceneReader {
+ public:
+  explicit SceneReader(const InputSource& source) : source_(source), meshes_(source) {}
+  World read(const YamlPlace& root);
+
+ private:
+  void readTransforms(const YamlPlace& list);
+  void readObject(const YamlPlace& unnamed);
+  Eigen::Isometry3d frameOf(const YamlPlace& object);
+  void addShapes(const YamlPlace& object, const char* shapesKey, const char* posesKey,
+                 const Eigen::Isometry3d& world_from_object, WorldBody& body);
+  Shape readMesh(const YamlPlace& place, const std::string& id);
+
+  const InputSource& source_;
+  MeshStore meshes_;
+  World world_;
+  /// Pose of a named frame in the frame named beside it.
+  std::map<std::string, std::pair<std::string, Eigen::Isometry3d>> transforms_;
+  std::set<std::string> unknownFrames_;
+};
+
+void refuseOctomap(const YamlPlace& stamped) {
+  if (!stamped.present()) return;
+  const YamlPlace map = stamped.at("octomap");
+  if (!map.present()) return;
+  const YamlPlace data = map.at("data");  // scenes often carry an empty map
+  if (!data.present() || (data.isSequence() && data.elements().empty())) return;
+  data.fail("holds an octomap, which is not supported in a scene");
+}
+
+World SceneReader::read(const YamlPlace& root) {
+  if (!root.isMap()) root.fail("a planning scene must be a mapping");
+  const YamlPlace world = root.at("world");
+  const YamlPlace outer = root.at("collision_objects");
+  const YamlPlace inner = world.present() ? world.at("collision_objects") : world;
+  if (inner.present() && outer.present()) {
+    outer.fail("stand at the top and in 'world' too; one place is allowed");
+  }
+  if (!world.present() && !outer.present()) {
+    root.fail("a planning scene needs 'world' or 'collision_objects'");
+  }
+  if (world.present()) refuseOctomap(world.at("octomap"));
+  if (const YamlPlace state = root.at("robot_state"); state.isMap()) {
+    for (const YamlPlace& attached : state.at("attached_collision_objects").elements()) {
+      attached.warn("is ignored: attached objects are not part of the world");
+    }
+  }
+  readTransforms(root.at("fixed_frame_transforms"));
+  for (const YamlPlace& object :
+       (inner.present() ? inner.called("collision_objects") : outer).elements()) {
+    readObject(object);
+  }
+  return std::move(world_);
+}
+
+void SceneReader::readTransforms(const YamlPlace& list) {
+  for (const YamlPlace& entry : list.elements()) {
+    const YamlPlace header = entry.at("header");
+    const YamlPlace frame = header.present() ? header.at("frame_id") : header;
+    const YamlPlace transform = entry.at("transform");
+    if (!transform.present()) transform.fail("is missing");
+    transforms_.emplace(
+        entry.at("child_frame_id").text(),
+        std::pair{frame.present() ? frame.text() : "", transform.pose("translation", "rotation")});
+  }
+}
+
+/// The frame an object's poses are given in, from the fixed transforms; the model frame otherwise.
+Eigen::Isometry3d SceneReader::frameOf(const YamlPlace& object) {
+  Eigen::Isometry3d model_from_frame = Eigen::Isometry3d::Identity();
+  const YamlPlace header = object.at("header");
+  const YamlPlace place = header.present() ? header.at("frame_id") : header;
+  std::string frame = place.present() ? place.text() : "";
+  if (!transforms_.contains(frame)) {
+    const bool known = frame.empty() || frame == "world" || frame == source_.options().modelFrame;
+    if (!known && unknownFrames_.insert(frame).second) {
+      place.warn("'" + frame + "' is taken for the robot's model frame");
+    }
+    return model_from_frame;
+  }
+  std::set<std::string> seen;
+  for (auto at = transforms_.find(frame); at != transforms_.end(); at = transforms_.find(frame)) {
+    if (!seen.insert(frame).second) break;  // a root frame is often listed as its own child
+    frame = at->second.first;
+    model_from_frame = at->second.second * model_from_frame;
+  }
+  return model_from_frame;
+}
+
+void SceneReader::readObject(const YamlPlace& unnamed) {
+  const std::string id = unnamed.at("id").text();
+  const YamlPlace object = unnamed.called("object '" + id + "':");
+  if (id.empty()) unnamed.at("id").fail("must not be empty");
+  if (world_.find(id) != nullptr) object.fail("a second object has this id");
+  if (const YamlPlace operation = object.at("operation"); operation.present()) {
+    const std::string given = lowerCase(operation.text());
+    if (given != "0" && given != "add" && !(given.size() == 1 && given[0] == '\0')) {
+      operation.fail("is '" + operation.text() + "'; a scene file allows only add (0)");
+    }
+  }
+  if (!object.at("planes").elements().empty()) {
+    object.at("planes").fail("are not supported in a scene; use a box");
+  }
+  const Eigen::Isometry3d world_from_object =
+      frameOf(object) * object.at("pose").pose("position", "orientation");
+  WorldBody body;
+  body.name = id;
+  addShapes(object, "primitives", "primitive_poses", world_from_object, body);
+  addShapes(object, "meshes", "mesh_poses", world_from_object, body);
+  if (body.parts.empty()) object.fail("it has no primitives and no meshes");
+  try {
+    world_.add(std::move(body));
+  } catch (const std::invalid_argument& error) {
+    object.fail(error.what());
+  }
+}
+
+void SceneReader::addShapes(const YamlPlace& object, const char* shapesKey, const char* posesKey,
+                            const Eigen::Isometry3d& world_from_object, WorldBody& body) {
+  const auto shapes = object.at(shapesKey).elements();
+  const auto poses = object.at(posesKey).elements();
+  // Without any, all shapes sit at the object's pose (moveit_msgs/CollisionObject).
+  if (!poses.empty() && poses.size() != shapes.size()) {
+    object.at(posesKey).fail("has " + std::to_string(poses.size()) + " entries for " +
+                             std::to_string(shapes.size()) + " " + shapesKey);
+  }
+  const bool primitives = std::string_view(shapesKey) == "primitives";
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Shape shape = primitives ? readPrimitive(shapes[i]) : readMesh(shapes[i], body.name);
+    Eigen::Isometry3d pose = world_from_object;
+    if (!poses.empty()) pose = pose * poses[i].pose("position", "orientation");
+    body.parts.push_back({shape, pose});
+  }
+}
+
+Shape SceneReader::readMesh(const YamlPlace& place, const std::string& id) {
+  if (const YamlPlace resource = place.at("resource"); resource.present()) {
+    const YamlPlace given = place.at("scale");
+    const Eigen::Vector3d scale = given.present() ? given.vector() : Eigen::Vector3d::Ones();
+    if (!(scale.cwiseAbs().minCoeff() > 0.0)) given.fail("must hold factors other than 0");
+    return meshes_.mesh(resource.text(), scale, resource.line(), "object '" + id + "'");
+  }
+  std::vector<Eigen::Vector3d> vertices;
+  for (const YamlPlace& vertex : place.at("vertices").elements())
+    vertices.push_back(vertex.vector());
+  std::vector<Eigen::Vector3i> triangles;
+  for (const YamlPlace& entry : place.at("triangles").elements()) {
+    const YamlPlace indices = entry.isMap() ? entry.at("vertex_indices") : entry;
+    const auto corners = indices.elements();
+    if (corners.size() != 3) indices.fail("must hold 3 vertex indices");
+    Eigen::Vector3i& triangle = triangles.emplace_back();
+    for (int corner = 0; corner < 3; ++corner) triangle[corner] = corners[corner].integer();
+  }
+  try {
+    const TriangleMesh mesh = TriangleMesh::build(vertices, triangles);
+    warnIfOpen(mesh, id, place.line(), source_);
+    return mesh;
+  } catch (const std::invalid_argument& error) {
+    place.fail(std::string("cannot be used: ") + error.what());
+  }
+}
+
+}  // namespace
+
+World readSceneYaml(const std::string& text, const InputSource& source) {
+  const YamlPlace root = YamlPlace::parse(text, source);
+  try {
+    return SceneReader(source).read(root);
+  } catch (const YAML::Exception& error) {
+    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+  }
+}
+
+}  // namespace swept::detail

@@ -1,1 +1,268 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "kinematics/motion_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "swept/core/tolerances.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+
+/// The way a cyclic value goes: the given difference when it is at most half a turn, else the
+/// shorter.
+double cyclicDifference(double from, double to) {
+  const double difference = to - from;
+  return std::abs(difference) <= kPi ? difference : std::remainder(difference, 2.0 * kPi);
+}
+
+/// Shorter arc between two orientations; with opposite ones (dot = 0) the sign as given decides.
+Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to) {
+  Quaterniond relative = to * from.conjugate();
+  if (from.dot(to) < 0.0) relative.coeffs() = -relative.coeffs();
+  const double sine = relative.vec().norm();
+  if (!(sine > 0.0)) return Vector3d::Zero();
+  return (2.0 * std::atan2(sine, relative.w()) / sine) * relative.vec();
+}
+
+Isometry3d jointTransform(const MovingBody& body, const JointMotion& motion, double t) {
+  Isometry3d joint_from_body = Isometry3d::Identity();
+  joint_from_body.translation() = motion.translation + t * motion.rate;
+  if (body.type == JointType::Revolute || body.type == JointType::Continuous ||
+      body.type == JointType::Planar) {
+    const Vector3d axis = body.type == JointType::Planar ? body.planarBasis.col(2) : body.axis;
+    joint_from_body.linear() =
+        Eigen::AngleAxisd(motion.angle + t * motion.angleRate, axis).toRotationMatrix();
+  } else if (body.type == JointType::Floating) {
+    const Quaterniond turned =
+        motion.spinSpeed > 0.0
+            ? Quaterniond(Eigen::AngleAxisd(t * motion.spinSpeed, motion.spin / motion.spinSpeed)) *
+                  motion.rotation
+            : motion.rotation;
+    joint_from_body.linear() = turned.normalized().toRotationMatrix();
+  }
+  return joint_from_body;
+}
+
+/// Pose of a joint outside the group, whose value does not change.
+Isometry3d heldTransform(const Robot& robot, const Joint& joint, const Eigen::VectorXd& reference) {
+  MovingBody body;
+  body.type = joint.type;
+  body.axis = joint.axis;
+  body.planarBasis = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis).toRotationMatrix();
+  JointMotion motion;
+  const Joint& source = joint.mimic ? robot.joints()[joint.mimic->master] : joint;
+  if (joint.type == JointType::Fixed || source.firstVariable < 0) return Isometry3d::Identity();
+  const double* values = reference.data() + source.firstVariable;
+  const double value =
+      joint.mimic ? joint.mimic->multiplier * values[0] + joint.mimic->offset : values[0];
+  switch (joint.type) {
+    case JointType::Prismatic:
+      motion.translation = value * joint.axis;
+      break;
+    case JointType::Revolute:
+    case JointType::Continuous:
+      motion.angle = value;
+      break;
+    case JointType::Planar:
+      motion.translation = body.planarBasis * Vector3d(values[0], values[1], 0.0);
+      motion.angle = values[2];
+      break;
+    case JointType::Floating:
+      motion.translation = {values[0], values[1], values[2]};
+      motion.rotation = Quaterniond(values[6], values[3], values[4], values[5]).normalized();
+      break;
+    case JointType::Fixed:
+      break;
+  }
+  return jointTransform(body, motion, 0.0);
+}
+
+MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group) {
+  MovingBody body;
+  body.type = joint.type;
+  body.axis = joint.axis;
+  body.planarBasis = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis).toRotationMatrix();
+  const Joint& source = joint.mimic ? robot.joints()[joint.mimic->master] : joint;
+  if (joint.mimic) {
+    body.multiplier = joint.mimic->multiplier;
+    body.offset = joint.mimic->offset;
+  }
+  const auto found =
+      std::find(group.variables.begin(), group.variables.end(), source.firstVariable);
+  body.variable = static_cast<int>(found - group.variables.begin());
+  const Variable& variable = robot.variables()[source.firstVariable];
+  const double atLower = body.multiplier * variable.lower + body.offset;
+  const double atUpper = body.multiplier * variable.upper + body.offset;
+  // compileMotion lets values pass their limits by this much.
+  const double slack = std::abs(body.multiplier) * tolerance::kLimit;
+  body.lower = std::min(atLower, atUpper) - slack;
+  body.upper = std::max(atLower, atUpper) + slack;
+  return body;
+}
+
+bool moves(const Robot& robot, const Joint& joint, const Group& group) {
+  if (joint.type == JointType::Fixed) return false;
+  const Joint& source = joint.mimic ? robot.joints()[joint.mimic->master] : joint;
+  return std::find(group.variables.begin(), group.variables.end(), source.firstVariable) !=
+         group.variables.end();
+}
+
+}  // namespace
+
+KinematicModel compileKinematics(const Robot& robot, const Group& group,
+                                 const Eigen::VectorXd& reference) {
+  KinematicModel model;
+  model.bodies.emplace_back();
+  model.dimension = static_cast<int>(group.variables.size());
+  for (const int index : group.variables) {
+    const Variable& variable = robot.variables()[index];
+    model.cyclic.push_back(variable.cyclic);
+    model.lower.push_back(variable.lower);
+    model.upper.push_back(variable.upper);
+  }
+  const std::size_t links = robot.links().size();
+  model.bodyOfLink.assign(links, 0);
+  model.body_from_link.assign(links, Isometry3d::Identity());
+  for (const Joint& joint : robot.joints()) {
+    const int parentBody = joint.parentLink < 0 ? 0 : model.bodyOfLink[joint.parentLink];
+    const Isometry3d parentPose =
+        joint.parentLink < 0 ? Isometry3d::Identity() : model.body_from_link[joint.parentLink];
+    const Isometry3d body_from_joint = parentPose * joint.parent_from_joint;
+    if (moves(robot, joint, group)) {
+      MovingBody body = moveJoint(robot, joint, group);
+      body.parent = parentBody;
+      body.parent_from_joint = body_from_joint;
+      model.bodyOfLink[joint.childLink] = static_cast<int>(model.bodies.size());
+      model.bodies.push_back(body);
+    } else {
+      model.bodyOfLink[joint.childLink] = parentBody;
+      model.body_from_link[joint.childLink] =
+          body_from_joint * heldTransform(robot, joint, reference);
+    }
+  }
+  return model;
+}
+
+namespace {
+
+bool compileFloating(const double* from, const double* to, JointMotion& motion) {
+  const Vector3d start(from[0], from[1], from[2]);
+  const Vector3d end(to[0], to[1], to[2]);
+  Quaterniond first(from[6], from[3], from[4], from[5]);
+  Quaterniond second(to[6], to[3], to[4], to[5]);
+  if (!(first.norm() > 1e-6) || !(second.norm() > 1e-6)) return false;
+  first.normalize();
+  second.normalize();
+  motion.translation = start;
+  motion.rate = end - start;
+  motion.rotation = first;
+  motion.spin = rotationVector(first, second);
+  motion.wander = std::max(start.norm(), end.norm());
+  return true;
+}
+
+bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span<const double> from,
+                  std::span<const double> to, JointMotion& motion) {
+  motion = JointMotion{};
+  const double* q0 = from.data() + body.variable;
+  const double* q1 = to.data() + body.variable;
+  switch (body.type) {
+    case JointType::Revolute:
+    case JointType::Continuous: {
+      const double difference =
+          model.cyclic[body.variable] ? cyclicDifference(*q0, *q1) : *q1 - *q0;
+      motion.angle = body.multiplier * *q0 + body.offset;
+      motion.angleRate = body.multiplier * difference;
+      motion.spin = motion.angleRate * body.axis;
+      break;
+    }
+    case JointType::Prismatic: {
+      // A prismatic joint may mimic a cyclic one and then moves the way its master does.
+      const double difference =
+          model.cyclic[body.variable] ? cyclicDifference(*q0, *q1) : *q1 - *q0;
+      const double start = body.multiplier * *q0 + body.offset;
+      const double end = start + body.multiplier * difference;
+      if (!(std::min(start, end) >= body.lower && std::max(start, end) <= body.upper)) return false;
+      motion.translation = start * body.axis;
+      motion.rate = (body.multiplier * difference) * body.axis;
+      break;
+    }
+    case JointType::Planar:
+      motion.translation = body.planarBasis * Vector3d(q0[0], q0[1], 0.0);
+      motion.rate = body.planarBasis * Vector3d(q1[0] - q0[0], q1[1] - q0[1], 0.0);
+      motion.angle = q0[2];
+      motion.angleRate = cyclicDifference(q0[2], q1[2]);
+      motion.spin = motion.angleRate * body.planarBasis.col(2);
+      motion.wander = std::max(std::hypot(q0[0], q0[1]), std::hypot(q1[0], q1[1]));
+      break;
+    case JointType::Floating:
+      if (!compileFloating(q0, q1, motion)) return false;
+      break;
+    case JointType::Fixed:
+      break;
+  }
+  motion.speed = motion.rate.norm();
+  motion.spinSpeed = motion.spin.norm();
+  return true;
+}
+
+}  // namespace
+
+bool compileMotion(const KinematicModel& model, std::span<const double> from,
+                   std::span<const double> to, std::span<JointMotion> motion) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(from.begin(), from.end(), finite)) return false;
+  if (!std::all_of(to.begin(), to.end(), finite)) return false;
+  for (std::size_t i = 1; i < model.bodies.size(); ++i) {
+    if (!compileJoint(model, model.bodies[i], from, to, motion[i])) return false;
+  }
+  return true;
+}
+
+void evaluateMotion(const KinematicModel& model, std::span<const JointMotion> motion, double t,
+                    std::span<BodyState> states) {
+  states[0] = BodyState{};
+  for (std::size_t i = 1; i < model.bodies.size(); ++i) {
+    const MovingBody& body = model.bodies[i];
+    const BodyState& parent = states[body.parent];
+    const Isometry3d world_from_joint = parent.world_from_body * body.parent_from_joint;
+    BodyState& state = states[i];
+    state.world_from_body = world_from_joint * jointTransform(body, motion[i], t);
+    const Vector3d spin = world_from_joint.linear() * motion[i].spin;
+    state.angular = parent.angular + spin;
+    // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
+    state.linear = parent.linear + world_from_joint.linear() * motion[i].rate -
+                   spin.cross(state.world_from_body.translation());
+  }
+}
+
+void interpolateMotion(const KinematicModel& model, std::span<const double> from,
+                       std::span<const double> to, double t, std::span<double> q) {
+  for (int i = 0; i < model.dimension; ++i) {
+    if (!model.cyclic[i]) {
+      q[i] = from[i] + t * (to[i] - from[i]);
+      continue;
+    }
+    const double value = from[i] + t * cyclicDifference(from[i], to[i]);
+    q[i] = std::abs(value) <= kPi ? value : std::remainder(value, 2.0 * kPi);
+  }
+  for (const MovingBody& body : model.bodies) {
+    if (body.type != JointType::Floating) continue;
+    JointMotion motion;
+    if (!compileFloating(from.data() + body.variable, to.data() + body.variable, motion)) continue;
+    motion.spinSpeed = motion.spin.norm();
+    const Quaterniond turned(jointTransform(body, motion, t).linear());
+    for (int i = 0; i < 4; ++i) q[body.variable + 3 + i] = turned.coeffs()[i];
+  }
+}
+
+}  // namespace swept::detail

@@ -37,12 +37,12 @@ struct CheckerOptions {
 
 /// Two points of two bodies at most the margin apart.
 struct Witness {
-  double t = 0.0;       ///< in [0, 1]; 0 for a state
-  std::string bodyA;    ///< a robot link
-  std::string bodyB;    ///< a world body or another link
+  double t = 0.0;                                    ///< in [0, 1]; 0 for a state
+  std::string bodyA;                                 ///< a robot link
+  std::string bodyB;                                 ///< a world body or another link
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyA
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyB
-  double distance = 0.0;  ///< m, |pointB - pointA|; 0 in contact
+  double distance = 0.0;                             ///< m, |pointB - pointA|; 0 in contact
 };
 
 /// What one state looks like, completely.
@@ -52,21 +52,22 @@ struct StateReport {
   /// Variables (names) outside their limits. Says nothing about geometry; a planner refuses both.
   std::vector<std::string> outsideLimits;
   std::vector<Witness> contacts;  ///< one per violating pair, in the checker's pair order
-  double clearance = 0.0;  ///< m, proven lower bound of the least distance over all pairs; infinity: no pairs
+  double clearance =
+      0.0;  ///< m, proven lower bound of the least distance over all pairs; infinity: no pairs
   std::string nearestA, nearestB;  ///< the pair that gave `clearance`; empty without pairs
 };
 
 struct Effort {
-  int intervals = 0;          ///< sub-intervals (or states) whose kinematics were computed
-  std::int64_t distances = 0; ///< exact pair queries
-  std::int64_t culled = 0;    ///< pairs settled by bounding volumes alone
+  int intervals = 0;           ///< sub-intervals (or states) whose kinematics were computed
+  std::int64_t distances = 0;  ///< exact pair queries
+  std::int64_t culled = 0;     ///< pairs settled by bounding volumes alone
 };
 
 /// What is known about a whole motion q(t), t in [0, 1].
 struct MotionCertificate {
   Verdict verdict = Verdict::Undecided;
-  /// Largest proven t: [0, freeUntil] is Free. 1 when the verdict is Free; 0 when not even the start is
-  /// (or nothing about the prefix was asked).
+  /// Largest proven t: [0, freeUntil] is Free. 1 when the verdict is Free; 0 when not even the
+  /// start is (or nothing about the prefix was asked).
   double freeUntil = 0.0;
   std::optional<Witness> witness;  ///< engaged exactly when the verdict is Collision
   /// First interval that could not be proven, when the verdict is Undecided.
@@ -107,13 +108,13 @@ class Workspace {
 ///
 /// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0), cyclic variables the shorter way, floating
 /// orientations by slerp along the shorter arc, mimicking joints following. Checked are: each link
-/// that the group moves against each world body, and each pair of links whose relative pose the group
-/// changes, unless the SRDF disables the pair or a joint connects the two.
-/// Queries never throw on spans of the right size (std::invalid_argument otherwise).
+/// that the group moves against each world body, and each pair of links whose relative pose the
+/// group changes, unless the SRDF disables the pair or a joint connects the two. Queries never
+/// throw on spans of the right size (std::invalid_argument otherwise).
 class Checker {
  public:
-  /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin or tolerance, or a
-  /// reference of the wrong size.
+  /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin or
+  /// tolerance, or a reference of the wrong size.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
@@ -123,39 +124,45 @@ class Checker {
   const CheckerOptions& options() const;
   int dimension() const;  ///< size of a configuration of the group
 
-  /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, or not finite.
+  /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
+  /// prismatic value outside its limits (the bounds on what moves hold inside them).
   Verdict checkState(std::span<const double> q, Workspace& workspace) const;
   /// Every violating pair and the clearance.
   StateReport reportState(std::span<const double> q, Workspace& workspace) const;
-  /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not finite.
+  /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not
+  /// finite.
   double clearance(std::span<const double> q, Workspace& workspace) const;
 
   MotionCertificate certifyMotion(std::span<const double> from, std::span<const double> to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
-  /// upper - lower <= accuracy (m) unless the cap on intervals ends the search.
+  /// upper - lower <= accuracy (m), and lower >= upper / 2 while upper >= accuracy / 50, unless the
+  /// cap on intervals ends the search.
   MotionClearance motionClearance(std::span<const double> from, std::span<const double> to,
                                   double accuracy, Workspace& workspace) const;
 
   bool withinLimits(std::span<const double> q) const;
   /// The configuration at t on the motion that certifyMotion checks.
-  Eigen::VectorXd interpolate(std::span<const double> from, std::span<const double> to, double t) const;
+  Eigen::VectorXd interpolate(std::span<const double> from, std::span<const double> to,
+                              double t) const;
 
   /// One checked pair of bodies, and one that is left out with the reason.
   struct Pair {
-    std::string bodyA;   ///< a robot link
-    std::string bodyB;   ///< a link or a world body
+    std::string bodyA;  ///< a robot link
+    std::string bodyB;  ///< a link or a world body
     bool selfPair = false;
-    std::string reason;  ///< empty when checked: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ...
+    std::string
+        reason;  ///< empty when checked: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ...
   };
   const std::vector<Pair>& checkedPairs() const;
   const std::vector<Pair>& skippedPairs() const;
-  /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked once,
-  /// here; they do not enter the verdicts.
+  /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
+  /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;
 
  private:
   friend class Workspace;
+  void requireSize(std::span<const double> q) const;
   std::shared_ptr<const detail::CheckerModel> model_;
 };
 

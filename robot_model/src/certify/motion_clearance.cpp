@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <numeric>
+
+#include "certify/motion_check.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// Branch and bound over intervals and pairs. Distances at the middles give upper bounds; less what
+/// the pair can approach within the interval, lower ones. Whatever cannot be below the best upper
+/// bound by more than the accuracy is dropped.
+class ClearanceSearch {
+ public:
+  ClearanceSearch(const CheckerModel& model, double accuracy, WorkspaceData& workspace)
+      : model_(model), workspace_(workspace), query_(model, workspace), accuracy_(accuracy) {
+    found_.lower = std::numeric_limits<double>::infinity();
+    found_.upper = std::numeric_limits<double>::infinity();
+  }
+
+  MotionClearance run(std::span<const double> from, std::span<const double> to) {
+    if (!query_.start(from, to)) return {0.0, 0.0, 0.0};
+    auto& now = workspace_.generation;
+    auto& next = workspace_.nextGeneration;
+    workspace_.arena.resize(model_.pairs.size());
+    std::iota(workspace_.arena.begin(), workspace_.arena.end(), 0U);
+    now.assign(1, {0.0, 1.0, 0, model_.pairs.size()});
+    while (!now.empty() && found_.upper > 0.0) {
+      next.clear();
+      workspace_.nextArena.clear();
+      for (const PendingInterval& interval : now) split(interval);
+      std::swap(now, next);
+      std::swap(workspace_.arena, workspace_.nextArena);
+    }
+    found_.lower = std::clamp(found_.lower, 0.0, found_.upper);
+    return found_;
+  }
+
+ private:
+  void split(const PendingInterval& interval) {
+    const double middle = 0.5 * (interval.begin + interval.end);
+    const double half = 0.5 * (interval.end - interval.begin);
+    query_.moveTo(middle);
+    const bool last = ++intervals_ >= model_.options.maxIntervals;
+    const std::size_t first = workspace_.nextArena.size();
+    for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
+      const double bound = boundPair(workspace_.arena[i], middle, half);
+      if (last || bound >= found_.upper - slack()) {
+        found_.lower = std::min(found_.lower, bound);
+      } else {
+        workspace_.nextArena.push_back(workspace_.arena[i]);
+      }
+    }
+    const std::size_t count = workspace_.nextArena.size() - first;
+    if (count == 0) return;
+    workspace_.nextGeneration.push_back({interval.begin, middle, first, count});
+    workspace_.nextGeneration.push_back({middle, interval.end, first, count});
+  }
+
+  /// m. The accuracy, or half of a clearance that is small against it: what is free is shown to be.
+  double slack() const {
+    return std::min(accuracy_, std::max(0.5 * found_.upper, 0.01 * accuracy_));
+  }
+
+  /// m. Lower bound of the pair's distance over the interval.
+  double boundPair(std::uint32_t index, double middle, double half) {
+    const GeometryPair& pair = model_.pairs[index];
+    const double travel = query_.travel(pair, half);
+    const double coarse = query_.coarseDistance(pair) - travel;
+    if (coarse >= found_.upper) return coarse;
+    const PairDistance distance = query_.measure(index, found_.upper + travel, 0.25 * slack());
+    if (distance.upper < found_.upper) {
+      found_.upper = distance.upper;
+      found_.t = middle;
+    }
+    return distance.lower - travel;
+  }
+
+  const CheckerModel& model_;
+  WorkspaceData& workspace_;
+  PairQuery query_;
+  double accuracy_;
+  MotionClearance found_;
+  int intervals_ = 0;
+};
+
+}  // namespace
+
+MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
+                                std::span<const double> to, double accuracy,
+                                WorkspaceData& workspace) {
+  return ClearanceSearch(model, accuracy, workspace).run(from, to);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "certify/checker_model.hpp"
+
+namespace swept::detail {
+
+/// What one pair looks like around one t.
+struct PairAnswer {
+  Separation status = Separation::Unproven;
+  bool culled = false;  ///< bounding volumes were enough
+  double travel =
+      0.0;  ///< m, bound on the approach within the interval, without margin and rounding
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame; under Contact
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame; under Contact
+};
+
+/// Exact distance of a pair at the current t, as an interval, kinematic rounding included.
+struct PairDistance {
+  double lower = 0.0;                                      ///< m
+  double upper = std::numeric_limits<double>::infinity();  ///< m
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();        ///< m, model frame
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, model frame
+};
+
+/// The pairs of a model at one t of the motion held by a workspace.
+class PairQuery {
+ public:
+  PairQuery(const CheckerModel& model, WorkspaceData& workspace)
+      : model_(model), workspace_(workspace) {}
+
+  /// Compiles the motion and bounds every ball's travel. False: nothing can be said about it.
+  bool start(std::span<const double> from, std::span<const double> to);
+  /// Moves to t: kinematics of all bodies.
+  void moveTo(double t);
+
+  /// Whether the pair stays apart by more than the margin on [t - half, t + half], or is within the
+  /// margin at t. `half` in units of t.
+  PairAnswer prove(std::uint32_t pair, double half);
+  /// Distance at t. Stops early when it is proven to exceed `enough` (m).
+  PairDistance measure(std::uint32_t pair, double enough, double accuracy);
+  /// m. Bound on the pair's approach during `half`.
+  double travel(const GeometryPair& pair, double half) const;
+  /// m. Lower bound from bounding volumes alone, kinematic rounding included.
+  double coarseDistance(const GeometryPair& pair);
+
+  Witness witness(std::uint32_t pair, double t, const PairAnswer& answer) const;
+
+ private:
+  const Eigen::Vector3d& center(int geometry);
+  const Eigen::Isometry3d& pose(int geometry);
+  double rounding(const GeometryPair& pair) const;
+  /// What the containing balls and boxes say.
+  enum class Coarse : std::uint8_t { Open, Apart, TooFast };
+  Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
+                       const Eigen::Vector3d& relativeVelocity);
+  Eigen::Vector3d relativeVelocity(const GeometryPair& pair);
+  void relativeMotion(const GeometryPair& pair, double half, const Eigen::Matrix3d& world_from_a,
+                      const Eigen::Vector3d& velocity, ApproachBound& bound);
+  const Shape& shapeOfB(const GeometryPair& pair) const;
+  Eigen::Isometry3d poseOfB(const GeometryPair& pair);
+
+  const CheckerModel& model_;
+  WorkspaceData& workspace_;
+};
+
+}  // namespace swept::detail

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/mesh_store.hpp"
+
+#include <stdexcept>
+
+#include "io/mesh_file.hpp"
+#include "io/package_paths.hpp"
+
+namespace swept::detail {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path locate(const std::string& reference, int line, const std::string& name,
+                const InputSource& source) {
+  const auto candidates = candidatePaths(reference, source.folder(), source.options());
+  if (candidates.empty()) {
+    source.fail(line, name + ": the scheme must be package://, model:// or file://");
+  }
+  std::string tried;
+  for (const fs::path& candidate : candidates) {
+    std::error_code error;
+    if (fs::is_regular_file(candidate, error)) return candidate;
+    tried += (tried.empty() ? "" : ", ") + candidate.string();
+  }
+  source.fail(line, name + " not found; looked for " + tried);
+}
+
+}  // namespace
+
+TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
+                             const std::string& owner) {
+  const std::string name = "mesh '" + reference + "' of " + owner;
+  const fs::path file = locate(reference, line, name, source_);
+  const Key key{fs::canonical(file), {scale.x(), scale.y(), scale.z()}};
+  if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+  try {
+    MeshFileContent content = readMeshFile(file);
+    for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
+    const TriangleMesh mesh = TriangleMesh::build(content.vertices, content.triangles);
+    warnIfOpen(mesh, reference, line, source_);
+    meshes_.emplace(key, mesh);
+    return mesh;
+  } catch (const MeshFileError& error) {
+    source_.fail(line, name + " " + error.what());
+  } catch (const std::invalid_argument& error) {
+    source_.fail(line, name + ": " + error.what());
+  }
+}
+
+void warnIfOpen(const TriangleMesh& mesh, const std::string& name, int line,
+                const InputSource& source) {
+  const int open = mesh.report().openComponents;
+  if (open == 0) return;
+  source.warn(line, "mesh '" + name + "' is an open surface (" + std::to_string(open) +
+                        " open component" + (open == 1 ? "" : "s") +
+                        "): its interior is not solid");
+}
+
+}  // namespace swept::detail

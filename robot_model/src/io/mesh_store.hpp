@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "io/input_source.hpp"
+#include "swept/core/triangle_mesh.hpp"
+
+namespace swept::detail {
+
+/// The meshes that one input file refers to: found, read, scaled and shared.
+class MeshStore {
+ public:
+  explicit MeshStore(const InputSource& source) : source_(source) {}
+
+  /// The mesh that `reference` names, scaled per axis (negative mirrors). The same file at the same
+  /// scale is one mesh. `line` and `owner` (as in `link 'arm'`) go into the messages: an open
+  /// surface is a warning, a mesh that cannot be used an InputError.
+  TriangleMesh mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
+                    const std::string& owner);
+
+ private:
+  using Key = std::pair<std::filesystem::path, std::array<double, 3>>;
+  const InputSource& source_;
+  std::map<Key, TriangleMesh> meshes_;
+};
+
+/// Warns when part of `mesh` does not enclose anything.
+void warnIfOpen(const TriangleMesh& mesh, const std::string& name, int line,
+                const InputSource& source);
+
+}  // namespace swept::detail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/srdf.hpp"
+#include "io/urdf_model.hpp"
+#include "io/urdf_outline.hpp"
+
+namespace swept {
+
+std::shared_ptr<const Robot> RobotBuilder::build(detail::RobotParts parts) {
+  std::shared_ptr<Robot> robot(new Robot());
+  robot->name_ = std::move(parts.name);
+  robot->links_ = std::move(parts.links);
+  robot->joints_ = std::move(parts.joints);
+  robot->variables_ = std::move(parts.variables);
+  robot->groups_ = std::move(parts.groups);
+  robot->namedStates_ = std::move(parts.namedStates);
+  robot->disabledPairs_ = std::move(parts.disabledPairs);
+  return robot;
+}
+
+std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std::string& urdfName,
+                                          const std::string& srdfText, const std::string& srdfName,
+                                          const LoadOptions& options) {
+  const detail::InputSource urdfSource(urdfName, options);
+  const detail::InputSource srdfSource(srdfName, options);
+  const detail::UrdfOutline outline = detail::outlineUrdf(urdfText, urdfSource);
+  detail::SrdfDocument srdf;
+  if (!srdfText.empty()) srdf = detail::readSrdf(srdfText, srdfSource);
+  detail::RobotParts parts = detail::assembleRobot(outline, srdf, urdfSource, srdfSource);
+  detail::applySrdf(srdf, srdfSource, parts);
+  return RobotBuilder::build(std::move(parts));
+}
+
+std::shared_ptr<const Robot> Robot::load(const std::filesystem::path& urdf,
+                                         const std::filesystem::path& srdf,
+                                         const LoadOptions& options) {
+  const std::string urdfText = detail::readTextFile(urdf);
+  if (srdf.empty()) return parse(urdfText, urdf.string(), {}, {}, options);
+  const std::string srdfText = detail::readTextFile(srdf);
+  if (srdfText.empty()) throw InputError(srdf.string(), 1, "malformed XML: the document is empty");
+  return parse(urdfText, urdf.string(), srdfText, srdf.string(), options);
+}
+
+}  // namespace swept

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/scene.hpp"
+
+namespace swept {
+
+World World::load(const std::filesystem::path& scene, const LoadOptions& options) {
+  const std::string ending = scene.extension().string();
+  const bool yaml = ending == ".yaml" || ending == ".yml";
+  if (!yaml && ending != ".scene") {
+    throw InputError(
+        scene.string(), 0,
+        "unknown ending '" + ending + "' of a scene file; allowed are .yaml, .yml and .scene");
+  }
+  const std::string text = detail::readTextFile(scene);
+  const detail::InputSource source(scene.string(), options);
+  return yaml ? detail::readSceneYaml(text, source) : detail::readSceneText(text, source);
+}
+
+}  // namespace swept

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "io/input_source.hpp"
+#include "swept/robot_model/world.hpp"
+
+namespace swept::detail {
+
+/// Planning-scene YAML, in the layout of moveit_msgs/PlanningScene: the bodies of `world:
+/// collision_objects:` or of a `collision_objects:` at the top. Throws InputError.
+World readSceneYaml(const std::string& text, const InputSource& source);
+
+/// MoveIt's text format, with poses per object (since Noetic) or without. Throws InputError.
+World readSceneText(const std::string& text, const InputSource& source);
+
+}  // namespace swept::detail

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/input_source.hpp"
+#include "io/robot_parts.hpp"
+
+namespace swept::detail {
+
+/// What an SRDF says, names not yet looked up. Empty without an SRDF.
+struct SrdfDocument {
+  struct Name {
+    std::string name;
+    int line = 0;
+  };
+  struct VirtualJoint {
+    std::string name;
+    std::string child;
+    JointType type = JointType::Fixed;
+    int line = 0;
+  };
+  struct Chain {
+    std::string base;
+    std::string tip;
+    int line = 0;
+  };
+  struct Group {
+    std::string name;
+    int line = 0;
+    std::vector<Chain> chains;
+    std::vector<Name> joints;
+    std::vector<Name> links;
+    std::vector<Name> subgroups;
+  };
+  struct JointValue {
+    std::string joint;
+    std::vector<double> values;
+    int line = 0;
+  };
+  struct State {
+    std::string name;
+    std::string group;
+    int line = 0;
+    std::vector<JointValue> values;
+  };
+  struct Pair {
+    std::string link1;
+    std::string link2;
+    std::string reason;
+    int line = 0;
+    bool enable = false;  ///< from <enable_collisions>: takes the pair back
+  };
+  Name robot;
+  std::optional<VirtualJoint> virtualJoint;
+  std::vector<Group> groups;
+  std::vector<State> states;
+  std::vector<Pair> pairs;
+  std::vector<Name> passive;
+};
+
+/// Throws InputError for XML that is malformed and elements that lack what they need.
+SrdfDocument readSrdf(const std::string& text, const InputSource& source);
+
+/// Marks passive joints, then adds groups, named states and disabled pairs to `robot`. Unknown
+/// names are errors in groups and states, and warnings in disabled pairs, where SRDFs often keep
+/// links of other variants of a robot. Throws InputError.
+void applySrdf(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot);
+
+/// Adds the groups; `all` when there are none.
+void addGroups(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot);
+
+}  // namespace swept::detail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "swept/robot_model/robot.hpp"
+
+namespace swept::detail {
+
+/// A frame that the group moves, with everything rigidly attached to it.
+struct MovingBody {
+  int parent = -1;  ///< index into KinematicModel::bodies; 0 is the model frame
+  JointType type = JointType::Fixed;
+  Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  ///< fixed joints folded in
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();                      ///< unit, joint frame
+  Eigen::Matrix3d planarBasis =
+      Eigen::Matrix3d::Identity();  ///< columns x, y of a planar joint, normal
+  int variable = -1;                ///< first index into the group's configuration
+  double multiplier = 1.0;          ///< joint value = multiplier * variable + offset
+  double offset = 0.0;              ///< rad or m
+  double lower = 0.0;               ///< m, prismatic: range of the joint value
+  double upper = 0.0;               ///< m
+};
+
+/// The group's tree of moving frames. Joints outside the group are folded at their reference
+/// values, so that nothing that does not move costs anything.
+struct KinematicModel {
+  std::vector<MovingBody> bodies;  ///< parents first; [0] is the model frame itself
+  std::vector<int> bodyOfLink;
+  std::vector<Eigen::Isometry3d> body_from_link;
+  std::vector<char> cyclic;          ///< per variable of the group
+  std::vector<double> lower, upper;  ///< per variable of the group: rad or m
+  int dimension = 0;
+};
+
+/// `reference` has a value for every variable of the robot.
+KinematicModel compileKinematics(const Robot& robot, const Group& group,
+                                 const Eigen::VectorXd& reference);
+
+/// How one joint moves over t in [0, 1]: its child frame at t is
+/// [ exp(t spin) rotation | translation + t rate ], all in the joint frame.
+struct JointMotion {
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< m, at t = 0
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< m per unit t
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< at t = 0
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();                ///< rad per unit t
+  double angle = 0.0;      ///< rad: a revolute joint's value at t = 0, about its axis
+  double angleRate = 0.0;  ///< rad per unit t
+  double speed = 0.0;      ///< m per unit t, |rate|
+  double spinSpeed = 0.0;  ///< rad per unit t, |spin|
+  double wander = 0.0;     ///< m, planar and floating: largest |translation| over the motion
+};
+
+/// Frame and velocity field of a body at one t: the point p (m, model frame) has velocity
+/// linear + angular x p per unit t.
+struct BodyState {
+  Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+};
+
+/// False when a value is not finite, a quaternion has no direction, or a prismatic value is outside
+/// its limits (the lever arms do not hold there).
+bool compileMotion(const KinematicModel& model, std::span<const double> from,
+                   std::span<const double> to, std::span<JointMotion> motion);
+
+/// Frames and velocities of all bodies at t.
+void evaluateMotion(const KinematicModel& model, std::span<const JointMotion> motion, double t,
+                    std::span<BodyState> states);
+
+/// Configuration at t on the motion.
+void interpolateMotion(const KinematicModel& model, std::span<const double> from,
+                       std::span<const double> to, double t, std::span<double> q);
+
+}  // namespace swept::detail

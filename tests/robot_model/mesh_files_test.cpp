@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "input_files.hpp"
+#include "swept/robot_model/robot.hpp"
+
+namespace swept {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// A robot whose one link has these <mesh> elements, read beside `folder`.
+std::shared_ptr<const Robot> withMeshes(const test::TemporaryFolder& folder,
+                                        const std::vector<std::string>& meshes,
+                                        const LoadOptions& options = {}) {
+  std::string text = "<robot name='m'><link name='a'>";
+  for (const std::string& mesh : meshes) {
+    text += "\n<collision><geometry><mesh " + mesh + "/></geometry></collision>";
+  }
+  return Robot::load(folder.write("m.urdf", text + "</link></robot>"), {}, options);
+}
+
+const TriangleMesh& mesh(const Robot& robot, int index) {
+  return std::get<TriangleMesh>(robot.links()[0].collision[index].shape);
+}
+
+std::pair<Eigen::Vector3d, Eigen::Vector3d> bounds(const TriangleMesh& mesh) {
+  Eigen::Vector3d lower = mesh.vertices()[0], upper = lower;
+  for (const Eigen::Vector3d& v : mesh.vertices()) {
+    lower = lower.cwiseMin(v);
+    upper = upper.cwiseMax(v);
+  }
+  return {lower, upper};
+}
+
+/// A tetrahedron with corners 0, x, 2y, 3z below a node that moves it by (10, 0, 0) in the file's
+/// unit.
+std::string collada(const std::string& meter, const std::string& up) {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter=")" +
+         meter + R"(" name="u"/><up_axis>)" + up + R"(</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="12">0 0 0 1 0 0 0 2 0 0 0 3</float_array>
+<technique_common><accessor source="#pa" count="4" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 2 1 0 1 3 1 2 3 2 0 3</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><translate>10 0 0</translate>
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>
+)";
+}
+
+TEST(MeshFiles, PolygonsBecomeTrianglesOfAClosedSolid) {
+  const test::TemporaryFolder folder;
+  folder.write("cube.obj", test::kCubeObj);
+  test::Warnings warnings;
+  const auto robot = withMeshes(folder, {"filename='cube.obj'"}, warnings.options());
+  EXPECT_EQ(mesh(*robot, 0).triangles().size(), 12u);
+  EXPECT_EQ(mesh(*robot, 0).vertices().size(), 8u);
+  EXPECT_TRUE(mesh(*robot, 0).isClosed());
+  EXPECT_EQ(robot->links()[0].collision[0].source, "cube.obj");
+  EXPECT_THAT(warnings.lines, IsEmpty());
+}
+
+TEST(MeshFiles, SameFileAndScaleIsOneMesh) {
+  const test::TemporaryFolder folder;
+  folder.write("cube.obj", test::kCubeObj);
+  const auto robot =
+      withMeshes(folder, {"filename='cube.obj'", "filename='./cube.obj' scale='1 1 1'",
+                          "filename='cube.obj' scale='-2 1 0.5'"});
+  EXPECT_EQ(&mesh(*robot, 0).vertices(), &mesh(*robot, 1).vertices());
+  const auto [lower, upper] = bounds(mesh(*robot, 2));
+  EXPECT_EQ(lower, Eigen::Vector3d(-2, 0, 0));
+  EXPECT_EQ(upper, Eigen::Vector3d(0, 1, 0.5));
+  EXPECT_TRUE(mesh(*robot, 2).isClosed());
+}
+
+TEST(MeshFiles, OpenSurfacesAreNamedOnce) {
+  const test::TemporaryFolder folder;
+  folder.write("t.stl", test::kTriangleStl);
+  test::Warnings warnings;
+  const auto robot =
+      withMeshes(folder, {"filename='t.stl'", "filename='t.stl'"}, warnings.options());
+  EXPECT_FALSE(mesh(*robot, 0).isClosed());
+  EXPECT_THAT(
+      warnings.lines,
+      ElementsAre((folder.path() / "m.urdf").string() +
+                  ":2: warning: mesh 't.stl' is an open surface (1 open component): its interior "
+                  "is not solid"));
+}
+
+TEST(MeshFiles, ColladaUnitCountsAndUpAxisDoesNot) {
+  const test::TemporaryFolder folder;
+  folder.write("z.dae", collada("0.001", "Z_UP"));
+  folder.write("y.dae", collada("0.001", "Y_UP"));
+  folder.write("m.dae", collada("1", "Z_UP"));
+  const auto robot =
+      withMeshes(folder, {"filename='z.dae'", "filename='y.dae'", "filename='m.dae'"});
+  for (const int index : {0, 1}) {
+    const auto [lower, upper] = bounds(mesh(*robot, index));
+    EXPECT_LT((lower - Eigen::Vector3d(0.010, 0, 0)).norm(), 1e-8) << lower.transpose();
+    EXPECT_LT((upper - Eigen::Vector3d(0.011, 0.002, 0.003)).norm(), 1e-8) << upper.transpose();
+  }
+  const auto [lower, upper] = bounds(mesh(*robot, 2));
+  EXPECT_EQ(lower, Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(upper, Eigen::Vector3d(11, 2, 3));
+  EXPECT_TRUE(mesh(*robot, 2).isClosed());
+}
+
+TEST(MeshFiles, ColladaThatContradictsItselfIsRefused) {
+  // Assimp reads beyond the arrays of such files, or appends an index until memory runs out.
+  struct Break {
+    std::string from, to, message;
+  };
+  const test::TemporaryFolder folder;
+  for (const Break& it : {
+           Break{"2 1 0 1 3", "x 1 0 1 3", "line 11: <p> does not hold whole numbers only"},
+           Break{"2 1 0 1 3", "-1 1 0 1 3", "line 11: <p> does not hold whole numbers only"},
+           Break{"2 1 0 1 3", "<b/> 0 1 3", "line 11: <p> holds more than text"},
+           Break{"2 1 0 1 3", "4 1 0 1 3", "line 11: <p> has an index past its source"},
+           Break{"count=\"12\"", "", "line 5: <float_array> needs a whole number as 'count'"},
+           Break{"count=\"12\"", "count=\"13\"",
+                 "line 5: <float_array> does not hold as many numbers as its count"},
+           Break{"count=\"4\" stride", "count=\"5\" stride",
+                 "line 6: <accessor> reaches beyond its array"},
+           Break{"stride=\"3\"", "stride=\"2\"", "line 6: <accessor> reaches beyond its array"},
+           Break{"source=\"#pa\"", "source=\"#pb\"", "line 6: <accessor> reaches beyond its array"},
+           Break{"source=\"#v\"", "source=\"#w\"",
+                 "line 10: <input> names a source that does not exist"},
+       }) {
+    std::string text = collada("1", "Z_UP");
+    ASSERT_NE(text.find(it.from), std::string::npos) << it.from;
+    text.replace(text.find(it.from), it.from.size(), it.to);
+    folder.write("bad.dae", text);
+    EXPECT_EQ(test::inputError([&] { withMeshes(folder, {"filename='bad.dae'"}); }),
+              (folder.path() / "m.urdf").string() +
+                  ":2: error: mesh 'bad.dae' of link 'a' cannot be read: its " + it.message);
+  }
+}
+
+TEST(MeshFiles, NoOtherFileIsOpened) {
+  const test::TemporaryFolder folder;
+  // A pipe that nobody writes to: opening it would block for ever.
+  const std::string trap = (folder.path() / "trap.mtl").string();
+  ASSERT_EQ(std::system(("mkfifo '" + trap + "'").c_str()), 0);
+  folder.write("cube.obj", "mtllib trap.mtl\nusemtl steel\n" + std::string(test::kCubeObj));
+  EXPECT_TRUE(mesh(*withMeshes(folder, {"filename='cube.obj'"}), 0).isClosed());
+  // A pipe is no mesh file either.
+  EXPECT_NE(test::inputError([&] { withMeshes(folder, {"filename='trap.mtl'"}); }), "");
+}
+
+TEST(MeshFiles, TooLargeIsRefusedBeforeReading) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("huge.stl", "");
+  std::filesystem::resize_file(file, (std::uintmax_t{256} << 20) + 1);  // sparse
+  EXPECT_EQ(test::inputError([&] { withMeshes(folder, {"filename='huge.stl'"}); }),
+            (folder.path() / "m.urdf").string() +
+                ":2: error: mesh 'huge.stl' of link 'a' has 268435457 bytes; at most 268435456 are "
+                "allowed");
+}
+
+}  // namespace
+}  // namespace swept
