@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "preconditions.hpp"
+
+#include <stdexcept>
+#include <vector>
+
+#include "swept/ompl_bridge/ompl_bridge.hpp"
+
+namespace swept::detail {
+
+void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space) {
+  std::vector<int> wanted, given;
+  makeStateSpace(checker.robot(), checker.group())->computeSignature(wanted);
+  space.computeSignature(given);
+  if (given != wanted) {
+    throw std::invalid_argument("state space `" + space.getName() +
+                                "` is not built as makeStateSpace does for group `" +
+                                checker.group().name + "`");
+  }
+}
+
+std::shared_ptr<const Checker> requireChecker(std::shared_ptr<const Checker> checker,
+                                              const ompl::base::StateSpace& space) {
+  if (!checker) throw std::invalid_argument("no checker given");
+  requireSpaceOf(*checker, space);
+  return checker;
+}
+
+}  // namespace swept::detail

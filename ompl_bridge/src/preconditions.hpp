@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/StateSpace.h>
+
+#include <memory>
+
+#include "swept/robot_model/checker.hpp"
+
+namespace swept::detail {
+
+/// States are cast to what makeStateSpace lays out, so another space would be read as garbage.
+/// Throws std::invalid_argument unless `space` has that layout.
+void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space);
+
+/// The checker itself. Throws std::invalid_argument for null or as above.
+std::shared_ptr<const Checker> requireChecker(std::shared_ptr<const Checker> checker,
+                                              const ompl::base::StateSpace& space);
+
+}  // namespace swept::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// Grows to the largest number of leases held at once and allocates nothing after that.
+class WorkspacePool {
+ public:
+  /// What one call needs for itself.
+  struct Scratch {
+    explicit Scratch(const Checker& checker);
+    Workspace workspace;
+    std::vector<double> from, to;  ///< configurations of the group
+  };
+  struct Return {
+    WorkspacePool* pool;
+    void operator()(Scratch* scratch) const noexcept { pool->giveBack(scratch); }
+  };
+  using Lease = std::unique_ptr<Scratch, Return>;
+
+  /// The checker must outlive the pool, and the pool its leases.
+  explicit WorkspacePool(const Checker& checker) : checker_(checker) {}
+  Lease lease();
+
+ private:
+  void giveBack(Scratch* scratch) noexcept;
+
+  const Checker& checker_;
+  std::mutex mutex_;  ///< guards what follows
+  std::vector<std::unique_ptr<Scratch>> all_;
+  std::vector<Scratch*> idle_;  ///< the last one returned, whose memory is warm, is leased first
+};
+
+}  // namespace swept

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/base/spaces/SO2StateSpace.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include "fixtures.hpp"
+#include "swept/ompl_bridge/ompl_bridge.hpp"
+
+namespace swept::test {
+namespace {
+
+namespace ob = ompl::base;
+
+TEST(StateSpace, LimitedJointsAreOneRealVector) {
+  const auto robot = everyJoint();
+  const auto space = makeStateSpace(*robot, *robot->findGroup("limited"));
+  ASSERT_FALSE(space->isCompound());
+  EXPECT_EQ(space->getName(), "limited");
+  const auto* vector = space->as<ob::RealVectorStateSpace>();
+  ASSERT_EQ(vector->getDimension(), 3u);
+  EXPECT_EQ(vector->getDimensionName(0), "slide");
+  EXPECT_EQ(vector->getDimensionName(2), "wrist");
+  EXPECT_EQ(vector->getBounds().low, (std::vector<double>{-0.5, -2.0, -1.0}));
+  EXPECT_EQ(vector->getBounds().high, (std::vector<double>{1.5, 2.0, 1.0}));
+}
+
+TEST(StateSpace, EveryJointTypeHasItsSubspace) {
+  const auto robot = everyJoint();
+  const auto space = makeStateSpace(*robot, *robot->findGroup("all"));
+  ASSERT_TRUE(space->isCompound());
+  const auto* compound = space->as<ob::CompoundStateSpace>();
+  ASSERT_EQ(compound->getSubspaceCount(), 5u);
+  const std::vector<std::string> names{"slide", "turn", "elbow..wrist", "cart", "body"};
+  const std::vector<int> types{ob::STATE_SPACE_REAL_VECTOR, ob::STATE_SPACE_SO2,
+                               ob::STATE_SPACE_REAL_VECTOR, ob::STATE_SPACE_SE2,
+                               ob::STATE_SPACE_SE3};
+  for (unsigned int i = 0; i < 5; ++i) {
+    EXPECT_EQ(compound->getSubspace(i)->getName(), names[i]);
+    EXPECT_EQ(compound->getSubspace(i)->getType(), types[i]);
+    EXPECT_EQ(compound->getSubspaceWeight(i), 1.0);
+  }
+  EXPECT_EQ(compound->as<ob::SE2StateSpace>(3)->getBounds().high, (std::vector<double>{10, 10}));
+  EXPECT_EQ(compound->as<ob::SE3StateSpace>(4)->getBounds().low,
+            (std::vector<double>{-10, -10, -10}));
+  EXPECT_TRUE(compound->isLocked());
+}
+
+TEST(StateSpace, HasADefaultProjectionAfterSetup) {
+  const auto robot = everyJoint();
+  for (const Group& group : robot->groups()) {
+    const auto space = makeStateSpace(*robot, group);
+    space->setup();
+    ASSERT_TRUE(space->hasDefaultProjection()) << group.name;
+    EXPECT_GE(space->getDefaultProjection()->getDimension(), 1u);
+    ob::ScopedState<> state(space);
+    state.random();
+    Eigen::VectorXd projected(space->getDefaultProjection()->getDimension());
+    space->getDefaultProjection()->project(state.get(), projected);
+    EXPECT_TRUE(projected.allFinite());
+    space->sanityChecks();
+  }
+}
+
+TEST(StateSpace, RefusesAGroupWithoutVariables) {
+  const auto robot = everyJoint();
+  EXPECT_THROW(makeStateSpace(*robot, Group{"none", {}, {}, -1}), std::invalid_argument);
+}
+
+TEST(StateConversion, RoundTripsStatesOfEveryGroup) {
+  const auto robot = everyJoint();
+  for (const Group& group : robot->groups()) {
+    const auto space = makeStateSpace(*robot, group);
+    const StateConversion conversion(*robot, group);
+    ASSERT_EQ(conversion.dimension(), static_cast<int>(group.variables.size()));
+    ob::ScopedState<> state(space), copy(space);
+    std::vector<double> q(conversion.dimension());
+    for (int i = 0; i < 200; ++i) {
+      state.random();
+      conversion.toConfiguration(state.get(), q);
+      conversion.toState(q, copy.get());
+      ASSERT_LT(space->distance(state.get(), copy.get()), 1e-7) << group.name;
+      // OMPL's distance takes close rotations for equal, so compare the numbers too.
+      std::vector<double> left = state.reals(), right = copy.reals();
+      for (std::size_t k = 0; k < left.size(); ++k) ASSERT_NEAR(left[k], right[k], 1e-15);
+    }
+  }
+}
+
+TEST(StateConversion, FollowsTheOrderOfTheGroup) {
+  const auto robot = everyJoint();
+  const Group& group = *robot->findGroup("all");
+  const auto space = makeStateSpace(*robot, group);
+  const StateConversion conversion(*robot, group);
+  const std::vector<std::string> names{"slide",        "turn",         "elbow",      "wrist",
+                                       "cart/x",       "cart/y",       "cart/theta", "body/trans_x",
+                                       "body/trans_y", "body/trans_z", "body/rot_x", "body/rot_y",
+                                       "body/rot_z",   "body/rot_w"};
+  ASSERT_EQ(group.variables.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(robot->variables()[group.variables[i]].name, names[i]);
+  }
+  const std::vector<double> q{0.1, 0.2, 0.3, 0.4, 5, 6, 0.7, 8, 9, 1.5, 0.5, -0.5, 0.1, 0.7};
+  ob::ScopedState<ob::CompoundStateSpace> state(space);
+  conversion.toState(q, state.get());
+  EXPECT_EQ((*state)[0]->as<ob::RealVectorStateSpace::StateType>()->values[0], 0.1);
+  EXPECT_EQ((*state)[1]->as<ob::SO2StateSpace::StateType>()->value, 0.2);
+  EXPECT_EQ((*state)[2]->as<ob::RealVectorStateSpace::StateType>()->values[1], 0.4);
+  EXPECT_EQ((*state)[3]->as<ob::SE2StateSpace::StateType>()->getY(), 6.0);
+  EXPECT_EQ((*state)[3]->as<ob::SE2StateSpace::StateType>()->getYaw(), 0.7);
+  const auto* body = (*state)[4]->as<ob::SE3StateSpace::StateType>();
+  EXPECT_EQ(body->getZ(), 1.5);
+  EXPECT_DOUBLE_EQ(body->rotation().x, 0.5);
+  EXPECT_DOUBLE_EQ(body->rotation().w, 0.7);
+}
+
+TEST(StateConversion, PutsAnglesAndQuaternionsWhereOmplWantsThem) {
+  const auto robot = everyJoint();
+  const Group& group = *robot->findGroup("all");
+  const auto space = makeStateSpace(*robot, group);
+  const StateConversion conversion(*robot, group);
+  ob::ScopedState<> state(space);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> angle(-30.0, 30.0), number(-2.0, 2.0);
+  std::vector<double> q(14, 0.0), back(14);
+  for (int i = 0; i < 500; ++i) {
+    q[1] = i == 0 ? std::numbers::pi : angle(random);
+    q[6] = i == 0 ? -std::numbers::pi : angle(random);
+    for (int k = 10; k < 14; ++k) q[k] = number(random);
+    conversion.toState(q, state.get());
+    ASSERT_TRUE(space->satisfiesBounds(state.get()));
+    conversion.toConfiguration(state.get(), back);
+    ASSERT_NEAR(std::sin(back[1] - q[1]), 0.0, 1e-14);
+    ASSERT_NEAR(std::cos(back[6] - q[6]), 1.0, 1e-14);
+    const double norm = Eigen::Map<const Eigen::Vector4d>(&q[10]).norm();
+    for (int k = 10; k < 14; ++k) ASSERT_NEAR(back[k] * norm, q[k], 1e-14);
+  }
+}
+
+// OMPL's bounds let NaN through; the validity checker must not.
+TEST(StateConversion, ABrokenQuaternionIsNeverValid) {
+  const auto checker =
+      std::make_shared<const Checker>(everyJoint(), "all", std::make_shared<const World>());
+  const auto setup = makeSimpleSetup(checker);
+  const StateConversion conversion(checker->robot(), checker->group());
+  ob::ScopedState<> state(setup->getStateSpace());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> q(14, 0.0);
+  for (const double bad : {0.0, nan, infinity}) {
+    q[13] = bad;
+    conversion.toState(q, state.get());
+    EXPECT_FALSE(setup->getStateValidityChecker()->isValid(state.get())) << bad;
+  }
+  for (const double good : {1.0, -1.0, 1e-300, 1e300}) {
+    q[13] = good;
+    conversion.toState(q, state.get());
+    EXPECT_TRUE(setup->getStateValidityChecker()->isValid(state.get())) << good;
+  }
+}
+
+TEST(StateConversion, RefusesTheWrongSize) {
+  const auto robot = everyJoint();
+  const Group& group = *robot->findGroup("all");
+  const StateConversion conversion(*robot, group);
+  ob::ScopedState<> state(makeStateSpace(*robot, group));
+  std::vector<double> q(13);
+  EXPECT_THROW(conversion.toState(q, state.get()), std::invalid_argument);
+  EXPECT_THROW(conversion.toConfiguration(state.get(), q), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace swept::test
