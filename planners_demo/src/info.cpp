@@ -1,1 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "info.hpp"
+
+#include <iostream>
+
+#include "commands.hpp"
+
+namespace swept {
+
+std::string_view toString(JointType type) {
+  switch (type) {
+    case JointType::Fixed:
+      return "fixed";
+    case JointType::Revolute:
+      return "revolute";
+    case JointType::Continuous:
+      return "continuous";
+    case JointType::Prismatic:
+      return "prismatic";
+    case JointType::Planar:
+      return "planar";
+    case JointType::Floating:
+      return "floating";
+  }
+  return "unknown";
+}
+
+ExitCode runInfo(const Arguments& args) {
+  Warnings warnings(args.quiet);
+  const Model model = loadModel(args, warnings);
+  std::shared_ptr<const Checker> checker;
+  if (!args.group.empty())
+    checker =
+        makeChecker(args, model, chooseGroup(*model.robot, args.group), model.world, warnings);
+  if (args.json) {
+    std::cout << infoJson(args, model, checker.get()).dump(2) << '\n';
+  } else {
+    std::cout << infoText(args, model, checker.get());
+  }
+  return ExitCode::Free;
+}
+
+}  // namespace swept

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Sourced by the scripts that build. Needs: root, the top folder of the tree.
+
+# Packages of .ci/apt-packages.txt that are not installed.
+missing_packages() {
+  local package
+  while read -r package; do
+    if [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]]; then
+      echo "$package"
+    fi
+  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/.ci/apt-packages.txt")
+}
+
+# Installs what is missing, as root or with sudo; asks for neither when nothing is.
+install_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    echo "not a Debian system: taking the packages of .ci/apt-packages.txt for installed" >&2
+    return
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages)
+  if ((${#missing[@]} == 0)); then return; fi
+  local as_root=()
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      echo "error: not root and no sudo; install these packages first: ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  if ! command -v apt-get >/dev/null; then
+    echo "error: no apt-get; install these packages first: ${missing[*]}" >&2
+    return 1
+  fi
+  echo "installing: ${missing[*]}"
+  "${as_root[@]}" apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+# Configures the release preset and builds the targets given, or everything.
+build_release() {
+  local targets=()
+  if (($# > 0)); then targets=(--target "$@"); fi
+  (cd "$root" && cmake --preset release &&
+    cmake --build --preset release --parallel "$(nproc)" "${targets[@]}")
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swept/core/tolerances.hpp"
+
+namespace swept {
+
+/// The command line, as typed. Each subcommand reads the part it has.
+struct Arguments {
+  std::string command;
+  std::string robot;                ///< URDF file
+  std::vector<std::string> states;  ///< names or comma-separated values
+
+  std::string srdf;  ///< empty: a file beside the URDF; `none`: without
+  std::string scene;
+  std::string group;
+  std::vector<std::string> packages;      ///< NAME=DIR
+  double margin = 0.0;                    ///< m
+  double tolerance = tolerance::kMotion;  ///< m
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+
+  std::string problems;  ///< JSON file
+  std::string set;
+  std::optional<int> index;
+
+  std::string planner = "RRTConnect";
+  double time = 5.0;  ///< s
+  std::uint32_t seed = 1;
+  std::string output;
+  bool noSimplify = false;
+  int jobs = 1;
+};
+
+/// The result of reading a command line: either something to run, or everything is said already.
+struct ParsedArguments {
+  std::optional<Arguments> run;
+  int exitCode = 0;  ///< meaningful when there is nothing to run
+};
+
+/// Reads a command line. Help goes to stdout (exit code 0), usage errors to stderr (3).
+ParsedArguments parseArguments(int argc, const char* const* argv);
+
+}  // namespace swept

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "swept/core/verdict.hpp"
+
+namespace swept {
+
+/// What the program returns, for every subcommand.
+enum class ExitCode : int {
+  Free = 0,       ///< free, solved, or nothing to judge
+  Collision = 1,  ///< collision, or not solved
+  Undecided = 2,
+  BadInput = 3,
+};
+
+/// An option, a state or a combination of them that cannot be used. what() is one line for stderr.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+constexpr ExitCode exitCodeOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Free:
+      return ExitCode::Free;
+    case Verdict::Collision:
+      return ExitCode::Collision;
+    case Verdict::Undecided:
+      break;
+  }
+  return ExitCode::Undecided;
+}
+
+/// Several results, one code: a collision outweighs what is undecided, and that outweighs free.
+constexpr ExitCode worse(ExitCode a, ExitCode b) {
+  const auto rank = [](ExitCode code) {
+    switch (code) {
+      case ExitCode::Free:
+        return 0;
+      case ExitCode::Undecided:
+        return 1;
+      case ExitCode::Collision:
+        return 2;
+      case ExitCode::BadInput:
+        break;
+    }
+    return 3;
+  };
+  return rank(a) < rank(b) ? b : a;
+}
+
+}  // namespace swept

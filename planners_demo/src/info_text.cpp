@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "info.hpp"
+#include "shape_summary.hpp"
+#include "states.hpp"
+
+namespace swept {
+namespace {
+
+std::string baseName(const std::string& file) {
+  return file.substr(file.find_last_of('/') + 1);
+}
+
+std::string linkTable(const Robot& robot) {
+  TextTable table({{"link"}, {"collision geometry"}, {"file"}});
+  for (const Link& link : robot.links())
+    for (const CollisionGeometry& geometry : link.collision) {
+      const bool first = &geometry == &link.collision.front();
+      const bool mesh = std::holds_alternative<TriangleMesh>(geometry.shape);
+      table.add({first ? link.name : "", shapeText(geometry.shape),
+                 mesh ? baseName(geometry.source) : ""});
+    }
+  return table.text();
+}
+
+std::string mimicText(const Robot& robot, const Mimic& mimic) {
+  std::string text = shortNumber(mimic.multiplier) + " * " + robot.joints()[mimic.master].name;
+  if (mimic.offset != 0.0)
+    text += (mimic.offset > 0.0 ? " + " : " - ") + shortNumber(std::abs(mimic.offset));
+  return "= " + text;
+}
+
+std::string jointTable(const Robot& robot) {
+  TextTable table({{"joint"}, {"type"}, {"lower", true}, {"upper", true}, {"unit"}});
+  for (const Joint& joint : robot.joints()) {
+    const std::string type(toString(joint.type));
+    if (joint.mimic) {
+      table.add({joint.name, type, "", "", mimicText(robot, *joint.mimic)});
+    } else if (joint.firstVariable < 0) {
+      table.add({joint.name, type, "", "", ""});
+    }
+    const int index = static_cast<int>(&joint - robot.joints().data());
+    for (const Variable& variable : robot.variables())
+      if (variable.joint == index)
+        table.add({variable.name, type, shortNumber(variable.lower), shortNumber(variable.upper),
+                   unitOf(robot, variable) + (variable.cyclic ? ", cyclic" : "")});
+  }
+  return table.text();
+}
+
+std::string groupTable(const Robot& robot) {
+  TextTable table({{"group"}, {"tip"}, {"named states"}, {"variables"}});
+  for (const Group& group : robot.groups()) {
+    std::vector<std::string> variables;
+    std::vector<std::string> states;
+    for (const int v : group.variables) variables.push_back(robot.variables()[v].name);
+    for (const NamedState& state : robot.namedStates())
+      if (state.group == group.name) states.push_back(state.name);
+    table.add({group.name, group.tipLink < 0 ? "" : robot.links()[group.tipLink].name,
+               joined(states), joined(variables, ",")});
+  }
+  return table.text();
+}
+
+std::string worldTable(const World& world) {
+  TextTable table({{"world body"}, {"geometry"}});
+  for (const WorldBody& body : world.bodies())
+    for (const WorldBody::Part& part : body.parts)
+      table.add({&part == &body.parts.front() ? body.name : "", shapeText(part.shape)});
+  return table.text();
+}
+
+std::string count(std::size_t number, const std::string& one, const std::string& many) {
+  return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+/// `adjacent: joint NAME` is a reason of its own for every pair; the joint goes.
+std::string shortReason(const std::string& reason) {
+  return reason.starts_with("adjacent") ? "adjacent" : reason;
+}
+
+/// Pairs are many; their reasons are few.
+std::string pairText(const Checker& checker) {
+  std::size_t selfPairs = 0;
+  for (const Checker::Pair& pair : checker.checkedPairs()) selfPairs += pair.selfPair ? 1 : 0;
+  std::string text = "group " + checker.group().name + " checks " +
+                     count(checker.checkedPairs().size(), "pair", "pairs") + ": " +
+                     std::to_string(checker.checkedPairs().size() - selfPairs) +
+                     " of a link with a world body, " + std::to_string(selfPairs) +
+                     " of two links\n";
+  std::map<std::string, std::vector<std::string>> byReason;
+  for (const Checker::Pair& pair : checker.skippedPairs())
+    byReason[shortReason(pair.reason)].push_back(pair.bodyA + " - " + pair.bodyB);
+  for (const auto& [reason, pairs] : byReason)
+    text += "not checked, " + reason + " (" + std::to_string(pairs.size()) + "): " + joined(pairs) +
+            "\n";
+  for (const Checker::Pair& pair : checker.standingContacts())
+    text += "standing contact: " + pair.bodyA + " - " + pair.bodyB + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string infoText(const Arguments& args, const Model& model, const Checker* checker) {
+  const Robot& robot = *model.robot;
+  const auto withGeometry = std::ranges::count_if(
+      robot.links(), [](const Link& link) { return !link.collision.empty(); });
+  std::string text = "robot " + robot.name() + " from " + args.robot + "\n";
+  text += model.srdf.file.empty()
+              ? "no SRDF\n"
+              : "SRDF " + model.srdf.file +
+                    (model.srdf.foundBesideUrdf ? " (found beside the URDF)\n" : "\n");
+  text += count(robot.links().size(), "link", "links") + ", " + std::to_string(withGeometry) +
+          " with collision geometry; " + count(robot.joints().size(), "joint", "joints") + ", " +
+          count(robot.variables().size(), "variable", "variables") + "; " +
+          count(robot.disabledPairs().size(), "pair", "pairs") + " disabled by the SRDF\n";
+  text += "\n" + linkTable(robot) + "\n" + jointTable(robot) + "\n" + groupTable(robot);
+  if (!args.scene.empty())
+    text += "\nscene " + args.scene + ": " + count(model.world->bodies().size(), "body", "bodies") +
+            "\n" + worldTable(*model.world);
+  if (checker != nullptr) text.append("\n").append(pairText(*checker));
+  return text;
+}
+
+}  // namespace swept

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "swept/robot_model/problems.hpp"
+#include "swept/robot_model/robot.hpp"
+
+namespace swept {
+
+/// `rad` or `m`; empty for the components of a quaternion.
+std::string unitOf(const Robot& robot, const Variable& variable);
+
+/// A configuration of the group from a named state or comma-separated values. Throws UsageError,
+/// which starts with `label`, for an unknown name, a wrong count, anything that is not a finite
+/// number, and a value outside its limits. The result is within the limits exactly.
+std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
+                              const std::string& label);
+
+/// The problem's start and goals in the order of the group's variables. Throws UsageError when the
+/// problem's joints are not exactly the group's variables, or a value is outside its limits.
+struct ProblemStates {
+  std::vector<double> start;
+  std::vector<std::vector<double>> goals;
+};
+ProblemStates problemStates(const Robot& robot, const Group& group, const PlanningProblem& problem);
+
+}  // namespace swept

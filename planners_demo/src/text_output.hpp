@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "swept/robot_model/checker.hpp"
+
+/// How numbers, points and results look, as text and as JSON.
+namespace swept {
+
+using Json = nlohmann::ordered_json;
+
+/// Six significant digits: for reading, not for reading back.
+std::string shortNumber(double value);
+/// Three significant digits and the unit.
+std::string secondsText(double seconds);
+/// Fewest digits that read back to the same double.
+std::string exactNumber(double value);
+/// m, to the picometre: what is below is rounding, not distance.
+std::string lengthText(double metres);
+/// `[x y z]`, m.
+std::string pointText(const Eigen::Vector3d& point);
+/// `a, b, c`.
+std::string joined(std::span<const std::string> items, const std::string& separator = ", ");
+/// `link - body: distance 0.001 m, at [..] and [..]`.
+std::string witnessText(const Witness& witness);
+
+Json toJson(const Eigen::Vector3d& point);
+Json toJson(std::span<const double> values);
+Json toJson(const Witness& witness);
+/// Infinite and undefined numbers are null: JSON has none.
+Json finiteOrNull(double value);
+
+/// Rows of text in aligned columns, two blanks apart. Columns of numbers are set flush right.
+class TextTable {
+ public:
+  struct Column {
+    std::string title;
+    bool number = false;
+  };
+  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  /// One line per row below the line of titles.
+  std::string text() const;
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace swept

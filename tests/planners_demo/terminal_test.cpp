@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gantry.hpp"
+
+namespace swept::test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+/// Takes its whole second: there is no path.
+std::vector<std::string> longWork(const Gantry& gantry) {
+  return gantry.arguments(
+      "plan", {"--problems", gantry.problems, "--set", "blocked", "--index", "7", "--time", "1"});
+}
+
+TEST(Terminal, LongWorkShowsProgressAndWipesIt) {
+  const Gantry gantry;
+  const Outcome run = runSwept(longWork(gantry), Stderr::Terminal);
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_THAT(run.err, HasSubstr("planning with RRTConnect, at most 1 s ("));
+  EXPECT_THAT(run.err, EndsWith("\r\033[K"));
+  EXPECT_THAT(run.out, HasSubstr("\nnot solved: "));
+}
+
+TEST(Terminal, PipedThereIsNothingButResults) {
+  const Gantry gantry;
+  const Outcome run = runSwept(longWork(gantry));
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.out.find('\r'), std::string::npos);
+  EXPECT_EQ(run.out.find('\033'), std::string::npos);
+}
+
+TEST(Terminal, QuietIsQuietOnATerminalToo) {
+  const Gantry gantry;
+  std::vector<std::string> arguments = longWork(gantry);
+  arguments.push_back("--quiet");
+  EXPECT_EQ(runSwept(arguments, Stderr::Terminal).err, "");
+}
+
+TEST(Terminal, ShortWorkDoesNotFlicker) {
+  const Gantry gantry;
+  const Outcome run = runSwept(gantry.arguments("check", {"left"}), Stderr::Terminal);
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(Terminal, EachCommandPrintsOneJsonObject) {
+  const Gantry gantry;
+  for (const std::string command : {"info", "check", "motion", "plan"}) {
+    const std::vector<std::string> states =
+        command == "info" ? std::vector<std::string>{} : std::vector<std::string>{"left", "0,1"};
+    std::vector<std::string> more = states;
+    more.push_back("--json");
+    const Outcome run = gantry.run(command, more);
+    EXPECT_EQ(run.exitCode, 0) << command;
+    EXPECT_EQ(run.err, "") << command;
+    EXPECT_EQ(jsonOf(run)["robot"], "gantry") << command;
+  }
+}
+
+}  // namespace
+}  // namespace swept::test
