@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+namespace oracle {
+namespace {
+
+using Face = std::array<int, 3>;
+
+struct LessPoint {
+  bool operator()(const Vector3d& a, const Vector3d& b) const {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  }
+};
+
+/// Corners at the same place become one; triangles without three corners, or seen before, go.
+std::vector<Face> welded(const std::vector<Vector3d>& vertices, const std::vector<Face>& faces) {
+  std::map<Vector3d, int, LessPoint> firstAt;
+  std::vector<int> same(vertices.size());
+  for (size_t i = 0; i < vertices.size(); ++i)
+    same[i] = firstAt.try_emplace(vertices[i], static_cast<int>(i)).first->second;
+  std::set<Face> seen;
+  std::vector<Face> kept;
+  for (const Face& face : faces) {
+    const Face f{same[face[0]], same[face[1]], same[face[2]]};
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+    Face sorted = f;
+    std::sort(sorted.begin(), sorted.end());
+    if (seen.insert(sorted).second) kept.push_back(f);
+  }
+  return kept;
+}
+
+void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
+             const Vector3d& scale, std::vector<Vector3d>& vertices, std::vector<Face>& faces) {
+  const aiMatrix4x4 pose = parent * node.mTransformation;
+  for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];
+    const int base = static_cast<int>(vertices.size());
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D p = pose * mesh.mVertices[v];
+      vertices.push_back(scale.cwiseProduct(Vector3d(p.x, p.y, p.z)));
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      const auto* k = face.mIndices;
+      faces.push_back({base + static_cast<int>(k[0]), base + static_cast<int>(k[1]),
+                       base + static_cast<int>(k[2])});
+    }
+  }
+  for (unsigned c = 0; c < node.mNumChildren; ++c)
+    collect(scene, *node.mChildren[c], pose, scale, vertices, faces);
+}
+
+enum class Crossing { No, Yes, TooClose };
+
+/// Whether the ray p + s d (s > 0) crosses the triangle; TooClose when it grazes the border.
+Crossing crossing(const Triangle& t, const Vector3d& p, const Vector3d& d) {
+  const Vector3d u = t[1] - t[0], v = t[2] - t[0], h = d.cross(v), w = p - t[0], q = w.cross(u);
+  const double det = u.dot(h);
+  const double size = std::max(u.norm(), v.norm());
+  if (std::abs(det) <= 1e-12 * size * size) {
+    // Seen edge-on: a thin line that matters only when the ray comes near it.
+    for (int i = 0; i < 3; ++i)
+      if (segmentDistance(t[i], t[(i + 1) % 3], p, p + 1e3 * d) < 1e-9) return Crossing::TooClose;
+    return Crossing::No;
+  }
+  const double a = w.dot(h) / det, b = d.dot(q) / det, s = v.dot(q) / det;
+  if (s < 0 || a < -1e-9 || b < -1e-9 || a + b > 1 + 1e-9) return Crossing::No;
+  return a < 1e-9 || b < 1e-9 || a + b > 1 - 1e-9 ? Crossing::TooClose : Crossing::Yes;
+}
+
+bool rayMeets(const Mesh::Node& box, const Vector3d& p, const Vector3d& inverse) {
+  const Eigen::Array3d slack = (box.half.array() + 1e-9);
+  const Eigen::Array3d s = (box.center.array() - slack - p.array()) * inverse.array();
+  const Eigen::Array3d e = (box.center.array() + slack - p.array()) * inverse.array();
+  return s.min(e).maxCoeff() <= s.max(e).minCoeff() && s.max(e).minCoeff() >= 0;
+}
+
+}  // namespace
+
+Mesh::Mesh(const std::vector<Vector3d>& vertices, std::vector<Face> given) {
+  const std::vector<Face> faces = welded(vertices, given);
+  if (faces.empty()) throw std::runtime_error("mesh without triangles");
+  std::map<std::pair<int, int>, std::vector<int>> edges;
+  for (size_t f = 0; f < faces.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+      edges[std::minmax(faces[f][k], faces[f][(k + 1) % 3])].push_back(static_cast<int>(f));
+
+  std::vector<int> group(faces.size());
+  std::iota(group.begin(), group.end(), 0);
+  auto root = [&](int i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+  };
+  for (const auto& [edge, users] : edges)
+    for (const int f : users) group[root(f)] = root(users[0]);
+  std::map<int, int> number;
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const auto [at, isNew] = number.try_emplace(root(static_cast<int>(f)), number.size());
+    part_.push_back(at->second);
+    if (isNew) representatives_.push_back(vertices[faces[f][0]]);
+    triangles_.push_back({vertices[faces[f][0]], vertices[faces[f][1]], vertices[faces[f][2]]});
+  }
+  closed_.assign(number.size(), 1);
+  for (const auto& [edge, users] : edges)
+    if (users.size() != 2) closed_[part_[users[0]]] = 0;
+  closedParts_ = static_cast<int>(std::count(closed_.begin(), closed_.end(), 1));
+  split(0, static_cast<int>(triangles_.size()));
+}
+
+Mesh Mesh::read(const std::filesystem::path& file, const Vector3d& scale) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+  if (!scene || !scene->mRootNode)
+    throw std::runtime_error(file.string() + ": " + importer.GetErrorString());
+  std::vector<Vector3d> vertices;
+  std::vector<Face> faces;
+  collect(*scene, *scene->mRootNode, aiMatrix4x4(), scale, vertices, faces);
+  return Mesh(vertices, faces);
+}
+
+int Mesh::split(int first, int last) {
+  Vector3d lower = triangles_[first][0], upper = lower;
+  for (int i = first; i < last; ++i)
+    for (const Vector3d& p : triangles_[i]) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.push_back({(lower + upper) / 2, (upper - lower) / 2, -1, -1, first, last - first});
+  if (last - first <= 2) return index;
+  int axis;
+  (upper - lower).maxCoeff(&axis);
+  std::vector<int> order(last - first);
+  std::iota(order.begin(), order.end(), first);
+  auto middle = [&](int i) {
+    return triangles_[i][0][axis] + triangles_[i][1][axis] + triangles_[i][2][axis];
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return middle(a) < middle(b); });
+  std::vector<Triangle> sorted;
+  std::vector<int> parts;
+  for (const int i : order) sorted.push_back(triangles_[i]), parts.push_back(part_[i]);
+  std::copy(sorted.begin(), sorted.end(), triangles_.begin() + first);
+  std::copy(parts.begin(), parts.end(), part_.begin() + first);
+  const int half = (first + last) / 2;
+  const int left = split(first, half), right = split(half, last);
+  nodes_[index].left = left;
+  nodes_[index].right = right;
+  return index;
+}
+
+bool Mesh::countCrossings(const Vector3d& p, const Vector3d& direction,
+                          std::vector<char>& odd) const {
+  odd.assign(closed_.size(), 0);
+  const Vector3d inverse = direction.cwiseInverse();
+  std::vector<int> stack{0};
+  while (!stack.empty()) {
+    const Node& node = nodes_[stack.back()];
+    stack.pop_back();
+    if (!rayMeets(node, p, inverse)) continue;
+    if (node.left >= 0) {
+      stack.push_back(node.left);
+      stack.push_back(node.right);
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const Crossing c = crossing(triangles_[i], p, direction);
+      if (c == Crossing::TooClose) return false;
+      if (c == Crossing::Yes) odd[part_[i]] ^= 1;
+    }
+  }
+  return true;
+}
+
+bool Mesh::encloses(const Vector3d& p) const {
+  const Node& root = nodes_.front();
+  if (closedParts_ == 0 || ((p - root.center).cwiseAbs().array() > root.half.array()).any())
+    return false;
+  std::vector<char> odd;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    // Any direction will do; grazing an edge asks for another.
+    const double a = 0.7390851 + 2.3999632 * attempt, z = 0.31 + 0.03 * attempt;
+    const Vector3d direction(std::cos(a), std::sin(a), z);
+    if (!countCrossings(p, direction, odd)) continue;
+    for (size_t k = 0; k < odd.size(); ++k)
+      if (odd[k] && closed_[k]) return true;
+    return false;
+  }
+  return false;
+}
+
+double Mesh::distanceTo(const Vector3d& p) const {
+  if (encloses(p)) return 0;
+  double best = INFINITY;
+  for (const Triangle& t : triangles_) best = std::min(best, (closestPoint(t, p) - p).norm());
+  return best;
+}
+
+}  // namespace oracle

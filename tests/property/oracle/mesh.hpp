@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "primitive.hpp"
+
+namespace oracle {
+
+/// Triangles with a binary tree of boxes. Parts joined over edges in which every edge has exactly
+/// two triangles are closed: they are solid.
+class Mesh {
+ public:
+  struct Node {
+    Vector3d center, half;
+    int left = -1, right = -1;  ///< children; none in a leaf
+    int first = 0, count = 0;   ///< range of triangles
+  };
+
+  Mesh(const std::vector<Vector3d>& vertices, std::vector<std::array<int, 3>> faces);
+  /// All the meshes of a file in the file's own axes, lengths multiplied by `scale`.
+  static Mesh read(const std::filesystem::path& file, const Vector3d& scale);
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Node>& nodes() const { return nodes_; }  ///< the root is first
+  /// One vertex of each part.
+  const std::vector<Vector3d>& representatives() const { return representatives_; }
+  int closedParts() const { return closedParts_; }
+  /// Whether a closed part has p in its inside, by the parity of a ray's crossings.
+  bool encloses(const Vector3d& p) const;
+  /// m; 0 inside.
+  double distanceTo(const Vector3d& p) const;
+
+ private:
+  int split(int first, int last);
+  bool countCrossings(const Vector3d& p, const Vector3d& direction, std::vector<char>& odd) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<int> part_;     ///< per triangle
+  std::vector<char> closed_;  ///< per part
+  std::vector<Vector3d> representatives_;
+  std::vector<Node> nodes_;
+  int closedParts_ = 0;
+};
+
+}  // namespace oracle

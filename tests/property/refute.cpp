@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// refute: tries to prove the checker wrong on random motions. Exit code 1 when it did.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "oracle/scene.hpp"
+#include "refuter.hpp"
+
+namespace {
+
+struct Arguments {
+  ScenarioFiles files;
+  RefuterOptions refuter;
+  swept::CheckerOptions checker;
+  std::vector<double> from, to;
+  std::uint64_t clutter = 0;
+  bool everyIndex = false;
+};
+
+bool run(const Scenario& scenario, const Arguments& arguments) {
+  const bool one = !arguments.from.empty();
+  const RefuterReport report =
+      one ? refuteMotion(scenario, arguments.refuter, arguments.from, arguments.to)
+          : refute(scenario, arguments.refuter);
+  std::cout << scenario.robot.stem().string() << ' ' << scenario.worldArguments << ": "
+            << summary(report) << std::endl;
+  for (const std::string& failure : report.failures) std::cout << "  " << failure << '\n';
+  return report.failures.empty();
+}
+
+bool runAll(Arguments& a) {
+  if (a.clutter) return run(clutterScenario(a.files, a.clutter, a.checker), a);
+  if (!a.everyIndex) return run(loadScenario(a.files, a.checker), a);
+  bool good = true;
+  for (const int index : oracle::problemIndices(a.files.problems, a.files.set)) {
+    a.files.index = index;
+    good = run(loadScenario(a.files, a.checker), a) && good;
+  }
+  return good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments a;
+  CLI::App app{"Tries to prove the checker wrong on random motions."};
+  app.add_option("--robot", a.files.robot, "URDF")->required();
+  app.add_option("--srdf", a.files.srdf, "SRDF");
+  app.add_option("--group", a.files.group, "group that moves")->required();
+  app.add_option("--scene", a.files.scene, "planning-scene YAML");
+  app.add_option("--problems", a.files.problems, "MotionBenchMaker JSON");
+  app.add_option("--set", a.files.set, "problem set");
+  app.add_option("--index", a.files.index, "problem");
+  app.add_flag("--all", a.everyIndex, "every problem of the set");
+  app.add_option("--clutter", a.clutter, "random world of this seed");
+  app.add_option("--motions", a.refuter.motions, "how many (of each world)");
+  app.add_option("--seed", a.refuter.seed);
+  app.add_option("--step", a.refuter.step, "rad or m between samples");
+  app.add_option("--skew", a.refuter.skew, "larger: more short motions");
+  auto* to = app.add_option("--to", a.to, "end of a single motion")->delimiter(',');
+  app.add_option("--from", a.from, "its start")->delimiter(',')->needs(to);
+  app.add_option("--margin", a.checker.margin, "m");
+  app.add_option("--tolerance", a.checker.tolerance, "m");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return runAll(a) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 3;
+  }
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For each model and scene: a thousand random motions, every Free one sampled at 1e-3 rad by code
+// that shares nothing with the checker. One overlap fails, with a command line that replays it.
+#include "refuter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <set>
+
+#include "models_under_test.hpp"
+
+namespace {
+
+const std::filesystem::path kModels = SWEPT_MODELS_DIR;
+
+std::vector<std::filesystem::path> scenes() {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(kModels / "scenes"))
+    if (entry.path().extension() == ".yaml") found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<Scenario> scenariosOf(const Model& model) {
+  std::vector<Scenario> all;
+  ScenarioFiles files = filesOf(model);
+  for (const auto& scene : scenes()) {
+    files.scene = scene;
+    all.push_back(loadScenario(files));
+  }
+  files.scene.clear();
+  all.push_back(clutterScenario(files, 7));
+  return all;
+}
+
+class Refuter : public testing::TestWithParam<Model> {};
+
+TEST_P(Refuter, FindsNothingToRefute) {
+  RefuterReport total;
+  std::uint64_t seed = 1;
+  for (const Scenario& scenario : scenariosOf(GetParam())) {
+    RefuterOptions options;
+    options.seed = seed++;
+    options.skew = 3.5;
+    const RefuterReport report = refute(scenario, options);
+    std::cout << scenario.worldArguments << ": " << summary(report) << std::endl;
+    for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
+    EXPECT_EQ(report.motions, options.motions);
+    total.add(report);
+  }
+  std::cout << "all: " << summary(total) << std::endl;
+  // The suite says something only if it has free motions, blocked ones, and close calls.
+  EXPECT_GT(total.free, 0.2 * total.motions);
+  EXPECT_LT(total.free, 0.8 * total.motions);
+  EXPECT_GT(total.grazing, 0.1 * total.motions);
+  EXPECT_LT(total.undecidedAnywhere, 0.005 * total.motions);
+}
+
+TEST_P(Refuter, MarginsAreKeptToo) {
+  ScenarioFiles files = filesOf(GetParam());
+  swept::CheckerOptions options;
+  options.margin = 0.01;
+  const Scenario scenario = clutterScenario(files, 11, options);
+  RefuterOptions refuter;
+  refuter.motions = 150;
+  refuter.skew = 3.5;
+  const RefuterReport report = refute(scenario, refuter);
+  std::cout << summary(report) << std::endl;
+  for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
+  EXPECT_GE(report.leastFreeClearance, 0);
+  EXPECT_GT(report.free, 15);
+}
+
+/// A refuter that cannot refute proves nothing: here its world is not quite the checker's.
+TEST_P(Refuter, NoticesAMillimetre) {
+  Scenario scenario = clutterScenario(filesOf(GetParam()), 7);
+  std::vector<oracle::Body> world = scenario.oracle->world();
+  for (oracle::Body& body : world)
+    for (oracle::Piece& piece : body.pieces) piece.body_from_piece.translation().z() += 1e-3;
+  scenario.oracle =
+      std::make_unique<oracle::Oracle>(scenario.oracle->arm(), std::move(world), scenario.group);
+  RefuterOptions options;
+  options.motions = 200;
+  options.skew = 3.5;
+  const RefuterReport report = refute(scenario, options);
+  const auto says = [&](const char* what) {
+    return std::count_if(report.failures.begin(), report.failures.end(), [&](const auto& failure) {
+      return failure.find(what) != std::string::npos;
+    });
+  };
+  EXPECT_GT(says("REFUTED"), 0);
+  EXPECT_GT(says("the witness does not hold"), 0);
+}
+
+TEST(RefuterOnData, FindsNothingToRefuteOnThePanda) {
+  const char* data = std::getenv("SWEPT_DATA");
+  if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
+  const std::filesystem::path root(data);
+  ScenarioFiles files;
+  files.robot = root / "robots/panda/panda.urdf";
+  files.srdf = root / "robots/panda/panda.srdf";
+  files.group = "panda_arm";
+  files.problems = root / "mbm/panda.json";
+  for (const char* set : {"bookshelf_small", "cage", "table_under_pick"}) {
+    files.set = set;
+    RefuterOptions options;
+    options.motions = 150;
+    options.skew = 3.5;
+    const RefuterReport report = refute(loadScenario(files), options);
+    std::cout << set << ": " << summary(report) << std::endl;
+    for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
+    EXPECT_GT(report.free, 30);
+    EXPECT_GT(report.collision, 15);
+  }
+}
+
+TEST_P(Refuter, AgreesOnWhatIsChecked) {
+  size_t pairs = 0;
+  for (const Scenario& scenario : scenariosOf(GetParam())) {
+    const auto unordered = [](const std::string& a, const std::string& b) {
+      return a < b ? std::pair(a, b) : std::pair(b, a);
+    };
+    using Names = std::set<std::pair<std::string, std::string>>;
+    Names mine, theirs, unreachable;
+    for (const auto& [a, b] : scenario.oracle->pairs()) mine.insert(unordered(a, b));
+    for (const auto& p : scenario.checker->checkedPairs())
+      theirs.insert(unordered(p.bodyA, p.bodyB));
+    // What provably cannot meet may be left out; the oracle still watches it.
+    for (const auto& p : scenario.checker->skippedPairs())
+      if (p.reason == "out of reach") unreachable.insert(unordered(p.bodyA, p.bodyB));
+    theirs.merge(unreachable);
+    EXPECT_EQ(mine, theirs) << scenario.robot << ' ' << scenario.worldArguments;
+    pairs += mine.size();
+  }
+  EXPECT_GT(pairs, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Refuter, modelsUnderTest(), modelName);
+
+}  // namespace
