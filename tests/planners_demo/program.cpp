@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -56,10 +57,13 @@ Outcome runArgv(const std::vector<std::string>& words, Stderr where) {
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  const Terminal terminal;
-  const std::string terminalName = terminal.name();
-  // Open already here: reading ends when all writers have closed, not before the first opens.
-  const int keepOpen = open(terminalName.c_str(), O_RDWR | O_NOCTTY);
+  std::optional<Terminal> terminal;
+  int keepOpen = -1;
+  if (where == Stderr::Terminal) {
+    terminal.emplace();
+    // Open already here: reading ends when all writers have closed, not before the first opens.
+    keepOpen = open(terminal->name().c_str(), O_RDWR | O_NOCTTY);
+  }
   const std::string out = folder.path("out"), err = folder.path("err");
 
   const pid_t child = fork();
@@ -75,9 +79,11 @@ Outcome runArgv(const std::vector<std::string>& words, Stderr where) {
     execv(argv[0], argv.data());
     _exit(127);
   }
-  close(keepOpen);
   Outcome run;
-  if (where == Stderr::Terminal) run.err = terminal.readToEnd();
+  if (terminal) {
+    close(keepOpen);
+    run.err = terminal->readToEnd();
+  }
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status)) run.exitCode = WEXITSTATUS(status);

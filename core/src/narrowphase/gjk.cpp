@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "narrowphase/simplex.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -46,7 +45,7 @@ void growWitness(GjkResult& result, const Vector3d& v, double distance, double r
 
 GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
               const Vector3d& guess, const Goal& goal, double contact, double tolerance,
-              GjkMode mode) {
+              GjkMode mode, Simplex* last) {
   const Vector3d offset = a_from_b.translation();
   const Eigen::Matrix3d rotation = a_from_b.linear();
   const double radii = a.radius + b.radius;
@@ -101,6 +100,7 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
     n = v / distance;
   }
 
+  if (last != nullptr) *last = simplex;
   if (!std::isfinite(distance)) return result;
   result.pointA = simplex.pointA();
   result.pointB = simplex.pointB();

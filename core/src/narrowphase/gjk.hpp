@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "narrowphase/convex.hpp"
+#include "narrowphase/simplex.hpp"
 #include "swept/core/separation.hpp"
 
 namespace swept::detail {
@@ -23,7 +24,8 @@ class Goal {
   double constant_ = 0.0;
 };
 
-/// How far a query is taken once its goal is out of reach (the distance is not above what is needed).
+/// How far a query is taken once its goal is out of reach (the distance is not above what is
+/// needed).
 enum class GjkMode : std::uint8_t {
   Exact,      ///< to convergence
   GoalOnly,   ///< only until it is clear whether there is contact
@@ -44,8 +46,9 @@ struct GjkResult {
 /// Gilbert, Johnson, Keerthi (1988) on B - A, with the lower bound n . support(n) of each iteration
 /// kept as the certificate. Stops when the goal is exceeded, when points at most `contact` apart
 /// are found, when upper - lower <= tolerance, or when rounding allows no more progress.
+/// `last`, if given, receives the simplex that holds the nearest point of the cores.
 GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
               const Eigen::Vector3d& guess, const Goal& goal, double contact, double tolerance,
-              GjkMode mode);
+              GjkMode mode, Simplex* last = nullptr);
 
 }  // namespace swept::detail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "swept/core/shapes.hpp"
+#include "swept/core/tolerances.hpp"
+
+namespace swept {
+
+/// Signed distance of two solids, as an interval: the Euclidean distance where they are apart,
+/// minus the length of the shortest translation that separates them where they overlap, 0 where
+/// they touch.
+///
+/// lower <= signed distance <= upper always holds, rounding included. Between convex shapes upper -
+/// lower <= tolerance unless rounding or the cap on iterations prevents it (curved pairs in deep
+/// overlap); the interval says how far it came. A mesh in overlap has the interval [-depth of the
+/// hulls, 0]: translating its hull out translates the mesh out.
+struct SignedDistanceResult {
+  double lower = -std::numeric_limits<double>::infinity();  ///< m
+  double upper = std::numeric_limits<double>::infinity();   ///< m
+  /// Nearest points where apart; deepest points, on the surfaces, in convex overlap; a common point
+  /// in overlap of meshes. m, a's frame.
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();
+  /// Unit vector in a's frame, from a to b: moving b along it by -lower ends an overlap of convex
+  /// shapes. Zero when no single plane tells (meshes apart).
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  int iterations = 0;  ///< support evaluations
+};
+
+/// `a_from_b` is the pose of b in a's frame. Never throws on finite input; a non-finite pose gives
+/// the widest interval. `tolerance` in m.
+SignedDistanceResult signedDistance(const Shape& a, const Shape& b,
+                                    const Eigen::Isometry3d& a_from_b,
+                                    double tolerance = tolerance::kDistance);
+
+}  // namespace swept
