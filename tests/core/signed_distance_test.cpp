@@ -63,7 +63,7 @@ TEST(SignedDistance, BoxesMatchTheirSeparatingAxes) {
       expectInterval(result, -depth);
       // Moving b out along the normal by the depth ends the overlap.
       Isometry3d out = pose;
-      out.translation() += (-result.lower + 1e-7) * result.normal;
+      out.translation() += (-result.lower + 1e-11) * result.normal;
       EXPECT_EQ(swept::collide(Box{a}, Box{b}, out), swept::Contact::Separate);
     } else {
       const auto apart = swept::distance(Box{a}, Box{b}, pose);

@@ -20,6 +20,24 @@ Vector3d firstDirection(const Vector3d& guess, const Vector3d& offset) {
   return Vector3d::UnitX();
 }
 
+/// Direction of the nearest point v, which is perpendicular to the simplex. Near contact v is a
+/// small difference of large coordinates and its direction worth little; a triangle's edges still
+/// know it.
+Vector3d separatingDirection(const Simplex& simplex, const Vector3d& v, double distance,
+                             double magnitude) {
+  constexpr double kNear = 1e-5;        // relative: below, v has lost five digits
+  constexpr double kWellShaped = 1e-6;  // sine of the angle between the edges
+  if (simplex.size == 3 && distance < kNear * magnitude) {
+    const Vector3d e = simplex.vertices[1].difference - simplex.vertices[0].difference;
+    const Vector3d f = simplex.vertices[2].difference - simplex.vertices[0].difference;
+    const Vector3d normal = e.cross(f);
+    const double norm = normal.norm();
+    if (norm > kWellShaped * e.norm() * f.norm())
+      return normal / (v.dot(normal) < 0.0 ? -norm : norm);
+  }
+  return v / distance;
+}
+
 /// Moves the core's witness points out to the surfaces of the grown bodies, or to a common point
 /// when these overlap.
 void growWitness(GjkResult& result, const Vector3d& v, double distance, double radiusA,
@@ -97,7 +115,7 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
     v = nearest;
     distance = reached;
     if (simplex.size == 4 || distance - radii <= contact || distance <= rounding) break;
-    n = v / distance;
+    n = separatingDirection(simplex, v, distance, magnitude);
   }
 
   if (last != nullptr) *last = simplex;
