@@ -172,6 +172,38 @@ TEST(SignedDistance, DegenerateOverlapsAreDecided) {
   expectInterval(swept::signedDistance(plate, plate, crossed), -0.5, 1e-8);
 }
 
+/// The same boxes as hulls of their corners: coplanar faces and vertices on the lines of edges, at
+/// rest and turned, and the depth of the box itself as the truth.
+TEST(SignedDistance, HullsOfBoxesHaveTheDepthOfBoxes) {
+  Random random(25);
+  const auto hullOf = [](const Vector3d& half) {
+    std::vector<Vector3d> corners;
+    for (int k = 0; k < 8; ++k) {
+      corners.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                           k & 4 ? half.z() : -half.z());
+    }
+    return swept::ConvexHull::of(corners);
+  };
+  int overlapping = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Vector3d a = random.vector(0.4).cwiseAbs() + Vector3d::Constant(0.02);
+    Vector3d b = random.vector(0.4).cwiseAbs() + Vector3d::Constant(0.02);
+    Isometry3d pose = random.pose(0.4);
+    if (i % 3 == 0) pose.linear().setIdentity();
+    if (i % 3 == 1) {
+      a.setConstant(0.5);
+      b = a;
+      pose.linear().setIdentity();
+      pose.translation() = (pose.translation() * 10.0).array().round() / 10.0;
+    }
+    const double depth = boxDepth(a, b, pose);
+    if (!(depth > 0.0)) continue;
+    ++overlapping;
+    expectInterval(swept::signedDistance(hullOf(a), hullOf(b), pose), -depth);
+  }
+  EXPECT_GT(overlapping, 1000);
+}
+
 TEST(SignedDistance, OverlappingMeshesAreBoundedByTheirHulls) {
   std::vector<Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;

@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 
 constexpr int kMaxVertices = 256;
 constexpr int kMaxFaces = 2 * kMaxVertices;
+constexpr double kLeastSine =
+    1e-9;  ///< of the angle between a face's edges: thinner ones have no normal
 
 struct Face {
   std::array<int, 3> vertex;  ///< counter-clockwise seen from outside
@@ -70,13 +72,20 @@ class Polytope {
   /// Replaces the faces that see the new vertex by a fan from their border. False when the polytope
   /// would no longer be one; then it is left as it was.
   bool expand(const Simplex::Vertex& added) {
+    // A vertex in the plane of a face beside the hole may lie on the line of their common edge, and
+    // the fan would get a face without area. Faces in whose plane it lies are better replaced too.
+    return expand(added, 0.0) || expand(added, -4.0 * rounding());
+  }
+
+ private:
+  bool expand(const Simplex::Vertex& added, double above) {
     if (vertexCount_ == kMaxVertices) return false;
     borderCount_ = 0;
     std::array<bool, kMaxFaces> visible;
     int visibleCount = 0;
     for (int i = 0; i < faceCount_; ++i) {
       const Face& face = faces_[i];
-      visible[i] = face.normal.dot(added.difference) > face.distance;
+      visible[i] = face.normal.dot(added.difference) > face.distance + above;
       if (!visible[i]) continue;
       ++visibleCount;
       for (int k = 0; k < 3; ++k) toggle(face.vertex[k], face.vertex[(k + 1) % 3]);
@@ -99,7 +108,6 @@ class Polytope {
     return true;
   }
 
- private:
   const Vector3d& difference(int i) const { return vertices_[i].difference; }
   Vector3d edge(int i) const { return difference(i) - difference(0); }
   double area() const { return edge(1).cross(edge(2)).norm(); }
@@ -133,9 +141,11 @@ class Polytope {
 
   bool makeFace(std::array<int, 3> corners, Face& face) const {
     const Vector3d& p = difference(corners[0]);
-    Vector3d normal = (difference(corners[1]) - p).cross(difference(corners[2]) - p);
+    const Vector3d e = difference(corners[1]) - p;
+    const Vector3d f = difference(corners[2]) - p;
+    Vector3d normal = e.cross(f);
     const double norm = normal.norm();
-    if (!(norm > 0.0)) return false;
+    if (!(norm > kLeastSine * e.norm() * f.norm())) return false;
     normal /= norm;
     if (normal.dot(p - center_) < 0.0) {
       normal = -normal;
