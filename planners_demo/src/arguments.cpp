@@ -16,6 +16,9 @@ namespace {
 constexpr std::string_view kExitCodes =
     "Exit codes: 0 free or solved, 1 collision or not solved, 2 undecided, 3 bad input or usage.";
 
+constexpr std::string_view kReplayExitCodes =
+    "Exit codes: 0 all passed or skipped, 1 a case failed, 3 bad input or usage.";
+
 constexpr std::string_view kStates =
     "States are names from the SRDF or comma-separated values (rad, m) in the order of the "
     "group's\n"
@@ -29,8 +32,9 @@ bool isNegativeValue(const std::string& text) {
 }
 
 /// The arguments, last first, as the parser wants them. A leading blank keeps it from taking a
-/// negative value for an option, and everything that reads a value skips blanks. That leaves nothing
-/// for a `--` to do, which the parser would turn against options that are limited in number.
+/// negative value for an option, and everything that reads a value skips blanks. That leaves
+/// nothing for a `--` to do, which the parser would turn against options that are limited in
+/// number.
 std::vector<std::string> reversedArguments(int argc, const char* const* argv) {
   std::vector<std::string> reversed;
   for (int i = argc - 1; i > 0; --i) {
@@ -115,12 +119,14 @@ std::string_view exampleOf(std::string_view command) {
   if (command == "motion")
     return "swept motion models/robots/rook7/rook7.urdf home ready --group arm "
            "--scene models/scenes/narrow_slot.yaml";
+  if (command == "replay") return "swept replay models/cases.json";
   return "swept plan models/robots/rook7/rook7.urdf home ready --group arm "
          "--scene models/scenes/narrow_slot.yaml -o path.json";
 }
 
 std::string footer(std::string_view command) {
   std::string text = "\nExample:\n  " + std::string(exampleOf(command)) + "\n";
+  if (command == "replay") return text + "\n" + std::string(kReplayExitCodes);
   if (command != "info") text = "\n" + std::string(kStates) + "\n" + text;
   if (command == "plan") {
     text += "\nPlanners:";
@@ -142,7 +148,8 @@ std::string footer(std::string_view command) {
 std::string messageOf(const CLI::ParseError& error, int argc, const char* const* argv) {
   const bool noSubcommand = argc > 1 && std::string_view(error.what()).starts_with("A subcommand");
   if (!noSubcommand) return error.what();
-  return std::string("no subcommand '") + argv[1] + "'; there are info, check, motion, plan";
+  return std::string("no subcommand '") + argv[1] +
+         "'; there are info, check, motion, plan, replay";
 }
 
 }  // namespace
@@ -170,7 +177,12 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
   addProblemOptions(*motion, args, "the motion from start to goal in its world");
   addProblemOptions(*plan, args, "plans from start to goals; without --set or --index all of them");
   addPlanOptions(*plan, args);
-  for (CLI::App* sub : {info, check, motion, plan}) sub->footer(footer(sub->get_name()));
+  auto* replay = app.add_subcommand("replay", "Distances of shape pairs against known answers");
+  replay->add_option("cases", args.cases, "cases of two shapes each; planners_demo/README.md")
+      ->required()
+      ->type_name("FILE.json");
+  replay->add_flag("--json", args.json, "one JSON object on stdout instead of text");
+  for (CLI::App* sub : {info, check, motion, plan, replay}) sub->footer(footer(sub->get_name()));
 
   try {
     app.parse(reversedArguments(argc, argv));

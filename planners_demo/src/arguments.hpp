@@ -30,6 +30,8 @@ struct Arguments {
   std::string set;
   std::optional<int> index;
 
+  std::string cases;  ///< JSON file of replay
+
   std::string planner = "RRTConnect";
   double time = 5.0;  ///< s
   std::uint32_t seed = 1;

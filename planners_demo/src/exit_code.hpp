@@ -10,8 +10,8 @@ namespace swept {
 
 /// What the program returns, for every subcommand.
 enum class ExitCode : int {
-  Free = 0,       ///< free, solved, or nothing to judge
-  Collision = 1,  ///< collision, or not solved
+  Free = 0,       ///< free, solved, all cases passed, or nothing to judge
+  Collision = 1,  ///< collision, not solved, or a case failed
   Undecided = 2,
   BadInput = 3,
 };

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace swept {
+
+/// A value of a JSON file with the way to it, which messages name: `case 'a': shapes[0].size`.
+/// Whatever does not hold what it is asked for throws InputError.
+class JsonValue {
+ public:
+  /// `file` and `value` must outlive this.
+  JsonValue(const nlohmann::json& value, std::string name, const std::string& file)
+      : value_(&value), name_(std::move(name)), file_(&file) {}
+
+  /// The whole file, as JSON. Messages about its syntax name the line.
+  static nlohmann::json parseFile(const std::string& file);
+
+  /// `NAME is VALUE; it must be WHAT`.
+  [[noreturn]] void refuse(const std::string& what) const;
+  /// `NAME MESSAGE`.
+  [[noreturn]] void fail(const std::string& message) const;
+
+  /// The same value under another name.
+  JsonValue renamed(const std::string& name) const { return {*value_, name, *file_}; }
+  bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+  JsonValue at(const std::string& key) const;
+  std::vector<JsonValue> elements() const;
+  std::vector<JsonValue> elements(std::size_t count) const;
+
+  bool boolean() const;
+  std::string text() const;
+  double number() const;
+  double notNegative() const;
+  Eigen::Vector3d vector3() const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string name_;
+  const std::string* file_;
+};
+
+}  // namespace swept

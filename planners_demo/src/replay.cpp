@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <limits>
+
+#include "commands.hpp"
+#include "replay_cases.hpp"
+#include "swept/core/signed_distance.hpp"
+#include "text_output.hpp"
+
+namespace swept {
+namespace {
+
+/// s. A pair that takes longer stops a planner, however right the answer.
+constexpr double kTimeLimit = 1.0;
+/// Relative to a case's scale. What rounding of the case's own poses and sizes can do.
+constexpr double kPoseRounding = 1e-12;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+enum class Result { Passed, Failed, Skipped };
+
+struct Answer {
+  double lower = kNone;  ///< m, of the signed distance
+  double upper = kNone;  ///< m
+  double value = kNone;  ///< m; without meaning for PairQuery::Collide
+  std::string text = "-";
+  double error = kNone;  ///< m; none for PairQuery::Collide
+  double seconds = 0.0;
+  Result result = Result::Failed;
+  std::string reason;
+};
+
+/// The middle of the interval, or its only finite end.
+double middle(const SignedDistanceResult& found) {
+  if (std::isfinite(found.lower) && std::isfinite(found.upper))
+    return found.lower + 0.5 * (found.upper - found.lower);
+  if (std::isfinite(found.lower)) return found.lower;
+  return std::isfinite(found.upper) ? found.upper : kNone;
+}
+
+/// Both kinds of judging fail a NaN: it compares as false.
+void judgeNumber(const PairQuestion& question, const SignedDistanceResult& found, Answer& answer) {
+  const double value = middle(found);
+  answer.value = question.query == PairQuery::Distance && value < 0.0 ? 0.0 : value;
+  answer.text = std::isnan(value) ? "none" : shortNumber(answer.value);
+  answer.error = std::abs(answer.value - question.distance);
+  if (answer.error <= question.tolerance + kPoseRounding * question.scale)
+    answer.result = Result::Passed;
+  else
+    answer.reason = std::isnan(value) ? "no finite answer"
+                                      : "off by more than " + shortNumber(question.tolerance);
+}
+
+void judgeHit(const PairQuestion& question, const SignedDistanceResult& found, Answer& answer) {
+  const bool hits = found.upper <= 0.0, free = found.lower > 0.0;
+  answer.text = hits ? "yes" : free ? "no" : "undecided";
+  const bool isNumber = found.lower <= found.upper;
+  const bool right = !question.hits || (*question.hits ? hits : free);
+  if (isNumber && right)
+    answer.result = Result::Passed;
+  else
+    answer.reason = isNumber ? "wrong" : "not a number";
+}
+
+Answer answerTo(const PairQuestion& question) {
+  using Clock = std::chrono::steady_clock;
+  const double tolerance = question.query == PairQuery::Collide
+                               ? tolerance::kDistance
+                               : std::min(tolerance::kDistance, question.tolerance);
+  Answer answer;
+  const Clock::time_point start = Clock::now();
+  try {
+    const SignedDistanceResult found =
+        signedDistance(question.a, question.b, question.a_from_b, tolerance);
+    answer.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    answer.lower = found.lower;
+    answer.upper = found.upper;
+    if (question.query == PairQuery::Collide)
+      judgeHit(question, found, answer);
+    else
+      judgeNumber(question, found, answer);
+  } catch (const std::exception& error) {
+    answer.reason = std::string("threw: ") + error.what();
+  }
+  if (answer.seconds > kTimeLimit) {
+    answer.result = Result::Failed;
+    answer.reason = "took " + secondsText(answer.seconds);
+  }
+  return answer;
+}
+
+Answer answerTo(const ReplayCase& item) {
+  if (item.question) return answerTo(*item.question);
+  Answer answer;
+  answer.result = Result::Skipped;
+  answer.reason = item.skipReason;
+  return answer;
+}
+
+std::string expectedText(const ReplayCase& item) {
+  if (!item.question) return "-";
+  if (item.question->query != PairQuery::Collide) return shortNumber(item.question->distance);
+  if (!item.question->hits) return "either";
+  return *item.question->hits ? "yes" : "no";
+}
+
+std::string resultText(const Answer& answer) {
+  const std::string name = answer.result == Result::Passed   ? "ok"
+                           : answer.result == Result::Failed ? "FAILED"
+                                                             : "skipped";
+  return answer.reason.empty() ? name : name + " (" + answer.reason + ")";
+}
+
+std::vector<std::string> rowOf(const ReplayCase& item, const Answer& answer) {
+  const std::string error = std::isnan(answer.error) ? "-" : shortNumber(answer.error);
+  return {item.id, item.query, answer.text, expectedText(item), error, resultText(answer)};
+}
+
+Json jsonOf(const ReplayCase& item, const Answer& answer) {
+  const bool number = item.question && item.question->query != PairQuery::Collide;
+  Json json = {{"id", item.id}, {"query", item.query}};
+  json["answer"] = number ? finiteOrNull(answer.value) : Json(answer.text);
+  json["expected"] = number ? Json(item.question->distance) : Json(expectedText(item));
+  json["error"] = finiteOrNull(answer.error);
+  json["lower"] = finiteOrNull(answer.lower);
+  json["upper"] = finiteOrNull(answer.upper);
+  json["seconds"] = answer.seconds;
+  json["result"] = answer.result == Result::Passed   ? "ok"
+                   : answer.result == Result::Failed ? "failed"
+                                                     : "skipped";
+  json["reason"] = answer.reason;
+  return json;
+}
+
+}  // namespace
+
+ExitCode runReplay(const Arguments& args) {
+  TextTable table(
+      {{"id"}, {"query"}, {"answer", true}, {"expected", true}, {"error", true}, {"result"}});
+  Json json = {{"cases", Json::array()}};
+  int passed = 0, failed = 0, skipped = 0;
+  for (const ReplayCase& item : readReplayCases(args.cases)) {
+    const Answer answer = answerTo(item);
+    ++(answer.result == Result::Passed   ? passed
+       : answer.result == Result::Failed ? failed
+                                         : skipped);
+    if (args.json)
+      json["cases"].push_back(jsonOf(item, answer));
+    else
+      table.add(rowOf(item, answer));
+  }
+  if (args.json) {
+    json["passed"] = passed;
+    json["failed"] = failed;
+    json["skipped"] = skipped;
+    std::cout << json.dump(2) << '\n';
+  } else {
+    std::cout << table.text() << passed << " passed, " << failed << " failed, " << skipped
+              << " skipped\n";
+  }
+  return failed == 0 ? ExitCode::Free : ExitCode::Collision;
+}
+
+}  // namespace swept
