@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <variant>
 
+#include "swept/core/bv/aabb.hpp"
 #include "swept/core/convex_hull.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
@@ -48,11 +49,6 @@ struct BoundingSphere {
 };
 BoundingSphere boundingSphere(const Shape& shape);
 
-/// Axis-aligned box.
-struct Aabb {
-  Eigen::Vector3d lower;  ///< m
-  Eigen::Vector3d upper;  ///< m
-};
 /// Box of the shape in its own frame, rounded outward.
 Aabb boundingBox(const Shape& shape);
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+namespace swept {
+
+/// Axis-aligned box; a `BoundingVolume`. Under a pose both boxes are bounded again along the axes
+/// of the other, so two boxes count as disjoint when one of these six axes separates them.
+struct Aabb {
+  Eigen::Vector3d lower;  ///< m
+  Eigen::Vector3d upper;  ///< m
+
+  static constexpr bool kMergeIsTight = true;
+
+  static Aabb fit(std::span<const Eigen::Vector3d> points);
+  static Aabb merge(const Aabb& a, const Aabb& b);
+  Aabb inflated(double by) const;  ///< by: m
+
+  bool overlaps(const Aabb& other) const {
+    for (int k = 0; k < 3; ++k) {
+      if (lower[k] > other.upper[k] || other.lower[k] > upper[k]) return false;
+    }
+    return true;
+  }
+  bool overlaps(const Aabb& other, const Eigen::Isometry3d& a_from_b) const;
+  double distanceBound(const Aabb& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
+  bool contains(const Eigen::Vector3d& p) const {
+    for (int k = 0; k < 3; ++k) {
+      if (p[k] < lower[k] || p[k] > upper[k]) return false;
+    }
+    return true;
+  }
+  Eigen::Vector3d center() const { return 0.5 * lower + 0.5 * upper; }  ///< m
+  double size() const { return (upper - lower).squaredNorm(); }         ///< m^2
+};
+
+}  // namespace swept

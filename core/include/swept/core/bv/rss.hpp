@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+#include "swept/core/bv/obb.hpp"
+
+namespace swept {
+
+/// Rectangle swept by a sphere; a `BoundingVolume`. After Larsen, Gottschalk, Lin, Manocha 2000
+/// ("Fast distance queries with rectangular swept sphere volumes"); the distance of the rectangles
+/// is found by GJK and certified by the separation along the direction found.
+struct Rss {
+  Eigen::Matrix3d axes;         ///< columns: orthonormal; the rectangle spans the first two
+  Eigen::Vector3d middle;       ///< m, of the rectangle
+  Eigen::Vector2d halfLengths;  ///< m
+  double radius;                ///< m
+
+  static Rss fit(std::span<const Eigen::Vector3d> points);
+  /// Along the axes of a box that contains the points; its last one becomes the rectangle's normal.
+  static Rss fitWithin(std::span<const Eigen::Vector3d> points, const Obb& box);
+  static Rss merge(const Rss& a, const Rss& b);
+  Rss inflated(double by) const;  ///< by: m
+
+  bool overlaps(const Rss& other) const;
+  bool overlaps(const Rss& other, const Eigen::Isometry3d& a_from_b) const;
+  /// Within 1e-3 of the distance of the two volumes, and never more than it.
+  double distanceBound(const Rss& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
+  bool contains(const Eigen::Vector3d& p) const;
+  const Eigen::Vector3d& center() const { return middle; }  ///< m
+  /// m^2, squared diagonal of the box around it.
+  double size() const {
+    const Eigen::Vector3d half(halfLengths.x() + radius, halfLengths.y() + radius, radius);
+    return 4.0 * half.squaredNorm();
+  }
+};
+
+}  // namespace swept

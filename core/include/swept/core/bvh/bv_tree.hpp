@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/kdop.hpp"
+#include "swept/core/bv/obb.hpp"
+#include "swept/core/bv/obb_rss.hpp"
+#include "swept/core/bv/rss.hpp"
+#include "swept/core/bvh/fit_rules.hpp"
+#include "swept/core/bvh/split_rules.hpp"
+
+namespace swept {
+
+/// N primitives, each the convex hull of as many points, grown by a radius.
+struct PrimitivePoints {
+  std::span<const Eigen::Vector3d> points;  ///< m; primitive i has [i * per, (i + 1) * per)
+  std::size_t perPrimitive = 1;
+  std::span<const double> radii = {};  ///< m, one per primitive; empty: all zero
+
+  std::size_t count() const { return points.size() / perPrimitive; }
+};
+
+/// The shape of a tree, without volumes.
+struct TreeTopology {
+  struct Node {
+    int rightChild;  ///< -1: a leaf. The left child of node i is i + 1
+    int first;       ///< of the node's primitives, which are contiguous in `order`
+    int count;
+  };
+  std::vector<Node> nodes;  ///< depth first
+  std::vector<int> order;   ///< primitive indices
+  int depth = 0;            ///< nodes on the longest path from the root
+
+  /// Leaves hold at most `maxLeaf` primitives. Below half of the greatest depth nodes are halved
+  /// whatever the rule, which bounds the depth for up to 2^30 primitives.
+  static TreeTopology build(const PrimitivePoints& primitives, const SplitFunction& split,
+                            int maxLeaf);
+};
+
+/// Greatest depth of any tree in nodes, so that the depth of a recursion is known.
+inline constexpr int kMaxTreeDepth = 64;
+
+/// Binary tree of bounding volumes over primitives (Pan, Chitta, Manocha 2012, section III).
+template <BoundingVolume BV>
+class BvTree {
+ public:
+  static constexpr int kMaxDepth = kMaxTreeDepth;
+
+  struct Node {
+    BV volume;
+    int rightChild;  ///< -1: a leaf. The left child of node i is i + 1
+    int first;       ///< of the node's primitives, which are contiguous in order()
+    int count;
+
+    bool isLeaf() const { return rightChild < 0; }
+  };
+
+  BvTree() = default;  ///< no nodes
+
+  /// Top-down. `primitives` are finite and at least one, at most 2^30; maxLeaf >= 1.
+  static BvTree build(const PrimitivePoints& primitives, const SplitFunction& split = MeanSplit{},
+                      const FitFunction<BV>& fit = defaultFit<BV>(), int maxLeaf = 1);
+
+  /// New volumes, bottom-up in linear time, for primitives that moved; the tree keeps its shape.
+  /// `primitives` has as many as at build, in the same order; their points may be more each.
+  void refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit = FitToChildren{});
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  /// Primitive indices in the order of the leaves.
+  const std::vector<int>& order() const { return order_; }
+  int depth() const { return depth_; }  ///< nodes on the longest path from the root; <= kMaxDepth
+  std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(int);
+  }
+
+ private:
+  double largestRadius(const PrimitivePoints& primitives, const Node& node) const;
+
+  std::vector<Node> nodes_;
+  std::vector<int> order_;
+  int depth_ = 0;
+};
+
+template <BoundingVolume BV>
+BvTree<BV> BvTree<BV>::build(const PrimitivePoints& primitives, const SplitFunction& split,
+                             const FitFunction<BV>& fit, int maxLeaf) {
+  TreeTopology topology = TreeTopology::build(primitives, split, maxLeaf);
+  BvTree tree;
+  tree.order_ = std::move(topology.order);
+  tree.depth_ = topology.depth;
+  tree.nodes_.reserve(topology.nodes.size());
+  const BV unknown = BV::fit({});
+  for (const TreeTopology::Node& node : topology.nodes) {
+    tree.nodes_.push_back({unknown, node.rightChild, node.first, node.count});
+  }
+  tree.refit(primitives, fit);
+  return tree;
+}
+
+template <BoundingVolume BV>
+void BvTree<BV>::refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit) {
+  const std::size_t per = primitives.perPrimitive;
+  // In leaf order, so that the points of any node are one span.
+  std::vector<Eigen::Vector3d> points(primitives.points.size());
+  for (std::size_t slot = 0; slot < order_.size(); ++slot) {
+    const std::size_t from = static_cast<std::size_t>(order_[slot]) * per;
+    std::copy_n(primitives.points.begin() + static_cast<std::ptrdiff_t>(from), per,
+                points.begin() + static_cast<std::ptrdiff_t>(slot * per));
+  }
+  const std::span<const Eigen::Vector3d> ordered(points);
+  std::vector<double> radii(primitives.radii.empty() ? 0 : nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children follow their parents
+    Node& node = nodes_[i];
+    FitInput<BV> input;
+    input.points = ordered.subspan(static_cast<std::size_t>(node.first) * per,
+                                   static_cast<std::size_t>(node.count) * per);
+    const auto right = static_cast<std::size_t>(node.rightChild);
+    if (!node.isLeaf()) {
+      input.left = &nodes_[i + 1].volume;
+      input.right = &nodes_[right].volume;
+    }
+    if (!radii.empty()) {
+      radii[i] =
+          node.isLeaf() ? largestRadius(primitives, node) : std::max(radii[i + 1], radii[right]);
+      input.radius = radii[i];
+    }
+    node.volume = fit(input);
+  }
+}
+
+template <BoundingVolume BV>
+double BvTree<BV>::largestRadius(const PrimitivePoints& primitives, const Node& node) const {
+  double largest = 0.0;
+  for (int slot = node.first; slot < node.first + node.count; ++slot) {
+    largest = std::max(largest, primitives.radii[order_[static_cast<std::size_t>(slot)]]);
+  }
+  return largest;
+}
+
+extern template class BvTree<Aabb>;
+extern template class BvTree<Obb>;
+extern template class BvTree<Rss>;
+extern template class BvTree<ObbRss>;
+extern template class BvTree<KDop<16>>;
+extern template class BvTree<KDop<18>>;
+extern template class BvTree<KDop<24>>;
+
+}  // namespace swept

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "swept/core/bvh/bv_tree.hpp"
+#include "swept/core/triangle_pair.hpp"
+
+namespace swept {
+
+/// Where a model is in its life (Pan, Chitta, Manocha 2012, section III-A).
+///
+///     Empty -begin-> Building -end-> Built
+///     Built, Updated -beginReplace-> Replacing -endReplace-> Built
+///     Built, Updated -beginUpdate-> Updating -endUpdate-> Updated
+///
+/// Replacing forgets where the vertices were. Updating keeps it: the volumes of an updated model
+/// bound each primitive's way from the previous positions to the present ones (straight, per
+/// vertex). Queries need Built or Updated. clear() leads back to Empty from anywhere.
+enum class BvhState : std::uint8_t { Empty, Building, Built, Replacing, Updating, Updated };
+
+std::string_view toString(BvhState state);
+
+/// A call that the state of the model does not allow. what() names the call, the state and the
+/// states that allow it: "BvhModel::addTriangle: model is built; allowed: building".
+class BvhStateError : public std::logic_error {
+ public:
+  BvhStateError(std::string_view call, BvhState state, std::initializer_list<BvhState> allowed);
+};
+
+/// How a model brings its hierarchy up to date.
+enum class Refresh : std::uint8_t {
+  Refit,    ///< new volumes on the same tree: linear; for small changes
+  Rebuild,  ///< a new tree
+};
+
+/// The part of a `BvhModel` that does not depend on its bounding volume: vertices, triangles,
+/// state.
+///
+/// Every call throws BvhStateError in a state that does not allow it, and std::invalid_argument,
+/// with the element and the value, for bad input; either leaves the model as it was.
+class ModelGeometry {
+ public:
+  BvhState state() const { return state_; }
+
+  /// Empty -> Building. The counts only reserve memory.
+  void begin(std::size_t expectedVertices = 0, std::size_t expectedTriangles = 0);
+
+  /// While Building. Each returns the index of the (first) vertex or triangle added. Positions in
+  /// m.
+  int addVertex(const Eigen::Vector3d& position);
+  int addTriangle(const Eigen::Vector3i& vertices);  ///< indices of vertices added before
+  int addTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  /// The triangles' indices count from the first of these vertices.
+  int addMesh(std::span<const Eigen::Vector3d> vertices,
+              std::span<const Eigen::Vector3i> triangles);
+  /// A point of a cloud: a ball. Not together with triangles.
+  int addPoint(const Eigen::Vector3d& position, double radius);
+
+  /// Built or Updated -> Replacing; then new positions for vertices first, first + 1, ...
+  void beginReplace();
+  void replaceVertices(std::size_t first, std::span<const Eigen::Vector3d> positions);
+
+  /// Built or Updated -> Updating; present positions become the previous ones. Then as above.
+  void beginUpdate();
+  void updateVertices(std::size_t first, std::span<const Eigen::Vector3d> positions);
+
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< m
+  /// m; before the last update. Empty unless Updating or Updated.
+  const std::vector<Eigen::Vector3d>& previousVertices() const { return previous_; }
+  const std::vector<Eigen::Vector3i>& triangles() const { return triangles_; }
+  const std::vector<double>& radii() const { return radii_; }  ///< m, per point; empty: all zero
+  /// No triangles: each vertex is a primitive.
+  bool isPointCloud() const { return triangles_.empty(); }
+  std::size_t primitiveCount() const {
+    return isPointCloud() ? vertices_.size() : triangles_.size();
+  }
+  /// m; corners of a triangle at present.
+  TriangleCorners corners(int triangle) const {
+    const Eigen::Vector3i& t = triangles_[static_cast<std::size_t>(triangle)];
+    return {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
+  }
+  /// m; no vertex's absolute coordinates sum up to more.
+  double extent() const { return extent_; }
+
+  /// Throws BvhStateError, naming `call`, unless the model can be queried.
+  void requireUsable(std::string_view call) const;
+  /// As above, and std::invalid_argument for a point cloud.
+  void requireTriangles(std::string_view call) const;
+
+ protected:
+  ~ModelGeometry() = default;
+
+  void requireState(std::string_view call, std::initializer_list<BvhState> allowed) const;
+  void requirePrimitives() const;
+  /// Points of all primitives: at present, or at present and before.
+  std::vector<Eigen::Vector3d> primitivePoints() const;
+  std::size_t pointsPerPrimitive() const;
+  void enter(BvhState state);
+  void clearGeometry();
+  std::size_t geometryBytes() const;
+
+ private:
+  void requireFinite(std::string_view call, std::size_t index, const Eigen::Vector3d& p) const;
+  void requireVertices(std::string_view call, const Eigen::Vector3i& triangle, std::size_t index,
+                       std::size_t count) const;
+  /// Vertices added between points with radii have none: 0.
+  void giveRadii();
+  void overwrite(std::string_view call, std::size_t first,
+                 std::span<const Eigen::Vector3d> positions);
+
+  BvhState state_ = BvhState::Empty;
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Eigen::Vector3d> previous_;
+  std::vector<Eigen::Vector3i> triangles_;
+  std::vector<double> radii_;
+  double extent_ = 0.0;
+};
+
+}  // namespace swept

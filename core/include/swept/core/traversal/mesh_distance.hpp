@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "swept/core/tolerances.hpp"
+#include "swept/core/traversal/mesh_pair.hpp"
+
+namespace swept {
+
+/// What a distance query may leave undecided to save time: upper - lower <= absolute + relative *
+/// upper, and rounding.
+struct MeshDistanceOptions {
+  double absoluteTolerance = 0.0;  ///< m, >= 0
+  double relativeTolerance = 0.0;  ///< no unit, 0 to 1
+};
+
+/// lower <= distance <= upper: `lower` is proven, rounding included, `upper` is the distance of the
+/// two points. For a pose that is not finite [0, infinity].
+struct MeshDistanceResult {
+  double lower = 0.0;                                      ///< m
+  double upper = std::numeric_limits<double>::infinity();  ///< m; 0 exactly if triangles touch
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();        ///< m, a's frame
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, a's frame
+  int triangleA = -1;                                      ///< with pointA; -1 only without a bound
+  int triangleB = -1;                                      ///< with pointB
+  TraversalEffort effort;
+};
+
+/// Branch and bound: the best distance so far, and the least bound of what was left out for it.
+class DistanceSearch {
+ public:
+  explicit DistanceSearch(const MeshDistanceOptions& options) : options_(options) {}
+
+  /// Whether what is at least this far away cannot matter. Remembers the bound it dismisses. NaN is
+  /// not dismissed.
+  bool dismiss(double bound, double upper) {
+    if (!(bound >= upper * (1.0 - options_.relativeTolerance) - options_.absoluteTolerance)) {
+      return false;
+    }
+    lower_ = std::min(lower_, bound);
+    return true;
+  }
+  void examined(double lower) { lower_ = std::min(lower_, lower); }
+  /// m; proven for everything dismissed or examined.
+  double lower(double upper) const { return std::clamp(lower_, 0.0, upper); }
+
+ private:
+  MeshDistanceOptions options_;
+  double lower_ = std::numeric_limits<double>::infinity();
+};
+
+/// What bvTesting returns for volumes that overlap: negative, so it proves nothing, and less the
+/// nearer their centres are: these are visited first.
+inline double rankOfOverlap(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return -1.0 / (b - a).squaredNorm();
+}
+
+/// Traversal node of two triangle models: nearest points.
+template <BoundingVolume BV>
+class MeshDistanceNode : public MeshPair<BV> {
+ public:
+  MeshDistanceNode(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
+                   const MeshDistanceOptions& options, MeshDistanceResult& result)
+      : MeshPair<BV>(a, b, a_from_b, "meshDistance"),
+        search_(options),
+        // Lemma: a corner placed in a's frame is off by at most 4 roundings of its coordinates' sum
+        // in each coordinate.
+        rounding_(tolerance::kSupportRounding *
+                  (b.extent() + a_from_b.translation().template lpNorm<1>())),
+        out_(result) {}
+
+  double bvTesting(int i, int j) {
+    ++out_.effort.bvTests;
+    const BV& volume = this->first(i).volume;
+    const BV& other = this->second(j).volume;
+    const double bound = volume.distanceBound(other, this->a_from_b_);
+    if (bound > 0.0) return bound;
+    return rankOfOverlap(this->a_from_b_ * other.center(), volume.center());
+  }
+  void leafTesting(int i, int j) {
+    this->forEachPair(i, j, [&](int t, int u) {
+      ++out_.effort.leafTests;
+      const TriangleDistance d =
+          triangleDistance(this->a_.corners(t), this->secondCorners(u), out_.upper);
+      search_.examined(d.lower - rounding_);
+      if (d.upper < out_.upper) {
+        out_.upper = d.upper;
+        out_.pointA = d.pointA;
+        out_.pointB = d.pointB;
+        out_.triangleA = t;
+        out_.triangleB = u;
+      }
+      return out_.upper > 0.0;
+    });
+  }
+  bool canStop(double bound) { return search_.dismiss(std::max(0.0, bound), out_.upper); }
+  /// To be called after the traversal.
+  void finish() { out_.lower = search_.lower(out_.upper); }
+
+ private:
+  DistanceSearch search_;
+  double rounding_;  ///< m
+  MeshDistanceResult& out_;
+};
+
+/// Distance of the surfaces of two models; `a_from_b` is the pose of b in a's frame. Throws
+/// BvhStateError or std::invalid_argument for models that are not built or have no triangles.
+template <BoundingVolume BV>
+MeshDistanceResult meshDistance(const BvhModel<BV>& a, const BvhModel<BV>& b,
+                                const Eigen::Isometry3d& a_from_b,
+                                const MeshDistanceOptions& options = {}) {
+  MeshDistanceResult result;
+  MeshDistanceNode<BV> node(a, b, a_from_b, options, result);
+  if (!a_from_b.matrix().allFinite()) return result;
+  distanceTraverse(node);
+  node.finish();
+  return result;
+}
+
+extern template MeshDistanceResult meshDistance(const BvhModel<Aabb>&, const BvhModel<Aabb>&,
+                                                const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+extern template MeshDistanceResult meshDistance(const BvhModel<Obb>&, const BvhModel<Obb>&,
+                                                const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+extern template MeshDistanceResult meshDistance(const BvhModel<Rss>&, const BvhModel<Rss>&,
+                                                const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+extern template MeshDistanceResult meshDistance(const BvhModel<ObbRss>&, const BvhModel<ObbRss>&,
+                                                const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+extern template MeshDistanceResult meshDistance(const BvhModel<KDop<16>>&,
+                                                const BvhModel<KDop<16>>&, const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+extern template MeshDistanceResult meshDistance(const BvhModel<KDop<18>>&,
+                                                const BvhModel<KDop<18>>&, const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+extern template MeshDistanceResult meshDistance(const BvhModel<KDop<24>>&,
+                                                const BvhModel<KDop<24>>&, const Eigen::Isometry3d&,
+                                                const MeshDistanceOptions&);
+
+}  // namespace swept

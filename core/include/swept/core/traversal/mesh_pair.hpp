@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string_view>
+
+#include "swept/core/bvh/bvh_model.hpp"
+#include "swept/core/traversal/traversal.hpp"
+
+namespace swept {
+
+/// Two models and the pose between them: the part of a traversal node that walks their trees. Keeps
+/// references to the models.
+template <BoundingVolume BV>
+class MeshPair {
+ public:
+  bool isFirstLeaf(int i) const { return first(i).isLeaf(); }
+  bool isSecondLeaf(int j) const { return second(j).isLeaf(); }
+  bool firstOverSecond(int i, int j) const {
+    return first(i).volume.size() > second(j).volume.size();
+  }
+  std::array<int, 2> firstChildren(int i) const { return {i + 1, first(i).rightChild}; }
+  std::array<int, 2> secondChildren(int j) const { return {j + 1, second(j).rightChild}; }
+
+ protected:
+  /// Throws, naming `call`, unless both models can be queried and have triangles.
+  MeshPair(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
+           std::string_view call)
+      : a_(a), b_(b), a_from_b_(a_from_b) {
+    a.requireTriangles(call);
+    b.requireTriangles(call);
+  }
+  ~MeshPair() = default;
+
+  const typename BvTree<BV>::Node& first(int i) const { return a_.tree().node(i); }
+  const typename BvTree<BV>::Node& second(int j) const { return b_.tree().node(j); }
+  /// Triangle of b, in a's frame (m).
+  TriangleCorners secondCorners(int triangle) const {
+    const TriangleCorners c = b_.corners(triangle);
+    return {a_from_b_ * c[0], a_from_b_ * c[1], a_from_b_ * c[2]};
+  }
+  /// Calls visit(t, u) for the triangles t of leaf i and u of leaf j until it returns false.
+  template <typename Visit>
+  void forEachPair(int i, int j, const Visit& visit) const {
+    const auto& m = first(i);
+    const auto& n = second(j);
+    for (int s = m.first; s < m.first + m.count; ++s) {
+      for (int t = n.first; t < n.first + n.count; ++t) {
+        if (!visit(a_.tree().order()[s], b_.tree().order()[t])) return;
+      }
+    }
+  }
+
+  const BvhModel<BV>& a_;
+  const BvhModel<BV>& b_;
+  Eigen::Isometry3d a_from_b_;
+};
+
+}  // namespace swept

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "swept/core/traversal/mesh_collision.hpp"
+
+namespace swept {
+
+/// Traversal node of one triangle model against itself. Triangles that share a vertex, by index,
+/// touch always: they are skipped.
+template <BoundingVolume BV>
+class MeshSelfCollisionNode : public MeshPair<BV> {
+ public:
+  MeshSelfCollisionNode(const BvhModel<BV>& model, const MeshCollisionOptions& options,
+                        MeshCollisionResult& result)
+      : MeshPair<BV>(model, model, Eigen::Isometry3d::Identity(), "selfCollideMesh"),
+        maxPairs_(options.maxPairs),
+        out_(result) {}
+
+  bool bvTesting(int i, int j) {
+    ++out_.effort.bvTests;
+    return !this->first(i).volume.overlaps(this->second(j).volume);
+  }
+  void leafTesting(int i, int j) {
+    this->forEachPair(i, j, [&](int t, int u) {
+      if (i == j && t >= u) return true;  // within a leaf: each pair once
+      if (shareVertex(t, u)) return true;
+      ++out_.effort.leafTests;
+      if (trianglesTouch(this->a_.corners(t), this->a_.corners(u))) {
+        out_.touching = true;
+        out_.pairs.push_back({std::min(t, u), std::max(t, u)});
+      }
+      return !canStop();
+    });
+  }
+  bool canStop() const { return out_.pairs.size() >= maxPairs_; }
+
+ private:
+  bool shareVertex(int t, int u) const {
+    const Eigen::Vector3i& first = this->a_.triangles()[static_cast<std::size_t>(t)];
+    for (const int vertex : this->a_.triangles()[static_cast<std::size_t>(u)]) {
+      if ((first.array() == vertex).any()) return true;
+    }
+    return false;
+  }
+
+  std::size_t maxPairs_;
+  MeshCollisionResult& out_;
+};
+
+/// Which triangles of a model touch one another without sharing a vertex; in each pair the smaller
+/// index first. Throws as collideMeshes does.
+template <BoundingVolume BV>
+void selfCollideMesh(const BvhModel<BV>& model, const MeshCollisionOptions& options,
+                     MeshCollisionResult& result) {
+  result.reset();
+  MeshSelfCollisionNode<BV> node(model, options, result);
+  selfCollisionTraverse(node);
+}
+
+extern template void selfCollideMesh(const BvhModel<Aabb>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+extern template void selfCollideMesh(const BvhModel<Obb>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+extern template void selfCollideMesh(const BvhModel<Rss>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+extern template void selfCollideMesh(const BvhModel<ObbRss>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+extern template void selfCollideMesh(const BvhModel<KDop<16>>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+extern template void selfCollideMesh(const BvhModel<KDop<18>>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+extern template void selfCollideMesh(const BvhModel<KDop<24>>&, const MeshCollisionOptions&,
+                                     MeshCollisionResult&);
+
+}  // namespace swept
