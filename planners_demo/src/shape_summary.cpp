@@ -23,6 +23,20 @@ struct Text {
     return "capsule of radius " + shortNumber(capsule.radius) + " m, segment " +
            shortNumber(2.0 * capsule.halfLength) + " m";
   }
+  std::string operator()(const Cone& cone) const {
+    return "cone of radius " + shortNumber(cone.radius) + " m, height " +
+           shortNumber(2.0 * cone.halfLength) + " m";
+  }
+  std::string operator()(const Ellipsoid& ellipsoid) const {
+    const Eigen::Vector3d& axes = ellipsoid.semiAxes;
+    return "ellipsoid of semi-axes " + shortNumber(axes.x()) + ", " + shortNumber(axes.y()) + ", " +
+           shortNumber(axes.z()) + " m";
+  }
+  std::string operator()(const Triangle&) const { return "triangle"; }
+  std::string operator()(const Plane& plane) const { return "plane" + equation(plane, " = "); }
+  std::string operator()(const HalfSpace& halfSpace) const {
+    return "half-space" + equation(halfSpace, " <= ");
+  }
   std::string operator()(const ConvexHull& hull) const {
     return "convex hull of " + std::to_string(hull.vertices().size()) + " points";
   }
@@ -30,6 +44,14 @@ struct Text {
     return "mesh of " + std::to_string(mesh.triangles().size()) + " triangles, " +
            (mesh.isClosed() ? "closed" : "open") + ", hull of " +
            std::to_string(mesh.hull().vertices().size()) + " points";
+  }
+
+ private:
+  template <class Flat>
+  static std::string equation(const Flat& flat, const char* relation) {
+    const Eigen::Vector3d& n = flat.normal;
+    return " (" + shortNumber(n.x()) + ", " + shortNumber(n.y()) + ", " + shortNumber(n.z()) +
+           ") . x" + relation + shortNumber(flat.offset) + " m";
   }
 };
 
@@ -48,6 +70,24 @@ struct Facts {
     return {{"kind", "capsule"},
             {"radius", capsule.radius},
             {"segment_length", 2.0 * capsule.halfLength}};
+  }
+  Json operator()(const Cone& cone) const {
+    return {{"kind", "cone"}, {"radius", cone.radius}, {"height", 2.0 * cone.halfLength}};
+  }
+  Json operator()(const Ellipsoid& ellipsoid) const {
+    return {{"kind", "ellipsoid"}, {"semi_axes", toJson(ellipsoid.semiAxes)}};
+  }
+  Json operator()(const Triangle& triangle) const {
+    Json corners = Json::array();
+    for (const Eigen::Vector3d& corner : triangle.corners) corners.push_back(toJson(corner));
+    return {{"kind", "triangle"}, {"corners", std::move(corners)}};
+  }
+  Json operator()(const Plane& plane) const {
+    return {{"kind", "plane"}, {"normal", toJson(plane.normal)}, {"offset", plane.offset}};
+  }
+  Json operator()(const HalfSpace& halfSpace) const {
+    return {
+        {"kind", "half-space"}, {"normal", toJson(halfSpace.normal)}, {"offset", halfSpace.offset}};
   }
   Json operator()(const ConvexHull& hull) const {
     return {{"kind", "convex hull"}, {"hull_points", hull.vertices().size()}};

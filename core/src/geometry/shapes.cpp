@@ -19,6 +19,16 @@ void requireSize(std::string_view name, double value) {
   throw std::invalid_argument(message.str());
 }
 
+/// Length of the normal.
+double requireNormal(std::string_view name, const Eigen::Vector3d& normal, double offset) {
+  const double length = std::hypot(normal.x(), normal.y(), normal.z());
+  if (std::isnormal(length) && std::isfinite(offset / length)) return length;
+  std::ostringstream message;
+  message << name << " has normal (" << normal.transpose() << ") and offset " << offset
+          << "; allowed: finite numbers, a normal that is not zero";
+  throw std::invalid_argument(message.str());
+}
+
 /// Upper bound of a length that was computed with fewer than 16 rounded operations on non-negative
 /// terms: each costs at most half an epsilon, and the last term covers results that underflow.
 double roundedUp(double length) {
@@ -94,6 +104,25 @@ struct SphereOf {
   BoundingSphere operator()(const Capsule& capsule) const {
     return {Eigen::Vector3d::Zero(), roundedUp(capsule.radius + capsule.halfLength)};
   }
+  BoundingSphere operator()(const Cone& cone) const {
+    // The ball through the apex and the base circle, unless the base is the wider part.
+    const double height = 2.0 * cone.halfLength;
+    if (!(cone.radius < height)) {
+      const double radius = roundedUp(std::max(cone.radius, height));
+      return {Eigen::Vector3d(0.0, 0.0, -cone.halfLength), radius};
+    }
+    const double lift = 0.5 * (height - cone.radius * (cone.radius / height));
+    return {Eigen::Vector3d(0.0, 0.0, lift - cone.halfLength),
+            roundedUp(std::max(std::hypot(cone.radius, lift), height - lift))};
+  }
+  BoundingSphere operator()(const Ellipsoid& ellipsoid) const {
+    return {Eigen::Vector3d::Zero(), ellipsoid.semiAxes.maxCoeff()};
+  }
+  BoundingSphere operator()(const Triangle& triangle) const {
+    return ballAround(ballCenter(triangle.corners), triangle.corners);
+  }
+  BoundingSphere operator()(const Plane&) const { return everywhere(); }
+  BoundingSphere operator()(const HalfSpace&) const { return everywhere(); }
   BoundingSphere operator()(const ConvexHull& hull) const {
     BoundingSphere ball = ballAround(ballCenter(hull.vertices()), hull.vertices());
     ball.radius = roundedUp(ball.radius + hull.error());
@@ -101,6 +130,11 @@ struct SphereOf {
   }
   BoundingSphere operator()(const TriangleMesh& mesh) const {
     return ballAround(ballCenter(mesh.hull().vertices()), mesh.vertices());
+  }
+
+ private:
+  static BoundingSphere everywhere() {
+    return {Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
   }
 };
 
@@ -113,6 +147,13 @@ struct BoxOf {
   Aabb operator()(const Capsule& capsule) const {
     return symmetric(capsule.radius, roundedUp(capsule.radius + capsule.halfLength));
   }
+  Aabb operator()(const Cone& cone) const { return symmetric(cone.radius, cone.halfLength); }
+  Aabb operator()(const Ellipsoid& ellipsoid) const {
+    return {-ellipsoid.semiAxes, ellipsoid.semiAxes};
+  }
+  Aabb operator()(const Triangle& triangle) const { return boxOf(triangle.corners); }
+  Aabb operator()(const Plane&) const { return everywhere(); }
+  Aabb operator()(const HalfSpace&) const { return everywhere(); }
   Aabb operator()(const ConvexHull& hull) const {
     Aabb box = boxOf(hull.vertices());
     if (hull.error() > 0.0) {
@@ -129,6 +170,10 @@ struct BoxOf {
   Aabb operator()(const TriangleMesh& mesh) const { return boxOf(mesh.vertices()); }
 
  private:
+  static Aabb everywhere() {
+    const auto all = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    return {-all, all};
+  }
   static Aabb symmetric(double radial, double axial) {
     const Eigen::Vector3d half(radial, radial, axial);
     return {-half, half};
@@ -159,6 +204,43 @@ Capsule makeCapsule(double radius, double segmentLength) {
   requireSize("capsule radius", radius);
   requireSize("capsule length", segmentLength);
   return {radius, 0.5 * segmentLength};
+}
+
+Cone makeCone(double radius, double fullHeight) {
+  requireSize("cone radius", radius);
+  requireSize("cone height", fullHeight);
+  return {radius, 0.5 * fullHeight};
+}
+
+Ellipsoid makeEllipsoid(const Eigen::Vector3d& semiAxes) {
+  requireSize("ellipsoid semi-axis x", semiAxes.x());
+  requireSize("ellipsoid semi-axis y", semiAxes.y());
+  requireSize("ellipsoid semi-axis z", semiAxes.z());
+  return {semiAxes};
+}
+
+Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      const Eigen::Vector3d& c) {
+  const Triangle triangle{{a, b, c}};
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& corner = triangle.corners[i];
+    if (corner.allFinite()) continue;
+    std::ostringstream message;
+    message << "triangle corner " << i << " is (" << corner.transpose()
+            << "); allowed: finite coordinates";
+    throw std::invalid_argument(message.str());
+  }
+  return triangle;
+}
+
+Plane makePlane(const Eigen::Vector3d& normal, double offset) {
+  const double length = requireNormal("plane", normal, offset);
+  return {normal / length, offset / length};
+}
+
+HalfSpace makeHalfSpace(const Eigen::Vector3d& normal, double offset) {
+  const double length = requireNormal("half-space", normal, offset);
+  return {normal / length, offset / length};
 }
 
 BoundingSphere boundingSphere(const Shape& shape) {

@@ -1,22 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/distance.hpp"
 
+#include <algorithm>
+#include <variant>
+
+#include "narrowphase/convex_pair.hpp"
 #include "narrowphase/libccd_backend.hpp"
 #include "narrowphase/piecewise.hpp"
 
 namespace swept {
 
-DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
-                        const DistanceOptions& options) {
-  if (!a_from_b.matrix().allFinite()) return {};
-  if (options.backend == Backend::Libccd) return detail::libccdDistance(a, b, a_from_b, options);
+namespace {
 
+bool isUnbounded(const Shape& shape) {
+  return std::holds_alternative<Plane>(shape) || std::holds_alternative<HalfSpace>(shape);
+}
+
+/// Planes and half-spaces have closed forms on either backend.
+bool wantsLibccd(const Shape& a, const Shape& b, Backend backend) {
+  return backend == Backend::Libccd && !isUnbounded(a) && !isUnbounded(b);
+}
+
+DistanceResult distanceOfPieces(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
+                                const DistanceOptions& options) {
   detail::PieceGoal goal;
   goal.enough = options.enough;
   goal.contact = options.contact;
   goal.tolerance = options.tolerance;
-  const detail::PieceResult found = detail::searchPieces(detail::Side::of(a), detail::Side::of(b),
-                                                         a_from_b, Eigen::Vector3d::Zero(), goal);
+  const detail::PieceResult found =
+      detail::searchPieces(detail::Side::of(a), detail::Side::of(b), a_from_b, options.guess, goal);
   DistanceResult result;
   result.lower = found.lower;
   result.upper = found.upper;
@@ -27,15 +39,28 @@ DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d&
   return result;
 }
 
+}  // namespace
+
+DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
+                        const DistanceOptions& options) {
+  if (!detail::isFinite(a_from_b)) return {};
+  if (wantsLibccd(a, b, options.backend)) return detail::libccdDistance(a, b, a_from_b, options);
+  DistanceResult result;
+  if (detail::convexDistance(a, b, a_from_b, options, result)) return result;
+  return distanceOfPieces(a, b, a_from_b, options);
+}
+
 Contact collide(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                 Backend backend) {
-  if (!a_from_b.matrix().allFinite()) return Contact::Unknown;
-  if (backend == Backend::Libccd) {
+  if (!detail::isFinite(a_from_b)) return Contact::Unknown;
+  if (wantsLibccd(a, b, backend)) {
     return detail::libccdIntersect(a, b, a_from_b) ? Contact::Touching : Contact::Separate;
   }
+  Contact contact = Contact::Unknown;
+  if (detail::convexCollide(a, b, a_from_b, contact)) return contact;
   DistanceOptions options;
   options.enough = 0.0;
-  const DistanceResult result = distance(a, b, a_from_b, options);
+  const DistanceResult result = distanceOfPieces(a, b, a_from_b, options);
   if (result.lower > 0.0) return Contact::Separate;
   return result.upper <= 0.0 ? Contact::Touching : Contact::Unknown;
 }

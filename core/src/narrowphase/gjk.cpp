@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "narrowphase/descent.hpp"
+#include "narrowphase/newton.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -12,30 +14,25 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d firstDirection(const Vector3d& guess, const Vector3d& offset) {
-  for (const Vector3d& candidate : {guess, offset}) {
-    const double norm = candidate.norm();
-    if (norm > 0.0 && std::isfinite(norm)) return candidate / norm;
-  }
-  return Vector3d::UnitX();
+bool isUsable(double squared) {
+  return squared > 1e-200 && squared < 1e200;
 }
 
-/// Direction of the nearest point v, which is perpendicular to the simplex. Near contact v is a
-/// small difference of large coordinates and its direction worth little; a triangle's edges still
-/// know it.
-Vector3d separatingDirection(const Simplex& simplex, const Vector3d& v, double distance,
-                             double magnitude) {
-  constexpr double kNear = 1e-5;        // relative: below, v has lost five digits
-  constexpr double kWellShaped = 1e-6;  // sine of the angle between the edges
-  if (simplex.size == 3 && distance < kNear * magnitude) {
-    const Vector3d e = simplex.vertices[1].difference - simplex.vertices[0].difference;
-    const Vector3d f = simplex.vertices[2].difference - simplex.vertices[0].difference;
-    const Vector3d normal = e.cross(f);
-    const double norm = normal.norm();
-    if (norm > kWellShaped * e.norm() * f.norm())
-      return normal / (v.dot(normal) < 0.0 ? -norm : norm);
-  }
-  return v / distance;
+Vector3d firstDirection(const Vector3d& guess, const Vector3d& offset) {
+  if (isUsable(guess.squaredNorm())) return guess;
+  if (isUsable(offset.squaredNorm())) return offset;
+  const double norm = offset.stableNorm();
+  return norm > 0.0 ? Vector3d((offset / norm).normalized()) : Vector3d::UnitX();
+}
+
+/// Length of d, which is scaled where its square leaves the range of doubles.
+double lengthOf(Vector3d& d) {
+  const double squared = d.squaredNorm();
+  if (isUsable(squared)) return std::sqrt(squared);
+  const double norm = d.stableNorm();
+  if (!(norm > 0.0) || !std::isfinite(norm)) return 0.0;
+  d = (d / norm).normalized();
+  return 1.0;
 }
 
 /// Moves the core's witness points out to the surfaces of the grown bodies, or to a common point
@@ -54,9 +51,68 @@ void growWitness(GjkResult& result, const Vector3d& v, double distance, double r
     // Any point at s from A's core, distance - radiusB <= s <= radiusA, belongs to both.
     const double s = std::clamp(0.5 * (radiusA + distance - radiusB), 0.0, distance);
     result.pointA += (s / distance) * v;
-    result.pointB = result.pointA;
   }
+  result.pointB = result.pointA;
   result.upper = 0.0;
+}
+
+struct Pair {
+  const Convex& a;
+  const Convex& b;
+  const Eigen::Vector3d offset;
+  const Eigen::Matrix3d rotation;
+  /// m. Lemma (support rounding): with direction n as given, the computed n . (b - a) over the
+  /// computed support points is at least the true minimum less this. Each dot product of three
+  /// terms, the rotation of n and of a point, and the norm of n contribute at most a few ulps of
+  /// the coordinates' magnitude.
+  const double rounding;
+
+  Pair(const Convex& bodyA, const Convex& bodyB, const Eigen::Isometry3d& a_from_b)
+      : a(bodyA),
+        b(bodyB),
+        offset(a_from_b.translation()),
+        rotation(a_from_b.linear()),
+        rounding(tolerance::kSupportRounding *
+                     (a.extent + b.extent + offset.cwiseAbs().sum() + a.radius + b.radius) +
+                 a.error + b.error) {}
+
+  /// The point of B - A that lies deepest along d, and A's part of it.
+  void support(const Vector3d& d, Vector3d& w, Vector3d& onA) const {
+    onA = a.support(d);
+    w = (rotation * b.support(-(rotation.transpose() * d)) + offset) - onA;
+  }
+};
+
+/// Witness points of the cores, and how far apart they are.
+double witness(const Simplex& found, GjkResult& result, Vector3d& apart) {
+  Simplex simplex = found;
+  for (int i = 0; i < simplex.size; ++i) {
+    if (simplex.vertices[i].weight >= 0.0) continue;
+    simplex.reduceToNearest();
+    break;
+  }
+  apart.setZero();
+  for (int i = 0; i < simplex.size; ++i) {
+    apart += simplex.vertices[i].weight * simplex.vertices[i].difference;
+  }
+  result.pointA = simplex.pointA();
+  result.pointB = result.pointA + apart;
+  return apart.norm();
+}
+
+/// The slab between two bodies that Newton's method found.
+GjkResult fromSlab(const CoreGap& gap, const Pair& pair, const Goal& goal, int iterations) {
+  GjkResult result;
+  result.iterations = iterations;
+  result.normal = gap.normal;
+  result.lower = std::max(0.0, gap.distance - pair.a.radius - pair.b.radius - pair.rounding);
+  result.satisfied = result.lower > goal.along(gap.normal);
+  result.pointA = gap.pointA;
+  result.pointB = gap.pointB;
+  const Vector3d apart = gap.pointB - gap.pointA;
+  growWitness(result, apart, apart.norm(), pair.a.radius, pair.b.radius);
+  result.upper = std::max(result.upper, result.lower);
+  return result;
 }
 
 }  // namespace
@@ -64,34 +120,32 @@ void growWitness(GjkResult& result, const Vector3d& v, double distance, double r
 GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
               const Vector3d& guess, const Goal& goal, double contact, double tolerance,
               GjkMode mode, Simplex* last) {
-  const Vector3d offset = a_from_b.translation();
-  const Eigen::Matrix3d rotation = a_from_b.linear();
+  const Pair pair(a, b, a_from_b);
   const double radii = a.radius + b.radius;
-  // Lemma (support rounding): with direction n as given, the computed n . (b - a) over the computed
-  // support points is at least the true minimum less this. Each dot product of three terms, the
-  // rotation of n and of a point, and the norm of n contribute at most a few ulps of the
-  // coordinates' magnitude.
-  const double magnitude = a.extent + b.extent + offset.norm() + radii;
-  const double rounding = tolerance::kSupportRounding * magnitude + a.error + b.error;
-
   GjkResult result;
-  Simplex simplex;
-  Vector3d n = firstDirection(guess, offset);
-  Vector3d v = Vector3d::Zero();
-  double distance = std::numeric_limits<double>::infinity();  // |v|, between the cores
+  Descent simplex;
+  const bool curved = mode == GjkMode::Exact && (isCurved(a) || isCurved(b));
+  int tryNewton = 4;
+  Vector3d d = firstDirection(guess, pair.offset);
+  double squared = std::numeric_limits<double>::infinity();
+  double distance = squared;  // between the cores, so far
 
   for (int i = 0; i < tolerance::kMaxGjkIterations; ++i) {
     ++result.iterations;
-    const Vector3d onA = a.support(n);
-    const Vector3d onB = rotation * b.support(-(rotation.transpose() * n)) + offset;
-    const Vector3d w = onB - onA;
-    const double separation = n.dot(w);
-    const double lower = separation - radii - rounding;
+    const double length = lengthOf(d);
+    if (!(length > 0.0)) break;
+    Vector3d w;
+    Vector3d onA;
+    pair.support(d, w, onA);
+    const double scale = 1.0 / length;
+    const double separation = d.dot(w) * scale;
+    const double lower = separation - radii - pair.rounding;
+    const Vector3d n = scale * d;
+    const double needed = goal.along(n);
     if (lower > result.lower) {
       result.lower = lower;
       result.normal = n;
     }
-    const double needed = goal.along(n);
     if (lower > needed) {
       result.satisfied = true;
       result.lower = lower;
@@ -106,28 +160,75 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
     if (distance - separation <= tolerance && result.lower > 0.0) break;
     if (simplex.contains(w)) break;
 
-    Simplex next = simplex;
-    next.add(onA, onB);
-    const Vector3d nearest = next.reduceToNearest();
-    const double reached = nearest.norm();
-    if (!(reached < distance)) break;
-    simplex = next;
-    v = nearest;
-    distance = reached;
-    if (simplex.size == 4 || distance - radii <= contact || distance <= rounding) break;
-    n = separatingDirection(simplex, v, distance, magnitude);
+    simplex.propose(w, onA);
+    const Descent::Step step = simplex.step<true>();
+    if (step.squared < squared) {
+      simplex.take(step);
+      squared = step.squared;
+      d = step.direction;
+    } else {
+      const Simplex careful = simplex.reducedCarefully();
+      const Vector3d nearest = careful.nearest();
+      if (!(nearest.squaredNorm() < squared)) break;
+      simplex.take(careful);
+      squared = nearest.squaredNorm();
+      d = nearest;
+    }
+    distance = std::sqrt(squared);
+    if (curved && result.iterations >= tryNewton && result.lower > 0.0) {
+      tryNewton = 2 * result.iterations;
+      CoreGap gap;
+      if (newtonGap(a, b, a_from_b, result.normal, simplex.spots(a_from_b), tolerance, gap,
+                    result.iterations)) {
+        return fromSlab(gap, pair, goal, result.iterations);
+      }
+    }
+    if (simplex.size() == 4 || distance - radii <= contact || distance <= pair.rounding) break;
   }
 
-  if (last != nullptr) *last = simplex;
-  if (!std::isfinite(distance)) return result;
-  result.pointA = simplex.pointA();
-  result.pointB = simplex.pointB();
+  if (simplex.size() == 0) {
+    if (last != nullptr) last->size = 0;
+    return result;
+  }
+  const Simplex weighted = simplex.weighted();
+  if (last != nullptr) *last = weighted;
+  Vector3d apart;
+  distance = witness(weighted, result, apart);
   // The origin inside the simplex means that the weighted points coincide up to rounding.
-  if (distance <= rounding) distance = 0.0;
-  growWitness(result, v, distance, a.radius, b.radius);
+  if (distance <= pair.rounding || simplex.size() == 4) distance = 0.0;
+  growWitness(result, apart, distance, a.radius, b.radius);
   result.upper = std::max(result.upper, result.lower);
-  if (result.normal.isZero()) result.normal = n;
+  if (result.normal.isZero()) {
+    const double length = lengthOf(d);
+    result.normal = length > 0.0 ? Vector3d(d / length) : firstDirection(guess, pair.offset);
+  }
   return result;
+}
+
+Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
+  constexpr int kIterations = 32;  // what takes more is left to gjk()
+  const Pair pair(a, b, a_from_b);
+  Descent simplex;
+  Vector3d d = firstDirection(Vector3d::Zero(), pair.offset);
+  for (int i = 0; i < kIterations; ++i) {
+    Vector3d w;
+    Vector3d onA;
+    pair.support(d, w, onA);
+    const double separation = d.dot(w);
+    if (separation > 0.0) {
+      const double length = lengthOf(d);
+      if (separation > pair.rounding * length) return Contact::Separate;
+    }
+    if (simplex.contains(w)) break;
+    simplex.propose(w, onA);
+    const Descent::Step step = simplex.step<false>();
+    simplex.take(step);
+    if (step.size == 4) return Contact::Touching;
+    d = step.direction;
+    const double squared = d.squaredNorm();
+    if (!isUsable(squared)) break;
+  }
+  return Contact::Unknown;
 }
 
 }  // namespace swept::detail

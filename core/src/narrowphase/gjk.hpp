@@ -5,6 +5,7 @@
 
 #include "narrowphase/convex.hpp"
 #include "narrowphase/simplex.hpp"
+#include "swept/core/distance.hpp"
 #include "swept/core/separation.hpp"
 
 namespace swept::detail {
@@ -50,5 +51,10 @@ struct GjkResult {
 GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
               const Eigen::Vector3d& guess, const Goal& goal, double contact, double tolerance,
               GjkMode mode, Simplex* last = nullptr);
+
+/// Whether two cores share a point, without what only a distance needs: the same descent by signs
+/// alone. `Separate` is proven; `Unknown` where rounding or slow convergence leaves the answer to
+/// gjk(). The balls around the cores are ignored.
+Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b);
 
 }  // namespace swept::detail

@@ -11,18 +11,14 @@
 #include <utility>
 #include <variant>
 
-#include "bvh/triangle_bvh.hpp"
+#include "bvh/wide_bvh.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
 namespace {
 
-struct Triangle {
-  std::array<Eigen::Vector3d, 3> corners;  ///< m
-};
-
 /// What libccd can handle in one call.
-using Piece = std::variant<Sphere, Box, Cylinder, Capsule, ConvexHull, Triangle>;
+using Piece = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle>;
 
 double along(double direction, double size) {
   return direction < 0.0 ? -size : size;
@@ -55,6 +51,19 @@ struct SupportAlong {
     return capsule.radius * direction +
            Eigen::Vector3d(0.0, 0.0, along(direction.z(), capsule.halfLength));
   }
+  Eigen::Vector3d operator()(const Cone& cone) const {
+    const Eigen::Vector3d apex(0.0, 0.0, cone.halfLength);
+    const double radial = std::hypot(direction.x(), direction.y());
+    const double scale = radial > 0.0 ? cone.radius / radial : 0.0;
+    const Eigen::Vector3d rim(scale * direction.x(), scale * direction.y(), -cone.halfLength);
+    return apex.dot(direction) > rim.dot(direction) ? apex : rim;
+  }
+  Eigen::Vector3d operator()(const Ellipsoid& ellipsoid) const {
+    const Eigen::Vector3d scaled = ellipsoid.semiAxes.cwiseProduct(direction);
+    const double length = scaled.norm();
+    if (!(length > 0.0)) return Eigen::Vector3d::Zero();
+    return ellipsoid.semiAxes.cwiseProduct(scaled) / length;
+  }
   Eigen::Vector3d operator()(const ConvexHull& hull) const {
     return farthestOf(hull.vertices(), direction);
   }
@@ -70,12 +79,15 @@ Eigen::Vector3d meanOf(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Of a mesh: its hull.
+/// Of a mesh: its hull. Planes and half-spaces never come here.
 Piece pieceOf(const Shape& shape) {
   return std::visit(
       [](const auto& solid) -> Piece {
-        if constexpr (std::is_same_v<std::decay_t<decltype(solid)>, TriangleMesh>) {
+        using Solid = std::decay_t<decltype(solid)>;
+        if constexpr (std::is_same_v<Solid, TriangleMesh>) {
           return solid.hull();
+        } else if constexpr (std::is_same_v<Solid, Plane> || std::is_same_v<Solid, HalfSpace>) {
+          return Sphere{0.0};
         } else {
           return solid;
         }
@@ -183,8 +195,15 @@ struct Search {
   }
 };
 
-double distanceToBox(const TriangleBvh::Node& node, const Eigen::Vector3d& point) {
-  return ((point - node.center).cwiseAbs() - node.halfExtents).cwiseMax(0.0).norm();
+/// m. From a point, relative to the origin of the boxes.
+double distanceToBox(const BoxF& box, const Eigen::Vector3d& point) {
+  double squared = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double outside = std::max(
+        0.0, std::abs(point[i] - static_cast<double>(box.center[i])) - double{box.half[i]});
+    squared += outside * outside;
+  }
+  return std::sqrt(squared);
 }
 
 Triangle triangleOf(const TriangleMesh& mesh, int index) {
@@ -192,31 +211,33 @@ Triangle triangleOf(const TriangleMesh& mesh, int index) {
   return {{mesh.vertices()[corners[0]], mesh.vertices()[corners[1]], mesh.vertices()[corners[2]]}};
 }
 
-/// Every triangle of `mesh` near enough to matter against `body`, both in the mesh's frame.
-void examineMesh(const TriangleMesh& mesh, Body& body, Search& search) {
-  const std::vector<TriangleBvh::Node>& nodes = mesh.bvh().nodes();
-  std::array<int, TriangleBvh::kMaxDepth> stack;
-  int pending = 0;
-  stack[pending++] = 0;
-  while (pending > 0 && !search.done()) {
-    const int index = stack[--pending];
-    const TriangleBvh::Node& node = nodes[index];
-    if (distanceToBox(node, body.center) - body.radius >= search.upper) continue;
-    if (node.rightChild >= 0) {
-      int near = index + 1;
-      int far = node.rightChild;
-      if (distanceToBox(nodes[far], body.center) < distanceToBox(nodes[near], body.center)) {
-        std::swap(near, far);
-      }
-      stack[pending++] = far;
-      stack[pending++] = near;
-      continue;
-    }
-    for (int i = node.firstTriangle; i < node.firstTriangle + node.triangleCount; ++i) {
-      Body triangle(triangleOf(mesh, i), Eigen::Isometry3d::Identity());
+/// Every triangle of `mesh` near enough to matter against `body`, both in the mesh's frame, the
+/// nearest boxes first.
+void examineMesh(const TriangleMesh& mesh, int index, Body& body, Search& search) {
+  const WideNode& node = mesh.bvh().nodes()[index];
+  const Eigen::Vector3d center = body.center - mesh.bvh().origin();
+  std::array<std::pair<double, int>, WideNode::kLanes> order;
+  for (int lane = 0; lane < node.count; ++lane) {
+    const double least = distanceToBox(node.box(lane), center) - body.radius;
+    int at = lane;
+    for (; at > 0 && order[at - 1].first > least; --at) order[at] = order[at - 1];
+    order[at] = {least, lane};
+  }
+  for (int i = 0; i < node.count && !search.done(); ++i) {
+    const auto [least, lane] = order[i];
+    if (least >= search.upper) break;
+    const int child = node.child[lane];
+    if (child >= 0) {
+      examineMesh(mesh, child, body, search);
+    } else {
+      Body triangle(triangleOf(mesh, ~child), Eigen::Isometry3d::Identity());
       search.examine(triangle, body);
     }
   }
+}
+
+void examineMesh(const TriangleMesh& mesh, Body& body, Search& search) {
+  examineMesh(mesh, 0, body, search);
 }
 
 /// `a` is a mesh.

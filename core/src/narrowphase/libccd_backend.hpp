@@ -6,7 +6,7 @@
 /// libccd behind the interface of distance() and collide(), for comparison. Nothing here is proven:
 /// its answers are those of an iteration that stops by a tolerance of its own. Support mappings and
 /// the walk over meshes are separate from those of the native backend, so that the two can be
-/// tested against each other.
+/// tested against each other. Planes and half-spaces, which libccd does not know, are not for it.
 namespace swept::detail {
 
 /// libccd has yes/no answers only, so a distance is found by bisection: the least r for which `a`

@@ -129,6 +129,12 @@ Vector3d Simplex::reduceToNearest() {
   return nearest.point;
 }
 
+Vector3d Simplex::nearest() const {
+  Vector3d point = Vector3d::Zero();
+  for (int i = 0; i < size; ++i) point += vertices[i].weight * vertices[i].difference;
+  return point;
+}
+
 Vector3d Simplex::pointA() const {
   Vector3d point = Vector3d::Zero();
   for (int i = 0; i < size; ++i) point += vertices[i].weight * vertices[i].a;

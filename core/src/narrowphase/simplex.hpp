@@ -24,6 +24,7 @@ struct Simplex {
   /// the weights and returns that point. Four vertices are left exactly when the origin is inside.
   Eigen::Vector3d reduceToNearest();
 
+  Eigen::Vector3d nearest() const;  ///< m, the weighted sum of the differences
   Eigen::Vector3d pointA() const;
   Eigen::Vector3d pointB() const;
 };

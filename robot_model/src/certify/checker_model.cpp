@@ -19,6 +19,13 @@ LinkPair ordered(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+/// m, from the shape's origin to an unbounded shape's boundary.
+double planeOffset(const Shape& shape) {
+  if (const auto* plane = std::get_if<Plane>(&shape)) return std::abs(plane->offset);
+  if (const auto* halfSpace = std::get_if<HalfSpace>(&shape)) return std::abs(halfSpace->offset);
+  return 0.0;
+}
+
 class Compiler {
  public:
   Compiler(std::shared_ptr<const Robot> robot, const Group& group,
@@ -65,11 +72,15 @@ class Compiler {
         geometry.shape = part.shape;
         geometry.world_from_shape = part.world_from_shape;
         const Aabb box = boundingBox(part.shape);
+        const bool bounded = (box.upper - box.lower).allFinite();
+        const Vector3d middle =
+            bounded ? Vector3d(0.5 * (box.lower + box.upper)) : Vector3d::Zero();
         Isometry3d world_from_box = part.world_from_shape;
-        world_from_box.translation() = part.world_from_shape * (0.5 * (box.lower + box.upper));
+        world_from_box.translation() = part.world_from_shape * middle;
         geometry.box_from_world = world_from_box.inverse();
-        geometry.halfExtents = 0.5 * (box.upper - box.lower);
-        geometry.magnitude = world_from_box.translation().norm() + geometry.halfExtents.norm();
+        geometry.halfExtents = box.upper - middle;
+        geometry.magnitude = world_from_box.translation().norm() +
+                             (bounded ? geometry.halfExtents.norm() : planeOffset(part.shape));
         model_.worldGeometry.push_back(std::move(geometry));
       }
     }

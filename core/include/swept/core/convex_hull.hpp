@@ -11,8 +11,8 @@ namespace swept {
 /// Solid convex hull of a set of points.
 ///
 /// Keeps the points that are extreme; every given point lies in the hull of the kept ones grown by
-/// `error()`. Queries against a hull add that error to their rounding bound, so dropping a point can
-/// never make something Free.
+/// `error()`. Queries against a hull add that error to their rounding bound, so dropping a point
+/// can never make something Free.
 class ConvexHull {
  public:
   /// Throws std::invalid_argument when `points` is empty or holds a non-finite coordinate. Flat and
@@ -25,11 +25,16 @@ class ConvexHull {
   const std::vector<Eigen::Vector3i>& faces() const { return data_->faces; }
   double error() const { return data_->error; }    ///< m
   double extent() const { return data_->extent; }  ///< m, no vertex is farther from the origin
+  /// m. All x, then all y, then all z of the vertices, each list filled up to a multiple of
+  /// `kLanes` with the first vertex: what a vectorised scan reads.
+  std::span<const double> coordinates() const { return data_->coordinates; }
+  static constexpr std::size_t kLanes = 8;
 
  private:
   struct Data {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<Eigen::Vector3i> faces;
+    std::vector<double> coordinates;
     double error = 0.0;
     double extent = 0.0;
   };

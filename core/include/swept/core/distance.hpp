@@ -12,7 +12,7 @@ namespace swept {
 
 enum class Backend : std::uint8_t {
   Native,  ///< our GJK: certified lower bounds
-  Libccd,  ///< libccd for convex pairs: no certified bound, `lower` is always 0; for comparison
+  Libccd,  ///< libccd for bounded pairs: no certified bound, `lower` is always 0; for comparison
 };
 
 struct DistanceOptions {
@@ -22,15 +22,18 @@ struct DistanceOptions {
   double contact = 0.0;
   /// m. Stop when upper - lower is at most this.
   double tolerance = tolerance::kDistance;
+  /// Warm start: a direction from a to b in a's frame, such as the `normal` of a result for a pose
+  /// nearby; zero if none is known. Changes the effort, not what is proven.
+  Eigen::Vector3d guess = Eigen::Vector3d::Zero();
   Backend backend = Backend::Native;
 };
 
 /// Euclidean distance between two solids, as an interval.
 ///
-/// lower <= distance <= upper always holds, whichever criterion stopped the query: `lower` is proven
-/// (rounding included), `upper` is witnessed by the two points. Overlap or touching gives upper 0.
-/// After convergence upper - lower <= options.tolerance; on inputs so extreme that rounding prevents
-/// it the interval is wider, and says so.
+/// lower <= distance <= upper always holds, whichever criterion stopped the query: `lower` is
+/// proven (rounding included), `upper` is witnessed by the two points. Overlap or touching gives
+/// upper 0. After convergence upper - lower <= options.tolerance; on inputs so extreme that
+/// rounding prevents it the interval is wider, and says so.
 struct DistanceResult {
   double lower = 0.0;                                      ///< m
   double upper = std::numeric_limits<double>::infinity();  ///< m; infinity: no witness computed yet
@@ -42,8 +45,8 @@ struct DistanceResult {
   int iterations = 0;  ///< support evaluations, summed over convex pairs
 };
 
-/// Distance of `b` from `a`; pose of b in a's frame. Never throws on finite input. With a non-finite
-/// pose the result is the widest interval, [0, infinity].
+/// Distance of `b` from `a`; pose of b in a's frame. Never throws on finite input. With a
+/// non-finite pose the result is the widest interval, [0, infinity].
 DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                         const DistanceOptions& options = {});
 

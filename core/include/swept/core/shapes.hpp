@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <variant>
 
 #include "swept/core/bv/aabb.hpp"
@@ -10,8 +11,9 @@
 
 namespace swept {
 
-/// All shapes are solids in a local frame, centred at its origin where that makes sense.
-/// Lengths are in metres. `makeSphere` and friends check their arguments.
+/// Shapes are closed sets in a local frame, centred at its origin where that makes sense, and solid
+/// but for triangles, planes and open meshes. Lengths are in metres. `makeSphere` and friends check
+/// their arguments.
 
 struct Sphere {
   double radius;  ///< m
@@ -33,23 +35,61 @@ struct Capsule {
   double halfLength;  ///< m, half of the segment between the cap centres
 };
 
-/// `ConvexHull` and `TriangleMesh` hold shared immutable data and are cheap to copy.
-using Shape = std::variant<Sphere, Box, Cylinder, Capsule, ConvexHull, TriangleMesh>;
+/// Axis along local z: the apex at +halfLength, the centre of the flat base at -halfLength.
+struct Cone {
+  double radius;      ///< m, of the base
+  double halfLength;  ///< m, half of the height
+};
 
-/// Each throws std::invalid_argument, naming the value, unless every size is finite and not negative.
+struct Ellipsoid {
+  Eigen::Vector3d semiAxes;  ///< m, along the local axes
+};
+
+/// A surface without thickness; may be degenerate to a segment or a point.
+struct Triangle {
+  std::array<Eigen::Vector3d, 3> corners;  ///< m
+};
+
+/// The points x with normal . x = offset: a surface without thickness.
+struct Plane {
+  Eigen::Vector3d normal;  ///< unit
+  double offset;           ///< m
+};
+
+/// The points x with normal . x <= offset.
+struct HalfSpace {
+  Eigen::Vector3d normal;  ///< unit, points out of the solid
+  double offset;           ///< m
+};
+
+/// `ConvexHull` and `TriangleMesh` hold shared immutable data and are cheap to copy.
+using Shape = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle,
+                           Plane, HalfSpace, TriangleMesh>;
+
+/// Each throws std::invalid_argument, naming the value, unless every size is finite and not
+/// negative.
 Sphere makeSphere(double radius);
 Box makeBox(const Eigen::Vector3d& fullExtents);
 Cylinder makeCylinder(double radius, double fullLength);
 Capsule makeCapsule(double radius, double segmentLength);
+Cone makeCone(double radius, double fullHeight);
+Ellipsoid makeEllipsoid(const Eigen::Vector3d& semiAxes);
+/// Throws std::invalid_argument, naming the corner, unless all coordinates are finite.
+Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+/// `normal` may have any length, and the set is { normal . x = offset } (or <=) as given. Throws
+/// std::invalid_argument unless all numbers are finite and the normal's length is a normal number.
+Plane makePlane(const Eigen::Vector3d& normal, double offset);
+HalfSpace makeHalfSpace(const Eigen::Vector3d& normal, double offset);
 
-/// Ball that contains a shape.
+/// Ball that contains a shape; of infinite radius for planes and half-spaces.
 struct BoundingSphere {
   Eigen::Vector3d center;  ///< m, in the shape's frame
   double radius;           ///< m, rounded outward
 };
 BoundingSphere boundingSphere(const Shape& shape);
 
-/// Box of the shape in its own frame, rounded outward.
+/// Box of the shape in its own frame, rounded outward; unbounded (infinite coordinates) for planes
+/// and half-spaces.
 Aabb boundingBox(const Shape& shape);
 
 }  // namespace swept

@@ -4,23 +4,25 @@
 /// Every tolerance of swept: its unit, its value and what breaks when it moves.
 namespace swept::tolerance {
 
-/// rad or m of motion, as metres of the moving geometry. A motion that keeps more than margin + this
-/// is always decided. Smaller: fewer Undecided, more time on motions that graze.
+/// rad or m of motion, as metres of the moving geometry. A motion that keeps more than margin +
+/// this is always decided. Smaller: fewer Undecided, more time on motions that graze.
 inline constexpr double kMotion = 1e-3;
 
-/// Relative (no unit). Bound on the accumulated rounding of a pose, per unit of coordinate magnitude
-/// and per joint of the chain. A double rounds by 1.1e-16, and the operations of one joint (Rodrigues
-/// rotation, product, translation) are fewer than 60. Smaller than that product: a Free could be wrong
-/// by rounding. Larger: only more Undecided.
+/// Relative (no unit). Bound on the accumulated rounding of a pose, per unit of coordinate
+/// magnitude and per joint of the chain. A double rounds by 1.1e-16, and the operations of one
+/// joint (Rodrigues rotation, product, translation) are fewer than 60. Smaller than that product: a
+/// Free could be wrong by rounding. Larger: only more Undecided.
 inline constexpr double kRoundingPerJoint = 2e-14;
 
-/// Relative (no unit). Bound on the rounding of one support evaluation and of the separation computed
-/// from it, per unit of coordinate magnitude: fewer than 40 operations of 1.1e-16 each. Smaller than
-/// that: a proven separation could be wrong by rounding. Larger: more Undecided at large coordinates.
+/// Relative (no unit). Bound on the rounding of one support evaluation and of the separation
+/// computed from it, per unit of coordinate magnitude: fewer than 40 operations of 1.1e-16 each.
+/// Smaller than that: a proven separation could be wrong by rounding. Larger: more Undecided at
+/// large coordinates.
 inline constexpr double kSupportRounding = 1e-14;
 
 /// m. Convergence of a distance query whose caller asks for no other: upper - lower.
-/// Smaller: more iterations on curved pairs, and no convergence below about 1e-14 of the coordinates.
+/// Smaller: more iterations on curved pairs, and no convergence below about 1e-14 of the
+/// coordinates.
 inline constexpr double kDistance = 1e-9;
 
 /// m. Accuracy of the libccd backend, which has no distance of its own (bisection on inflation).
@@ -31,13 +33,14 @@ inline constexpr double kLibccdDistance = 1e-6;
 /// real gaps, and a surface would be taken for a solid.
 inline constexpr double kWeld = 0.0;
 
-/// Relative to the largest coordinate. A point is left out of a convex hull only when it is proven this
-/// close to the hull of those kept. Smaller: more vertices than the hull needs. Larger: hulls report, and
-/// queries add, that much more error.
+/// Relative to the largest coordinate. A point is left out of a convex hull only when it is proven
+/// this close to the hull of those kept. Smaller: more vertices than the hull needs. Larger: hulls
+/// report, and queries add, that much more error.
 inline constexpr double kHull = 1e-12;
 
-/// rad. How far a revolute or continuous value, and m for a prismatic one, may pass its limit and still be within it:
-/// the rounding of degrees to radians in files. Larger: hardware limits are not kept.
+/// rad. How far a revolute or continuous value, and m for a prismatic one, may pass its limit and
+/// still be within it: the rounding of degrees to radians in files. Larger: hardware limits are not
+/// kept.
 inline constexpr double kLimit = 1e-9;
 
 /// Enforced cap on the intervals examined in one motion; what is left is Undecided.

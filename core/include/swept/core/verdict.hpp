@@ -17,9 +17,12 @@ enum class Verdict : std::uint8_t {
 
 constexpr std::string_view toString(Verdict verdict) {
   switch (verdict) {
-    case Verdict::Free: return "free";
-    case Verdict::Collision: return "collision";
-    case Verdict::Undecided: break;
+    case Verdict::Free:
+      return "free";
+    case Verdict::Collision:
+      return "collision";
+    case Verdict::Undecided:
+      break;
   }
   return "undecided";
 }

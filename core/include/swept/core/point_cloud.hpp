@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace swept {
+
+namespace detail {
+class WideBvh;
+}
+
+/// Points, each standing for a ball of one radius (what a sensor may be off by, or half a voxel),
+/// with a hierarchy over them. A union of solids: what its balls surround is not part of it.
+/// Immutable; copies share the data.
+class PointCloud {
+ public:
+  /// `radius`: m. Throws std::invalid_argument when `points` is empty, for a non-finite coordinate,
+  /// and for a radius that is negative or not finite; names the point or the value.
+  static PointCloud build(std::span<const Eigen::Vector3d> points, double radius);
+
+  /// m, in the order of the hierarchy.
+  const std::vector<Eigen::Vector3d>& points() const { return data_->points; }
+  /// For each of points(), its index among the points given.
+  const std::vector<int>& sourceIndices() const { return data_->sourceIndices; }
+  double radius() const { return data_->radius; }  ///< m
+  double extent() const { return data_->extent; }  ///< m, no point is farther from the origin
+  const detail::WideBvh& bvh() const { return *data_->bvh; }
+
+ private:
+  struct Data {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<int> sourceIndices;
+    double radius = 0.0;
+    double extent = 0.0;
+    std::shared_ptr<const detail::WideBvh> bvh;
+  };
+  explicit PointCloud(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace swept

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <type_traits>
+
+#include "narrowphase/convex.hpp"
+#include "swept/core/tolerances.hpp"
+
+namespace swept::detail {
+
+/// What a closed form says about two cores. Everything in a's frame.
+struct CoreGap {
+  double distance;         ///< m; minus the penetration depth where the cores overlap
+  double rounding;         ///< m, bound on the error of `distance`
+  Eigen::Vector3d normal;  ///< unit, from a to b; in overlap, the shortest way out for b
+  Eigen::Vector3d pointA;  ///< m, of a's core: nearest, or deepest in b's
+  Eigen::Vector3d pointB;  ///< m, of b's core
+  Eigen::Vector3d common;  ///< m, of both cores; valid in overlap
+};
+
+template <Convex::Core kind>
+using CoreTag = std::integral_constant<Convex::Core, kind>;
+
+using PointCore = CoreTag<Convex::Core::Point>;
+using SegmentCore = CoreTag<Convex::Core::Segment>;
+using BoxCore = CoreTag<Convex::Core::Box>;
+using CylinderCore = CoreTag<Convex::Core::Cylinder>;
+using ConeCore = CoreTag<Convex::Core::Cone>;
+using EllipsoidCore = CoreTag<Convex::Core::Ellipsoid>;
+using PointsCore = CoreTag<Convex::Core::Points>;
+
+/// m. Lemma: a closed form takes a few dozen operations on coordinates of at most the magnitudes
+/// summed here, each of which errs by half an epsilon; differences of such coordinates keep that
+/// absolute error, and so do norms of differences.
+inline double pairRounding(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
+  const double magnitude =
+      a.extent + b.extent + a_from_b.translation().cwiseAbs().sum() + a.radius + b.radius;
+  return tolerance::kSupportRounding * magnitude + a.error + b.error;
+}
+
+/// The boundary point of a core nearest to a given point, in the core's frame.
+struct Foot {
+  double distance;         ///< m, negative inside
+  Eigen::Vector3d normal;  ///< unit, outward
+  Eigen::Vector3d point;   ///< m
+};
+
+/// A point against a core, from the core's foot in its own frame.
+inline CoreGap gapFromPoint(const Foot& footOnB, const Eigen::Isometry3d& a_from_b,
+                            double rounding) {
+  return {footOnB.distance,
+          rounding,
+          -(a_from_b.linear() * footOnB.normal),
+          Eigen::Vector3d::Zero(),
+          a_from_b.linear() * footOnB.point + a_from_b.translation(),
+          Eigen::Vector3d::Zero()};
+}
+
+/// A core against a point, from the core's foot.
+inline CoreGap gapToPoint(const Foot& footOnA, const Eigen::Isometry3d& a_from_b, double rounding) {
+  return {footOnA.distance,      rounding, footOnA.normal, footOnA.point, a_from_b.translation(),
+          a_from_b.translation()};
+}
+
+/// The origin of a in the frame of b.
+inline Eigen::Vector3d originOfAInB(const Eigen::Isometry3d& a_from_b) {
+  return -(a_from_b.linear().transpose() * a_from_b.translation());
+}
+
+}  // namespace swept::detail

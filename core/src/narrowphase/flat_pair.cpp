@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "narrowphase/flat_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "swept/core/tolerances.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// A signed gap with the points that witness it. All in a's frame.
+struct Gap {
+  double value = 0.0;     ///< m, negative in overlap
+  double rounding = 0.0;  ///< m
+  Vector3d pointA = Vector3d::Zero();
+  Vector3d pointB = Vector3d::Zero();
+  Vector3d normal = Vector3d::Zero();  ///< from a to b
+  bool endless = false;                ///< no translation separates the two
+};
+
+/// Plane or half-space of normal n and offset d against a bounded body, both in the frame of the
+/// first. The body's least coordinate along n is that of one support point.
+Gap againstBounded(const Convex& flat, const Convex& body, const Isometry3d& flat_from_body) {
+  const Vector3d& n = flat.size;
+  const Vector3d alongBody = flat_from_body.linear().transpose() * n;
+  const Vector3d lowest = flat_from_body * body.support(-alongBody);
+  Gap gap;
+  gap.normal = n;
+  gap.value = (n.dot(lowest) - flat.offset) - body.radius - flat.radius;
+  gap.pointB = lowest - body.radius * n;
+  if (flat.core == Convex::Core::Plane) {
+    const Vector3d highest = flat_from_body * body.support(alongBody);
+    const double above = (flat.offset - n.dot(highest)) - body.radius - flat.radius;
+    if (above > gap.value) {
+      gap.value = above;
+      gap.normal = -n;
+      gap.pointB = highest + body.radius * n;
+    }
+  }
+  gap.pointA = gap.pointB - gap.value * gap.normal;
+  // Lemma: the support point, its transformation and the dot product round by at most a few ulps of
+  // the coordinates, like a step of GJK.
+  const double magnitude = body.extent + body.radius + flat_from_body.translation().norm() +
+                           std::abs(flat.offset) + flat.radius;
+  gap.rounding = tolerance::kSupportRounding * magnitude + body.error;
+  return gap;
+}
+
+/// Both unbounded; `normalB`, `offsetB` describe the second in the frame of the first.
+Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, double offsetB,
+                 double translation) {
+  Gap gap;
+  gap.rounding = tolerance::kSupportRounding *
+                 (std::abs(a.offset) + std::abs(offsetB) + translation + a.radius + b.radius);
+  gap.pointA = a.offset * a.size;
+  gap.pointB = gap.pointA;
+  gap.normal = a.size;
+  if (a.size.cross(normalB).norm() > kParallel) {
+    gap.endless = true;
+    // A point on both boundaries.
+    const double cosine = a.size.dot(normalB);
+    const double sineSquared = a.size.cross(normalB).squaredNorm();
+    gap.pointA += ((offsetB - a.offset * cosine) / sineSquared) * (normalB - cosine * a.size);
+    gap.pointB = gap.pointA;
+    return gap;
+  }
+  const bool sameWay = a.size.dot(normalB) > 0.0;
+  const double coordinateB = sameWay ? offsetB : -offsetB;  // along a's normal
+  const double ahead = coordinateB - a.offset;
+  const bool solidA = a.core == Convex::Core::HalfSpace;
+  const bool solidB = b.core == Convex::Core::HalfSpace;
+  if (solidA && solidB && sameWay) {
+    gap.endless = true;
+    return gap;
+  }
+  // A solid on one side leaves one way apart; two planes are apart either way.
+  const bool bAhead = solidA || (solidB ? !sameWay : ahead >= 0.0);
+  gap.normal = bAhead ? a.size : Vector3d(-a.size);
+  gap.value = (bAhead ? ahead : -ahead) - a.radius - b.radius;
+  gap.pointB = gap.pointA + gap.value * gap.normal;
+  return gap;
+}
+
+Gap gapOf(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
+  if (a.isFlat() && b.isFlat()) {
+    const Vector3d normalB = a_from_b.linear() * b.size;
+    return betweenFlats(a, b, normalB, b.offset + normalB.dot(a_from_b.translation()),
+                        a_from_b.translation().norm());
+  }
+  if (a.isFlat()) return againstBounded(a, b, a_from_b);
+  const Isometry3d b_from_a = a_from_b.inverse(Eigen::Isometry);
+  Gap gap = againstBounded(b, a, b_from_a);
+  std::swap(gap.pointA, gap.pointB);
+  gap.pointA = a_from_b * gap.pointA;
+  gap.pointB = a_from_b * gap.pointB;
+  gap.normal = -(a_from_b.linear() * gap.normal);
+  return gap;
+}
+
+}  // namespace
+
+GjkResult flatPair(const Convex& a, const Convex& b, const Isometry3d& a_from_b, const Goal& goal) {
+  const Gap gap = gapOf(a, b, a_from_b);
+  GjkResult result;
+  result.iterations = 1;
+  result.normal = gap.normal;
+  const bool apart = !gap.endless && gap.value > 0.0;
+  result.pointA = gap.pointA;
+  result.pointB = apart ? gap.pointB : gap.pointA;
+  result.upper = apart ? gap.value : 0.0;
+  if (apart) result.lower = std::max(0.0, gap.value - gap.rounding);
+  result.satisfied = result.lower > goal.along(gap.normal);
+  if (!apart && !a.isFlat()) result.pointA = result.pointB = gap.pointB;
+  return result;
+}
+
+SignedDistanceResult flatPairSigned(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
+  const Gap gap = gapOf(a, b, a_from_b);
+  SignedDistanceResult result;
+  result.iterations = 1;
+  result.normal = gap.normal;
+  result.pointA = gap.pointA;
+  result.pointB = gap.pointB;
+  if (gap.endless) {
+    result.lower = result.upper = -std::numeric_limits<double>::infinity();
+  } else {
+    result.lower = gap.value - gap.rounding;
+    result.upper = gap.value + gap.rounding;
+  }
+  return result;
+}
+
+}  // namespace swept::detail

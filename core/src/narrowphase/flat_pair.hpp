@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "narrowphase/gjk.hpp"
+#include "swept/core/signed_distance.hpp"
+
+namespace swept::detail {
+
+/// Pairs of which at least one is a plane or a half-space: closed forms over the other's support
+/// points. Planes and half-spaces whose normals agree or oppose within `kParallel` are taken to be
+/// parallel (a pose's rounding turns them by that much); all others meet.
+inline constexpr double kParallel = 1e-12;  ///< rad
+
+/// As gjk() answers, with `upper` always witnessed.
+GjkResult flatPair(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
+                   const Goal& goal);
+
+/// Of a plane and a body on both sides of it, minus the shorter way out. -infinity (both bounds)
+/// where no translation separates: crossing planes and half-spaces.
+SignedDistanceResult flatPairSigned(const Convex& a, const Convex& b,
+                                    const Eigen::Isometry3d& a_from_b);
+
+}  // namespace swept::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "narrowphase/core_gap.hpp"
+
+namespace swept::detail {
+
+/// Whether the core's surface has curvature that its support function knows.
+inline bool isCurved(const Convex& body) {
+  return body.core == Convex::Core::Cylinder || body.core == Convex::Core::Cone ||
+         body.core == Convex::Core::Ellipsoid;
+}
+
+/// The different points of a body, in its own frame, that a simplex holds.
+struct Spots {
+  int count = 0;
+  std::array<Eigen::Vector3d, 3> points;  ///< m
+
+  /// Points nearer to each other than `least` are one.
+  void note(const Eigen::Vector3d& point, double least) {
+    for (int i = 0; i < count; ++i) {
+      if ((points[i] - point).squaredNorm() <= least * least) return;
+    }
+    if (count < 3) points[count++] = point;
+  }
+};
+
+/// Newton's method on the normal of the slab between two cores that are apart, from a unit `normal`
+/// near the solution. Where a descent of GJK adds a part of a digit per step, it doubles them.
+/// Looks for the solution with a smooth spot on either body, then with a straight edge of one (of a
+/// box, of a polytope as the spots say, a line on the side of a cylinder or cone) or a polytope's
+/// face and a smooth spot of the other, then with an edge of each. True if the gap is known to
+/// within `tolerance`: from below by the slab, from above by two points.
+bool newtonGap(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
+               const Eigen::Vector3d& normal, const std::array<Spots, 2>& spots, double tolerance,
+               CoreGap& gap, int& evaluations);
+
+}  // namespace swept::detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "narrowphase/core_gap.hpp"
+
+namespace swept::detail {
+
+/// On a cone, in the half-plane of the axis and the point: a triangle with the slope from the rim
+/// to the apex, of length `slant`, as its outer side.
+inline bool footOn(ConeCore, const Convex& cone, const Eigen::Vector3d& p, Foot& foot) {
+  const double across = p.x() * p.x() + p.y() * p.y();
+  if (!(across < 1e280) || (across > 0.0 && across < 1e-280)) return false;
+  const double rho = std::sqrt(across);
+  const double x = rho > 0.0 ? p.x() / rho : 1.0;
+  const double y = rho > 0.0 ? p.y() / rho : 0.0;
+  const double radius = cone.size.x();
+  const double height = 2.0 * cone.size.z();
+  const double slant = std::sqrt(radius * radius + height * height);
+  if (!(slant > 1e-140 && slant < 1e140)) return false;
+  const double cosine = height / slant;  // of the slope's outward normal with the radial direction
+  const double sine = radius / slant;
+  const double out = rho - radius;
+  const double up = p.z() + cone.size.z();  // over the base
+  const double side = out * cosine + up * sine;
+  const double along = up * cosine - out * sine;  // from the rim
+  const auto corner = [&](double cornerRho, double cornerZ) {
+    const double dr = rho - cornerRho;
+    const double dz = p.z() - cornerZ;
+    foot.distance = std::sqrt(dr * dr + dz * dz);
+    if (!(foot.distance > 1e-140)) return false;
+    const double share = dr / foot.distance;
+    foot.normal = {share * x, share * y, dz / foot.distance};
+    foot.point = {cornerRho * x, cornerRho * y, cornerZ};
+    return true;
+  };
+  if (up < 0.0 ? out > 0.0 : (side > 0.0 && along <= 0.0)) return corner(radius, -cone.size.z());
+  if (side > 0.0 && along >= slant) return corner(0.0, cone.size.z());
+  if (side > -up) {
+    foot.distance = side;
+    foot.normal = {cosine * x, cosine * y, sine};
+    foot.point = p - side * foot.normal;
+  } else {
+    foot.distance = -up;
+    foot.normal = {0.0, 0.0, -1.0};
+    foot.point = {p.x(), p.y(), -cone.size.z()};
+  }
+  return true;
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "narrowphase/core_gap.hpp"
+
+namespace swept::detail {
+
+/// On a segment of the z axis. False next to the segment, where the normal has no digits.
+inline bool footOn(SegmentCore, const Convex& segment, const Eigen::Vector3d& p, Foot& foot) {
+  foot.point = {0.0, 0.0, std::clamp(p.z(), -segment.size.z(), segment.size.z())};
+  const Eigen::Vector3d away = p - foot.point;
+  const double squared = away.squaredNorm();
+  if (!(squared > 1e-280 && squared < 1e280)) return false;
+  foot.distance = std::sqrt(squared);
+  foot.normal = away * (1.0 / foot.distance);
+  return true;
+}
+
+}  // namespace swept::detail
