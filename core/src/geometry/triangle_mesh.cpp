@@ -8,7 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bvh/triangle_bvh.hpp"
+#include "bvh/wide_bvh.hpp"
+#include "geometry/convex_parts.hpp"
 #include "geometry/mesh_components.hpp"
 #include "geometry/ray_crossing.hpp"
 #include "geometry/weld.hpp"
@@ -79,17 +80,18 @@ std::array<Eigen::Vector3d, kDirections> spreadDirections() {
   return directions;
 }
 
-/// False only when the ray from `origin` certainly misses the box: slabs grown by more than the
-/// rounding of the comparison; a NaN compares as a hit.
-bool mayHit(const detail::TriangleBvh::Node& node, const Eigen::Vector3d& origin,
+/// False only when the ray certainly misses the box: slabs grown by more than the rounding of the
+/// comparison; a NaN compares as a hit. `offset`: m, from the ray's origin to that of the boxes.
+bool mayHit(const detail::WideNode& node, int lane, const Eigen::Vector3d& offset,
             const Eigen::Vector3d& inverseDirection) {
   constexpr double kGrow = 8.0 * std::numeric_limits<double>::epsilon();
   double enter = 0.0;
   double leave = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    const double middle = node.center[axis] - origin[axis];
+    const double center = node.center[axis][lane];
+    const double middle = offset[axis] + center;
     const double half =
-        node.halfExtents[axis] + kGrow * (std::abs(middle) + node.halfExtents[axis]);
+        node.half[axis][lane] * (1.0 + kGrow) + kGrow * (std::abs(middle) + std::abs(center));
     const double first = (middle - half) * inverseDirection[axis];
     const double second = (middle + half) * inverseDirection[axis];
     enter = std::max(enter, std::min(first, second));
@@ -149,46 +151,89 @@ class CrossingCounts {
   int size_ = 0;
 };
 
-/// False when the ray passes within rounding of the border of a triangle that matters.
-bool countCrossings(const TriangleMesh& mesh, std::span<const int> componentOf,
-                    const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                    CrossingCounts& counts) {
-  const std::vector<detail::TriangleBvh::Node>& nodes = mesh.bvh().nodes();
-  const Eigen::Vector3d inverseDirection = direction.cwiseInverse();
-  std::array<int, detail::TriangleBvh::kMaxDepth> stack;
-  int pending = 0;
-  stack[pending++] = 0;
-  while (pending > 0) {
-    const int index = stack[--pending];
-    const detail::TriangleBvh::Node& node = nodes[index];
-    if (!mayHit(node, origin, inverseDirection)) continue;
-    if (node.rightChild >= 0) {
-      stack[pending++] = node.rightChild;
-      stack[pending++] = index + 1;
-      continue;
-    }
-    for (int i = node.firstTriangle; i < node.firstTriangle + node.triangleCount; ++i) {
-      int* const crossings = counts.find(componentOf[i]);
-      if (crossings == nullptr) continue;
-      const Eigen::Vector3i& corners = mesh.triangles()[i];
-      const Eigen::Vector3d a = mesh.vertices()[corners[0]] - origin;
-      const Eigen::Vector3d b = mesh.vertices()[corners[1]] - origin;
-      const Eigen::Vector3d c = mesh.vertices()[corners[2]] - origin;
-      switch (detail::rayCrossing(direction, a, b, c)) {
-        case detail::Crossing::Unsure:
+/// A ray against the triangles of one mesh.
+class RayCount {
+ public:
+  RayCount(const TriangleMesh& mesh, std::span<const int> componentOf,
+           const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, CrossingCounts& counts)
+      : mesh_(mesh),
+        componentOf_(componentOf),
+        origin_(origin),
+        direction_(direction),
+        counts_(counts) {}
+
+  /// False when the ray passes within rounding of the border of a triangle that matters.
+  bool run() {
+    const detail::WideBvh& bvh = mesh_.bvh();
+    const Eigen::Vector3d offset = bvh.origin() - origin_;
+    const Eigen::Vector3d inverseDirection = direction_.cwiseInverse();
+    // Each level leaves at most seven siblings behind.
+    std::array<int, (detail::WideNode::kLanes - 1) * detail::WideBvh::kMaxDepth + 1> stack;
+    int pending = 0;
+    stack[pending++] = 0;
+    while (pending > 0) {
+      const detail::WideNode& node = bvh.nodes()[stack[--pending]];
+      for (int lane = 0; lane < node.count; ++lane) {
+        if (!mayHit(node, lane, offset, inverseDirection)) continue;
+        if (node.child[lane] >= 0) {
+          stack[pending++] = node.child[lane];
+        } else if (!count(~node.child[lane])) {
           return false;
-        case detail::Crossing::Miss:
-          break;
-        case detail::Crossing::Along:
-          ++*crossings;
-          break;
-        case detail::Crossing::Against:
-          --*crossings;
-          break;
+        }
       }
     }
+    return true;
   }
-  return true;
+
+ private:
+  bool count(int triangle) {
+    int* const crossings = counts_.find(componentOf_[triangle]);
+    if (crossings == nullptr) return true;
+    const Eigen::Vector3i& corners = mesh_.triangles()[triangle];
+    const Eigen::Vector3d a = mesh_.vertices()[corners[0]] - origin_;
+    const Eigen::Vector3d b = mesh_.vertices()[corners[1]] - origin_;
+    const Eigen::Vector3d c = mesh_.vertices()[corners[2]] - origin_;
+    switch (detail::rayCrossing(direction_, a, b, c)) {
+      case detail::Crossing::Unsure:
+        return false;
+      case detail::Crossing::Miss:
+        break;
+      case detail::Crossing::Along:
+        ++*crossings;
+        break;
+      case detail::Crossing::Against:
+        --*crossings;
+        break;
+    }
+    return true;
+  }
+
+  const TriangleMesh& mesh_;
+  std::span<const int> componentOf_;
+  const Eigen::Vector3d& origin_;
+  const Eigen::Vector3d& direction_;
+  CrossingCounts& counts_;
+};
+
+/// Puts the triangles, and what goes with each, in the order of the leaves of a tree over them.
+BvTree<Aabb> orderByTree(std::span<const Eigen::Vector3d> vertices,
+                         std::vector<TriangleMesh::Triangle>& triangles,
+                         std::vector<int>& componentOf) {
+  std::vector<Eigen::Vector3d> corners;
+  corners.reserve(triangles.size() * 3);
+  for (const TriangleMesh::Triangle& triangle : triangles) {
+    for (const int corner : triangle) corners.push_back(vertices[corner]);
+  }
+  BvTree<Aabb> tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
+  std::vector<TriangleMesh::Triangle> orderedTriangles(triangles.size());
+  std::vector<int> orderedComponents(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    orderedTriangles[i] = triangles[tree.order()[i]];
+    orderedComponents[i] = componentOf[tree.order()[i]];
+  }
+  triangles = std::move(orderedTriangles);
+  componentOf = std::move(orderedComponents);
+  return tree;
 }
 
 }  // namespace
@@ -232,13 +277,18 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   report.closedComponents = static_cast<int>(components.size());
   report.openComponents = parts.openComponents;
 
-  auto bvh = std::make_shared<const detail::TriangleBvh>(
-      detail::TriangleBvh::build(welded.vertices, parts.triangles, parts.componentOf));
+  auto bvh = std::make_shared<const detail::WideBvh>(
+      orderByTree(welded.vertices, parts.triangles, parts.componentOf));
   ConvexHull hull = ConvexHull::of(welded.vertices);
+  std::vector<ConvexHull> solids;
+  if (interior == MeshInterior::Solid) {
+    solids =
+        detail::convexParts(welded.vertices, parts.triangles, parts.componentOf, parts.oriented);
+  }
   auto data = std::make_shared<Data>(Data{std::move(welded.vertices), std::move(parts.triangles),
                                           std::move(parts.componentOf), std::move(components),
                                           std::move(componentPoints), report, interior,
-                                          std::move(hull), std::move(bvh), 0.0});
+                                          std::move(hull), std::move(solids), std::move(bvh), 0.0});
   TriangleMesh mesh(data);
   data->dent = estimateDent(mesh);
   return mesh;
@@ -259,7 +309,7 @@ bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
   static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
   for (const Eigen::Vector3d& direction : directions) {
     counts.reset();
-    if (!countCrossings(*this, data_->componentOf, point, direction, counts)) continue;
+    if (!RayCount(*this, data_->componentOf, point, direction, counts).run()) continue;
     return counts.any([&](int component, int crossings) {
       return data_->components[component].oriented ? crossings != 0 : crossings % 2 != 0;
     });

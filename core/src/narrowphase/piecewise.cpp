@@ -6,8 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "bvh/triangle_bvh.hpp"
-#include "narrowphase/gjk.hpp"
+#include "narrowphase/convex_pair.hpp"
 
 namespace swept::detail {
 
@@ -15,15 +14,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-/// Beyond this many hull vertices the scan for a support point costs more than the hierarchy.
-constexpr std::size_t kCheapHull = 400;
-
-/// A piece of a side: a node of its hierarchy, a triangle, or the whole convex body.
-struct Piece {
-  int node = -1;      ///< of the mesh's hierarchy
-  int triangle = -1;  ///< of the mesh; takes precedence over `node`
-};
 
 class Search {
  public:
@@ -33,11 +23,11 @@ class Search {
   PieceResult run(const Vector3d& guess) {
     result_.hint = guess;
     if (hullsSuffice(guess)) return finish();
-    if (a_.mesh != nullptr || b_.mesh != nullptr) {
+    if (!a_.isConvex() || !b_.isConvex()) {
       result_.lower = std::numeric_limits<double>::infinity();
-      const Piece rootA{a_.mesh ? 0 : -1, -1};
-      const Piece rootB{b_.mesh ? 0 : -1, -1};
-      descend(rootA, rootB, result_.hint);
+      const PiecePair pieces(a_, b_, a_from_b_);
+      pieces_ = &pieces;
+      descend(pieces.rootA(), pieces.rootB(), result_.hint);
       result_.normal.setZero();
     }
     return finish();
@@ -46,10 +36,10 @@ class Search {
  private:
   /// The convex bodies or hulls themselves. For two convex bodies this is the whole answer.
   bool hullsSuffice(const Vector3d& guess) {
-    const bool exact = a_.mesh == nullptr && b_.mesh == nullptr;
+    const bool exact = a_.isConvex() && b_.isConvex();
     if (!exact && !(a_.convexIsCheap && b_.convexIsCheap)) return false;
-    const GjkResult hulls = gjk(a_.convex, b_.convex, a_from_b_, guess, goal(), goal_.contact,
-                                goal_.tolerance, modeOfLeaves());
+    const GjkResult hulls = convexPair(a_.convex, b_.convex, a_from_b_, guess, goal(),
+                                       goal_.contact, goal_.tolerance, modeOfLeaves());
     result_.iterations += hulls.iterations;
     result_.hint = hulls.normal;
     hullsApart_ = hulls.lower > 0.0;
@@ -63,8 +53,8 @@ class Search {
     return true;
   }
 
-  /// Hulls that are apart, but by less than the motion needs even if the meshes lie deep inside them: the
-  /// pieces will not do better, and there is no contact.
+  /// Hulls that are apart, but by less than the motion needs even if the meshes lie deep inside
+  /// them: the pieces will not do better, and there is no contact.
   bool outOfReach(const GjkResult& hulls) {
     if (goal_.approach == nullptr || goal_.thorough || !(hulls.lower > goal_.contact)) return false;
     if (hulls.upper + a_.dent + b_.dent > goal_.approach->along(hulls.normal)) return false;
@@ -78,7 +68,7 @@ class Search {
   }
 
   PieceResult finish() {
-    if (!inContact() && !hullsApart_) lookForEnclosure();
+    if (!inContact() && !hullsApart_ && !goal_.surfaces) lookForEnclosure();
     result_.lower = std::min(result_.lower, result_.upper);
     result_.satisfied = !failed_ && !inContact();
     return result_;
@@ -96,89 +86,93 @@ class Search {
     return Goal(std::min(goal_.enough, std::max(0.0, result_.upper - goal_.tolerance)));
   }
 
-  struct Placed {
-    Convex body;
-    Vector3d center = Vector3d::Zero();  ///< of `body`, in its side's frame
-  };
-
-  Placed place(const Side& side, const Piece& piece, std::array<Vector3d, 3>& corners) const {
-    Placed placed;
-    if (side.mesh == nullptr) {
-      placed.body = side.convex;
-    } else if (piece.triangle >= 0) {
-      const Eigen::Vector3i& t = side.mesh->triangles()[piece.triangle];
-      placed.center = side.mesh->vertices()[t[0]];
-      for (int i = 0; i < 3; ++i) corners[i] = side.mesh->vertices()[t[i]] - placed.center;
-      placed.body = Convex::ofPoints(corners);
-    } else {
-      const TriangleBvh::Node& node = side.mesh->bvh().nodes()[piece.node];
-      placed.body = Convex::of(Box{node.halfExtents});
-      placed.center = node.center;
-    }
-    return placed;
-  }
-
-  GjkResult measure(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess, bool leaves) {
-    std::array<Vector3d, 3> cornersA;
-    std::array<Vector3d, 3> cornersB;
-    const Placed a = place(a_, pieceA, cornersA);
-    const Placed b = place(b_, pieceB, cornersB);
-    Isometry3d pose = a_from_b_;
-    pose.translation() = a_from_b_ * b.center - a.center;
-    // What boxes are apart by exactly does not matter: they only order and prune the search.
-    const double accuracy = leaves ? goal_.tolerance : 0.05 * (a.body.extent + b.body.extent);
-    const GjkMode mode = leaves ? modeOfLeaves() : GjkMode::BoundOnly;
-    GjkResult measured = gjk(a.body, b.body, pose, guess, goal(), goal_.contact, accuracy, mode);
-    measured.pointA += a.center;
-    measured.pointB += a.center;
-    result_.iterations += measured.iterations;
+  /// Of two leaves by GJK, along the direction that suits the goal.
+  GjkResult measure(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess) {
+    PiecePair::Leaves leaves;
+    pieces_->place(pieceA, pieceB, leaves);
+    GjkResult measured = convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, goal(),
+                                    goal_.contact, goal_.tolerance, modeOfLeaves());
+    measured.pointA += leaves.centerA;
+    measured.pointB += leaves.centerA;
     return measured;
   }
 
-  void settle(const GjkResult& measured) {
-    result_.lower = std::min(result_.lower, measured.lower);
-  }
-
-  bool isLeaf(const Side& side, const Piece& piece) const {
-    return side.mesh == nullptr || side.mesh->bvh().nodes()[piece.node].rightChild < 0;
-  }
-
-  double sizeOf(const Side& side, const Piece& piece) const {
-    return isLeaf(side, piece) ? -1.0
-                               : side.mesh->bvh().nodes()[piece.node].halfExtents.squaredNorm();
+  /// Of two triangles, where the direction does not matter.
+  GjkResult measureTriangles(const Piece& pieceA, const Piece& pieceB) const {
+    const double rounding = pieces_->rounding();
+    const TriangleDistance found =
+        triangleDistance(cornersOf(*a_.mesh, pieceA.primitive),
+                         pieces_->movedCorners(pieceB.primitive), settledBeyond() + rounding);
+    GjkResult measured;
+    measured.iterations = 1;
+    measured.lower = std::max(0.0, found.lower - rounding);
+    measured.upper = found.upper;
+    measured.pointA = found.pointA;
+    measured.pointB = found.pointB;
+    measured.satisfied = measured.lower > settledBeyond();
+    return measured;
   }
 
   void descend(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess) {
-    const double sizeA = sizeOf(a_, pieceA);
-    const double sizeB = sizeOf(b_, pieceB);
-    if (sizeA < 0.0 && sizeB < 0.0) {
+    if (pieceA.isLeaf() && pieceB.isLeaf()) {
       testLeaves(pieceA, pieceB, guess);
       return;
     }
-    const bool splitA = sizeA >= sizeB;
-    const Side& side = splitA ? a_ : b_;
-    const int node = splitA ? pieceA.node : pieceB.node;
-    const std::array<Piece, 2> children{Piece{node + 1, -1},
-                                        Piece{side.mesh->bvh().nodes()[node].rightChild, -1}};
-    std::array<GjkResult, 2> bounds;
-    for (int i = 0; i < 2; ++i) {
-      bounds[i] = splitA ? measure(children[i], pieceB, guess, false)
-                         : measure(pieceA, children[i], guess, false);
-    }
-    const int first = bounds[0].lower <= bounds[1].lower ? 0 : 1;
-    for (const int i : {first, 1 - first}) {
+    const PiecePair::Split split = pieces_->split(pieceA, pieceB);
+    const Piece& other = split.ofA ? pieceB : pieceA;
+    PiecePair::Bounds lower;
+    pieces_->boundChildren(split, other, settledBeyond(), lower);
+    ++result_.iterations;
+    std::array<int, WideNode::kLanes> order;
+    const int open = sortOpen(*split.node, lower, order);
+    for (int i = 0; i < open; ++i) {
       if (inContact()) return;
-      if (bounds[i].satisfied || bounds[i].lower > settledBeyond()) {
-        settle(bounds[i]);
+      const int lane = order[i];
+      if (lower[lane] > settledBeyond()) {
+        settle(lower[lane]);
         continue;
       }
-      if (splitA) {
-        descend(children[i], pieceB, bounds[i].normal);
+      const Piece piece = PiecePair::child(*split.node, lane);
+      Vector3d direction = guess;
+      if (lower[lane] > 0.0F && settledAlong(piece, split.ofA, other, direction)) continue;
+      if (split.ofA) {
+        descend(piece, other, direction);
       } else {
-        descend(pieceA, children[i], bounds[i].normal);
+        descend(other, piece, direction);
       }
     }
   }
+
+  /// The lanes that are not settled, nearest first.
+  int sortOpen(const WideNode& node, const PiecePair::Bounds& lower,
+               std::array<int, WideNode::kLanes>& order) {
+    const double beyond = settledBeyond();
+    int open = 0;
+    for (int lane = 0; lane < node.count; ++lane) {
+      if (lower[lane] > beyond) {
+        settle(lower[lane]);
+        continue;
+      }
+      int at = open++;
+      for (; at > 0 && lower[order[at - 1]] > lower[lane]; --at) order[at] = order[at - 1];
+      order[at] = lane;
+    }
+    return open;
+  }
+
+  /// Whether the boxes are apart as the motion needs along the best of their own axes, which may be
+  /// less than along every direction. `direction` receives that axis, from a to b.
+  bool settledAlong(const Piece& piece, bool ofA, const Piece& other, Vector3d& direction) {
+    if (goal_.approach == nullptr) return false;
+    const BoxGap gap = pieces_->gap(piece, ofA, other);
+    if (!(gap.value > 0.0)) return false;
+    direction = gap.direction;
+    if (failed_ || !(gap.value > goal_.approach->along(direction))) return false;
+    settle(gap.value);
+    return true;
+  }
+
+  void settle(double lower) { result_.lower = std::min(result_.lower, lower); }
 
   /// m. A proven distance beyond this settles a pair whatever the direction: the goal may have come
   /// closer since the pair was measured.
@@ -188,31 +182,20 @@ class Search {
   }
 
   void testLeaves(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess) {
-    const auto [firstA, countA] = trianglesOf(a_, pieceA);
-    const auto [firstB, countB] = trianglesOf(b_, pieceB);
-    for (int i = 0; i < countA; ++i) {
-      for (int j = 0; j < countB; ++j) {
-        const GjkResult measured = measure({pieceA.node, a_.mesh ? firstA + i : -1},
-                                           {pieceB.node, b_.mesh ? firstB + j : -1}, guess, true);
-        settle(measured);
-        if (measured.upper < result_.upper) {
-          result_.upper = measured.upper;
-          result_.pointA = measured.pointA;
-          result_.pointB = measured.pointB;
-        }
-        if (inContact()) return;
-        if (!measured.satisfied && !(measured.lower > settledBeyond())) {
-          failed_ = true;
-          if (!measured.normal.isZero()) result_.hint = measured.normal;
-        }
-      }
+    const GjkResult measured = pieces_->areTriangles(pieceA, pieceB) && goal_.approach == nullptr
+                                   ? measureTriangles(pieceA, pieceB)
+                                   : measure(pieceA, pieceB, guess);
+    result_.iterations += measured.iterations;
+    settle(measured.lower);
+    if (measured.upper < result_.upper) {
+      result_.upper = measured.upper;
+      result_.pointA = measured.pointA;
+      result_.pointB = measured.pointB;
     }
-  }
-
-  std::array<int, 2> trianglesOf(const Side& side, const Piece& piece) const {
-    if (side.mesh == nullptr) return {0, 1};
-    const TriangleBvh::Node& node = side.mesh->bvh().nodes()[piece.node];
-    return {node.firstTriangle, node.triangleCount};
+    if (!measured.satisfied && !inContact() && !(measured.lower > settledBeyond())) {
+      failed_ = true;
+      if (!measured.normal.isZero()) result_.hint = measured.normal;
+    }
   }
 
   void contactAt(const Vector3d& pointInA) {
@@ -223,8 +206,8 @@ class Search {
   }
 
   /// Surfaces that do not meet can still be one inside the other. A convex body lies wholly on one
-  /// side of the mesh's surface then, and so does each connected component of a mesh: one point
-  /// tells.
+  /// side of the mesh's surface then, and so does each connected component of a mesh and each ball
+  /// of a cloud: one point of each tells.
   void lookForEnclosure() {
     if (a_.mesh != nullptr) {
       for (const Vector3d& point : representatives(b_)) {
@@ -242,6 +225,7 @@ class Search {
 
   std::span<const Vector3d> representatives(const Side& side) {
     if (side.mesh != nullptr) return side.mesh->componentPoints();
+    if (side.cloud != nullptr) return side.cloud->points();
     ownPoint_ = side.convex.support(Vector3d::UnitX());
     return {&ownPoint_, 1};
   }
@@ -250,6 +234,7 @@ class Search {
   const Side& b_;
   const Isometry3d& a_from_b_;
   const PieceGoal& goal_;
+  const PiecePair* pieces_ = nullptr;  ///< null while only convex bodies are looked at
   Vector3d ownPoint_ = Vector3d::Zero();
   PieceResult result_;
   bool failed_ = false;
@@ -257,19 +242,6 @@ class Search {
 };
 
 }  // namespace
-
-Side Side::of(const Shape& shape) {
-  return std::visit(
-      [](const auto& body) -> Side {
-        if constexpr (std::is_same_v<decltype(body), const TriangleMesh&>) {
-          const ConvexHull& hull = body.hull();
-          return {&body, Convex::of(hull), hull.vertices().size() <= kCheapHull, body.dent()};
-        } else {
-          return {nullptr, Convex::of(body), true, 0.0};
-        }
-      },
-      shape);
-}
 
 PieceResult searchPieces(const Side& a, const Side& b, const Isometry3d& a_from_b,
                          const Vector3d& guess, const PieceGoal& goal) {

@@ -4,21 +4,11 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "narrowphase/convex.hpp"
+#include "narrowphase/piece_pair.hpp"
 #include "swept/core/separation.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept::detail {
-
-/// One side of a pair: a convex body, or a mesh seen through its hierarchy.
-struct Side {
-  const TriangleMesh* mesh = nullptr;  ///< null: `convex` is the whole body
-  Convex convex;                       ///< of a mesh: its hull
-  bool convexIsCheap = true;  ///< the hull has few enough vertices to be worth asking first
-  double dent = 0.0;  ///< m, estimate of how far the hull reaches beyond the mesh
-
-  static Side of(const Shape& shape);
-};
 
 /// What a search over the pieces of two bodies is after.
 struct PieceGoal {
@@ -29,6 +19,8 @@ struct PieceGoal {
   double tolerance = 0.0;                                   ///< m
   /// Search the pieces even where the hulls say that the motion bound is out of reach.
   bool thorough = true;
+  /// Only the triangles of meshes count, not what they enclose.
+  bool surfaces = false;
 };
 
 struct PieceResult {

@@ -13,7 +13,7 @@
 namespace swept {
 
 namespace detail {
-class TriangleBvh;
+class WideBvh;
 }
 
 /// What the closed parts of a mesh mean.
@@ -74,7 +74,10 @@ class TriangleMesh {
   const ConvexHull& hull() const { return data_->hull; }
   /// One vertex of each connected component, open or closed (m).
   std::span<const Eigen::Vector3d> componentPoints() const { return data_->componentPoints; }
-  const detail::TriangleBvh& bvh() const { return *data_->bvh; }
+  /// The closed components that are convex solids; none under `Surface`. Their penetration is
+  /// exact.
+  std::span<const ConvexHull> convexParts() const { return data_->convexParts; }
+  const detail::WideBvh& bvh() const { return *data_->bvh; }
 
  private:
   /// A closed component.
@@ -92,7 +95,8 @@ class TriangleMesh {
     MeshReport report;
     MeshInterior interior = MeshInterior::Solid;
     ConvexHull hull;
-    std::shared_ptr<const detail::TriangleBvh> bvh;
+    std::vector<ConvexHull> convexParts;
+    std::shared_ptr<const detail::WideBvh> bvh;
     double dent = 0.0;
   };
   explicit TriangleMesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "narrowphase/piece_pair.hpp"
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "narrowphase/flat_pair.hpp"
+#include "swept/core/tolerances.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// Beyond this many hull vertices the scan for a support point costs more than the hierarchy.
+constexpr std::size_t kCheapHull = 400;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Not smaller than `value` >= 0; cheaper than the next float.
+float roundedUp(double value) {
+  return static_cast<float>(value * (1.0 + 1.2e-7)) + std::numeric_limits<float>::min();
+}
+
+float roundedDown(double value) {
+  return std::nextafter(static_cast<float>(value), -kInfinity);
+}
+
+/// Around the core of a bounded convex body.
+BoxF coreBox(const Convex& convex) {
+  Vector3d center = Vector3d::Zero();
+  Vector3d half = convex.size;
+  if (convex.core == Convex::Core::Cylinder || convex.core == Convex::Core::Cone) {
+    half.y() = half.x();
+  } else if (convex.core == Convex::Core::Points) {
+    Vector3d lower = convex.points.front();
+    Vector3d upper = lower;
+    for (const Vector3d& point : convex.points) {
+      lower = lower.cwiseMin(point);
+      upper = upper.cwiseMax(point);
+    }
+    center = 0.5 * lower + 0.5 * upper;
+    half = (upper - center).cwiseMax(center - lower);
+  }
+  BoxF box;
+  for (int i = 0; i < 3; ++i) {
+    box.center[i] = static_cast<float>(center[i]);
+    box.half[i] = roundedUp(half[i] + std::abs(center[i] - static_cast<double>(box.center[i])));
+  }
+  return box;
+}
+
+Vector3d originOf(const Side& side) {
+  return side.isConvex() ? Vector3d(Vector3d::Zero()) : side.bvh->origin();
+}
+
+/// m. How far the boxes of a side reach from its origin, in the 1-norm.
+double reachOf(const Side& side) {
+  if (!side.isConvex()) return side.bvh->reach();
+  return side.convex.isFlat() ? 0.0 : 2.0 * side.convex.extent;
+}
+
+Isometry3d betweenOrigins(const Side& a, const Side& b, const Isometry3d& a_from_b) {
+  Isometry3d between = a_from_b;
+  between.translation() = a_from_b * originOf(b) - originOf(a);
+  return between;
+}
+
+double sizeOf(const Piece& piece) {
+  if (piece.isLeaf()) return -1.0;
+  const auto& half = piece.box.half;
+  return half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
+}
+
+}  // namespace
+
+Side Side::of(const Shape& shape) {
+  return std::visit(
+      [](const auto& body) -> Side {
+        if constexpr (std::is_same_v<decltype(body), const TriangleMesh&>) {
+          const ConvexHull& hull = body.hull();
+          const bool cheap = hull.vertices().size() <= kCheapHull;
+          return {&body, nullptr, &body.bvh(), Convex::of(hull), cheap, body.dent()};
+        } else {
+          return {nullptr, nullptr, nullptr, Convex::of(body), true, 0.0};
+        }
+      },
+      shape);
+}
+
+TriangleCorners cornersOf(const TriangleMesh& mesh, int triangle) {
+  const Eigen::Vector3i& t = mesh.triangles()[triangle];
+  return {mesh.vertices()[t[0]], mesh.vertices()[t[1]], mesh.vertices()[t[2]]};
+}
+
+PiecePair::PiecePair(const Side& a, const Side& b, const Isometry3d& a_from_b)
+    : a_(a),
+      b_(b),
+      a_from_b_(a_from_b),
+      frames_(betweenOrigins(a, b, a_from_b), reachOf(a) + reachOf(b)),
+      back_(frames_.inverse()),
+      rounding_(tolerance::kSupportRounding * (b.convex.extent + a_from_b.translation().norm())) {}
+
+Piece PiecePair::rootOf(const Side& side) {
+  if (!side.isConvex()) return {0, -1, side.bvh->rootBox()};
+  return {-1, -1, side.convex.isFlat() ? BoxF{} : coreBox(side.convex)};
+}
+
+PiecePair::Split PiecePair::split(const Piece& a, const Piece& b) const {
+  const bool ofA = sizeOf(a) >= sizeOf(b);
+  return {ofA, &(ofA ? a_ : b_).bvh->nodes()[ofA ? a.node : b.node]};
+}
+
+void PiecePair::boundChildren(const Split& split, const Piece& other, double enough,
+                              Bounds& lower) const {
+  const WideNode& node = *split.node;
+  const Convex& body = (split.ofA ? b_ : a_).convex;
+  const bool flat = other.isWhole() && body.isFlat();
+  if (flat || !frames_.usable()) {
+    for (int i = 0; i < node.count; ++i) {
+      lower[i] = flat ? boundAgainstFlat(node.box(i), split.ofA) : 0.0F;
+    }
+    return;
+  }
+  const double grown = other.isWhole() ? body.radius + body.error : 0.0;
+  boxLowerBounds(node, split.ofA ? frames_ : back_, other.box, roundedUp(enough + grown), lower);
+  if (!(grown > 0.0)) return;
+  for (int i = 0; i < node.count; ++i) {
+    lower[i] = roundedDown(static_cast<double>(lower[i]) - grown);
+  }
+}
+
+/// A box of one side against the plane or half-space that is the other.
+float PiecePair::boundAgainstFlat(const BoxF& box, bool ofA) const {
+  const Side& side = ofA ? a_ : b_;
+  const Convex& flat = (ofA ? b_ : a_).convex;
+  const Vector3d center = originOf(side) + Vector3d(box.center[0], box.center[1], box.center[2]);
+  const Convex body = Convex::of(Box{Vector3d(box.half[0], box.half[1], box.half[2])});
+  // Lemma: the centre's sum rounds by an ulp of the coordinates, which flatPair's own allowance for
+  // rounding (dozens of ulps of the same coordinates) has room for.
+  Isometry3d pose = a_from_b_;
+  if (ofA) {
+    pose.translation() -= center;
+    return roundedDown(flatPair(body, flat, pose, Goal(0.0)).lower);
+  }
+  pose.translation() = a_from_b_ * center;
+  return roundedDown(flatPair(flat, body, pose, Goal(0.0)).lower);
+}
+
+BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other) const {
+  const Convex& body = (ofA ? b_ : a_).convex;
+  if (!frames_.usable() || (other.isWhole() && body.isFlat())) return {};
+  BoxGap gap = boxGap(child.box, ofA ? frames_ : back_, other.box);
+  if (other.isWhole()) gap.value -= body.radius + body.error;
+  if (!ofA) gap.direction = -(a_from_b_.linear() * gap.direction);
+  return gap;
+}
+
+/// Returns the centre that the body is given about, in its side's frame.
+Vector3d PiecePair::placeOne(const Side& side, const Piece& piece, TriangleCorners& corners,
+                             Convex& body) {
+  if (piece.isWhole()) {
+    body = side.convex;
+    return Vector3d::Zero();
+  }
+  if (side.cloud != nullptr) {
+    body = Convex::of(Sphere{side.cloud->radius()});
+    return side.cloud->points()[piece.primitive];
+  }
+  corners = cornersOf(*side.mesh, piece.primitive);
+  const Vector3d center = corners[0];
+  for (Vector3d& corner : corners) corner -= center;
+  body = Convex::ofPoints(corners);
+  return center;
+}
+
+void PiecePair::place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) const {
+  leaves.centerA = placeOne(a_, pieceA, leaves.cornersA, leaves.a);
+  const Vector3d centerB = placeOne(b_, pieceB, leaves.cornersB, leaves.b);
+  leaves.a_from_b = a_from_b_;
+  leaves.a_from_b.translation() = a_from_b_ * centerB - leaves.centerA;
+}
+
+TriangleCorners PiecePair::movedCorners(int triangle) const {
+  TriangleCorners corners = cornersOf(*b_.mesh, triangle);
+  for (Vector3d& corner : corners) corner = a_from_b_ * corner;
+  return corners;
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "bvh/wide_bvh.hpp"
+#include "narrowphase/convex.hpp"
+#include "simd/box_bounds.hpp"
+#include "swept/core/point_cloud.hpp"
+#include "swept/core/shapes.hpp"
+#include "swept/core/triangle_pair.hpp"
+
+namespace swept::detail {
+
+/// One side of a pair: a convex body, or a mesh or cloud seen through its hierarchy.
+struct Side {
+  const TriangleMesh* mesh = nullptr;
+  const PointCloud* cloud = nullptr;
+  const WideBvh* bvh = nullptr;  ///< of the mesh or cloud; null: `convex` is the whole body
+  Convex convex;                 ///< of a mesh or cloud: its hull
+  bool convexIsCheap = true;     ///< the hull has few enough vertices to be worth asking first
+  double dent = 0.0;             ///< m, estimate of how far the hull reaches beyond the mesh
+
+  bool isConvex() const { return bvh == nullptr; }
+  static Side of(const Shape& shape);
+};
+
+/// A piece of a side: a node of its hierarchy, a primitive (triangle, point), or the whole convex
+/// body.
+struct Piece {
+  int node = -1;       ///< of the hierarchy
+  int primitive = -1;  ///< of the mesh or cloud
+  BoxF box;            ///< m, relative to the side's origin; of a convex body: of its core
+
+  bool isLeaf() const { return node < 0; }
+  bool isWhole() const { return node < 0 && primitive < 0; }  ///< the whole convex body
+};
+
+/// The hierarchies of two sides, placed relative to each other, and bounds between their pieces.
+class PiecePair {
+ public:
+  using Bounds = std::array<float, WideNode::kLanes>;
+
+  PiecePair(const Side& a, const Side& b, const Eigen::Isometry3d& a_from_b);
+
+  Piece rootA() const { return rootOf(a_); }
+  Piece rootB() const { return rootOf(b_); }
+
+  /// The node whose children are looked at next: that of the larger piece. Not both are leaves.
+  struct Split {
+    bool ofA;
+    const WideNode* node;
+  };
+  Split split(const Piece& a, const Piece& b) const;
+
+  /// m. Lower bounds on the distances between the children of a node and a piece of the other side;
+  /// exact ones are not of interest beyond `enough`.
+  void boundChildren(const Split& split, const Piece& other, double enough, Bounds& lower) const;
+
+  /// A direction (unit, a's frame, from a to b) along which a child and a piece of the other side
+  /// are apart, and by how much (m, proven); not positive: none found.
+  BoxGap gap(const Piece& child, bool ofA, const Piece& other) const;
+
+  static Piece child(const WideNode& node, int lane) {
+    const std::int32_t at = node.child[lane];
+    return {at < 0 ? -1 : at, at < 0 ? ~at : -1, node.box(lane)};
+  }
+
+  /// Two leaves as convex bodies, each about a centre of its own so that little is lost to
+  /// rounding. Stays where it was made: the bodies refer to its corners.
+  struct Leaves {
+    TriangleCorners cornersA;  ///< m, relative to centerA, of a triangle
+    TriangleCorners cornersB;
+    Eigen::Vector3d centerA = Eigen::Vector3d::Zero();  ///< m, a's frame
+    Convex a;
+    Convex b;
+    Eigen::Isometry3d a_from_b;
+  };
+  void place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) const;
+
+  bool areTriangles(const Piece& pieceA, const Piece& pieceB) const {
+    return a_.mesh != nullptr && b_.mesh != nullptr && pieceA.primitive >= 0 &&
+           pieceB.primitive >= 0;
+  }
+  /// Of a triangle of b in a's frame.
+  TriangleCorners movedCorners(int triangle) const;
+  /// m. What moving b's points into a's frame rounds them by, at most.
+  double rounding() const { return rounding_; }
+
+ private:
+  static Piece rootOf(const Side& side);
+  static Eigen::Vector3d placeOne(const Side& side, const Piece& piece, TriangleCorners& corners,
+                                  Convex& body);
+  float boundAgainstFlat(const BoxF& box, bool ofA) const;
+
+  const Side& a_;
+  const Side& b_;
+  const Eigen::Isometry3d& a_from_b_;
+  BoxFrames frames_;  ///< between the origins of the two sides' boxes
+  BoxFrames back_;
+  double rounding_;
+};
+
+TriangleCorners cornersOf(const TriangleMesh& mesh, int triangle);
+
+}  // namespace swept::detail
