@@ -15,13 +15,16 @@ namespace swept {
 ///
 /// lower <= signed distance <= upper always holds, rounding included. Between convex shapes upper -
 /// lower <= tolerance unless rounding or the cap on iterations prevents it (curved pairs in deep
-/// overlap); the interval says how far it came. A mesh in overlap has the interval [-depth of the
-/// hulls, 0]: translating its hull out translates the mesh out.
+/// overlap); the interval says how far it came. For meshes in overlap `-lower` is the depth of the
+/// hulls (translating a hull out translates the mesh out), and `-upper` the largest depth proven
+/// for a pair of their closed convex parts, or for a point or ball of one inside the other: the two
+/// are equal where each body is one convex solid, and for a half-space. A surface (an open mesh, or
+/// one under MeshInterior::Surface) has no inside, and nothing deeper than 0 is proven for it.
 struct SignedDistanceResult {
   double lower = -std::numeric_limits<double>::infinity();  ///< m
   double upper = std::numeric_limits<double>::infinity();   ///< m
-  /// Nearest points where apart; deepest points, on the surfaces, in convex overlap; a common point
-  /// in overlap of meshes. m, a's frame.
+  /// Nearest points where apart; deepest points, on the surfaces, in convex overlap; in overlap of
+  /// meshes the points at which `upper` was found, or a common point. m, a's frame.
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();
   /// Unit vector in a's frame, from a to b: moving b along it by -lower ends an overlap of convex

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/convex_parts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+/// Points times planes looked at for one component.
+constexpr std::size_t kMostWork = 20'000'000;
+
+/// Six times the volume that outward-oriented triangles enclose.
+template <typename Triangles>
+double sixVolumes(const Triangles& triangles, std::span<const Vector3d> points,
+                  const Vector3d& origin) {
+  double sum = 0.0;
+  for (const Vector3i& t : triangles) {
+    sum += (points[t[0]] - origin).cross(points[t[1]] - origin).dot(points[t[2]] - origin);
+  }
+  return sum;
+}
+
+/// No vertex of the hull is ahead of the plane of any triangle (or none is behind it).
+bool allSupport(std::span<const Vector3i> triangles, std::span<const Vector3d> vertices,
+                const ConvexHull& hull, double slack) {
+  for (const Vector3i& t : triangles) {
+    const Vector3d& a = vertices[t[0]];
+    const Vector3d normal = (vertices[t[1]] - a).cross(vertices[t[2]] - a);
+    const double length = normal.norm();
+    if (!(length > 0.0)) continue;
+    double ahead = 0.0;
+    double behind = 0.0;
+    for (const Vector3d& p : hull.vertices()) {
+      const double height = normal.dot(p - a);
+      ahead = std::max(ahead, height);
+      behind = std::max(behind, -height);
+    }
+    if (std::min(ahead, behind) > slack * length) return false;
+  }
+  return true;
+}
+
+/// A closed oriented surface on the boundary of its hull covers that boundary k times, and encloses
+/// k times the hull's volume: once is what makes it the boundary of a convex solid.
+bool isConvex(std::span<const Vector3i> triangles, std::span<const Vector3d> vertices,
+              const ConvexHull& hull) {
+  if (hull.faces().empty() || triangles.size() * hull.vertices().size() > kMostWork) return false;
+  const Vector3d& origin = hull.vertices().front();
+  double size = 0.0;
+  for (const Vector3d& p : hull.vertices()) size = std::max(size, (p - origin).norm());
+  const double volume = std::abs(sixVolumes(triangles, vertices, origin));
+  const double whole = sixVolumes(hull.faces(), hull.vertices(), origin);
+  if (!(std::abs(volume - whole) <= 1e-6 * whole)) return false;
+  return allSupport(triangles, vertices, hull, kConvexPart * size);
+}
+
+}  // namespace
+
+std::vector<ConvexHull> convexParts(std::span<const Vector3d> vertices,
+                                    std::span<const Vector3i> triangles,
+                                    std::span<const int> componentOf,
+                                    const std::vector<bool>& oriented) {
+  std::vector<std::vector<Vector3i>> components(oriented.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (componentOf[i] >= 0 && oriented[componentOf[i]]) {
+      components[componentOf[i]].push_back(triangles[i]);
+    }
+  }
+  std::vector<ConvexHull> parts;
+  std::vector<Vector3d> corners;
+  for (const std::vector<Vector3i>& component : components) {
+    if (component.empty()) continue;
+    corners.clear();
+    for (const Vector3i& t : component) {
+      for (const int corner : t) corners.push_back(vertices[corner]);
+    }
+    ConvexHull hull = ConvexHull::of(corners);
+    if (isConvex(component, vertices, hull)) parts.push_back(std::move(hull));
+  }
+  return parts;
+}
+
+}  // namespace swept::detail
