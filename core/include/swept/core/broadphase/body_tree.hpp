@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/distance.hpp"
+#include "swept/core/shapes.hpp"
+
+namespace swept {
+
+/// The bodies of a world that stands still, in a tree of axis-aligned boxes.
+///
+/// Immutable: any number of threads may ask. Bodies without a finite box (planes, half-spaces, and
+/// poses that are not finite) are kept aside and looked at in every query. The answers to a query
+/// do not depend on earlier ones, and its order is that of the tree: the same bodies in the same
+/// order give the same tree. Queries allocate nothing.
+///
+/// Pairs are measured at the relative pose rounded to double: `collides` tells about that pose, and
+/// `nearest` widens its lower bound by the rounding. World poses are taken as orthonormal to 1e-15.
+class BodyTree {
+ public:
+  struct Body {
+    int id;  ///< the caller's; need not be unique
+    Shape shape;
+    Eigen::Isometry3d world_from_body;
+  };
+
+  struct Hit {
+    /// Separate: proven for every body. Touching: with `id`. Unknown: no body is known to touch,
+    /// and at least one, `id`, is not proven apart (within rounding, or a pose that is not finite).
+    Contact status = Contact::Unknown;
+    int id = -1;  ///< without meaning for Separate
+  };
+
+  struct Nearest {
+    double lower = 0.0;  ///< m, proven: no body is nearer; infinity in an empty tree
+    double upper = std::numeric_limits<double>::infinity();  ///< m, distance of the points
+    int id = -1;  ///< of the body that pointOfBody belongs to; -1 where upper is infinite
+    Eigen::Vector3d pointOfShape = Eigen::Vector3d::Zero();  ///< m, world frame
+    Eigen::Vector3d pointOfBody = Eigen::Vector3d::Zero();   ///< m, world frame
+  };
+
+  BodyTree() = default;
+  /// Binned surface area heuristic: O(n log n). At most 2^30 bodies, else std::invalid_argument.
+  explicit BodyTree(std::vector<Body> bodies);
+
+  /// In the order given.
+  const std::vector<Body>& bodies() const { return bodies_; }
+
+  /// Calls `visitor(const Body&)` for each body whose world box meets `box` (m, world frame), and
+  /// for each without a finite box, until it returns true. Returns whether it did. A box with a NaN
+  /// meets every body.
+  template <typename Visitor>
+  bool forEachOverlap(const Aabb& box, Visitor&& visitor) const {
+    for (const int body : aside_)
+      if (visitor(bodies_[static_cast<std::size_t>(body)])) return true;
+    const std::size_t count = nodes_.size();
+    for (std::size_t i = 0; i < count;) {
+      const Node& node = nodes_[i];
+      if (apart(node.box, box)) {
+        i = node.next;
+        continue;
+      }
+      if (node.body >= 0 && visitor(bodies_[static_cast<std::size_t>(node.body)])) return true;
+      ++i;
+    }
+    return false;
+  }
+
+  /// The first body that the shape touches.
+  Hit collides(const Shape& shape, const Eigen::Isometry3d& world_from_shape) const;
+
+  /// Branch and bound; upper - lower <= tolerance (m) but for rounding. Overlap gives upper 0. A
+  /// pose that is not finite gives [0, infinity].
+  Nearest nearest(const Shape& shape, const Eigen::Isometry3d& world_from_shape,
+                  double tolerance = tolerance::kDistance) const;
+
+ private:
+  /// Depth-first: the left child of node i is i + 1, and `next` is the first node after its
+  /// subtree.
+  struct Node {
+    Aabb box;  ///< m, world frame, rounded outward
+    std::size_t next;
+    int body;  ///< into bodies_; -1 for inner nodes
+  };
+  class Builder;
+  /// A ball and a box whose sum contains a shape, in its frame.
+  struct LocalBox {
+    Eigen::Vector3d middle;  ///< m
+    Eigen::Vector3d half;    ///< m
+    double radius;           ///< m
+  };
+
+  /// False for NaN.
+  static bool apart(const Aabb& a, const Aabb& b) {
+    return (a.lower.x() > b.upper.x()) | (b.lower.x() > a.upper.x()) | (a.lower.y() > b.upper.y()) |
+           (b.lower.y() > a.upper.y()) | (a.lower.z() > b.upper.z()) | (b.lower.z() > a.upper.z());
+  }
+  static LocalBox localBox(const Shape& shape);
+  static bool apart(const LocalBox& a, const LocalBox& b, const Eigen::Isometry3d& a_from_b);
+  std::size_t indexOf(const Body& body) const {
+    return static_cast<std::size_t>(&body - bodies_.data());
+  }
+  void measure(const Body& body, const Shape& shape, double shapeExtent,
+               const Eigen::Isometry3d& world_from_shape, double tolerance, Nearest& best) const;
+  void descend(std::size_t node, const Aabb& box, const Shape& shape, double shapeExtent,
+               const Eigen::Isometry3d& world_from_shape, double tolerance, Nearest& best) const;
+
+  std::vector<Body> bodies_;
+  std::vector<LocalBox> boxes_;
+  std::vector<double> extents_;  ///< m, no point of the body is farther from its origin
+  std::vector<Node> nodes_;
+  std::vector<int> aside_;  ///< into bodies_
+};
+
+}  // namespace swept
