@@ -12,6 +12,7 @@
 #include "swept/core/traversal/mesh_collision.hpp"
 #include "swept/core/traversal/mesh_distance.hpp"
 #include "swept/core/traversal/mesh_self_collision.hpp"
+#include "swept/core/traversal/mesh_shape.hpp"
 
 namespace swept {
 namespace {
@@ -278,6 +279,58 @@ TYPED_TEST(Traversals, RefittedModelsEqualBruteForce) {
   EXPECT_LE(touching, 7);
 }
 
+TYPED_TEST(Traversals, MeshAndShapeEqualBruteForce) {
+  std::mt19937 random(44);
+  const Soup soup = test::blobSoup(random, 6, 10);
+  const auto mesh = modelOf<TypeParam>(soup);
+  Soup tetrahedron{{{0, 0, 0}, {0.4, 0, 0}, {0, 0.5, 0}, {0, 0, 0.6}}, {}};
+  const std::vector<Shape> shapes{makeSphere(0.3), makeBox({0.5, 0.4, 0.2}), makeCapsule(0.1, 0.6),
+                                  ConvexHull::of(tetrahedron.vertices)};
+  int touching = 0;
+  int total = 0;
+  for (int i = 0; i < 24; ++i) {
+    const Shape& shape = shapes[i % shapes.size()];
+    const Isometry3d pose = test::randomPose(random, 0.95);
+    Contact truth = Contact::Separate;
+    double least = std::numeric_limits<double>::infinity();
+    double proven = std::numeric_limits<double>::infinity();
+    for (int t = 0; t < static_cast<int>(soup.triangles.size()); ++t) {
+      const Shape triangle = Triangle{corners(soup, t)};
+      const DistanceResult d = distance(triangle, shape, pose);
+      least = std::min(least, d.upper);
+      proven = std::min(proven, d.lower);
+      if (collide(triangle, shape, pose) == Contact::Touching) truth = Contact::Touching;
+    }
+    const MeshShapeCollisionResult hit = collideMeshShape(mesh, shape, pose);
+    EXPECT_EQ(hit.contact, truth) << i;
+    EXPECT_EQ(hit.triangle >= 0, truth == Contact::Touching);
+    const MeshDistanceResult d = meshShapeDistance(mesh, shape, pose);
+    EXPECT_NEAR(d.upper, least, 2e-9) << i;
+    EXPECT_LE(d.lower, least);
+    EXPECT_GE(d.lower, proven - 2e-9);
+    EXPECT_NEAR((d.pointB - d.pointA).norm(), d.upper, 1e-9);
+    EXPECT_LT(d.effort.leafTests, static_cast<std::int64_t>(soup.triangles.size()));
+    touching += truth == Contact::Touching;
+    ++total;
+  }
+  EXPECT_GT(touching, 0.3 * total);
+  EXPECT_LT(touching, 0.7 * total);
+}
+
+TEST(MeshShape, UnboundedShapesAreTestedAgainstAllTriangles) {
+  std::mt19937 random(45);
+  const auto mesh = modelOf<Obb>(test::blobSoup(random, 6, 10));
+  const Shape ground = makeHalfSpace({0, 0, 1}, 0.0);
+  Isometry3d pose = Isometry3d::Identity();
+  EXPECT_EQ(collideMeshShape(mesh, ground, pose).contact, Contact::Touching);
+  pose.translation().z() = -1.5;
+  EXPECT_EQ(collideMeshShape(mesh, ground, pose).contact, Contact::Separate);
+  const MeshDistanceResult d = meshShapeDistance(mesh, ground, pose);
+  double lowest = 1.0;
+  for (const Vector3d& v : mesh.vertices()) lowest = std::min(lowest, v.z());
+  EXPECT_NEAR(d.upper, lowest + 1.5, 1e-9);
+}
+
 TEST(Traversal, PosesThatAreNotFiniteFailSafe) {
   std::mt19937 random(46);
   const auto mesh = modelOf<ObbRss>(test::blobSoup(random, 6, 10));
@@ -290,6 +343,8 @@ TEST(Traversal, PosesThatAreNotFiniteFailSafe) {
   const MeshDistanceResult d = meshDistance(mesh, mesh, pose);
   EXPECT_EQ(d.lower, 0.0);
   EXPECT_EQ(d.upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(collideMeshShape(mesh, makeSphere(0.1), pose).contact, Contact::Unknown);
+  EXPECT_EQ(meshShapeDistance(mesh, makeSphere(0.1), pose).lower, 0.0);
 }
 
 TEST(Traversal, ModelsThatAreNotReadyAreRefused) {
@@ -301,6 +356,8 @@ TEST(Traversal, ModelsThatAreNotReadyAreRefused) {
   cloud.addPoint({0, 0, 0}, 0.1);
   cloud.end();
   EXPECT_THROW(meshDistance(cloud, cloud, Isometry3d::Identity()), std::invalid_argument);
+  EXPECT_THROW(collideMeshShape(cloud, makeSphere(1.0), Isometry3d::Identity()),
+               std::invalid_argument);
 }
 
 TEST(Traversal, CoordinatesAndScalesDoNotMatter) {
