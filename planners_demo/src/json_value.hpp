@@ -31,6 +31,7 @@ class JsonValue {
   std::vector<JsonValue> elements() const;
   std::vector<JsonValue> elements(std::size_t count) const;
 
+  bool isText() const { return value_->is_string(); }
   bool boolean() const;
   std::string text() const;
   double number() const;

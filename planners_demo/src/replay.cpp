@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "replay_cases.hpp"
+#include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 #include "text_output.hpp"
 
@@ -24,7 +25,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 enum class Result { Passed, Failed, Skipped };
 
 struct Answer {
-  double lower = kNone;  ///< m, of the signed distance
+  double lower = kNone;  ///< m, none for PairQuery::Collide
   double upper = kNone;  ///< m
   double value = kNone;  ///< m; without meaning for PairQuery::Collide
   std::string text = "-";
@@ -34,58 +35,76 @@ struct Answer {
   std::string reason;
 };
 
+/// What is asked for, as the library proves it. m.
+struct Interval {
+  double lower;
+  double upper;
+};
+
+Interval measure(const PairQuestion& question) {
+  const double tolerance = std::min(tolerance::kDistance, question.tolerance);
+  if (question.query == PairQuery::Distance) {
+    DistanceOptions options;
+    options.tolerance = tolerance;
+    const DistanceResult found = distance(question.a, question.b, question.a_from_b, options);
+    return {found.lower, found.upper};
+  }
+  const SignedDistanceResult found =
+      signedDistance(question.a, question.b, question.a_from_b, tolerance);
+  return {found.lower, found.upper};
+}
+
 /// The middle of the interval, or its only finite end.
-double middle(const SignedDistanceResult& found) {
+double middle(const Interval& found) {
   if (std::isfinite(found.lower) && std::isfinite(found.upper))
     return found.lower + 0.5 * (found.upper - found.lower);
   if (std::isfinite(found.lower)) return found.lower;
   return std::isfinite(found.upper) ? found.upper : kNone;
 }
 
-/// Both kinds of judging fail a NaN: it compares as false.
-void judgeNumber(const PairQuestion& question, const SignedDistanceResult& found, Answer& answer) {
-  const double value = middle(found);
-  answer.value = question.query == PairQuery::Distance && value < 0.0 ? 0.0 : value;
-  answer.text = std::isnan(value) ? "none" : shortNumber(answer.value);
+/// Fails a NaN: it compares as false.
+void answerNumber(const PairQuestion& question, Answer& answer) {
+  const Interval found = measure(question);
+  answer.lower = found.lower;
+  answer.upper = found.upper;
+  answer.value = middle(found);
+  answer.text = std::isnan(answer.value) ? "none" : shortNumber(answer.value);
   answer.error = std::abs(answer.value - question.distance);
-  if (answer.error <= question.tolerance + kPoseRounding * question.scale)
+  const double slack = question.tolerance + kPoseRounding * question.scale;
+  if (answer.error <= slack && std::isfinite(slack))
     answer.result = Result::Passed;
   else
-    answer.reason = std::isnan(value) ? "no finite answer"
-                                      : "off by more than " + shortNumber(question.tolerance);
+    answer.reason = std::isnan(answer.value)
+                        ? "no finite answer"
+                        : "off by more than " + shortNumber(question.tolerance);
 }
 
-void judgeHit(const PairQuestion& question, const SignedDistanceResult& found, Answer& answer) {
-  const bool hits = found.upper <= 0.0, free = found.lower > 0.0;
-  answer.text = hits ? "yes" : free ? "no" : "undecided";
-  const bool isNumber = found.lower <= found.upper;
-  const bool right = !question.hits || (*question.hits ? hits : free);
-  if (isNumber && right)
+/// Where the shapes touch every answer is right, but for an exception.
+void answerYesOrNo(const PairQuestion& question, Answer& answer) {
+  const Contact found = collide(question.a, question.b, question.a_from_b);
+  answer.text = found == Contact::Touching   ? "yes"
+                : found == Contact::Separate ? "no"
+                                             : "undecided";
+  const Contact right = question.hits.value_or(false) ? Contact::Touching : Contact::Separate;
+  if (!question.hits || found == right)
     answer.result = Result::Passed;
   else
-    answer.reason = isNumber ? "wrong" : "not a number";
+    answer.reason = "wrong";
 }
 
 Answer answerTo(const PairQuestion& question) {
   using Clock = std::chrono::steady_clock;
-  const double tolerance = question.query == PairQuery::Collide
-                               ? tolerance::kDistance
-                               : std::min(tolerance::kDistance, question.tolerance);
   Answer answer;
   const Clock::time_point start = Clock::now();
   try {
-    const SignedDistanceResult found =
-        signedDistance(question.a, question.b, question.a_from_b, tolerance);
-    answer.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    answer.lower = found.lower;
-    answer.upper = found.upper;
     if (question.query == PairQuery::Collide)
-      judgeHit(question, found, answer);
+      answerYesOrNo(question, answer);
     else
-      judgeNumber(question, found, answer);
+      answerNumber(question, answer);
   } catch (const std::exception& error) {
     answer.reason = std::string("threw: ") + error.what();
   }
+  answer.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (answer.seconds > kTimeLimit) {
     answer.result = Result::Failed;
     answer.reason = "took " + secondsText(answer.seconds);

@@ -3,11 +3,13 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <map>
 #include <set>
+#include <variant>
 
 #include "json_value.hpp"
+#include "replay_shapes.hpp"
 
 namespace swept {
 namespace {
@@ -15,71 +17,6 @@ namespace {
 /// Of a rotation's columns. Poses printed with few digits are meant as they are; a scaling or a
 /// mirror image is another shape.
 constexpr double kOrthonormal = 1e-6;
-
-std::vector<Eigen::Vector3d> readPoints(const JsonValue& place) {
-  std::vector<Eigen::Vector3d> points;
-  for (const JsonValue& item : place.elements()) points.push_back(item.vector3());
-  if (points.empty()) place.fail("must hold at least one point");
-  return points;
-}
-
-Eigen::Vector3d readSize(const JsonValue& shape) {
-  const JsonValue place = shape.at("size");
-  Eigen::Vector3d size;
-  int axis = 0;
-  for (const JsonValue& item : place.elements(3)) size[axis++] = item.notNegative();
-  return size;
-}
-
-/// Corner i is at + where bit k of i is set, along axis k.
-Shape meshBox(const Eigen::Vector3d& size) {
-  std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(
-        0.5 * size.cwiseProduct(Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  std::vector<TriangleMesh::Triangle> triangles;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int normal = 1 << axis, u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
-    triangles.insert(triangles.end(), {{0, v, u + v},
-                                       {0, u + v, u},
-                                       {normal, normal + u, normal + u + v},
-                                       {normal, normal + u + v, normal + v}});
-  }
-  return TriangleMesh::build(corners, triangles);
-}
-
-Shape readTriangle(const JsonValue& shape) {
-  const JsonValue place = shape.at("vertices");
-  place.elements(3);
-  return ConvexHull::of(readPoints(place));
-}
-
-Shape readMeshBox(const JsonValue& shape) {
-  const Eigen::Vector3d size = readSize(shape);
-  if (!(size.minCoeff() > 0.0)) shape.at("size").refuse("greater than 0");
-  return meshBox(size);
-}
-
-using ShapeReader = Shape (*)(const JsonValue&);
-const std::map<std::string, ShapeReader> kShapes = {
-    {"box", [](const JsonValue& s) -> Shape { return makeBox(readSize(s)); }},
-    {"sphere",
-     [](const JsonValue& s) -> Shape { return makeSphere(s.at("radius").notNegative()); }},
-    {"cylinder",
-     [](const JsonValue& s) -> Shape {
-       const double radius = s.at("radius").notNegative();
-       return makeCylinder(radius, s.at("length").notNegative());
-     }},
-    {"capsule",
-     [](const JsonValue& s) -> Shape {
-       const double radius = s.at("radius").notNegative();
-       return makeCapsule(radius, s.at("length").notNegative());
-     }},
-    {"convex",
-     [](const JsonValue& s) -> Shape { return ConvexHull::of(readPoints(s.at("vertices"))); }},
-    {"triangle", readTriangle},
-    {"mesh_box", readMeshBox},
-};
 
 const std::map<std::string, PairQuery> kQueries = {
     {"signed_distance", PairQuery::SignedDistance},
@@ -120,9 +57,12 @@ Eigen::Isometry3d relativePose(const Eigen::Matrix4d& world_from_a,
   return a_from_b;
 }
 
+/// m. How far numbers about the shape reach: of planes and half-spaces, their offset.
 double extent(const Shape& shape) {
+  if (const auto* plane = std::get_if<Plane>(&shape)) return std::abs(plane->offset);
+  if (const auto* halfSpace = std::get_if<HalfSpace>(&shape)) return std::abs(halfSpace->offset);
   const BoundingSphere ball = boundingSphere(shape);
-  return ball.center.norm() + ball.radius;
+  return ball.center.stableNorm() + ball.radius;
 }
 
 /// `collides` decides, where it is given, else `state`.
@@ -141,17 +81,16 @@ std::optional<bool> readHits(const JsonValue& expected) {
 
 PairQuestion readQuestion(PairQuery query, const JsonValue& entry) {
   const auto shapes = entry.at("shapes").elements();
-  const auto shapeOf = [&](int i) { return kShapes.at(shapes[i].at("type").text())(shapes[i]); };
   const auto transforms = entry.at("transforms").elements(2);
   PairQuestion question{
       .query = query,
-      .a = shapeOf(0),
-      .b = shapeOf(1),
+      .a = readReplayShape(shapes[0]),
+      .b = readReplayShape(shapes[1]),
       .a_from_b = relativePose(readTransform(transforms[0]), readTransform(transforms[1])),
       .scale = 0.0,
       .hits = {}};
-  question.scale =
-      std::max({extent(question.a), extent(question.b), question.a_from_b.translation().norm()});
+  question.scale = std::max(
+      {extent(question.a), extent(question.b), question.a_from_b.translation().stableNorm()});
   const JsonValue expected = entry.at("expected");
   if (query == PairQuery::Collide) {
     question.hits = readHits(expected);
@@ -169,7 +108,7 @@ std::string unsupported(const std::string& query, const JsonValue& entry) {
   const auto shapes = entry.at("shapes").elements(2);
   for (const JsonValue& shape : shapes) {
     const std::string type = shape.at("type").text();
-    if (!kShapes.contains(type)) return "shape " + type;
+    if (!isReplayShape(type)) return "shape " + type;
   }
   return {};
 }

@@ -22,7 +22,7 @@ struct PairQuestion {
   PairQuery query;
   Shape a, b;
   Eigen::Isometry3d a_from_b;
-  double scale;              ///< m, largest of the shapes' extents and the offset between them
+  double scale;              ///< m, largest of the shapes' extents (finite) and their offset
   double distance = 0.0;     ///< m, the true answer; 0 for Collide
   double tolerance = 0.0;    ///< m, of the answer; 0 for Collide
   std::optional<bool> hits;  ///< the true answer of Collide; empty: both are right (touching)
@@ -33,7 +33,7 @@ struct ReplayCase {
   std::string id;
   std::string query;                     ///< as the file names it
   std::optional<PairQuestion> question;  ///< empty: skipped
-  std::string skipReason;                ///< `query ccd`, `shape octree`; empty with a question
+  std::string skipReason;                ///< `query ccd`, `shape robot`; empty with a question
 };
 
 /// Throws InputError, which names the case, the key, its value and what is allowed.

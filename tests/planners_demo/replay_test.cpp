@@ -43,21 +43,21 @@ TEST(Replay, OurCasesPassAndTheUnknownShapeIsSkipped) {
   const Outcome run = runSwept({"replay", kFile});
   EXPECT_EQ(run.exitCode, 0) << run.out;
   EXPECT_EQ(run.err, "");
-  EXPECT_EQ(lastLine(run.out), "10 passed, 0 failed, 1 skipped");
+  EXPECT_EQ(lastLine(run.out), "16 passed, 0 failed, 1 skipped");
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncubes-overlap +penetration +-0.3 +-0.3 .* ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\nball-in-mesh +distance +0 +0 +0 +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncylinders-crossed +collide +yes +yes +- +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\nballs-clear +collide +no +no +- +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncubes-touching +collide .* either +- +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex(
-                           "\ncone +signed_distance +- +- +- +skipped \\(shape cone\\)\n"));
+                           "\ntorus +signed_distance +- +- +- +skipped \\(shape torus\\)\n"));
 }
 
 TEST(Replay, JsonHasIntervalsAroundTheDistancesByHand) {
   const Outcome run = runSwept({"replay", "--json", kFile});
   const json result = jsonOf(run);
   EXPECT_EQ(run.exitCode, 0);
-  EXPECT_EQ(result["passed"], 10);
+  EXPECT_EQ(result["passed"], 16);
   EXPECT_EQ(result["failed"], 0);
   EXPECT_EQ(result["skipped"], 1);
   const std::map<std::string, double> byHand = {
@@ -67,6 +67,12 @@ TEST(Replay, JsonHasIntervalsAroundTheDistancesByHand) {
       {"capsule-over-box", 0.65 - 0.5 - 0.1},
       {"ball-at-octahedron", (3.0 - 1.0) / std::sqrt(3.0) - 0.2},
       {"ball-in-triangle", 0.3 - 0.5},
+      {"cone-and-ball", std::hypot(4.0, 0.5) - 1.0},
+      {"ball-off-ellipsoid", 4.0 - 2.0 - 0.5},
+      {"box-through-plane", -(0.5 - 0.25)},
+      {"cylinder-in-ground", 0.75 - 1.0},
+      {"ball-over-terrain", 2.0 - 1.0 - 0.25},
+      {"box-among-voxels", 1.5 - 0.5},
   };
   std::size_t found = 0;
   for (const json& item : result["cases"]) {
@@ -83,7 +89,7 @@ TEST(Replay, JsonHasIntervalsAroundTheDistancesByHand) {
   }
   EXPECT_EQ(found, byHand.size());
   EXPECT_EQ(result["cases"].back()["result"], "skipped");
-  EXPECT_EQ(result["cases"].back()["reason"], "shape cone");
+  EXPECT_EQ(result["cases"].back()["reason"], "shape torus");
   EXPECT_EQ(result["cases"].back()["answer"], "-");
 }
 
@@ -97,7 +103,7 @@ TEST(Replay, AWrongDistanceFailsAndARightOneWithinToleranceDoesNot) {
     EXPECT_EQ(run.exitCode, wrong ? 1 : 0);
     EXPECT_EQ(run.err, "");
     EXPECT_EQ(lastLine(run.out),
-              wrong ? "9 passed, 1 failed, 1 skipped" : "10 passed, 0 failed, 1 skipped");
+              wrong ? "15 passed, 1 failed, 1 skipped" : "16 passed, 0 failed, 1 skipped");
     if (wrong) {
       EXPECT_THAT(run.out, testing::ContainsRegex(
                                "\ncubes-overlap .* 0.002 +FAILED \\(off by more than 0.001\\)\n"));
@@ -111,7 +117,7 @@ TEST(Replay, AWrongYesOrNoFails) {
   caseOf(file, "balls-clear")["expected"]["collides"] = true;
   const Outcome run = replay(file);
   EXPECT_EQ(run.exitCode, 1);
-  EXPECT_EQ(lastLine(run.out), "8 passed, 2 failed, 1 skipped");
+  EXPECT_EQ(lastLine(run.out), "14 passed, 2 failed, 1 skipped");
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncylinders-crossed .* FAILED \\(wrong\\)\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\nballs-clear .* FAILED \\(wrong\\)\n"));
 }
@@ -124,7 +130,7 @@ TEST(Replay, OverflowIsAFailureAndNotAnAnswer) {
   caseOf(file, "cubes-touching")["expected"] = {{"collides", false}};
   const Outcome run = replay(file);
   EXPECT_EQ(run.exitCode, 1);
-  EXPECT_EQ(lastLine(run.out), "8 passed, 2 failed, 1 skipped") << run.out;
+  EXPECT_EQ(lastLine(run.out), "14 passed, 2 failed, 1 skipped") << run.out;
 }
 
 TEST(Replay, PosesFarFromTheOriginKeepTheirDigits) {
@@ -136,6 +142,22 @@ TEST(Replay, PosesFarFromTheOriginKeepTheirDigits) {
   const TemporaryFolder folder;
   const json result = jsonOf(runSwept({"replay", "--json", folder.write("far.json", file.dump())}));
   EXPECT_NEAR(result["cases"][2]["answer"], 1.0 - std::sqrt(0.5), 1e-9);
+}
+
+TEST(Replay, ATerrainInWordsIsFlat) {
+  json file = ourCases();
+  json& shape = caseOf(file, "ball-over-terrain")["shapes"][0];
+  shape.erase("base");
+  shape["heights"] = "flat, all 1, 9x5 samples, base -1";
+  EXPECT_EQ(lastLine(replay(file).out), "16 passed, 0 failed, 1 skipped");
+  shape["heights"] = "flat, all 0.5, 9x5 samples, base -1";
+  EXPECT_EQ(lastLine(replay(file).out), "15 passed, 1 failed, 1 skipped");
+}
+
+TEST(Replay, AHalfSpaceDoesNotMakeEveryAnswerRight) {
+  json file = ourCases();
+  caseOf(file, "cylinder-in-ground")["expected"]["signed_distance"] = -0.26;
+  EXPECT_EQ(lastLine(replay(file).out), "15 passed, 1 failed, 1 skipped");
 }
 
 TEST(Replay, AnUnknownQueryIsSkippedWithoutReadingTheRest) {
@@ -201,6 +223,25 @@ const Broken kBroken[] = {
      "/shapes/0/vertices",
      {{0, 0, 0}, {1, 0, 0}},
      "case 'ball-in-triangle': shapes[0].vertices holds 2 values; it must hold 3"},
+    {"ZeroNormal",
+     "box-through-plane",
+     "/shapes/0/normal",
+     {0, 0, 0},
+     "case 'box-through-plane': shapes[0] is no shape: plane has normal (0 0 0) and offset 1; "
+     "allowed: finite numbers, a normal that is not zero"},
+    {"RaggedTerrain",
+     "ball-over-terrain",
+     "/shapes/0/heights/1",
+     {0, 1},
+     "case 'ball-over-terrain': shapes[0].heights[1] holds 2 values; it must hold 3"},
+    {"TerrainBelowItsBase", "ball-over-terrain", "/shapes/0/base", 0.5,
+     "case 'ball-over-terrain': shapes[0] is no shape: height field has height 0 in row 0, column "
+     "0; allowed: finite and greater than the base, 0.5"},
+    {"TerrainInWords", "ball-over-terrain", "/shapes/0/heights", "hilly",
+     "case 'ball-over-terrain': shapes[0].heights is \"hilly\"; it must be rows of numbers, or "
+     "'flat, all H, RxC samples, base B'"},
+    {"NoVoxelSize", "box-among-voxels", "/shapes/1/resolution", 0,
+     "case 'box-among-voxels': shapes[1].resolution is 0; it must be greater than 0"},
     {"OneShape",
      "balls-clear",
      "/shapes",
