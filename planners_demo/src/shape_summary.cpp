@@ -45,6 +45,10 @@ struct Text {
            (mesh.isClosed() ? "closed" : "open") + ", hull of " +
            std::to_string(mesh.hull().vertices().size()) + " points";
   }
+  std::string operator()(const PointCloud& cloud) const {
+    return "cloud of " + std::to_string(cloud.points().size()) + " points of radius " +
+           shortNumber(cloud.radius()) + " m";
+  }
 
  private:
   template <class Flat>
@@ -97,6 +101,10 @@ struct Facts {
             {"triangles", mesh.triangles().size()},
             {"closed", mesh.isClosed()},
             {"hull_points", mesh.hull().vertices().size()}};
+  }
+  Json operator()(const PointCloud& cloud) const {
+    return {
+        {"kind", "point cloud"}, {"points", cloud.points().size()}, {"radius", cloud.radius()}};
   }
 };
 

@@ -64,7 +64,8 @@ std::vector<Shape> everyKind() {
           makeTriangle({0, 0, 0}, {0.6, 0, 0}, {0, 0.7, 0.2}),
           makePlane(Vector3d::UnitZ(), 0.1),
           makeHalfSpace(Vector3d::UnitX(), -0.2),
-          TriangleMesh::build(blob.vertices, blob.triangles)};
+          TriangleMesh::build(blob.vertices, blob.triangles),
+          PointCloud::build(points, 0.05)};
 }
 
 TEST(Queries, AllocateNothing) {

@@ -62,6 +62,8 @@ double extentOf(const Shape& shape) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape))
     return mesh->hull().extent() + mesh->hull().error();
   if (const auto* hull = std::get_if<ConvexHull>(&shape)) return hull->extent() + hull->error();
+  if (const auto* cloud = std::get_if<PointCloud>(&shape))
+    return cloud->hull().extent() + cloud->hull().error() + cloud->radius();
   const BoundingSphere ball = boundingSphere(shape);
   return ball.center.norm() + ball.radius;
 }
@@ -190,8 +192,11 @@ BodyTree::LocalBox BodyTree::localBox(const Shape& shape) {
     return {Vector3d::Zero(), Vector3d::Zero(), sphere->radius};
   if (const auto* capsule = std::get_if<Capsule>(&shape))
     return {Vector3d::Zero(), {0.0, 0.0, capsule->halfLength}, capsule->radius};
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-    const detail::MeshBox box = detail::meshBox(*mesh);
+  const detail::WideBvh* bvh = nullptr;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) bvh = &mesh->bvh();
+  if (const auto* cloud = std::get_if<PointCloud>(&shape)) bvh = &cloud->bvh();
+  if (bvh != nullptr) {
+    const detail::TreeBox box = detail::treeBox(*bvh);
     return {box.middle, box.half, 0.0};
   }
   // The middle and half of a box, as they round, leave out less than the margin of apart().

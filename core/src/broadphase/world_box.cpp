@@ -56,9 +56,11 @@ class Placed {
   Aabb operator()(const ConvexHull& hull) const { return ofPoints(hull.vertices(), hull.error()); }
   Aabb operator()(const TriangleMesh& mesh) const {
     if (fit_ == BoxFit::Tight) return ofPoints(mesh.vertices(), 0.0);
-    const MeshBox box = meshBox(mesh);
-    const Vector3d scale = absolute() * box.middle.cwiseAbs() + pose_.translation().cwiseAbs();
-    return grown(pose_ * box.middle, absolute() * box.half, scale);
+    return ofTree(mesh.bvh());
+  }
+  Aabb operator()(const PointCloud& cloud) const {
+    if (fit_ == BoxFit::Tight) return ofPoints(cloud.points(), cloud.radius());
+    return ofTree(cloud.bvh());
   }
   Aabb operator()(const Plane&) const { return everywhere(); }
   Aabb operator()(const HalfSpace&) const { return everywhere(); }
@@ -79,6 +81,11 @@ class Placed {
   }
   Aabb aroundOrigin(const Vector3d& half) const {
     return grown(pose_.translation(), half, pose_.translation().cwiseAbs());
+  }
+  Aabb ofTree(const WideBvh& bvh) const {
+    const TreeBox box = treeBox(bvh);
+    const Vector3d scale = absolute() * box.middle.cwiseAbs() + pose_.translation().cwiseAbs();
+    return grown(pose_ * box.middle, absolute() * box.half, scale);
   }
   /// Points that may be off by `error`, in the local frame.
   Aabb ofPoints(std::span<const Vector3d> points, double error) const {
@@ -101,11 +108,11 @@ class Placed {
 
 }  // namespace
 
-MeshBox meshBox(const TriangleMesh& mesh) {
-  const BoxF& root = mesh.bvh().rootBox();
+TreeBox treeBox(const WideBvh& bvh) {
+  const BoxF& root = bvh.rootBox();
   const Vector3d offset(root.center[0], root.center[1], root.center[2]);
   const Vector3d half(root.half[0], root.half[1], root.half[2]);
-  const Vector3d& origin = mesh.bvh().origin();
+  const Vector3d& origin = bvh.origin();
   // Each sum rounds by at most half an epsilon of its result.
   return {origin + offset, half + kEpsilon * (origin.cwiseAbs() + offset.cwiseAbs() + half)};
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "bvh/wide_bvh.hpp"
 #include "swept/core/bv/aabb.hpp"
 #include "swept/core/shapes.hpp"
 
@@ -10,16 +11,16 @@ namespace swept::detail {
 
 /// How much work a box is worth.
 enum class BoxFit {
-  Quick,  ///< constant time for meshes: the box around their own box, turned
-  Tight,  ///< of every vertex
+  Quick,  ///< constant time for meshes and clouds: the box around their own box, turned
+  Tight,  ///< of every vertex or point
 };
 
-/// A box around the mesh in its own frame, from its hierarchy: constant time.
-struct MeshBox {
+/// The box that a hierarchy keeps around all it holds, in the shape's frame: constant time.
+struct TreeBox {
   Eigen::Vector3d middle;  ///< m
   Eigen::Vector3d half;    ///< m, rounded outward
 };
-MeshBox meshBox(const TriangleMesh& mesh);
+TreeBox treeBox(const WideBvh& bvh);
 
 /// Box of the placed shape, rounded outward. Infinite for planes and half-spaces; a pose that is
 /// not finite gives a box that is not.

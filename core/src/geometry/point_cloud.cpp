@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/point_cloud.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -33,16 +32,12 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double rad
   requireUsable(points, radius);
   const std::vector<double> radii(points.size(), radius);
   const auto tree = BvTree<Aabb>::build({points, 1, radii}, SurfaceAreaSplit{});
-  auto data = std::make_shared<Data>();
-  data->sourceIndices = tree.order();
-  data->points.reserve(points.size());
-  for (const int source : tree.order()) {
-    data->points.push_back(points[source]);
-    data->extent = std::max(data->extent, points[source].norm());
-  }
-  data->radius = radius;
-  data->bvh = std::make_shared<const detail::WideBvh>(tree);
-  return PointCloud(std::move(data));
+  std::vector<Eigen::Vector3d> ordered;
+  ordered.reserve(points.size());
+  for (const int source : tree.order()) ordered.push_back(points[source]);
+  return PointCloud(std::make_shared<const Data>(
+      Data{std::move(ordered), tree.order(), ConvexHull::of(points), radius,
+           std::make_shared<const detail::WideBvh>(tree)}));
 }
 
 }  // namespace swept

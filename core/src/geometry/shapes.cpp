@@ -131,6 +131,11 @@ struct SphereOf {
   BoundingSphere operator()(const TriangleMesh& mesh) const {
     return ballAround(ballCenter(mesh.hull().vertices()), mesh.vertices());
   }
+  BoundingSphere operator()(const PointCloud& cloud) const {
+    BoundingSphere ball = ballAround(ballCenter(cloud.hull().vertices()), cloud.points());
+    ball.radius = roundedUp(ball.radius + cloud.radius());
+    return ball;
+  }
 
  private:
   static BoundingSphere everywhere() {
@@ -155,24 +160,28 @@ struct BoxOf {
   Aabb operator()(const Plane&) const { return everywhere(); }
   Aabb operator()(const HalfSpace&) const { return everywhere(); }
   Aabb operator()(const ConvexHull& hull) const {
-    Aabb box = boxOf(hull.vertices());
-    if (hull.error() > 0.0) {
-      // A sum of opposite signs rounds by its result, which is smaller than the terms; growing by a
-      // few epsilons of the coordinates covers it.
-      const double scale =
-          std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-      const double grow = roundedUp(hull.error() + std::numeric_limits<double>::epsilon() * scale);
-      box.lower.array() -= grow;
-      box.upper.array() += grow;
-    }
-    return box;
+    return grown(boxOf(hull.vertices()), hull.error());
   }
   Aabb operator()(const TriangleMesh& mesh) const { return boxOf(mesh.vertices()); }
+  Aabb operator()(const PointCloud& cloud) const {
+    return grown(boxOf(cloud.points()), cloud.radius());
+  }
 
  private:
   static Aabb everywhere() {
     const auto all = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
     return {-all, all};
+  }
+  static Aabb grown(Aabb box, double by) {
+    if (!(by > 0.0)) return box;
+    // A sum of opposite signs rounds by its result, which is smaller than the terms; growing by a
+    // few epsilons of the coordinates covers it.
+    const double scale =
+        std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+    const double reach = roundedUp(by + std::numeric_limits<double>::epsilon() * scale);
+    box.lower.array() -= reach;
+    box.upper.array() += reach;
+    return box;
   }
   static Aabb symmetric(double radial, double axial) {
     const Eigen::Vector3d half(radial, radial, axial);

@@ -79,14 +79,15 @@ Eigen::Vector3d meanOf(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Of a mesh: its hull. Planes and half-spaces never come here.
+/// Of a mesh: its hull. Planes, half-spaces and clouds never come here.
 Piece pieceOf(const Shape& shape) {
   return std::visit(
       [](const auto& solid) -> Piece {
         using Solid = std::decay_t<decltype(solid)>;
         if constexpr (std::is_same_v<Solid, TriangleMesh>) {
           return solid.hull();
-        } else if constexpr (std::is_same_v<Solid, Plane> || std::is_same_v<Solid, HalfSpace>) {
+        } else if constexpr (std::is_same_v<Solid, Plane> || std::is_same_v<Solid, HalfSpace> ||
+                             std::is_same_v<Solid, PointCloud>) {
           return Sphere{0.0};
         } else {
           return solid;
@@ -264,8 +265,27 @@ void examineMeshPair(const TriangleMesh& a, const Shape& b, const Eigen::Isometr
 }
 
 void examineShapes(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
+                   Search& search);
+
+/// Ball by ball: slow, and nothing that could go wrong with a hierarchy does.
+void examineCloud(const PointCloud& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
+                  Search& search) {
+  const Shape ball = Sphere{a.radius()};
+  Eigen::Isometry3d ball_from_b = a_from_b;
+  for (const Eigen::Vector3d& point : a.points()) {
+    if (search.done()) return;
+    ball_from_b.translation() = a_from_b.translation() - point;
+    examineShapes(ball, b, ball_from_b, search);
+  }
+}
+
+void examineShapes(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                    Search& search) {
-  if (const auto* meshA = std::get_if<TriangleMesh>(&a)) {
+  if (const auto* cloudA = std::get_if<PointCloud>(&a)) {
+    examineCloud(*cloudA, b, a_from_b, search);
+  } else if (const auto* cloudB = std::get_if<PointCloud>(&b)) {
+    examineCloud(*cloudB, a, a_from_b.inverse(), search);
+  } else if (const auto* meshA = std::get_if<TriangleMesh>(&a)) {
     examineMeshPair(*meshA, b, a_from_b, search);
   } else if (const auto* meshB = std::get_if<TriangleMesh>(&b)) {
     examineMeshPair(*meshB, a, a_from_b.inverse(), search);

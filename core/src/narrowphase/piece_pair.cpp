@@ -84,6 +84,11 @@ Side Side::of(const Shape& shape) {
           const ConvexHull& hull = body.hull();
           const bool cheap = hull.vertices().size() <= kCheapHull;
           return {&body, nullptr, &body.bvh(), Convex::of(hull), cheap, body.dent()};
+        } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
+          Convex hull = Convex::of(body.hull());
+          hull.radius = body.radius();
+          const bool cheap = body.hull().vertices().size() <= kCheapHull;
+          return {nullptr, &body, &body.bvh(), hull, cheap, hull.extent};
         } else {
           return {nullptr, nullptr, nullptr, Convex::of(body), true, 0.0};
         }

@@ -20,7 +20,7 @@ struct Side {
   const WideBvh* bvh = nullptr;  ///< of the mesh or cloud; null: `convex` is the whole body
   Convex convex;                 ///< of a mesh or cloud: its hull
   bool convexIsCheap = true;     ///< the hull has few enough vertices to be worth asking first
-  double dent = 0.0;             ///< m, estimate of how far the hull reaches beyond the mesh
+  double dent = 0.0;             ///< m, estimate of how far the hull reaches beyond the body
 
   bool isConvex() const { return bvh == nullptr; }
   static Side of(const Shape& shape);

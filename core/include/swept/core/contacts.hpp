@@ -16,7 +16,7 @@ struct ContactPoint {
   /// Unit, from a to b: moving b's piece along it by `depth` ends the overlap.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double depth = 0.0;  ///< m, >= 0; infinity where no translation separates
-  int pieceA = -1;     ///< triangle of a mesh; -1 for other shapes
+  int pieceA = -1;     ///< triangle of a mesh, point of a cloud; -1 for other shapes
   int pieceB = -1;
 };
 
@@ -28,12 +28,12 @@ struct ContactsResult {
 
 /// All places where two shapes touch, up to `most` of them, appended to `contacts`.
 ///
-/// Two convex shapes have one contact, with the true penetration depth. A mesh has one for each of
-/// its triangles that touches the other shape; its depth is local, that of these two pieces alone
-/// (Pan, Chitta, Manocha 2012, section IV); signedDistance() bounds the true one. A mesh wholly
-/// inside a solid mesh, or around the other shape, has one contact without pieces. Triangle pairs
-/// are decided exactly in coordinates rounded to a's frame. Never throws on finite input, but for
-/// what growing `contacts` may throw; a non-finite pose is Unknown without contacts.
+/// Two convex shapes have one contact, with the true penetration depth. A mesh or cloud has one for
+/// each of its triangles or balls that touches the other shape; its depth is local, that of these
+/// two pieces alone (Pan, Chitta, Manocha 2012, section IV); signedDistance() bounds the true one.
+/// A mesh wholly inside a solid mesh, or around the other shape, has one contact without pieces.
+/// Triangle pairs are decided exactly in coordinates rounded to a's frame. Never throws on finite
+/// input, but for what growing `contacts` may throw; a non-finite pose is Unknown without contacts.
 ContactsResult findContacts(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                             std::size_t most, std::vector<ContactPoint>& contacts);
 

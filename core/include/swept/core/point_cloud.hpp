@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "swept/core/convex_hull.hpp"
+
 namespace swept {
 
 namespace detail {
@@ -26,16 +28,16 @@ class PointCloud {
   const std::vector<Eigen::Vector3d>& points() const { return data_->points; }
   /// For each of points(), its index among the points given.
   const std::vector<int>& sourceIndices() const { return data_->sourceIndices; }
-  double radius() const { return data_->radius; }  ///< m
-  double extent() const { return data_->extent; }  ///< m, no point is farther from the origin
+  double radius() const { return data_->radius; }        ///< m
+  const ConvexHull& hull() const { return data_->hull; }  ///< of the points, without their balls
   const detail::WideBvh& bvh() const { return *data_->bvh; }
 
  private:
   struct Data {
     std::vector<Eigen::Vector3d> points;
     std::vector<int> sourceIndices;
+    ConvexHull hull;
     double radius = 0.0;
-    double extent = 0.0;
     std::shared_ptr<const detail::WideBvh> bvh;
   };
   explicit PointCloud(std::shared_ptr<const Data> data) : data_(std::move(data)) {}

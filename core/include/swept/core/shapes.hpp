@@ -7,6 +7,7 @@
 
 #include "swept/core/bv/aabb.hpp"
 #include "swept/core/convex_hull.hpp"
+#include "swept/core/point_cloud.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace swept {
@@ -62,9 +63,9 @@ struct HalfSpace {
   double offset;           ///< m
 };
 
-/// `ConvexHull` and `TriangleMesh` hold shared immutable data and are cheap to copy.
+/// `ConvexHull`, `TriangleMesh` and `PointCloud` hold shared immutable data and are cheap to copy.
 using Shape = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle,
-                           Plane, HalfSpace, TriangleMesh>;
+                           Plane, HalfSpace, TriangleMesh, PointCloud>;
 
 /// Each throws std::invalid_argument, naming the value, unless every size is finite and not
 /// negative.
