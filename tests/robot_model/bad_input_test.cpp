@@ -377,19 +377,17 @@ std::vector<BadInput> yamlScenes() {
       {"DuplicateObject", "s.yaml", boxed(box) + "    - id: crate\n" + box,
        "@/s.yaml:5: error: object 'crate': a second object has this id"},
       {"ObjectWithoutShapes", "s.yaml", boxed(""),
-       "@/s.yaml:3: error: object 'crate': it has no primitives and no meshes"},
+       "@/s.yaml:3: error: object 'crate': it has no primitives, no meshes and no planes"},
       {"RemovedObject", "s.yaml", boxed("      operation: remove\n" + box),
        "@/s.yaml:4: error: object 'crate': operation is 'remove'; a scene file allows only add "
        "(0)"},
       {"UnknownPrimitive", "s.yaml",
        boxed("      primitives: [{type: prism, dimensions: [1, 1]}]\n"),
        "@/s.yaml:4: error: object 'crate': primitives[0].type is 'prism'; allowed are box (1), "
-       "sphere (2) "
-       "and cylinder (3)"},
-      {"Cone", "s.yaml", boxed("      primitives: [{type: 4, dimensions: [1, 1]}]\n"),
-       "@/s.yaml:4: error: object 'crate': primitives[0].type is 'cone', which is not supported; "
-       "allowed "
-       "are box (1), sphere (2) and cylinder (3)"},
+       "sphere (2), cylinder (3) and cone (4)"},
+      {"ConeDimensions", "s.yaml", boxed("      primitives: [{type: 4, dimensions: [1]}]\n"),
+       "@/s.yaml:4: error: object 'crate': primitives[0].dimensions has 1 values; a cone has 2 "
+       "[height, radius]"},
       {"BoxDimensions", "s.yaml",
        boxed("      primitives:\n      - type: box\n        dimensions: [1, 1]\n"),
        "@/s.yaml:6: error: object 'crate': primitives[0].dimensions has 2 values; a box has 3 [x, "
@@ -419,8 +417,12 @@ std::vector<BadInput> yamlScenes() {
        "@/s.yaml:5: error: object 'crate': pose.orientation is a quaternion (x, y, z, w) of length "
        "2; it "
        "must be 1 to within 0.01"},
-      {"Planes", "s.yaml", boxed("      planes: [{coef: [0, 0, 1, 0]}]\n"),
-       "@/s.yaml:4: error: object 'crate': planes are not supported in a scene; use a box"},
+      {"PlaneCoefficients", "s.yaml", boxed("      planes: [{coef: [0, 0, 1]}]\n"),
+       "@/s.yaml:4: error: object 'crate': planes[0].coef has 3 values; a plane has 4 [a, b, c, "
+       "d]"},
+      {"PlaneNormal", "s.yaml", boxed("      planes: [{coef: [0, 0, 0, 1]}]\n"),
+       "@/s.yaml:4: error: object 'crate': planes[0].coef cannot be used: plane has normal (0 "
+       "0 0) and offset -1; allowed: finite numbers, a normal that is not zero"},
       {"Octomap", "s.yaml", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n",
        "@/s.yaml:4: error: world.octomap.octomap.data holds an octomap, which is not supported in "
        "a "
@@ -449,10 +451,13 @@ std::vector<BadInput> textScenes() {
        "@/s.scene:8: error: the file ends where '*' or '.' should follow"},
       {"SceneGarbage", "s.scene", "name\n* a\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\nx\n",
        "@/s.scene:9: error: 'x' where '*' (an object) or '.' (the end) should be"},
-      {"SceneCone", "s.scene", "name\n* a\n1\ncone\n1 1\n",
-       "@/s.scene:4: error: object 'a': the shape 'cone' is not supported; allowed are box, "
-       "sphere, "
-       "cylinder and mesh"},
+      {"SceneShape", "s.scene", "name\n* a\n1\nprism\n1 1\n",
+       "@/s.scene:4: error: object 'a': the shape 'prism' is not supported; allowed are box, "
+       "sphere, cylinder, cone, plane and mesh"},
+      {"ScenePlane", "s.scene", "name\n* a\n1\nplane\n0 0 0 1\n",
+       "@/s.scene:5: error: object 'a': plane has normal (0 0 0) and offset -1; allowed: finite "
+       "numbers, a "
+       "normal that is not zero"},
       {"SceneSize", "s.scene", "name\n* a\n1\nbox\n1 -1 1\n",
        "@/s.scene:5: error: object 'a': the size of a box is '-1'; it must be greater than 0"},
       {"SceneNumber", "s.scene", "name\n* a\n1\nsphere\n1\n0 zero 0\n",

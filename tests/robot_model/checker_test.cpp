@@ -146,6 +146,24 @@ TEST(Checker, GrazingWithinTheToleranceIsUndecidedAndBeyondItIsFree) {
   EXPECT_EQ(verdict(-1e-3, 1e-3), Verdict::Collision);
 }
 
+/// The pole, of radius 0.02, turns about z: over a floor, and from one side of a wall to the other.
+TEST(Checker, UnboundedBodiesAreProvenToo) {
+  const auto sweep = [](const swept::Shape& body, const Eigen::Isometry3d& pose) {
+    const Checker checker = makeChecker(kPole, worldOf(body, pose));
+    Workspace workspace(checker);
+    const std::vector<double> from{-1.0};
+    const std::vector<double> to{1.0};
+    return checker.certifyMotion(from, to, workspace).verdict;
+  };
+  const Eigen::Isometry3d far = at(1e3, -1e3, 0.0);
+  EXPECT_EQ(sweep(swept::makePlane({0, 0, 1}, -0.0215), far), Verdict::Free);
+  EXPECT_EQ(sweep(swept::makePlane({0, 0, 1}, -0.0185), far), Verdict::Collision);
+  EXPECT_EQ(sweep(swept::makeHalfSpace({0, 0, 1}, -0.0215), far), Verdict::Free);
+  EXPECT_EQ(sweep(swept::makeHalfSpace({0, 0, -1}, 0.0215), far), Verdict::Collision);
+  EXPECT_EQ(sweep(swept::makePlane({1, 0, 0}, 0.5), at(0, 0, 0)), Verdict::Collision);
+  EXPECT_EQ(sweep(swept::makePlane({1, 0, 0}, -0.5), at(0, 0, 0)), Verdict::Free);
+}
+
 TEST(Checker, TheMarginIsKeptAndItsViolationWitnessed) {
   CheckerOptions options;
   options.margin = 0.05;

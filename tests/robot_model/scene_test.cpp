@@ -95,6 +95,26 @@ world:
   EXPECT_EQ(world.find("two")->parts[0].world_from_shape.translation(), Eigen::Vector3d(7, 0, 0));
 }
 
+TEST(SceneYaml, ConesAndPlanes) {
+  const World world = load("s.yaml", R"(
+world:
+  collision_objects:
+    - id: hat
+      primitives: [{type: cone, dimensions: [0.4, 0.1]}, {type: 4, dimensions: [0.4, 0.1]}]
+    - id: floor
+      planes: [{coef: [0, 0, 2, 1]}]
+      plane_poses: [{position: [0, 0, 3]}]
+)");
+  for (const WorldBody::Part& part : world.find("hat")->parts) {
+    EXPECT_EQ(std::get<Cone>(part.shape).radius, 0.1);
+    EXPECT_EQ(std::get<Cone>(part.shape).halfLength, 0.2);
+  }
+  const WorldBody::Part& floor = world.find("floor")->parts.at(0);
+  EXPECT_EQ(std::get<Plane>(floor.shape).normal, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(std::get<Plane>(floor.shape).offset, -0.5);
+  EXPECT_EQ(floor.world_from_shape.translation(), Eigen::Vector3d(0, 0, 3));
+}
+
 TEST(SceneYaml, MeshesFromNumbersAndFiles) {
   test::Warnings warnings;
   const World world = load("s.yaml", R"(
@@ -211,6 +231,18 @@ TEST(SceneText, NewerFormatHasPosesAndSubframes) {
                        pose({1, 0, 0}, kTurn) * pose({0, 2, 0}, 0)),
             1e-15);
   EXPECT_TRUE(std::get<TriangleMesh>(world.find("m")->parts[0].shape).isClosed());
+}
+
+TEST(SceneText, ConesAndPlanes) {
+  const World world = load("s.scene",
+                           "(noname)+++\n"
+                           "* a\n2\n"
+                           "cone\n0.1 0.4\n1 2 3\n0 0 0 1\n0 0 0 0\n"
+                           "plane\n0 0 2 1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n");
+  const auto& parts = world.find("a")->parts;
+  EXPECT_EQ(std::get<Cone>(parts.at(0).shape).radius, 0.1);
+  EXPECT_EQ(std::get<Cone>(parts.at(0).shape).halfLength, 0.2);
+  EXPECT_EQ(std::get<Plane>(parts.at(1).shape).offset, -0.5);
 }
 
 TEST(SceneText, EmptyScenesAndScenesWithoutANameLoad) {

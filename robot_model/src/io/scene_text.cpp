@@ -52,6 +52,7 @@ class SceneTextReader {
   bool hasObjectPose() const;
   void readObject();
   Shape readShape();
+  Shape readPlane();
   Shape readMesh(int line);
   [[noreturn]] void fail(int line, const std::string& message) const;
 
@@ -185,9 +186,27 @@ Shape SceneTextReader::readShape() {
     const double radius = size("the radius of a cylinder");
     return makeCylinder(radius, size("the length of a cylinder"));
   }
+  if (type.text == "cone") {
+    const double radius = size("the radius of a cone");
+    return makeCone(radius, size("the height of a cone"));
+  }
+  if (type.text == "plane") return readPlane();
   if (type.text == "mesh") return readMesh(type.line);
-  fail(type.line, "the shape '" + type.text +
-                      "' is not supported; allowed are box, sphere, cylinder and mesh");
+  fail(type.line,
+       "the shape '" + type.text +
+           "' is not supported; allowed are box, sphere, cylinder, cone, plane and mesh");
+}
+
+/// The points with a x + b y + c z + d = 0.
+Shape SceneTextReader::readPlane() {
+  const Eigen::Vector3d normal = vector("a plane's normal");
+  const int line = tokens_[at_ - 1].line;
+  const double d = number("a plane's offset");
+  try {
+    return makePlane(normal, -d);
+  } catch (const std::invalid_argument& error) {
+    fail(line, error.what());
+  }
 }
 
 Shape SceneTextReader::readMesh(int line) {

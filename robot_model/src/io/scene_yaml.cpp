@@ -32,7 +32,7 @@ PrimitiveType primitiveType(const YamlPlace& type) {
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     if (given == kNames[i][0] || given == kNames[i][1]) return static_cast<PrimitiveType>(i);
   }
-  type.fail("is '" + type.text() + "'; allowed are box (1), sphere (2) and cylinder (3)");
+  type.fail("is '" + type.text() + "'; allowed are box (1), sphere (2), cylinder (3) and cone (4)");
 }
 
 std::vector<double> sizes(const YamlPlace& place, std::size_t count, const std::string& meaning) {
@@ -51,9 +51,8 @@ std::vector<double> sizes(const YamlPlace& place, std::size_t count, const std::
 }
 
 Shape readPrimitive(const YamlPlace& place) {
-  const YamlPlace type = place.at("type");
   const YamlPlace dimensions = place.at("dimensions");
-  switch (primitiveType(type)) {
+  switch (primitiveType(place.at("type"))) {
     case PrimitiveType::Box: {
       const auto s = sizes(dimensions, 3, "a box has 3 [x, y, z]");
       return makeBox({s[0], s[1], s[2]});
@@ -67,7 +66,24 @@ Shape readPrimitive(const YamlPlace& place) {
     case PrimitiveType::Cone:
       break;
   }
-  type.fail("is 'cone', which is not supported; allowed are box (1), sphere (2) and cylinder (3)");
+  const auto s = sizes(dimensions, 2, "a cone has 2 [height, radius]");
+  return makeCone(s[1], s[0]);
+}
+
+/// shape_msgs/Plane: the points with a x + b y + c z + d = 0.
+Shape readPlane(const YamlPlace& place) {
+  const YamlPlace coefficients = place.at("coef");
+  const auto elements = coefficients.elements();
+  if (elements.size() != 4) {
+    coefficients.fail("has " + std::to_string(elements.size()) +
+                      " values; a plane has 4 [a, b, c, d]");
+  }
+  const Eigen::Vector3d normal(elements[0].number(), elements[1].number(), elements[2].number());
+  try {
+    return makePlane(normal, -elements[3].number());
+  } catch (const std::invalid_argument& error) {
+    coefficients.fail(std::string("cannot be used: ") + error.what());
+  }
 }
 
 class SceneReader {
@@ -170,16 +186,14 @@ void SceneReader::readObject(const YamlPlace& unnamed) {
       operation.fail("is '" + operation.text() + "'; a scene file allows only add (0)");
     }
   }
-  if (!object.at("planes").elements().empty()) {
-    object.at("planes").fail("are not supported in a scene; use a box");
-  }
   const Eigen::Isometry3d world_from_object =
       frameOf(object) * object.at("pose").pose("position", "orientation");
   WorldBody body;
   body.name = id;
   addShapes(object, "primitives", "primitive_poses", world_from_object, body);
   addShapes(object, "meshes", "mesh_poses", world_from_object, body);
-  if (body.parts.empty()) object.fail("it has no primitives and no meshes");
+  addShapes(object, "planes", "plane_poses", world_from_object, body);
+  if (body.parts.empty()) object.fail("it has no primitives, no meshes and no planes");
   try {
     world_.add(std::move(body));
   } catch (const std::invalid_argument& error) {
@@ -196,9 +210,11 @@ void SceneReader::addShapes(const YamlPlace& object, const char* shapesKey, cons
     object.at(posesKey).fail("has " + std::to_string(poses.size()) + " entries for " +
                              std::to_string(shapes.size()) + " " + shapesKey);
   }
-  const bool primitives = std::string_view(shapesKey) == "primitives";
+  const std::string_view kind(shapesKey);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const Shape shape = primitives ? readPrimitive(shapes[i]) : readMesh(shapes[i], body.name);
+    const Shape shape = kind == "primitives" ? readPrimitive(shapes[i])
+                        : kind == "planes"   ? readPlane(shapes[i])
+                                             : readMesh(shapes[i], body.name);
     Eigen::Isometry3d pose = world_from_object;
     if (!poses.empty()) pose = pose * poses[i].pose("position", "orientation");
     body.parts.push_back({shape, pose});
