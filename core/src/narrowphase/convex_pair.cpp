@@ -7,6 +7,7 @@
 
 #include "narrowphase/box_box.hpp"
 #include "narrowphase/epa.hpp"
+#include "narrowphase/extreme_pair.hpp"
 #include "narrowphase/face_probe.hpp"
 #include "narrowphase/flat_pair.hpp"
 #include "narrowphase/point_box.hpp"
@@ -273,6 +274,7 @@ struct PairQueries {
     if constexpr (kFlat<kindA> || kFlat<kindB>) {
       return flatPair(a, b, a_from_b, goal);
     } else {
+      if (isExtreme(magnitudeOf(a, b, a_from_b))) return extremePair(a, b, a_from_b, goal);
       if constexpr (HasClosedForm<kindA, kindB>) {
         CoreGap gap;
         if (closedForm(CoreTag<kindA>{}, CoreTag<kindB>{}, a, b, a_from_b, gap)) {
@@ -294,9 +296,11 @@ struct PairQueries {
                                              const Isometry3d& a_from_b, double tolerance) {
     if constexpr (kFlat<kindA> || kFlat<kindB>) {
       return flatPairSigned(a, b, a_from_b);
-    } else if constexpr (kindA == Core::Box && kindB == Core::Box) {
-      return boxesSigned(a, b, a_from_b, tolerance);
     } else {
+      if (isExtreme(magnitudeOf(a, b, a_from_b))) return extremePairSigned(a, b, a_from_b);
+      if constexpr (kindA == Core::Box && kindB == Core::Box) {
+        return boxesSigned(a, b, a_from_b, tolerance);
+      }
       if constexpr (HasClosedForm<kindA, kindB>) {
         CoreGap gap;
         if (closedForm(CoreTag<kindA>{}, CoreTag<kindB>{}, a, b, a_from_b, gap)) {
@@ -314,6 +318,10 @@ struct PairQueries {
   }
 
   static Contact collide(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
+    constexpr bool flat = kFlat<kindA> || kFlat<kindB>;
+    if (!flat && isExtreme(magnitudeOf(a, b, a_from_b))) {
+      return contactOf(extremePair(a, b, a_from_b, Goal(0.0)));
+    }
     if constexpr (kindA == Core::Box && kindB == Core::Box) {
       return boxesCollide(a, b, a_from_b);
     } else {

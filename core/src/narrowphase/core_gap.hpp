@@ -30,13 +30,16 @@ using ConeCore = CoreTag<Convex::Core::Cone>;
 using EllipsoidCore = CoreTag<Convex::Core::Ellipsoid>;
 using PointsCore = CoreTag<Convex::Core::Points>;
 
+/// m. No coordinate of the two cores' points, of their differences or of their witnesses is larger.
+inline double magnitudeOf(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
+  return a.extent + b.extent + a_from_b.translation().cwiseAbs().sum() + a.radius + b.radius;
+}
+
 /// m. Lemma: a closed form takes a few dozen operations on coordinates of at most the magnitudes
 /// summed here, each of which errs by half an epsilon; differences of such coordinates keep that
 /// absolute error, and so do norms of differences.
 inline double pairRounding(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
-  const double magnitude =
-      a.extent + b.extent + a_from_b.translation().cwiseAbs().sum() + a.radius + b.radius;
-  return tolerance::kSupportRounding * magnitude + a.error + b.error;
+  return tolerance::kSupportRounding * magnitudeOf(a, b, a_from_b) + a.error + b.error;
 }
 
 /// The boundary point of a core nearest to a given point, in the core's frame.

@@ -38,30 +38,35 @@ EpaResult epa(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
   EpaResult result;
   result.pointA = start.pointA();
   result.pointB = start.pointB();
+  result.upper = std::numeric_limits<double>::infinity();
+  // Lemma: the depth is the least support value of B - A over all directions, hence at most the one
+  // along any normal tried, and at least the distance of the nearest face of a polytope inside.
+  const auto tryWayOut = [&](const Vector3d& n, const Polytope::Vertex& farthest) {
+    const double height = n.dot(farthest.difference);
+    if (height + rounding < result.upper) {
+      result.upper = height + rounding;
+      result.normal = -n;
+    }
+    return height;
+  };
   Vector3d flat = Vector3d::UnitX();
   if (!polytope.start(start, flat)) {
-    // No extent along `flat`: the least translation along it ends the contact.
-    const double ahead = flat.dot(polytope.support(flat).difference);
-    const double behind = -flat.dot(polytope.support(-flat).difference);
-    result.normal = ahead <= behind ? Vector3d(-flat) : flat;
-    result.upper = std::max(0.0, std::min(ahead, behind)) + rounding;
+    for (const Vector3d& axis : {flat, Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY()),
+                                 Vector3d(Vector3d::UnitZ())}) {
+      tryWayOut(axis, polytope.support(axis));
+      tryWayOut(-axis, polytope.support(-axis));
+    }
+    result.upper = std::max(result.upper, 0.0);
     result.iterations = polytope.evaluations();
     return result;
   }
-  // Lemma: the depth is the least support value of B - A over all directions, hence at most the one
-  // along any normal tried, and at least the distance of the nearest face of a polytope inside.
-  result.upper = std::numeric_limits<double>::infinity();
   while (true) {
     const int nearest = polytope.nearestFace();
     const Vector3d normal = polytope.face(nearest).normal;
     const double distance = polytope.distance(nearest);
     result.lower = std::max(result.lower, distance - rounding);
     const Polytope::Vertex found = polytope.support(normal);
-    const double height = normal.dot(found.difference);
-    if (height + rounding < result.upper) {
-      result.upper = height + rounding;
-      result.normal = -normal;
-    }
+    const double height = tryWayOut(normal, found);
     if (height - distance <= tolerance || !polytope.expand(found, nearest)) break;
   }
   witness(polytope, rounding + tolerance, result);

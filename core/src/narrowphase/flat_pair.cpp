@@ -13,6 +13,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+/// m. Sums of coordinates beyond this may not be finite, and the answer is the widest interval.
+constexpr double kFarthest = 1e300;
+
 /// A signed gap with the points that witness it. All in a's frame.
 struct Gap {
   double value = 0.0;     ///< m, negative in overlap
@@ -20,6 +23,7 @@ struct Gap {
   Vector3d pointA = Vector3d::Zero();
   Vector3d pointB = Vector3d::Zero();
   Vector3d normal = Vector3d::Zero();  ///< from a to b
+  Vector3d common = Vector3d::Zero();  ///< in both; valid in overlap
   bool endless = false;                ///< no translation separates the two
 };
 
@@ -31,22 +35,28 @@ Gap againstBounded(const Convex& flat, const Convex& body, const Isometry3d& fla
   const Vector3d lowest = flat_from_body * body.support(-alongBody);
   Gap gap;
   gap.normal = n;
-  gap.value = (n.dot(lowest) - flat.offset) - body.radius - flat.radius;
+  gap.value = (n.dot(lowest) - flat.offset) - body.radius;
   gap.pointB = lowest - body.radius * n;
+  gap.common = gap.pointB;
   if (flat.core == Convex::Core::Plane) {
     const Vector3d highest = flat_from_body * body.support(alongBody);
-    const double above = (flat.offset - n.dot(highest)) - body.radius - flat.radius;
+    const double above = (flat.offset - n.dot(highest)) - body.radius;
+    const Vector3d top = highest + body.radius * n;
+    // On the way from the lowest point to the highest, where it crosses the plane.
+    const double both = gap.value + above;
+    const double share = both < 0.0 ? std::clamp(gap.value / both, 0.0, 1.0) : 0.0;
+    gap.common += share * (top - gap.pointB);
     if (above > gap.value) {
       gap.value = above;
       gap.normal = -n;
-      gap.pointB = highest + body.radius * n;
+      gap.pointB = top;
     }
   }
   gap.pointA = gap.pointB - gap.value * gap.normal;
   // Lemma: the support point, its transformation and the dot product round by at most a few ulps of
   // the coordinates, like a step of GJK.
-  const double magnitude = body.extent + body.radius + flat_from_body.translation().norm() +
-                           std::abs(flat.offset) + flat.radius;
+  const double magnitude = body.extent + body.radius +
+                           flat_from_body.translation().cwiseAbs().sum() + std::abs(flat.offset);
   gap.rounding = tolerance::kSupportRounding * magnitude + body.error;
   return gap;
 }
@@ -55,10 +65,11 @@ Gap againstBounded(const Convex& flat, const Convex& body, const Isometry3d& fla
 Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, double offsetB,
                  double translation) {
   Gap gap;
-  gap.rounding = tolerance::kSupportRounding *
-                 (std::abs(a.offset) + std::abs(offsetB) + translation + a.radius + b.radius);
+  gap.rounding =
+      tolerance::kSupportRounding * (std::abs(a.offset) + std::abs(offsetB) + translation);
   gap.pointA = a.offset * a.size;
   gap.pointB = gap.pointA;
+  gap.common = gap.pointA;
   gap.normal = a.size;
   if (a.size.cross(normalB).norm() > kParallel) {
     gap.endless = true;
@@ -67,6 +78,7 @@ Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, doub
     const double sineSquared = a.size.cross(normalB).squaredNorm();
     gap.pointA += ((offsetB - a.offset * cosine) / sineSquared) * (normalB - cosine * a.size);
     gap.pointB = gap.pointA;
+    gap.common = gap.pointA;
     return gap;
   }
   const bool sameWay = a.size.dot(normalB) > 0.0;
@@ -76,13 +88,16 @@ Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, doub
   const bool solidB = b.core == Convex::Core::HalfSpace;
   if (solidA && solidB && sameWay) {
     gap.endless = true;
+    gap.common += std::min(0.0, ahead) * a.size;
+    gap.pointA = gap.pointB = gap.common;
     return gap;
   }
   // A solid on one side leaves one way apart; two planes are apart either way.
   const bool bAhead = solidA || (solidB ? !sameWay : ahead >= 0.0);
   gap.normal = bAhead ? a.size : Vector3d(-a.size);
-  gap.value = (bAhead ? ahead : -ahead) - a.radius - b.radius;
+  gap.value = bAhead ? ahead : -ahead;
   gap.pointB = gap.pointA + gap.value * gap.normal;
+  if (!solidB) gap.common = gap.pointB;  // of a plane, every point in the overlap is on it
   return gap;
 }
 
@@ -90,7 +105,7 @@ Gap gapOf(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
   if (a.isFlat() && b.isFlat()) {
     const Vector3d normalB = a_from_b.linear() * b.size;
     return betweenFlats(a, b, normalB, b.offset + normalB.dot(a_from_b.translation()),
-                        a_from_b.translation().norm());
+                        a_from_b.translation().cwiseAbs().sum());
   }
   if (a.isFlat()) return againstBounded(a, b, a_from_b);
   const Isometry3d b_from_a = a_from_b.inverse(Eigen::Isometry);
@@ -98,6 +113,7 @@ Gap gapOf(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
   std::swap(gap.pointA, gap.pointB);
   gap.pointA = a_from_b * gap.pointA;
   gap.pointB = a_from_b * gap.pointB;
+  gap.common = a_from_b * gap.common;
   gap.normal = -(a_from_b.linear() * gap.normal);
   return gap;
 }
@@ -109,13 +125,17 @@ GjkResult flatPair(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
   GjkResult result;
   result.iterations = 1;
   result.normal = gap.normal;
-  const bool apart = !gap.endless && gap.value > 0.0;
+  if (!(std::abs(gap.value) < kFarthest && gap.rounding < kFarthest)) return result;
+  if (gap.endless || gap.value <= 0.0) {
+    result.upper = 0.0;
+    result.pointA = result.pointB = gap.common;
+    return result;
+  }
   result.pointA = gap.pointA;
-  result.pointB = apart ? gap.pointB : gap.pointA;
-  result.upper = apart ? gap.value : 0.0;
-  if (apart) result.lower = std::max(0.0, gap.value - gap.rounding);
+  result.pointB = gap.pointB;
+  result.upper = gap.value;
+  result.lower = std::max(0.0, gap.value - gap.rounding);
   result.satisfied = result.lower > goal.along(gap.normal);
-  if (!apart && !a.isFlat()) result.pointA = result.pointB = gap.pointB;
   return result;
 }
 
@@ -124,6 +144,7 @@ SignedDistanceResult flatPairSigned(const Convex& a, const Convex& b, const Isom
   SignedDistanceResult result;
   result.iterations = 1;
   result.normal = gap.normal;
+  if (!(std::abs(gap.value) < kFarthest && gap.rounding < kFarthest)) return result;
   result.pointA = gap.pointA;
   result.pointB = gap.pointB;
   if (gap.endless) {

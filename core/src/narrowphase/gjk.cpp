@@ -56,11 +56,13 @@ void growWitness(GjkResult& result, const Vector3d& v, double distance, double r
   result.upper = 0.0;
 }
 
+/// The two cores' difference B - A.
 struct Pair {
   const Convex& a;
   const Convex& b;
   const Eigen::Vector3d offset;
   const Eigen::Matrix3d rotation;
+  const double magnitude;  ///< m, of the coordinates
   /// m. Lemma (support rounding): with direction n as given, the computed n . (b - a) over the
   /// computed support points is at least the true minimum less this. Each dot product of three
   /// terms, the rotation of n and of a point, and the norm of n contribute at most a few ulps of
@@ -72,9 +74,8 @@ struct Pair {
         b(bodyB),
         offset(a_from_b.translation()),
         rotation(a_from_b.linear()),
-        rounding(tolerance::kSupportRounding *
-                     (a.extent + b.extent + offset.cwiseAbs().sum() + a.radius + b.radius) +
-                 a.error + b.error) {}
+        magnitude(magnitudeOf(bodyA, bodyB, a_from_b)),
+        rounding(tolerance::kSupportRounding * magnitude + a.error + b.error) {}
 
   /// The point of B - A that lies deepest along d, and A's part of it.
   void support(const Vector3d& d, Vector3d& w, Vector3d& onA) const {
@@ -83,21 +84,26 @@ struct Pair {
   }
 };
 
-/// Witness points of the cores, and how far apart they are.
-double witness(const Simplex& found, GjkResult& result, Vector3d& apart) {
-  Simplex simplex = found;
-  for (int i = 0; i < simplex.size; ++i) {
-    if (simplex.vertices[i].weight >= 0.0) continue;
-    simplex.reduceToNearest();
-    break;
+/// With weights that are shares whatever rounding did to them, so that the weighted points of the
+/// bodies witness the nearest point. A flat tetrahedron that only seems to hold the origin is given
+/// up for the nearest of its faces.
+Simplex withShares(Simplex simplex, double rounding) {
+  const bool shares = std::all_of(simplex.vertices.begin(), simplex.vertices.begin() + simplex.size,
+                                  [](const auto& vertex) { return vertex.weight >= 0.0; });
+  if (!shares) simplex.reduceToNearest();
+  if (simplex.size < 4 || simplex.nearest().norm() <= rounding) return simplex;
+  Simplex best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int left = 0; left < 4; ++left) {
+    Simplex face = simplex;
+    face.vertices[left] = simplex.vertices[3];
+    face.size = 3;
+    const double squared = face.reduceToNearest().squaredNorm();
+    if (left > 0 && !(squared < least)) continue;
+    least = squared;
+    best = face;
   }
-  apart.setZero();
-  for (int i = 0; i < simplex.size; ++i) {
-    apart += simplex.vertices[i].weight * simplex.vertices[i].difference;
-  }
-  result.pointA = simplex.pointA();
-  result.pointB = result.pointA + apart;
-  return apart.norm();
+  return best;
 }
 
 /// The slab between two bodies that Newton's method found.
@@ -162,12 +168,12 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
 
     simplex.propose(w, onA);
     const Descent::Step step = simplex.step<true>();
-    if (step.squared < squared) {
+    if (step.size < 4 && step.squared < squared) {
       simplex.take(step);
       squared = step.squared;
       d = step.direction;
     } else {
-      const Simplex careful = simplex.reducedCarefully();
+      const Simplex careful = withShares(simplex.reducedCarefully(), pair.rounding);
       const Vector3d nearest = careful.nearest();
       if (!(nearest.squaredNorm() < squared)) break;
       simplex.take(careful);
@@ -190,12 +196,13 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
     if (last != nullptr) last->size = 0;
     return result;
   }
-  const Simplex weighted = simplex.weighted();
-  if (last != nullptr) *last = weighted;
-  Vector3d apart;
-  distance = witness(weighted, result, apart);
-  // The origin inside the simplex means that the weighted points coincide up to rounding.
-  if (distance <= pair.rounding || simplex.size() == 4) distance = 0.0;
+  const Simplex nearest = withShares(simplex.weighted(), pair.rounding);
+  if (last != nullptr) *last = nearest;
+  const Vector3d apart = nearest.nearest();
+  result.pointA = nearest.pointA();
+  result.pointB = result.pointA + apart;
+  distance = apart.norm();
+  if (distance <= pair.rounding) distance = 0.0;
   growWitness(result, apart, distance, a.radius, b.radius);
   result.upper = std::max(result.upper, result.lower);
   if (result.normal.isZero()) {
@@ -215,18 +222,16 @@ Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b
     Vector3d onA;
     pair.support(d, w, onA);
     const double separation = d.dot(w);
-    if (separation > 0.0) {
-      const double length = lengthOf(d);
-      if (separation > pair.rounding * length) return Contact::Separate;
-    }
+    if (separation > 0.0 && separation > pair.rounding * d.norm()) return Contact::Separate;
     if (simplex.contains(w)) break;
     simplex.propose(w, onA);
     const Descent::Step step = simplex.step<false>();
     simplex.take(step);
-    if (step.size == 4) return Contact::Touching;
+    if (step.size == 4) {
+      return simplex.enclosesOrigin(pair.magnitude) ? Contact::Touching : Contact::Unknown;
+    }
     d = step.direction;
-    const double squared = d.squaredNorm();
-    if (!isUsable(squared)) break;
+    if (!isUsable(d.squaredNorm())) break;
   }
   return Contact::Unknown;
 }

@@ -7,6 +7,10 @@ namespace swept::detail {
 
 /// On a cone, in the half-plane of the axis and the point: a triangle with the slope from the rim
 /// to the apex, of length `slant`, as its outer side.
+///
+/// Beyond the rim and the apex the offset is taken in the slope's own directions, whose signs have
+/// just been tested: the normal then lies in the corner's normal cone however close the point is,
+/// and separates by the whole distance.
 inline bool footOn(ConeCore, const Convex& cone, const Eigen::Vector3d& p, Foot& foot) {
   const double across = p.x() * p.x() + p.y() * p.y();
   if (!(across < 1e280) || (across > 0.0 && across < 1e-280)) return false;
@@ -23,18 +27,26 @@ inline bool footOn(ConeCore, const Convex& cone, const Eigen::Vector3d& p, Foot&
   const double up = p.z() + cone.size.z();  // over the base
   const double side = out * cosine + up * sine;
   const double along = up * cosine - out * sine;  // from the rim
-  const auto corner = [&](double cornerRho, double cornerZ) {
-    const double dr = rho - cornerRho;
-    const double dz = p.z() - cornerZ;
-    foot.distance = std::sqrt(dr * dr + dz * dz);
+  const auto corner = [&](double offsetRho, double offsetZ, double cornerRho, double cornerZ) {
+    foot.distance = std::sqrt(offsetRho * offsetRho + offsetZ * offsetZ);
     if (!(foot.distance > 1e-140)) return false;
-    const double share = dr / foot.distance;
-    foot.normal = {share * x, share * y, dz / foot.distance};
+    const double share = offsetRho / foot.distance;
+    foot.normal = {share * x, share * y, offsetZ / foot.distance};
     foot.point = {cornerRho * x, cornerRho * y, cornerZ};
     return true;
   };
-  if (up < 0.0 ? out > 0.0 : (side > 0.0 && along <= 0.0)) return corner(radius, -cone.size.z());
-  if (side > 0.0 && along >= slant) return corner(0.0, cone.size.z());
+  if (up < 0.0 && out > 0.0) return corner(out, up, radius, -cone.size.z());
+  // Not only above the slope: of a cone without width or height, it is all there is.
+  if (up >= 0.0 && side >= 0.0) {
+    const double past = along - slant;
+    if (along <= 0.0) {
+      return corner(side * cosine - along * sine, side * sine + along * cosine, radius,
+                    -cone.size.z());
+    }
+    if (past >= 0.0) {
+      return corner(side * cosine - past * sine, side * sine + past * cosine, 0.0, cone.size.z());
+    }
+  }
   if (side > -up) {
     foot.distance = side;
     foot.normal = {cosine * x, cosine * y, sine};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "narrowphase/polytope.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -34,14 +35,28 @@ bool Polytope::start(const Simplex& simplex, Vector3d& flat) {
     vertices_[vertexCount_++] = {simplex.vertices[i].difference, simplex.vertices[i].a};
   }
   const double least = 4.0 * rounding_;
-  if (vertexCount_ == 4 && volume() <= least * least * least) vertexCount_ = 3;
-  if (vertexCount_ == 3 && area() <= least * least) vertexCount_ = 2;
-  if (vertexCount_ == 2 && edge(1).norm() <= least) vertexCount_ = 1;
+  dropFlat(least);
   if (vertexCount_ == 0) vertices_[vertexCount_++] = support(Vector3d::UnitX());
   while (vertexCount_ < 4) {
     if (!widen(least, flat)) return false;
   }
+  const Vector3d normal = edge(1).cross(edge(2));
+  const double norm = normal.norm();
+  if (norm > 0.0) flat = normal / norm;
   return makeTetrahedron();
+}
+
+/// Gives up vertices that are within `least` of the plane, the line or the point of those before.
+void Polytope::dropFlat(double least) {
+  if (vertexCount_ == 4) {
+    const Vector3d normal = edge(1).cross(edge(2));
+    if (!(std::abs(normal.dot(edge(3))) > least * normal.norm())) vertexCount_ = 3;
+  }
+  if (vertexCount_ == 3) {
+    const double longest = std::max(edge(1).norm(), edge(2).norm());
+    if (!(edge(1).cross(edge(2)).norm() > least * longest)) vertexCount_ = 2;
+  }
+  if (vertexCount_ == 2 && !(edge(1).norm() > least)) vertexCount_ = 1;
 }
 
 /// Adds a support point off the affine hull of the vertices so far.
@@ -95,7 +110,9 @@ bool Polytope::makeFace(const std::array<int, 3>& corners, Face& face, double& d
   face.vertex = corners;
   face.normal = normal * (1.0 / std::sqrt(squared));
   face.visit = 0;
-  distance = face.normal.dot(p);
+  // A thin face's normal may be turned so far that its corners differ.
+  distance = std::min(face.normal.dot(p), std::min(face.normal.dot(point(corners[1])),
+                                                   face.normal.dot(point(corners[2]))));
   return face.normal.dot(center_) < distance;
 }
 
@@ -133,7 +150,7 @@ bool Polytope::expand(const Vertex& added, int from, double above) {
 }
 
 /// Walks over the faces that the point sees, always to the next edge in turn, so that the border
-/// comes out in order.
+/// comes out in order. None of them may be seen from the centre.
 bool Polytope::seeAround(const Vector3d& point, int from, double above) {
   ++visit_;
   visibleCount_ = 0;
@@ -145,12 +162,17 @@ bool Polytope::seeAround(const Vector3d& point, int from, double above) {
   };
   std::array<Step, kMaxFaces> stack;
   int depth = 0;
+  const auto sees = [&](int face) {
+    return faces_[face].normal.dot(point) > distances_[face] + above;
+  };
+  bool hidden = true;  // from the centre
   const auto enter = [&](int face, int edge, int left) {
+    if (above < 0.0) hidden &= faces_[face].normal.dot(center_) < distances_[face] + above;
     faces_[face].visit = visit_;
     visible_[visibleCount_++] = face;
     stack[depth++] = {face, edge, left};
   };
-  if (!(faces_[from].normal.dot(point) > distances_[from] + above)) return false;
+  if (!sees(from)) return false;
   enter(from, 0, 3);
   while (depth > 0) {
     Step& step = stack[depth - 1];
@@ -171,14 +193,14 @@ bool Polytope::seeAround(const Vector3d& point, int from, double above) {
     for (int k = 0; k < 3; ++k) {
       if (faces_[across].neighbor[k] == face && faces_[across].vertex[k] == end) entry = k;
     }
-    if (faces_[across].normal.dot(point) > distances_[across] + above) {
+    if (sees(across)) {
       enter(across, (entry + 1) % 3, 2);
     } else {
       if (borderCount_ == kMaxFaces) return false;
       border_[borderCount_++] = {across, entry, faces_[face].vertex[edge], end};
     }
   }
-  return borderCount_ >= 3;
+  return hidden && borderCount_ >= 3;
 }
 
 bool Polytope::borderIsOneLoop() const {

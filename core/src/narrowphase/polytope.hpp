@@ -11,6 +11,15 @@ namespace swept::detail {
 
 /// The polytope inside B - A that EPA grows: triangles that know their neighbours, so that finding
 /// what a new vertex sees costs as much as that is, not as much as there is. Fixed storage.
+///
+/// Lemma: where all faces have a positive distance, the ball of the least of these around the
+/// origin lies in B - A, however rounding has turned the normals. A face's distance is the least
+/// n . v over its corners, so that no point of the face is nearer to the origin, nor to any point x
+/// with n . x <= distance. The surface winds once around `center_`: the first tetrahedron does, and
+/// replacing faces by a fan adds the tetrahedra between them, each of which lies beyond the plane
+/// of its face while the centre lies before it. It then winds once around the whole ball, since
+/// neither the way from the centre to the origin nor the ball meets a face. And it cannot wind
+/// around a point outside the hull of its vertices.
 class Polytope {
  public:
   static constexpr int kMaxVertices = 256;
@@ -19,7 +28,7 @@ class Polytope {
   Polytope(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b);
 
   /// A tetrahedron with the simplex among its faces, edges or corners. On failure `flat` is a
-  /// direction along which B - A has no extent.
+  /// direction along which B - A has next to no extent.
   bool start(const Simplex& simplex, Eigen::Vector3d& flat);
 
   struct Face {
@@ -30,7 +39,8 @@ class Polytope {
   };
   int nearestFace() const;
   const Face& face(int i) const { return faces_[i]; }
-  double distance(int face) const { return distances_[face]; }  ///< m, of its plane; origin inside
+  /// m. No point of the face is nearer to the origin, which is inside the polytope.
+  double distance(int face) const { return distances_[face]; }
   int faceSlots() const { return faceSlots_; }
   bool isAlive(int face) const { return distances_[face] < kGone; }
   Simplex triangle(int face) const;
@@ -70,8 +80,7 @@ class Polytope {
 
   const Eigen::Vector3d& point(int i) const { return vertices_[i].difference; }
   Eigen::Vector3d edge(int i) const { return point(i) - point(0); }
-  double area() const { return edge(1).cross(edge(2)).norm(); }
-  double volume() const { return std::abs(edge(1).cross(edge(2)).dot(edge(3))); }
+  void dropFlat(double least);
 
   const Convex& a_;
   const Convex& b_;
