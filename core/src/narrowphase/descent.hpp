@@ -17,7 +17,8 @@ namespace swept::detail {
 ///
 /// The newest vertex lies beyond the others towards the origin, so that the nearest feature has it,
 /// and only features with it are looked at. Where rounding breaks that premise, the point found is
-/// no nearer than the last one; the caller sees that and asks reduceCarefully().
+/// no nearer than the last one, or nearer than proven; the caller sees that and asks
+/// reducedCarefully().
 ///
 /// Directions are multiples of the nearest point, of any length: what the next support point waits
 /// for has no square root and no division in it.
@@ -70,12 +71,12 @@ class Descent {
     }
   }
 
-  /// The simplex with the proposed point and with weights, every feature looked at.
-  Simplex reducedCarefully() const {
+  /// The first `count` points with the weights of the nearest point, every feature looked at.
+  Simplex reducedCarefully(int count) const {
     Simplex simplex;
-    for (int i = 0; i <= size_; ++i) simplex.add(onA_[i], onA_[i] + p_[i]);
-    for (int i = 0; i <= size_; ++i) simplex.vertices[i].difference = p_[i];
-    simplex.reduceToNearest();
+    simplex.size = count;
+    for (int i = 0; i < count; ++i) simplex.vertices[i] = {p_[i], onA_[i], onA_[i] + p_[i], 0.0};
+    simplex.reduceCarefully();
     return simplex;
   }
   void take(const Simplex& simplex) {
@@ -86,15 +87,33 @@ class Descent {
     }
   }
 
+  /// Along the way from the origin to the nearest feature of a simplex that is taken: of a length
+  /// of its own, and across the feature to the last digit where the feature is near.
+  Vector3d across(const Vector3d& nearest) const {
+    if (size_ == 2) return acrossEdge(p_[0] - p_[1], nearest);
+    if (size_ != 3) return nearest;
+    // The normal has the most digits from the two shortest edges.
+    std::array<Vector3d, 3> edge;
+    int longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      edge[i] = p_[(i + 1) % 3] - p_[i];
+      if (edge[i].squaredNorm() > edge[longest].squaredNorm()) longest = i;
+    }
+    const Vector3d normal = edge[(longest + 1) % 3].cross(edge[(longest + 2) % 3]);
+    const double height = normal.dot(p_[0]);
+    if (height == 0.0) return nearest;
+    return height < 0.0 ? Vector3d(-normal) : normal;
+  }
+
   /// The different points of either body in the simplex, each in the body's own frame.
-  std::array<Spots, 2> spots(const Eigen::Isometry3d& a_from_b) const {
+  std::array<Spots, 2> spots(const Eigen::Matrix3d& rotation, const Vector3d& offset) const {
     constexpr double kSame = 1e-9;  // relative: points of b come with the rounding of a sum
     std::array<Spots, 2> spots;
     for (int i = 0; i < size_; ++i) {
       const Vector3d onB = onA_[i] + p_[i];
       const double least = kSame * std::sqrt(onA_[i].squaredNorm() + onB.squaredNorm());
       spots[0].note(onA_[i], least);
-      spots[1].note(a_from_b.linear().transpose() * (onB - a_from_b.translation()), least);
+      spots[1].note(rotation.transpose() * (onB - offset), least);
     }
     return spots;
   }
@@ -139,6 +158,11 @@ class Descent {
   }
 
  private:
+  /// A foot on an edge has lost digits along it to cancellation where the edge is near.
+  static Vector3d acrossEdge(const Vector3d& edge, const Vector3d& foot) {
+    return edge.squaredNorm() * foot - foot.dot(edge) * edge;
+  }
+
   /// Areas or volumes opposite the vertices, as shares of their sum.
   void spread(std::array<double, 4>& weight) const {
     if (size_ == 3) {
@@ -173,11 +197,11 @@ class Descent {
     if (!(along > 0.0)) return vertex<withDistance>(newest);
     if (!(along < length)) return vertex<withDistance>(i);
     Step step;
-    step.direction = length * p_[newest] + along * e;
+    step.direction = acrossEdge(e, p_[newest] + (along / length) * e);
     step.index[0] = i;
     step.index[1] = newest;
     step.size = 2;
-    if constexpr (withDistance) step.squared = (p_[newest] + (along / length) * e).squaredNorm();
+    if constexpr (withDistance) step.squared = step.direction.squaredNorm() / (length * length);
     return step;
   }
 

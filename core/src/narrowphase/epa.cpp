@@ -21,7 +21,7 @@ void witness(const Polytope& polytope, double rounding, EpaResult& result) {
   for (int i = 0; i < polytope.faceSlots(); ++i) {
     if (!polytope.isAlive(i) || polytope.distance(i) > nearest + rounding) continue;
     Simplex simplex = polytope.triangle(i);
-    const double distance = simplex.reduceToNearest().norm();
+    const double distance = simplex.reduceCarefully().norm();
     if (!(distance < least)) continue;
     least = distance;
     result.pointA = simplex.pointA();

@@ -84,28 +84,6 @@ struct Pair {
   }
 };
 
-/// With weights that are shares whatever rounding did to them, so that the weighted points of the
-/// bodies witness the nearest point. A flat tetrahedron that only seems to hold the origin is given
-/// up for the nearest of its faces.
-Simplex withShares(Simplex simplex, double rounding) {
-  const bool shares = std::all_of(simplex.vertices.begin(), simplex.vertices.begin() + simplex.size,
-                                  [](const auto& vertex) { return vertex.weight >= 0.0; });
-  if (!shares) simplex.reduceToNearest();
-  if (simplex.size < 4 || simplex.nearest().norm() <= rounding) return simplex;
-  Simplex best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int left = 0; left < 4; ++left) {
-    Simplex face = simplex;
-    face.vertices[left] = simplex.vertices[3];
-    face.size = 3;
-    const double squared = face.reduceToNearest().squaredNorm();
-    if (left > 0 && !(squared < least)) continue;
-    least = squared;
-    best = face;
-  }
-  return best;
-}
-
 /// The slab between two bodies that Newton's method found.
 GjkResult fromSlab(const CoreGap& gap, const Pair& pair, const Goal& goal, int iterations) {
   GjkResult result;
@@ -121,95 +99,190 @@ GjkResult fromSlab(const CoreGap& gap, const Pair& pair, const Goal& goal, int i
   return result;
 }
 
+/// The proofs and witnesses of two descents together.
+GjkResult better(const GjkResult& one, const GjkResult& other) {
+  GjkResult result = other.upper <= one.upper || other.satisfied ? other : one;
+  const GjkResult& prover = other.lower >= one.lower || other.satisfied ? other : one;
+  result.lower = prover.lower;
+  result.normal = prover.normal;
+  result.satisfied = other.satisfied;
+  result.iterations = one.iterations + other.iterations;
+  return result;
+}
+
+/// What a descent is to find out.
+struct Request {
+  const Goal& goal;
+  double contact;    ///< m
+  double tolerance;  ///< m
+  GjkMode mode;
+};
+
+/// One descent of GJK. A quick one trusts the features that signs choose; a careful one looks at
+/// all of them and measures each by its weighted sum, for pairs so near or so slender that the
+/// signs are noise.
+class Search {
+ public:
+  Search(const Pair& pair, const Request& request, bool carefully)
+      : pair_(pair),
+        request_(request),
+        carefully_(carefully),
+        radii_(pair.a.radius + pair.b.radius),
+        curved_(request.mode == GjkMode::Exact && (isCurved(pair.a) || isCurved(pair.b))) {}
+
+  GjkResult& run(Vector3d d) {
+    for (int i = 0; i < tolerance::kMaxGjkIterations; ++i) {
+      ++result_.iterations;
+      if (!step(d)) break;
+    }
+    if (!result_.satisfied && !bySlab_) measure(d);
+    return result_;
+  }
+
+  /// Whether rounding, and not what was asked for, ended the descent.
+  bool stuck() const {
+    if (result_.satisfied || ended_) return false;
+    const double width = result_.upper - result_.lower;
+    return !(width <= std::max(request_.tolerance, 8.0 * pair_.rounding));
+  }
+
+  const Simplex& nearest() const { return nearest_; }
+
+ private:
+  /// Looks along d and turns it; false at the end.
+  bool step(Vector3d& d) {
+    const double length = lengthOf(d);
+    if (!(length > 0.0)) return false;
+    Vector3d w;
+    Vector3d onA;
+    pair_.support(d, w, onA);
+    const double scale = 1.0 / length;
+    const double separation = d.dot(w) * scale;
+    const double lower = separation - radii_ - pair_.rounding;
+    const Vector3d n = scale * d;
+    const double needed = request_.goal.along(n);
+    proven_ = std::max(proven_, separation);
+    result_.satisfied = lower > needed;
+    if (lower > result_.lower || result_.satisfied) {
+      result_.lower = lower;
+      result_.normal = n;
+    }
+    if (result_.satisfied) return false;
+    if (request_.mode != GjkMode::Exact && distance_ - radii_ <= needed &&
+        (request_.mode == GjkMode::BoundOnly || result_.lower > request_.contact)) {
+      ended_ = true;
+      return false;
+    }
+    // Without a proven separation the bodies may overlap, and only the origin inside will tell.
+    if (distance_ - separation <= request_.tolerance && result_.lower > 0.0) return false;
+    if (simplex_.contains(w)) return false;
+    simplex_.propose(w, onA);
+    if (!reduce(d)) return false;
+    if (!curved_ || result_.iterations < tryNewton_ || !(result_.lower > 0.0)) return true;
+    tryNewton_ = 2 * result_.iterations;
+    CoreGap gap;
+    bySlab_ = newtonGap(pair_.a, pair_.b, pair_.rotation, pair_.offset, result_.normal,
+                        simplex_.spots(pair_.rotation, pair_.offset), request_.tolerance, gap,
+                        result_.iterations);
+    if (bySlab_) result_ = fromSlab(gap, pair_, request_.goal, result_.iterations);
+    return !bySlab_;
+  }
+
+  /// To the feature of simplex and new point that is nearest to the origin; false where that is no
+  /// progress, or progress enough.
+  bool reduce(Vector3d& d) {
+    if (!carefully_) {
+      const Descent::Step step = simplex_.step<true>();
+      // Nearer than proven is noise.
+      if (step.size < 4 && step.squared < squared_ &&
+          !(proven_ > 0.0 && step.squared < kNearer * proven_ * proven_)) {
+        simplex_.take(step);
+        nearest_.size = 0;
+        d = step.direction;
+        return goOn(step.squared);
+      }
+      if (step.size == 4 && enclosed(step)) return false;
+    }
+    const Simplex careful = simplex_.reducedCarefully(std::min(4, simplex_.size() + 1));
+    const Vector3d nearest = careful.nearest();
+    const double squared = nearest.squaredNorm();
+    if (!(squared < squared_)) return false;
+    simplex_.take(careful);
+    nearest_ = careful;
+    d = simplex_.across(nearest);
+    return goOn(squared);
+  }
+
+  bool goOn(double squared) {
+    squared_ = squared;
+    distance_ = std::sqrt(squared);
+    return simplex_.size() < 4 && distance_ - radii_ > request_.contact &&
+           distance_ > pair_.rounding;
+  }
+
+  /// Whether four points hold the origin by their weights too.
+  bool enclosed(const Descent::Step& step) {
+    Descent whole = simplex_;
+    whole.take(step);
+    const Simplex weighted = whole.weighted();
+    if (!(weighted.nearest().norm() <= pair_.rounding)) return false;
+    simplex_ = whole;
+    nearest_ = weighted;
+    squared_ = distance_ = 0.0;
+    return true;
+  }
+
+  /// The witness of the last simplex.
+  void measure(const Vector3d& d) {
+    if (simplex_.size() == 0) return;
+    if (nearest_.size == 0) nearest_ = simplex_.weighted();
+    if (!nearest_.hasShares()) nearest_.reduceCarefully();
+    const Vector3d apart = nearest_.nearest();
+    result_.pointA = nearest_.pointA();
+    result_.pointB = result_.pointA + apart;
+    double distance = apart.norm();
+    if (distance <= pair_.rounding) distance = 0.0;
+    growWitness(result_, apart, distance, pair_.a.radius, pair_.b.radius);
+    result_.upper = std::max(result_.upper, result_.lower);
+    if (!result_.normal.isZero()) return;
+    Vector3d n = d;
+    const double length = lengthOf(n);
+    result_.normal = length > 0.0 ? Vector3d(n / length) : firstDirection(d, pair_.offset);
+  }
+
+  static constexpr double kNearer = 1.0 - 1e-6;  ///< relative, of squares
+
+  const Pair& pair_;
+  const Request& request_;
+  const bool carefully_;
+  const double radii_;  ///< m
+  const bool curved_;
+  bool bySlab_ = false;
+  bool ended_ = false;  ///< by the mode
+  int tryNewton_ = 4;
+  Descent simplex_;
+  Simplex nearest_;                                            ///< empty until measured
+  double squared_ = std::numeric_limits<double>::infinity();   ///< m^2
+  double distance_ = std::numeric_limits<double>::infinity();  ///< m, between the cores so far
+  double proven_ = -std::numeric_limits<double>::infinity();   ///< m, between the cores
+  GjkResult result_;
+};
+
 }  // namespace
 
 GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
               const Vector3d& guess, const Goal& goal, double contact, double tolerance,
               GjkMode mode, Simplex* last) {
   const Pair pair(a, b, a_from_b);
-  const double radii = a.radius + b.radius;
-  GjkResult result;
-  Descent simplex;
-  const bool curved = mode == GjkMode::Exact && (isCurved(a) || isCurved(b));
-  int tryNewton = 4;
-  Vector3d d = firstDirection(guess, pair.offset);
-  double squared = std::numeric_limits<double>::infinity();
-  double distance = squared;  // between the cores, so far
-
-  for (int i = 0; i < tolerance::kMaxGjkIterations; ++i) {
-    ++result.iterations;
-    const double length = lengthOf(d);
-    if (!(length > 0.0)) break;
-    Vector3d w;
-    Vector3d onA;
-    pair.support(d, w, onA);
-    const double scale = 1.0 / length;
-    const double separation = d.dot(w) * scale;
-    const double lower = separation - radii - pair.rounding;
-    const Vector3d n = scale * d;
-    const double needed = goal.along(n);
-    if (lower > result.lower) {
-      result.lower = lower;
-      result.normal = n;
-    }
-    if (lower > needed) {
-      result.satisfied = true;
-      result.lower = lower;
-      result.normal = n;
-      return result;
-    }
-    if (mode != GjkMode::Exact && distance - radii <= needed &&
-        (mode == GjkMode::BoundOnly || result.lower > contact)) {
-      break;
-    }
-    // Without a proven separation the bodies may overlap, and only the origin inside will tell.
-    if (distance - separation <= tolerance && result.lower > 0.0) break;
-    if (simplex.contains(w)) break;
-
-    simplex.propose(w, onA);
-    const Descent::Step step = simplex.step<true>();
-    if (step.size < 4 && step.squared < squared) {
-      simplex.take(step);
-      squared = step.squared;
-      d = step.direction;
-    } else {
-      const Simplex careful = withShares(simplex.reducedCarefully(), pair.rounding);
-      const Vector3d nearest = careful.nearest();
-      if (!(nearest.squaredNorm() < squared)) break;
-      simplex.take(careful);
-      squared = nearest.squaredNorm();
-      d = nearest;
-    }
-    distance = std::sqrt(squared);
-    if (curved && result.iterations >= tryNewton && result.lower > 0.0) {
-      tryNewton = 2 * result.iterations;
-      CoreGap gap;
-      if (newtonGap(a, b, a_from_b, result.normal, simplex.spots(a_from_b), tolerance, gap,
-                    result.iterations)) {
-        return fromSlab(gap, pair, goal, result.iterations);
-      }
-    }
-    if (simplex.size() == 4 || distance - radii <= contact || distance <= pair.rounding) break;
-  }
-
-  if (simplex.size() == 0) {
-    if (last != nullptr) last->size = 0;
-    return result;
-  }
-  const Simplex nearest = withShares(simplex.weighted(), pair.rounding);
-  if (last != nullptr) *last = nearest;
-  const Vector3d apart = nearest.nearest();
-  result.pointA = nearest.pointA();
-  result.pointB = result.pointA + apart;
-  distance = apart.norm();
-  if (distance <= pair.rounding) distance = 0.0;
-  growWitness(result, apart, distance, a.radius, b.radius);
-  result.upper = std::max(result.upper, result.lower);
-  if (result.normal.isZero()) {
-    const double length = lengthOf(d);
-    result.normal = length > 0.0 ? Vector3d(d / length) : firstDirection(guess, pair.offset);
-  }
-  return result;
+  const Request request{goal, contact, tolerance, mode};
+  Search quick(pair, request, false);
+  GjkResult result = quick.run(firstDirection(guess, pair.offset));
+  if (last != nullptr) *last = quick.nearest();
+  if (!quick.stuck()) return result;
+  Search slow(pair, request, true);
+  const GjkResult& careful = slow.run(firstDirection(result.normal, pair.offset));
+  if (last != nullptr) *last = slow.nearest();
+  return better(result, careful);
 }
 
 Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {

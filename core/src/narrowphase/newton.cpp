@@ -254,10 +254,10 @@ bool edgeAndEdge(const Frames& f, const Vector3d& normal, const std::array<Spots
 
 }  // namespace
 
-bool newtonGap(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
+bool newtonGap(const Convex& a, const Convex& b, const Matrix3d& rotation, const Vector3d& offset,
                const Vector3d& normal, const std::array<Spots, 2>& spots, double tolerance,
                CoreGap& gap, int& evaluations) {
-  const Frames f{a, b, a_from_b.linear(), a_from_b.translation()};
+  const Frames f{a, b, rotation, offset};
   if (smooth(f, normal, tolerance, gap, evaluations)) return true;
   if (isCurved(b) && (edgeAndSpot(f, normal, spots[0], tolerance, gap, evaluations) ||
                       faceAndSpot(f, normal, spots[0], tolerance, gap, evaluations))) {

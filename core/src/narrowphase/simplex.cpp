@@ -102,6 +102,11 @@ bool Simplex::contains(const Vector3d& difference) const {
                      [&](const Vertex& v) { return v.difference == difference; });
 }
 
+bool Simplex::hasShares() const {
+  return std::all_of(vertices.begin(), vertices.begin() + size,
+                     [](const Vertex& v) { return v.weight >= 0.0; });
+}
+
 Vector3d Simplex::reduceToNearest() {
   const auto p = [this](int i) -> const Vector3d& { return vertices[i].difference; };
   Nearest nearest;

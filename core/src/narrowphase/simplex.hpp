@@ -19,10 +19,15 @@ struct Simplex {
 
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
   bool contains(const Eigen::Vector3d& difference) const;
+  /// No weight is negative or no number.
+  bool hasShares() const;
 
   /// Drops the vertices that do not support the point of the simplex nearest to the origin, sets
   /// the weights and returns that point. Four vertices are left exactly when the origin is inside.
   Eigen::Vector3d reduceToNearest();
+  /// As reduceToNearest(), but every feature is looked at and measured by its weighted sum, so that
+  /// flat and thin simplices near the origin do not mislead; the weights are shares.
+  Eigen::Vector3d reduceCarefully();
 
   Eigen::Vector3d nearest() const;  ///< m, the weighted sum of the differences
   Eigen::Vector3d pointA() const;

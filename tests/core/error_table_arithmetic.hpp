@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+
+#include "triangle_oracle.hpp"
+
+/// Measures how far the answers about two shapes are from the truth.
+namespace error_table {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using oracle::real;
+using oracle::Real;
+using Point = oracle::Vec<Real>;
+
+inline Real length(const Point& v) {
+  return sqrt(v.dot(v));
+}
+inline Point unit(const Point& v) {
+  return v * (1 / length(v));
+}
+inline Vector3d rounded(const Point& p) {
+  return {p.x.convert_to<double>(), p.y.convert_to<double>(), p.z.convert_to<double>()};
+}
+inline Point basis(int axis) {
+  return {Real(axis == 0), Real(axis == 1), Real(axis == 2)};
+}
+
+/// The turn of a pose, as the map that its doubles are: not quite a rotation.
+class ExactTurn {
+ public:
+  explicit ExactTurn(const Matrix3d& r) {
+    for (int i = 0; i < 3; ++i) {
+      rows_[i] = real(Vector3d(r.row(i)));
+      columns_[i] = real(Vector3d(r.col(i)));
+    }
+    for (int i = 0; i < 3; ++i) cofactors_[i] = columns_[(i + 1) % 3].cross(columns_[(i + 2) % 3]);
+    determinant_ = columns_[0].dot(cofactors_[0]);
+  }
+  Point operator*(const Point& p) const {
+    return {rows_[0].dot(p), rows_[1].dot(p), rows_[2].dot(p)};
+  }
+  Point transposed(const Point& p) const {
+    return {columns_[0].dot(p), columns_[1].dot(p), columns_[2].dot(p)};
+  }
+  Point inverse(const Point& p) const {
+    const Real scale = 1 / determinant_;
+    return Point{cofactors_[0].dot(p), cofactors_[1].dot(p), cofactors_[2].dot(p)} * scale;
+  }
+  /// The normal of a plane, turned; of another length.
+  Point normal(const Point& n) const {
+    return cofactors_[0] * n.x + cofactors_[1] * n.y + cofactors_[2] * n.z;
+  }
+
+ private:
+  std::array<Point, 3> rows_, columns_, cofactors_;
+  Real determinant_;
+};
+
+/// The same numbers on every platform, if no expression draws two (SplitMix64; Steele, Lea, Flood
+/// 2014).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  double uniform(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(next() >> 11), -53);
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  int below(std::size_t n) { return static_cast<int>(next() % n); }
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+  /// 10 to a uniform power.
+  double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+
+  Vector3d inBall() {
+    Vector3d v;
+    do {
+      for (int i = 0; i < 3; ++i) v[i] = uniform(-1.0, 1.0);
+    } while (v.squaredNorm() > 1.0 || v.squaredNorm() < 1e-4);
+    return v;
+  }
+  Vector3d direction() { return inBall().normalized(); }
+  Vector3d across(const Vector3d& axis) {
+    return (axis.cross(direction()) + 1e-3 * axis.unitOrthogonal()).normalized();
+  }
+  /// Axes onto axes.
+  Matrix3d permutation() {
+    Matrix3d r = Matrix3d::Zero();
+    const int first = below(3);
+    const int step = below(2) + 1;
+    for (int i = 0; i < 3; ++i) r((first + step * i) % 3, i) = sign();
+    if (r.determinant() < 0.0) r.col(below(3)) *= -1.0;
+    return r;
+  }
+
+ private:
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+}  // namespace error_table
