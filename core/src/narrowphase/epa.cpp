@@ -13,19 +13,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Deepest points: the boundary's point nearest to the origin, carried over to the two bodies. Of
-/// several faces in the nearest plane, one holds it.
-void witness(const Polytope& polytope, double rounding, EpaResult& result) {
-  const double nearest = polytope.distance(polytope.nearestFace());
+/// Deepest points: the boundary's point nearest to the origin, carried over to the two bodies. Not
+/// always one of the face whose plane is nearest: thin faces have their planes askew.
+void witness(const Polytope& polytope, EpaResult& result) {
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < polytope.faceSlots(); ++i) {
-    if (!polytope.isAlive(i) || polytope.distance(i) > nearest + rounding) continue;
-    Simplex simplex = polytope.triangle(i);
+  const auto consider = [&](int face) {
+    Simplex simplex = polytope.triangle(face);
     const double distance = simplex.reduceCarefully().norm();
-    if (!(distance < least)) continue;
+    if (!(distance < least)) return;
     least = distance;
     result.pointA = simplex.pointA();
     result.pointB = simplex.pointB();
+  };
+  consider(polytope.nearestFace());
+  for (int i = 0; i < polytope.faceSlots(); ++i) {
+    if (polytope.distance(i) < least) consider(i);
   }
 }
 
@@ -69,7 +71,7 @@ EpaResult epa(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
     const double height = tryWayOut(normal, found);
     if (height - distance <= tolerance || !polytope.expand(found, nearest)) break;
   }
-  witness(polytope, rounding + tolerance, result);
+  witness(polytope, result);
   result.upper = std::max(result.upper, 0.0);
   result.lower = std::clamp(result.lower, 0.0, result.upper);
   result.iterations = polytope.evaluations();

@@ -39,10 +39,10 @@ class Polytope {
   };
   int nearestFace() const;
   const Face& face(int i) const { return faces_[i]; }
-  /// m. No point of the face is nearer to the origin, which is inside the polytope.
+  /// m. No point of the face is nearer to the origin, which is inside the polytope. Larger than any
+  /// length for slots without a face.
   double distance(int face) const { return distances_[face]; }
   int faceSlots() const { return faceSlots_; }
-  bool isAlive(int face) const { return distances_[face] < kGone; }
   Simplex triangle(int face) const;
 
   struct Vertex {
