@@ -190,6 +190,22 @@ TEST(ErrorTableRows, CrossingPlanesTouchAndHaveNoWayApart) {
   }
 }
 
+/// Ellipsoids have both: depths known by construction, and depths found among all directions.
+TEST(ErrorTableOracle, TheSearchFindsDepthsThatAreKnown) {
+  Random random(8);
+  for (const Kind& kind : kinds()) {
+    for (int i = 0; i < 60; ++i) {
+      const Solid a = drawEllipsoid(random, 1.0);
+      const Solid b = kind.draw(random, random.decades(-2.0, 2.0));
+      if (kind.isFlat || b.body.radius > 0.0 || !b.body.convex) continue;
+      const Placement placement = placeShallow(a.body, b.body, random);
+      const Truth found = DeepestOverlap(a.body, b.body, placement.a_from_b).run(Vector3d::Zero());
+      const double off = Real(found.upper - placement.truth.upper).convert_to<double>();
+      EXPECT_NEAR(off, 0.0, 3e-15 * (1.0 + b.body.extent)) << kind.name << " " << i;
+    }
+  }
+}
+
 TEST(ErrorTableRows, AreThoseOfTheReadme) {
   if (wantsTable()) GTEST_SKIP() << "printing the table";
   EXPECT_EQ(readTable().size(), allPairs().size());

@@ -50,7 +50,7 @@ struct Convex {
 
   /// Planes and half-spaces: unbounded, and without a support mapping.
   bool isFlat() const { return core == Core::Plane || core == Core::HalfSpace; }
-  /// Point of a bounded core farthest along `direction`, of a length in [1e-70, 1e70] or zero. Of
+  /// Point of a bounded core farthest along `direction`, of a length in [1e-100, 1e100] or zero. Of
   /// planes and half-spaces: their point nearest to the origin, whatever the direction.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 };
@@ -58,7 +58,7 @@ struct Convex {
 namespace support {
 
 /// Lemma: where the squares of the components across the axis underflow, dropping them costs less
-/// than 1e-70 of the direction's length, far below what a support evaluation rounds anyway.
+/// than 1e-50 of the direction's length, far below what a support evaluation rounds anyway.
 inline double across(const Eigen::Vector3d& d) {
   return std::sqrt(d.x() * d.x() + d.y() * d.y());
 }
@@ -205,9 +205,10 @@ inline Convex Convex::ofPoints(std::span<const Eigen::Vector3d> points) {
   Convex convex;
   convex.core = Core::Points;
   convex.points = points;
-  double squared = 0.0;
-  for (const Eigen::Vector3d& p : points) squared = std::max(squared, p.squaredNorm());
-  convex.extent = std::sqrt(squared);
+  // At least the norm, cheaper, and right at any scale.
+  for (const Eigen::Vector3d& p : points) {
+    convex.extent = std::max(convex.extent, p.cwiseAbs().sum());
+  }
   return convex;
 }
 

@@ -90,7 +90,10 @@ class Descent {
   /// Along the way from the origin to the nearest feature of a simplex that is taken: of a length
   /// of its own, and across the feature to the last digit where the feature is near.
   Vector3d across(const Vector3d& nearest) const {
-    if (size_ == 2) return acrossEdge(p_[0] - p_[1], nearest);
+    if (size_ == 2) {
+      const Vector3d edge = p_[0] - p_[1];
+      return nearest - (nearest.dot(edge) / edge.squaredNorm()) * edge;
+    }
     if (size_ != 3) return nearest;
     // The normal has the most digits from the two shortest edges.
     std::array<Vector3d, 3> edge;
@@ -158,11 +161,6 @@ class Descent {
   }
 
  private:
-  /// A foot on an edge has lost digits along it to cancellation where the edge is near.
-  static Vector3d acrossEdge(const Vector3d& edge, const Vector3d& foot) {
-    return edge.squaredNorm() * foot - foot.dot(edge) * edge;
-  }
-
   /// Areas or volumes opposite the vertices, as shares of their sum.
   void spread(std::array<double, 4>& weight) const {
     if (size_ == 3) {
@@ -189,6 +187,8 @@ class Descent {
     return step;
   }
 
+  /// The foot on an edge that is near has lost digits along it to cancellation, and the distance is
+  /// worth the correction.
   template <bool withDistance>
   Step edge(int i, int newest) const {
     const Vector3d e = p_[i] - p_[newest];
@@ -197,11 +197,14 @@ class Descent {
     if (!(along > 0.0)) return vertex<withDistance>(newest);
     if (!(along < length)) return vertex<withDistance>(i);
     Step step;
-    step.direction = acrossEdge(e, p_[newest] + (along / length) * e);
+    step.direction = length * p_[newest] + along * e;
     step.index[0] = i;
     step.index[1] = newest;
     step.size = 2;
-    if constexpr (withDistance) step.squared = step.direction.squaredNorm() / (length * length);
+    if constexpr (withDistance) {
+      step.direction -= (step.direction.dot(e) / length) * e;
+      step.squared = step.direction.squaredNorm() / (length * length);
+    }
     return step;
   }
 

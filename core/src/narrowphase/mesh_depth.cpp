@@ -153,8 +153,8 @@ class Depth {
                            tolerance::kSupportRounding * (center.norm() + ball.radius);
       if (!(depth > depth_.lower)) return;
       depth_.lower = depth;
-      depth_.pointA = ofA ? Vector3d(a_from_b_ * surface.pointA) : surface.pointA;
-      depth_.pointB = ofA ? Vector3d(a_from_b_ * center) : center;
+      depth_.pointA = ofA ? Vector3d(a_from_b_ * center) : surface.pointA;
+      depth_.pointB = ofA ? Vector3d(a_from_b_ * surface.pointA) : center;
     });
   }
 
