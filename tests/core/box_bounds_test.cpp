@@ -39,23 +39,35 @@ double boxDistance(const Placed& a, const Placed& b) {
                              reference::boxTriangles(b.half, b.pose));
 }
 
-Isometry3d translated(Isometry3d pose, const Vector3d& center) {
-  pose.translation() = pose * center;
-  return pose;
-}
-
-BoxF randomBox(reference::Random& random, double size, double spread) {
-  BoxF box;
+OrientedBox randomBox(reference::Random& random, double size, double spread) {
+  OrientedBox box;
+  // Along the axes of the frame, too, where edges are parallel to those of others.
+  const Isometry3d pose =
+      random.uniform(0.0, 1.0) < 0.2 ? Isometry3d::Identity() : random.pose(0.0);
   for (int i = 0; i < 3; ++i) {
     box.center[i] = static_cast<float>(random.uniform(-spread, spread));
     // Thin ones too: edges matter then.
     box.half[i] = static_cast<float>(size * std::pow(10.0, random.uniform(-1.5, 0.0)));
+    for (int j = 0; j < 3; ++j) box.axes[j][i] = static_cast<float>(pose.linear()(i, j));
   }
   return box;
 }
 
-double reachOf(const BoxF& box) {
-  return (vectorOf(box.center).cwiseAbs() + vectorOf(box.half)).sum();
+Placed placed(const OrientedBox& box, const Isometry3d& frame) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = box.center;
+  for (int j = 0; j < 3; ++j) pose.linear().col(j) = vectorOf(box.axes[j]);
+  return {frame * pose, vectorOf(box.half)};
+}
+
+double reachOf(const OrientedBox& box) {
+  return box.center.cwiseAbs().sum() + std::sqrt(3.0) * vectorOf(box.half).sum();
+}
+
+WideNode emptyNode(const Vector3d& origin) {
+  WideNode node{};
+  node.origin = origin;
+  return node;
 }
 
 /// Every instruction set that this machine has, one after the other.
@@ -71,27 +83,23 @@ TEST_P(BoxBounds, AreNeverAboveTheDistanceAndSeldomFarBelow) {
   for (int round = 0; round < 400; ++round) {
     const double scale = std::pow(10.0, random.uniform(-6.0, 6.0));
     Isometry3d first_from_second = random.pose(0.6 * scale);
-    WideNode node{};
+    WideNode node = emptyNode(random.vector(0.5 * scale).cast<float>().cast<double>());
     node.count = 1 + round % WideNode::kLanes;
     double reach = 0.0;
-    std::array<BoxF, WideNode::kLanes> boxes;
+    std::array<OrientedBox, WideNode::kLanes> boxes;
     for (int lane = 0; lane < node.count; ++lane) {
-      boxes[lane] = randomBox(random, 0.7 * scale, 0.5 * scale);
+      node.set(lane, randomBox(random, 0.7 * scale, 0.5 * scale));
+      boxes[lane] = node.box(lane);
       reach = std::max(reach, reachOf(boxes[lane]));
-      for (int i = 0; i < 3; ++i) {
-        node.center[i][lane] = boxes[lane].center[i];
-        node.half[i][lane] = boxes[lane].half[i];
-      }
     }
-    const BoxF other = randomBox(random, 0.7 * scale, 0.5 * scale);
+    const OrientedBox other = randomBox(random, 0.7 * scale, 0.5 * scale);
     const BoxFrames frames(first_from_second, reach + reachOf(other));
     ASSERT_TRUE(frames.usable());
     std::array<float, WideNode::kLanes> lower{};
     boxLowerBounds(node, frames, other, std::numeric_limits<float>::infinity(), lower);
     for (int lane = 0; lane < node.count; ++lane) {
-      const Placed a{translated(Isometry3d::Identity(), vectorOf(boxes[lane].center)),
-                     vectorOf(boxes[lane].half)};
-      const Placed b{translated(first_from_second, vectorOf(other.center)), vectorOf(other.half)};
+      const Placed a = placed(boxes[lane], Isometry3d::Identity());
+      const Placed b = placed(other, first_from_second);
       const double distance = boxDistance(a, b);
       EXPECT_LE(lower[lane], distance * (1.0 + 1e-12));
       const BoxGap gap = boxGap(boxes[lane], frames, other);
@@ -125,16 +133,12 @@ TEST_P(BoxBounds, MayStopEarlyOnlyBeyondEnough) {
   reference::Random random(12);
   int stopped = 0;
   for (int round = 0; round < 500; ++round) {
-    WideNode node{};
+    WideNode node = emptyNode(Vector3d::Zero());
     node.count = WideNode::kLanes;
     for (int lane = 0; lane < WideNode::kLanes; ++lane) {
-      const BoxF box = randomBox(random, 0.3, 1.0);
-      for (int i = 0; i < 3; ++i) {
-        node.center[i][lane] = box.center[i];
-        node.half[i][lane] = box.half[i];
-      }
+      node.set(lane, randomBox(random, 0.3, 1.0));
     }
-    const BoxF other = randomBox(random, 0.3, 1.0);
+    const OrientedBox other = randomBox(random, 0.3, 1.0);
     const BoxFrames frames(random.pose(4.0), 12.0);
     std::array<float, WideNode::kLanes> full{};
     std::array<float, WideNode::kLanes> early{};
@@ -150,6 +154,59 @@ TEST_P(BoxBounds, MayStopEarlyOnlyBeyondEnough) {
     }
   }
   EXPECT_GT(stopped, 20);
+}
+
+/// Enters through the slab of each axis; negative: misses by as much.
+double passesInside(const Placed& box, const Vector3d& origin, const Vector3d& direction) {
+  const Vector3d from = box.pose.inverse() * origin;
+  const Vector3d along = box.pose.linear().transpose() * direction;
+  double enter = 0.0, leave = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double first = (-box.half[i] - from[i]) / along[i];
+    const double second = (box.half[i] - from[i]) / along[i];
+    enter = std::max(enter, std::min(first, second));
+    leave = std::min(leave, std::max(first, second));
+  }
+  return leave - enter;
+}
+
+TEST_P(BoxBounds, ARayMissesOnlyWhatItPassesBy) {
+  reference::Random random(13);
+  int hit = 0, missed = 0, wasted = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const double scale = std::pow(10.0, random.uniform(-6.0, 6.0));
+    WideNode node = emptyNode(random.vector(scale));
+    node.count = 1 + round % WideNode::kLanes;
+    for (int lane = 0; lane < node.count; ++lane) {
+      node.set(lane, randomBox(random, 0.7 * scale, 1.5 * scale));
+    }
+    const Vector3d origin = random.vector(2.0 * scale);
+    // Often at a box, else few would be hit.
+    Vector3d direction = (node.box(0).center - origin).normalized();
+    if (round % 4 == 0) direction = Vector3d::Unit(round / 4 % 3);
+    const std::uint32_t hits = boxesHit(node, origin, direction);
+    EXPECT_EQ(hits >> node.count, 0u);
+    for (int lane = 0; lane < node.count; ++lane) {
+      const double inside =
+          passesInside(placed(node.box(lane), Isometry3d::Identity()), origin, direction);
+      const bool reported = (hits >> lane & 1u) != 0;
+      EXPECT_TRUE(reported || !(inside >= 0.0));
+      (inside >= 0.0 ? hit : missed) += 1;
+      wasted += reported && inside < -1e-4 * scale ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hit, 1000);
+  EXPECT_GT(missed, 3000);
+  EXPECT_LT(wasted, missed / 1000);
+}
+
+TEST_P(BoxBounds, ARayOfNoNumbersHits) {
+  WideNode node = emptyNode(Vector3d::Zero());
+  node.count = 3;
+  for (int lane = 0; lane < 3; ++lane) node.set(lane, OrientedBox{});
+  const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(boxesHit(node, nowhere, Vector3d::UnitX()), 7u);
+  EXPECT_EQ(boxesHit(node, Vector3d::Ones(), nowhere), 7u);
 }
 
 std::vector<std::int64_t> targets() {

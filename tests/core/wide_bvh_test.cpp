@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 /// longest path.
 class Check {
  public:
-  Check(const WideBvh& bvh, const std::vector<Vector3d>& corners, const std::vector<int>& order)
-      : bvh_(bvh), corners_(corners), order_(order), seen_(order.size(), 0) {}
+  Check(const WideBvh& bvh, const std::vector<Vector3d>& corners)
+      : bvh_(bvh), corners_(corners), seen_(corners.size() / 3, 0) {}
 
   int run() {
     std::vector<int> below;
@@ -43,36 +43,60 @@ class Check {
         depth = std::max(depth, visit(node.child[lane], inside));
       }
       expectInside(node.box(lane), inside);
+      expectWithinReach(node, lane);
       below.insert(below.end(), inside.begin(), inside.end());
     }
     return depth + 1;
   }
 
-  void expectInside(const BoxF& box, const std::vector<int>& primitives) {
+  void expectInside(const OrientedBox& box, const std::vector<int>& primitives) {
     for (const int primitive : primitives) {
       for (int k = 0; k < 3; ++k) {
-        const Vector3d p = corners_[3 * order_[primitive] + k];
-        double one = 0.0;
-        for (int i = 0; i < 3; ++i) {
-          const double away = std::abs((p[i] - bvh_.origin()[i]) - double{box.center[i]});
-          EXPECT_LE(away, double{box.half[i]});
-          one += std::abs(p[i] - bvh_.origin()[i]);
+        const Vector3d& p = corners_[3 * primitive + k];
+        for (int j = 0; j < 3; ++j) {
+          const Vector3d axis(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
+          EXPECT_LE(std::abs(axis.dot(p - box.center)), double{box.half[j]});
         }
-        EXPECT_LE(one, bvh_.reach() * (1.0 + 1e-6));
+        EXPECT_TRUE((p.array() >= bvh_.bounds().lower.array()).all());
+        EXPECT_TRUE((p.array() <= bvh_.bounds().upper.array()).all());
+        EXPECT_LE(p.cwiseAbs().sum(), bvh_.reach() * (1.0 + 1e-15));
       }
     }
   }
 
+  void expectWithinReach(const WideNode& node, int lane) {
+    const OrientedBox box = node.box(lane);
+    double size = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      size += std::abs(double{node.center[i][lane]}) + double{box.half[i]};
+      for (int j = 0; j < 3; ++j) {
+        double product = 0.0;
+        for (int k = 0; k < 3; ++k) product += double{box.axes[i][k]} * double{box.axes[j][k]};
+        EXPECT_NEAR(product, i == j ? 1.0 : 0.0, 3.0 * 0x1p-24);
+      }
+    }
+    EXPECT_LE(size, double{node.reach});
+  }
+
   const WideBvh& bvh_;
   const std::vector<Vector3d>& corners_;
-  const std::vector<int>& order_;
   std::vector<int> seen_;
 };
 
-int checkedDepth(const std::vector<Vector3d>& corners) {
+/// Of triangles, three corners each, which are put in the order of the leaves.
+WideBvh built(std::vector<Vector3d>& corners) {
   const auto tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
-  const WideBvh bvh(tree);
-  const int depth = Check(bvh, corners, tree.order()).run();
+  std::vector<Vector3d> ordered;
+  for (const int from : tree.order()) {
+    ordered.insert(ordered.end(), corners.begin() + 3 * from, corners.begin() + 3 * from + 3);
+  }
+  corners = std::move(ordered);
+  return WideBvh(tree, {corners, 3});
+}
+
+int checkedDepth(std::vector<Vector3d> corners) {
+  const WideBvh bvh = built(corners);
+  const int depth = Check(bvh, corners).run();
   EXPECT_LE(depth, WideBvh::kMaxDepth);
   EXPECT_GE(bvh.bytes(), bvh.nodes().size() * sizeof(WideNode));
   return depth;
@@ -120,6 +144,39 @@ TEST(WideBvh, BoundsItsDepthForLopsidedInput) {
     for (int k = 0; k < 3; ++k) corners.push_back(size * (Vector3d::Ones() + Vector3d::Unit(k)));
   }
   checkedDepth(corners);
+}
+
+/// What the search between smooth surfaces lives on: boxes tilt with the surface, and their
+/// thickness falls with the square of their length.
+TEST(WideBvh, BoxesOfASmoothSurfaceAreThin) {
+  constexpr int kCells = 96;
+  const auto point = [](int i, int j) {
+    const double u = i * (1.0 / kCells), v = j * (1.0 / kCells);
+    return Vector3d(u, v + 0.4 * u, u + 0.1 * std::sin(3.0 * u) * std::cos(2.0 * v));
+  };
+  std::vector<Vector3d> corners;
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      for (const auto& [di, dj] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
+        corners.push_back(point(i + di, j + dj));
+      }
+    }
+  }
+  const WideBvh bvh = built(corners);
+  int thick = 0, total = 0;
+  for (const WideNode& node : bvh.nodes()) {
+    for (int lane = 0; lane < node.count; ++lane) {
+      const OrientedBox box = node.box(lane);
+      const auto [least, most] = std::minmax({box.half[0], box.half[1], box.half[2]});
+      // The surface's curvature is below 1 / m: a chord of half length l is at most l^2 / 2 off it.
+      thick += double{least} > double{most} * double{most} ? 1 : 0;
+      ++total;
+    }
+  }
+  // A few of two or three triangles have less surface along the frame's axes.
+  EXPECT_LT(thick, total / 50);
+  // Nodes that are half empty would cost memory and time.
+  EXPECT_LT(bvh.nodes().size(), corners.size() / 3 / 4);
 }
 
 }  // namespace

@@ -109,12 +109,11 @@ class Placed {
 }  // namespace
 
 TreeBox treeBox(const WideBvh& bvh) {
-  const BoxF& root = bvh.rootBox();
-  const Vector3d offset(root.center[0], root.center[1], root.center[2]);
-  const Vector3d half(root.half[0], root.half[1], root.half[2]);
-  const Vector3d& origin = bvh.origin();
-  // Each sum rounds by at most half an epsilon of its result.
-  return {origin + offset, half + kEpsilon * (origin.cwiseAbs() + offset.cwiseAbs() + half)};
+  const Aabb& bounds = bvh.bounds();
+  const Vector3d center = bounds.center();
+  const Vector3d half = (bounds.upper - center).cwiseMax(center - bounds.lower);
+  // Each difference rounds by at most half an epsilon of its result.
+  return {center, half + kEpsilon * half};
 }
 
 Aabb worldBox(const Shape& shape, const Isometry3d& world_from_shape, BoxFit fit) {

@@ -11,47 +11,56 @@
 
 namespace swept::detail {
 
-/// Box in single precision that contains what it bounds: centre and half extents, m.
-struct BoxF {
-  std::array<float, 3> center{};
-  std::array<float, 3> half{};
+/// Box along axes of its own: the points p with |axes[j] . (p - center)| <= half[j] for each j. The
+/// axes are orthonormal up to the rounding of single precision.
+struct OrientedBox {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< m
+  std::array<std::array<float, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::array<float, 3> half{};  ///< m
 };
 
-/// Eight axis-aligned boxes, one a lane, in the layout that the vector kernels read.
+/// Eight oriented boxes, one a lane, in the layout that the vector kernels read.
 struct alignas(32) WideNode {
   static constexpr int kLanes = 8;
-  std::array<std::array<float, kLanes>, 3> center;  ///< m
-  std::array<std::array<float, kLanes>, 3> half;    ///< m
-  std::array<std::int32_t, kLanes> child;           ///< a node's index, or ~index of a primitive
-  std::int32_t count;                               ///< lanes in use, the first ones
+  using Row = std::array<float, kLanes>;
+  std::array<Row, 3> center;               ///< m, from `origin`
+  std::array<std::array<Row, 3>, 3> axes;  ///< [j][i]: component i of axis j
+  std::array<Row, 3> half;                 ///< m, along each axis
+  std::array<std::int32_t, kLanes> child;  ///< a node's index, or ~index of a primitive
+  /// m. Near the boxes, so that single precision loses little of them whatever the frame.
+  Eigen::Vector3d origin;
+  float reach;         ///< m; |center|_1 + |half|_1 of no box is larger
+  std::int32_t count;  ///< lanes in use, the first ones
 
-  BoxF box(int lane) const {
-    return {{center[0][lane], center[1][lane], center[2][lane]},
-            {half[0][lane], half[1][lane], half[2][lane]}};
-  }
+  OrientedBox box(int lane) const;
+  void set(int lane, const OrientedBox& box);  ///< its centre has to be a float from `origin`
 };
 
-/// Eight-wide tree of boxes whose leaves are single primitives. Node 0 is the root. Coordinates are
-/// relative to `origin()`, so that single precision loses little whatever the frame.
+/// Eight-wide tree of oriented boxes whose leaves are single primitives. Node 0 is the root.
+///
+/// The boxes of a smooth surface, unlike axis-aligned ones, get thin with the square of their
+/// length: what makes the difference between two such surfaces in near contact (Gottschalk, Lin,
+/// Manocha 1996, section 5).
 class WideBvh {
  public:
   /// A path from the root has at most this many nodes.
   static constexpr int kMaxDepth = kMaxTreeDepth;
 
-  /// Of the tree's boxes, with primitives numbered in the order of the tree's leaves, one a leaf.
-  explicit WideBvh(const BvTree<Aabb>& binary);
+  /// In the shape of a binary tree with one primitive a leaf. `primitives` are those of the tree,
+  /// in the order of its leaves, and so are they numbered.
+  WideBvh(const BvTree<Aabb>& binary, const PrimitivePoints& primitives);
 
   const std::vector<WideNode>& nodes() const { return nodes_; }
-  const Eigen::Vector3d& origin() const { return origin_; }  ///< m
-  const BoxF& rootBox() const { return rootBox_; }           ///< m, relative to origin()
-  /// m. The 1-norm of no point of a box, relative to origin(), is larger.
+  const Aabb& bounds() const { return bounds_; }           ///< m, of all primitives
+  const OrientedBox& rootBox() const { return rootBox_; }  ///< m, of all primitives
+  /// m. The 1-norm of no point of a primitive is larger.
   double reach() const { return reach_; }
   std::size_t bytes() const { return nodes_.capacity() * sizeof(WideNode); }
 
  private:
   std::vector<WideNode> nodes_;
-  Eigen::Vector3d origin_;
-  BoxF rootBox_;
+  Aabb bounds_;
+  OrientedBox rootBox_;
   double reach_ = 0.0;
 };
 

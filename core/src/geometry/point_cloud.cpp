@@ -35,9 +35,9 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double rad
   std::vector<Eigen::Vector3d> ordered;
   ordered.reserve(points.size());
   for (const int source : tree.order()) ordered.push_back(points[source]);
+  auto bvh = std::make_shared<const detail::WideBvh>(tree, PrimitivePoints{ordered, 1, radii});
   return PointCloud(std::make_shared<const Data>(
-      Data{std::move(ordered), tree.order(), ConvexHull::of(points), radius,
-           std::make_shared<const detail::WideBvh>(tree)}));
+      Data{std::move(ordered), tree.order(), ConvexHull::of(points), radius, std::move(bvh)}));
 }
 
 }  // namespace swept

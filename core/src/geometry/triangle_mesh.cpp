@@ -2,6 +2,7 @@
 #include "swept/core/triangle_mesh.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,6 +14,7 @@
 #include "geometry/mesh_components.hpp"
 #include "geometry/ray_crossing.hpp"
 #include "geometry/weld.hpp"
+#include "simd/box_bounds.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept {
@@ -80,26 +82,6 @@ std::array<Eigen::Vector3d, kDirections> spreadDirections() {
   return directions;
 }
 
-/// False only when the ray certainly misses the box: slabs grown by more than the rounding of the
-/// comparison; a NaN compares as a hit. `offset`: m, from the ray's origin to that of the boxes.
-bool mayHit(const detail::WideNode& node, int lane, const Eigen::Vector3d& offset,
-            const Eigen::Vector3d& inverseDirection) {
-  constexpr double kGrow = 8.0 * std::numeric_limits<double>::epsilon();
-  double enter = 0.0;
-  double leave = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double center = node.center[axis][lane];
-    const double middle = offset[axis] + center;
-    const double half =
-        node.half[axis][lane] * (1.0 + kGrow) + kGrow * (std::abs(middle) + std::abs(center));
-    const double first = (middle - half) * inverseDirection[axis];
-    const double second = (middle + half) * inverseDirection[axis];
-    enter = std::max(enter, std::min(first, second));
-    leave = std::min(leave, std::max(first, second));
-  }
-  return !(enter > leave);
-}
-
 /// Signed crossings of one ray with each closed component whose box contains its origin. Their
 /// parity is that of the number of crossings.
 class CrossingCounts {
@@ -165,16 +147,15 @@ class RayCount {
   /// False when the ray passes within rounding of the border of a triangle that matters.
   bool run() {
     const detail::WideBvh& bvh = mesh_.bvh();
-    const Eigen::Vector3d offset = bvh.origin() - origin_;
-    const Eigen::Vector3d inverseDirection = direction_.cwiseInverse();
     // Each level leaves at most seven siblings behind.
     std::array<int, (detail::WideNode::kLanes - 1) * detail::WideBvh::kMaxDepth + 1> stack;
     int pending = 0;
     stack[pending++] = 0;
     while (pending > 0) {
       const detail::WideNode& node = bvh.nodes()[stack[--pending]];
-      for (int lane = 0; lane < node.count; ++lane) {
-        if (!mayHit(node, lane, offset, inverseDirection)) continue;
+      for (std::uint32_t hits = detail::boxesHit(node, origin_, direction_); hits != 0;
+           hits &= hits - 1) {
+        const int lane = std::countr_zero(hits);
         if (node.child[lane] >= 0) {
           stack[pending++] = node.child[lane];
         } else if (!count(~node.child[lane])) {
@@ -215,16 +196,21 @@ class RayCount {
   CrossingCounts& counts_;
 };
 
-/// Puts the triangles, and what goes with each, in the order of the leaves of a tree over them.
-BvTree<Aabb> orderByTree(std::span<const Eigen::Vector3d> vertices,
-                         std::vector<TriangleMesh::Triangle>& triangles,
-                         std::vector<int>& componentOf) {
+/// Builds the hierarchy and puts the triangles, and what goes with each, in the order of its
+/// leaves.
+detail::WideBvh orderByTree(std::span<const Eigen::Vector3d> vertices,
+                            std::vector<TriangleMesh::Triangle>& triangles,
+                            std::vector<int>& componentOf) {
   std::vector<Eigen::Vector3d> corners;
+  const auto collectCorners = [&] {
+    corners.clear();
+    for (const TriangleMesh::Triangle& triangle : triangles) {
+      for (const int corner : triangle) corners.push_back(vertices[corner]);
+    }
+  };
   corners.reserve(triangles.size() * 3);
-  for (const TriangleMesh::Triangle& triangle : triangles) {
-    for (const int corner : triangle) corners.push_back(vertices[corner]);
-  }
-  BvTree<Aabb> tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
+  collectCorners();
+  const auto tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
   std::vector<TriangleMesh::Triangle> orderedTriangles(triangles.size());
   std::vector<int> orderedComponents(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -233,7 +219,8 @@ BvTree<Aabb> orderByTree(std::span<const Eigen::Vector3d> vertices,
   }
   triangles = std::move(orderedTriangles);
   componentOf = std::move(orderedComponents);
-  return tree;
+  collectCorners();
+  return detail::WideBvh(tree, {corners, 3});
 }
 
 }  // namespace

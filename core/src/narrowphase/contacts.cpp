@@ -38,7 +38,7 @@ class Collector {
     effort_ += split.node->count;
     for (int lane = 0; lane < split.node->count; ++lane) {
       if (lower[lane] > 0.0F) continue;
-      const Piece child = PiecePair::child(*split.node, lane);
+      const Piece child = PiecePair::child(split, lane);
       if (!(split.ofA ? descend(child, other) : descend(other, child))) return false;
     }
     return true;

@@ -196,12 +196,14 @@ struct Search {
   }
 };
 
-/// m. From a point, relative to the origin of the boxes.
-double distanceToBox(const BoxF& box, const Eigen::Vector3d& point) {
+/// m. From a point.
+double distanceToBox(const OrientedBox& box, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d offset = point - box.center;
   double squared = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double outside = std::max(
-        0.0, std::abs(point[i] - static_cast<double>(box.center[i])) - double{box.half[i]});
+  for (int j = 0; j < 3; ++j) {
+    const auto& axis = box.axes[j];
+    const double along = axis[0] * offset[0] + axis[1] * offset[1] + axis[2] * offset[2];
+    const double outside = std::max(0.0, std::abs(along) - box.half[j]);
     squared += outside * outside;
   }
   return std::sqrt(squared);
@@ -216,10 +218,9 @@ Triangle triangleOf(const TriangleMesh& mesh, int index) {
 /// nearest boxes first.
 void examineMesh(const TriangleMesh& mesh, int index, Body& body, Search& search) {
   const WideNode& node = mesh.bvh().nodes()[index];
-  const Eigen::Vector3d center = body.center - mesh.bvh().origin();
   std::array<std::pair<double, int>, WideNode::kLanes> order;
   for (int lane = 0; lane < node.count; ++lane) {
-    const double least = distanceToBox(node.box(lane), center) - body.radius;
+    const double least = distanceToBox(node.box(lane), body.center) - body.radius;
     int at = lane;
     for (; at > 0 && order[at - 1].first > least; --at) order[at] = order[at - 1];
     order[at] = {least, lane};

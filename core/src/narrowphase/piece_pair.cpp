@@ -30,7 +30,7 @@ float roundedDown(double value) {
 }
 
 /// Around the core of a bounded convex body.
-BoxF coreBox(const Convex& convex) {
+OrientedBox coreBox(const Convex& convex) {
   Vector3d center = Vector3d::Zero();
   Vector3d half = convex.size;
   if (convex.core == Convex::Core::Cylinder || convex.core == Convex::Core::Cone) {
@@ -45,28 +45,16 @@ BoxF coreBox(const Convex& convex) {
     center = 0.5 * lower + 0.5 * upper;
     half = (upper - center).cwiseMax(center - lower);
   }
-  BoxF box;
-  for (int i = 0; i < 3; ++i) {
-    box.center[i] = static_cast<float>(center[i]);
-    box.half[i] = roundedUp(half[i] + std::abs(center[i] - static_cast<double>(box.center[i])));
-  }
+  OrientedBox box;
+  box.center = center;
+  for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(half[i]);
   return box;
 }
 
-Vector3d originOf(const Side& side) {
-  return side.isConvex() ? Vector3d(Vector3d::Zero()) : side.bvh->origin();
-}
-
-/// m. How far the boxes of a side reach from its origin, in the 1-norm.
+/// m. How far a side reaches from its origin, in the 1-norm.
 double reachOf(const Side& side) {
   if (!side.isConvex()) return side.bvh->reach();
   return side.convex.isFlat() ? 0.0 : 2.0 * side.convex.extent;
-}
-
-Isometry3d betweenOrigins(const Side& a, const Side& b, const Isometry3d& a_from_b) {
-  Isometry3d between = a_from_b;
-  between.translation() = a_from_b * originOf(b) - originOf(a);
-  return between;
 }
 
 double sizeOf(const Piece& piece) {
@@ -105,18 +93,26 @@ PiecePair::PiecePair(const Side& a, const Side& b, const Isometry3d& a_from_b)
     : a_(a),
       b_(b),
       a_from_b_(a_from_b),
-      frames_(betweenOrigins(a, b, a_from_b), reachOf(a) + reachOf(b)),
+      frames_(a_from_b, reachOf(a) + reachOf(b)),
       back_(frames_.inverse()),
       rounding_(tolerance::kSupportRounding * (b.convex.extent + a_from_b.translation().norm())) {}
 
 Piece PiecePair::rootOf(const Side& side) {
-  if (!side.isConvex()) return {0, -1, side.bvh->rootBox()};
-  return {-1, -1, side.convex.isFlat() ? BoxF{} : coreBox(side.convex)};
+  if (!side.isConvex()) return {0, -1, -1, side.bvh->rootBox()};
+  return {-1, -1, -1, side.convex.isFlat() ? OrientedBox{} : coreBox(side.convex)};
 }
 
 PiecePair::Split PiecePair::split(const Piece& a, const Piece& b) const {
   const bool ofA = sizeOf(a) >= sizeOf(b);
-  return {ofA, &(ofA ? a_ : b_).bvh->nodes()[ofA ? a.node : b.node]};
+  const int index = ofA ? a.node : b.node;
+  return {ofA, index, &(ofA ? a_ : b_).bvh->nodes()[index]};
+}
+
+Piece PiecePair::piece(bool ofA, int place) const {
+  const Side& side = ofA ? a_ : b_;
+  if (place < 0) return rootOf(side);
+  const int index = place / WideNode::kLanes;
+  return child({ofA, index, &side.bvh->nodes()[index]}, place % WideNode::kLanes);
 }
 
 void PiecePair::boundChildren(const Split& split, const Piece& other, double enough,
@@ -139,20 +135,20 @@ void PiecePair::boundChildren(const Split& split, const Piece& other, double eno
 }
 
 /// A box of one side against the plane or half-space that is the other.
-float PiecePair::boundAgainstFlat(const BoxF& box, bool ofA) const {
-  const Side& side = ofA ? a_ : b_;
+float PiecePair::boundAgainstFlat(const OrientedBox& box, bool ofA) const {
   const Convex& flat = (ofA ? b_ : a_).convex;
-  const Vector3d center = originOf(side) + Vector3d(box.center[0], box.center[1], box.center[2]);
   const Convex body = Convex::of(Box{Vector3d(box.half[0], box.half[1], box.half[2])});
-  // Lemma: the centre's sum rounds by an ulp of the coordinates, which flatPair's own allowance for
-  // rounding (dozens of ulps of the same coordinates) has room for.
-  Isometry3d pose = a_from_b_;
-  if (ofA) {
-    pose.translation() -= center;
-    return roundedDown(flatPair(body, flat, pose, Goal(0.0)).lower);
+  Isometry3d side_from_box;
+  side_from_box.translation() = box.center;
+  for (int j = 0; j < 3; ++j) {
+    side_from_box.linear().col(j) = Vector3d(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
   }
-  pose.translation() = a_from_b_ * center;
-  return roundedDown(flatPair(flat, body, pose, Goal(0.0)).lower);
+  const GjkResult apart = ofA ? flatPair(flat, body, a_from_b_.inverse() * side_from_box, Goal(0.0))
+                              : flatPair(flat, body, a_from_b_ * side_from_box, Goal(0.0));
+  // Lemma: flatPair allows for the rounding of the coordinates; the axes are orthonormal only as
+  // far as kBoxRounding times the size goes.
+  const double size = body.extent * 2.0 * kBoxRounding;
+  return roundedDown(apart.lower - size);
 }
 
 BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other) const {

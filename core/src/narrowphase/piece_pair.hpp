@@ -31,7 +31,8 @@ struct Side {
 struct Piece {
   int node = -1;       ///< of the hierarchy
   int primitive = -1;  ///< of the mesh or cloud
-  BoxF box;            ///< m, relative to the side's origin; of a convex body: of its core
+  int place = -1;      ///< of the box in the hierarchy; -1: of the root or the convex body
+  OrientedBox box;     ///< m, in the side's frame; of a convex body: of its core
 
   bool isLeaf() const { return node < 0; }
   bool isWhole() const { return node < 0 && primitive < 0; }  ///< the whole convex body
@@ -50,6 +51,7 @@ class PiecePair {
   /// The node whose children are looked at next: that of the larger piece. Not both are leaves.
   struct Split {
     bool ofA;
+    int index;  ///< in the hierarchy
     const WideNode* node;
   };
   Split split(const Piece& a, const Piece& b) const;
@@ -62,10 +64,13 @@ class PiecePair {
   /// are apart, and by how much (m, proven); not positive: none found.
   BoxGap gap(const Piece& child, bool ofA, const Piece& other) const;
 
-  static Piece child(const WideNode& node, int lane) {
-    const std::int32_t at = node.child[lane];
-    return {at < 0 ? -1 : at, at < 0 ? ~at : -1, node.box(lane)};
+  static Piece child(const Split& split, int lane) {
+    const std::int32_t at = split.node->child[lane];
+    return {at < 0 ? -1 : at, at < 0 ? ~at : -1, placeOf(split, lane), split.node->box(lane)};
   }
+  static int placeOf(const Split& split, int lane) { return split.index * WideNode::kLanes + lane; }
+  /// The piece of a side that has this place.
+  Piece piece(bool ofA, int place) const;
 
   /// Two leaves as convex bodies, each about a centre of its own so that little is lost to
   /// rounding. Stays where it was made: the bodies refer to its corners.
@@ -92,12 +97,12 @@ class PiecePair {
   static Piece rootOf(const Side& side);
   static Eigen::Vector3d placeOne(const Side& side, const Piece& piece, TriangleCorners& corners,
                                   Convex& body);
-  float boundAgainstFlat(const BoxF& box, bool ofA) const;
+  float boundAgainstFlat(const OrientedBox& box, bool ofA) const;
 
   const Side& a_;
   const Side& b_;
   const Eigen::Isometry3d& a_from_b_;
-  BoxFrames frames_;  ///< between the origins of the two sides' boxes
+  BoxFrames frames_;
   BoxFrames back_;
   double rounding_;
 };

@@ -132,7 +132,7 @@ class Search {
         settle(lower[lane]);
         continue;
       }
-      const Piece piece = PiecePair::child(*split.node, lane);
+      const Piece piece = PiecePair::child(split, lane);
       Vector3d direction = guess;
       if (lower[lane] > 0.0F && settledAlong(piece, split.ofA, other, direction)) continue;
       if (split.ofA) {

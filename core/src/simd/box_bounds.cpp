@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simd/box_bounds.hpp"
 
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/box_bounds.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
@@ -16,48 +18,65 @@ using Lanes = hn::Vec<Tag>;
 
 /// What one call needs of the other box, the same for all lanes.
 struct Other {
-  float center[3];         ///< in the first frame
-  float spread[3];         ///< half extents of its projection on the first frame's axes
-  float half[3];           ///< along its own axes
-  float edgeSpread[3][3];  ///< of its projection on axis i x axis j
+  float center[3];   ///< m, in the first frame, from the node's origin
+  float axes[3][3];  ///< [j]: axis j, in the first frame
+  float half[3];     ///< m
+  float rounding;    ///< m
 };
 
-Other prepare(const BoxFrames& frames, const BoxF& box) {
+HWY_INLINE Other prepare(const WideNode& node, const BoxFrames& frames, const OrientedBox& box) {
   Other other;
+  const Eigen::Matrix3d& r = frames.linear;
+  double size = node.reach;
   for (int i = 0; i < 3; ++i) {
-    const auto& axis = frames.axes[i];
-    const auto& spread = frames.absAxes[i];
-    other.center[i] = (axis[0] * box.center[0] + axis[1] * box.center[1]) +
-                      (axis[2] * box.center[2] + frames.translation[i]);
-    other.spread[i] = spread[0] * box.half[0] + spread[1] * box.half[1] + spread[2] * box.half[2];
+    const double at = r(i, 0) * box.center[0] + r(i, 1) * box.center[1] + r(i, 2) * box.center[2] +
+                      frames.translation[i] - node.origin[i];
+    other.center[i] = static_cast<float>(at);
     other.half[i] = box.half[i];
-    other.edgeSpread[i][0] = spread[2] * box.half[1] + spread[1] * box.half[2];
-    other.edgeSpread[i][1] = spread[2] * box.half[0] + spread[0] * box.half[2];
-    other.edgeSpread[i][2] = spread[1] * box.half[0] + spread[0] * box.half[1];
+    size += std::abs(at) + box.half[i];
+    for (int j = 0; j < 3; ++j) {
+      other.axes[j][i] = static_cast<float>(r(i, 0) * box.axes[j][0] + r(i, 1) * box.axes[j][1] +
+                                            r(i, 2) * box.axes[j][2]);
+    }
   }
+  other.rounding = static_cast<float>(frames.rounding + frames.perMetre * size);
   return other;
 }
 
-/// Largest of the bounds of the nine edge axes.
-HWY_INLINE Lanes edgeBounds(const BoxFrames& frames, const Other& other, const Lanes (&offset)[3],
-                            const Lanes (&half)[3], Lanes best) {
+/// One box a lane, and how the other lies in it.
+struct Boxes {
+  Lanes half[3];
+  Lanes offset[3];   ///< of the other's centre, in the first frame
+  Lanes along[3];    ///< `offset` along the own axes
+  Lanes turn[3][3];  ///< [i][j]: axis j of the other along the own axis i
+  Lanes spread[3][3];
+};
+
+HWY_INLINE Lanes dot(const Lanes (&a)[3], const Lanes (&b)[3]) {
+  return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
+}
+
+HWY_INLINE Lanes loaded(const WideNode::Row& row, std::size_t at) {
+  return hn::Load(Tag(), row.data() + at);
+}
+
+HWY_INLINE void place(const WideNode& node, std::size_t at, const Other& other, Boxes& boxes) {
   const Tag tag;
-  const auto rounding = hn::Set(tag, frames.rounding);
   for (int i = 0; i < 3; ++i) {
-    const int next = i == 2 ? 0 : i + 1;
-    const int last = 3 - i - next;
+    boxes.half[i] = loaded(node.half[i], at);
+    boxes.offset[i] = hn::Sub(hn::Set(tag, other.center[i]), loaded(node.center[i], at));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Lanes axis[3] = {loaded(node.axes[i][0], at), loaded(node.axes[i][1], at),
+                           loaded(node.axes[i][2], at)};
+    boxes.along[i] = dot(axis, boxes.offset);
     for (int j = 0; j < 3; ++j) {
-      // axis i x axis j has the components (next) -axes[last][j] and (last) axes[next][j].
-      const auto along = hn::AbsDiff(hn::Mul(offset[last], hn::Set(tag, frames.axes[next][j])),
-                                     hn::Mul(offset[next], hn::Set(tag, frames.axes[last][j])));
-      const auto extents =
-          hn::MulAdd(half[next], hn::Set(tag, frames.absAxes[last][j]),
-                     hn::MulAdd(half[last], hn::Set(tag, frames.absAxes[next][j]),
-                                hn::Add(hn::Set(tag, other.edgeSpread[i][j]), rounding)));
-      best = hn::Max(best, hn::Mul(hn::Sub(along, extents), hn::Set(tag, frames.edgeScale[i][j])));
+      const Lanes otherAxis[3] = {hn::Set(tag, other.axes[j][0]), hn::Set(tag, other.axes[j][1]),
+                                  hn::Set(tag, other.axes[j][2])};
+      boxes.turn[i][j] = dot(axis, otherAxis);
+      boxes.spread[i][j] = hn::Abs(boxes.turn[i][j]);
     }
   }
-  return best;
 }
 
 /// Distance that the gaps along the axes of one box prove together, or the largest of them if none
@@ -65,48 +84,129 @@ HWY_INLINE Lanes edgeBounds(const BoxFrames& frames, const Other& other, const L
 HWY_INLINE Lanes together(const Lanes (&gap)[3]) {
   const Tag tag;
   const auto zero = hn::Zero(tag);
-  const auto x = hn::Max(gap[0], zero);
-  const auto y = hn::Max(gap[1], zero);
-  const auto z = hn::Max(gap[2], zero);
-  return hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+  const Lanes positive[3] = {hn::Max(gap[0], zero), hn::Max(gap[1], zero), hn::Max(gap[2], zero)};
+  const auto largest = hn::Max(gap[0], hn::Max(gap[1], gap[2]));
+  return hn::Max(largest, hn::Sqrt(dot(positive, positive)));
 }
 
-void LowerBounds(const WideNode& node, const BoxFrames& frames, const BoxF& box, float enough,
-                 float* lower) {
+/// Largest of the bounds of the six face axes.
+HWY_INLINE Lanes faceBounds(const Boxes& boxes, const Other& other) {
   const Tag tag;
-  const Other other = prepare(frames, box);
-  const auto rounding = hn::Set(tag, frames.rounding);
-  // The square root and the sum of squares round by a few units in the last place.
-  const auto shrink = hn::Set(tag, 1.0F - 1e-6F);
-  for (std::size_t at = 0; at < WideNode::kLanes; at += hn::Lanes(tag)) {
-    Lanes offset[3];
-    Lanes half[3];
-    Lanes gap[3];
-    for (int i = 0; i < 3; ++i) {
-      half[i] = hn::Load(tag, node.half[i].data() + at);
-      offset[i] = hn::Sub(hn::Set(tag, other.center[i]), hn::Load(tag, node.center[i].data() + at));
-      const auto extents = hn::Add(half[i], hn::Set(tag, other.spread[i] + frames.rounding));
-      gap[i] = hn::Sub(hn::Abs(offset[i]), extents);
-    }
-    auto best = together(gap);
+  const auto rounding = hn::Set(tag, other.rounding);
+  const Lanes otherHalf[3] = {hn::Set(tag, other.half[0]), hn::Set(tag, other.half[1]),
+                              hn::Set(tag, other.half[2])};
+  Lanes gap[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto extents = hn::Add(hn::Add(boxes.half[i], rounding), dot(boxes.spread[i], otherHalf));
+    gap[i] = hn::Sub(hn::Abs(boxes.along[i]), extents);
+  }
+  const auto best = together(gap);
+  for (int j = 0; j < 3; ++j) {
+    const Lanes axis[3] = {hn::Set(tag, other.axes[j][0]), hn::Set(tag, other.axes[j][1]),
+                           hn::Set(tag, other.axes[j][2])};
+    const Lanes spread[3] = {boxes.spread[0][j], boxes.spread[1][j], boxes.spread[2][j]};
+    const auto extents = hn::Add(hn::Add(otherHalf[j], rounding), dot(spread, boxes.half));
+    gap[j] = hn::Sub(hn::Abs(dot(axis, boxes.offset)), extents);
+  }
+  return hn::Max(best, together(gap));
+}
+
+/// Not larger than 1 / sqrt(x) but for its own rounding, however rough the approximation: Newton's
+/// step x (3 - d x^2) / 2 approaches 1 / sqrt(d) from below, from either side.
+HWY_INLINE Lanes reciprocalRoot(Lanes d) {
+  const Tag tag;
+  const auto rough = hn::ApproximateReciprocalSqrt(d);
+  const auto halved = hn::Mul(hn::Set(tag, 0.5F), rough);
+  return hn::Mul(halved, hn::NegMulAdd(hn::Mul(d, rough), rough, hn::Set(tag, 3.0F)));
+}
+
+/// Largest of the bounds of the nine edge axes. In the frame of the own axes, axis i x the other's
+/// axis j has the components (next) -turn[last][j] and (last) turn[next][j].
+HWY_INLINE Lanes edgeBounds(const Boxes& boxes, const Other& other, Lanes best) {
+  const Tag tag;
+  const auto rounding = hn::Set(tag, other.rounding);
+  // More than 1: what the rounded square of a cosine may exceed the true one by.
+  const auto one = hn::Set(tag, 1.0F + 2e-6F);
+  for (int i = 0; i < 3; ++i) {
+    const int next = i == 2 ? 0 : i + 1;
+    const int last = 3 - i - next;
     for (int j = 0; j < 3; ++j) {
-      const auto along =
-          hn::MulAdd(offset[0], hn::Set(tag, frames.axes[0][j]),
-                     hn::MulAdd(offset[1], hn::Set(tag, frames.axes[1][j]),
-                                hn::Mul(offset[2], hn::Set(tag, frames.axes[2][j]))));
+      const int jNext = j == 2 ? 0 : j + 1;
+      const int jLast = 3 - j - jNext;
+      const auto along = hn::Abs(hn::NegMulAdd(boxes.along[next], boxes.turn[last][j],
+                                               hn::Mul(boxes.along[last], boxes.turn[next][j])));
+      const auto own = hn::MulAdd(boxes.half[next], boxes.spread[last][j],
+                                  hn::MulAdd(boxes.half[last], boxes.spread[next][j], rounding));
       const auto extents =
-          hn::MulAdd(half[0], hn::Set(tag, frames.absAxes[0][j]),
-                     hn::MulAdd(half[1], hn::Set(tag, frames.absAxes[1][j]),
-                                hn::MulAdd(half[2], hn::Set(tag, frames.absAxes[2][j]),
-                                           hn::Add(hn::Set(tag, other.half[j]), rounding))));
-      gap[j] = hn::Sub(hn::Abs(along), extents);
+          hn::MulAdd(hn::Set(tag, other.half[jNext]), boxes.spread[i][jLast],
+                     hn::MulAdd(hn::Set(tag, other.half[jLast]), boxes.spread[i][jNext], own));
+      const auto square = hn::NegMulAdd(boxes.turn[i][j], boxes.turn[i][j], one);
+      best = hn::Max(best, hn::Mul(hn::Sub(along, extents), reciprocalRoot(square)));
     }
-    best = hn::Max(best, together(gap));
+  }
+  return best;
+}
+
+void LowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& box,
+                 float enough, float* lower) {
+  const Tag tag;
+  const Other other = prepare(node, frames, box);
+  // The square roots, the sums of squares and the lengths of the axes are off by a few ulps.
+  const auto shrink = hn::Set(tag, 1.0F - 2e-6F);
+  for (std::size_t at = 0; at < WideNode::kLanes; at += hn::Lanes(tag)) {
+    Boxes boxes;
+    place(node, at, other, boxes);
+    auto best = faceBounds(boxes, other);
     if (!hn::AllTrue(tag, hn::Gt(best, hn::Set(tag, enough)))) {
-      best = edgeBounds(frames, other, offset, half, best);
+      best = edgeBounds(boxes, other, best);
     }
     hn::StoreU(hn::Mul(best, shrink), tag, lower + at);
   }
+}
+
+/// A ray misses a box if one of these separates them: an axis of the box that it starts beyond and
+/// does not turn back on, or the cross product of one with its direction.
+std::uint32_t Hit(const WideNode& node, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& direction) {
+  const Tag tag;
+  Other ray;
+  double size = node.reach;
+  for (int i = 0; i < 3; ++i) {
+    const double at = origin[i] - node.origin[i];
+    ray.center[i] = static_cast<float>(at);
+    size += std::abs(at);
+    ray.half[i] = 0.0F;
+    for (int j = 0; j < 3; ++j) ray.axes[j][i] = static_cast<float>(direction[i]);
+  }
+  const double far = std::abs(origin[0]) + std::abs(origin[1]) + std::abs(origin[2]);
+  const auto rounding = hn::Set(tag, static_cast<float>(kBoxRounding * size + 1e-14 * far));
+  const auto turning = hn::Set(tag, static_cast<float>(kBoxRounding));
+  std::uint32_t hits = 0;
+  for (std::size_t at = 0; at < WideNode::kLanes; at += hn::Lanes(tag)) {
+    Boxes boxes;
+    place(node, at, ray, boxes);
+    auto gap = hn::Set(tag, -1.0F);
+    for (int i = 0; i < 3; ++i) {
+      const int next = i == 2 ? 0 : i + 1;
+      const int last = 3 - i - next;
+      const auto outwards = hn::CopySign(hn::Set(tag, 1.0F), boxes.along[i]);
+      const auto leaving = hn::Gt(hn::Mul(outwards, boxes.turn[i][0]), turning);
+      const auto beyond = hn::Sub(hn::Abs(boxes.along[i]), hn::Add(boxes.half[i], rounding));
+      gap = hn::Max(gap, hn::IfThenElseZero(leaving, beyond));
+      const auto along = hn::Abs(hn::NegMulAdd(boxes.along[next], boxes.turn[last][0],
+                                               hn::Mul(boxes.along[last], boxes.turn[next][0])));
+      const auto extents =
+          hn::MulAdd(boxes.half[next], boxes.spread[last][0],
+                     hn::MulAdd(boxes.half[last], boxes.spread[next][0], rounding));
+      gap = hn::Max(gap, hn::Sub(along, extents));
+    }
+    HWY_ALIGN float gaps[WideNode::kLanes];
+    hn::Store(gap, tag, gaps);
+    for (std::size_t lane = 0; lane < hn::Lanes(tag); ++lane) {
+      if (!(gaps[lane] > 0.0F)) hits |= std::uint32_t{1} << (at + lane);
+    }
+  }
+  return hits;
 }
 
 }  // namespace
@@ -117,10 +217,17 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 HWY_EXPORT(LowerBounds);
+HWY_EXPORT(Hit);
 
-void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const BoxF& other, float enough,
-                    std::array<float, WideNode::kLanes>& lower) {
+void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
+                    float enough, std::array<float, WideNode::kLanes>& lower) {
   HWY_DYNAMIC_DISPATCH(LowerBounds)(node, frames, other, enough, lower.data());
+}
+
+std::uint32_t boxesHit(const WideNode& node, const Eigen::Vector3d& origin,
+                       const Eigen::Vector3d& direction) {
+  const std::uint32_t inUse = (std::uint32_t{1} << node.count) - 1;
+  return HWY_DYNAMIC_DISPATCH(Hit)(node, origin, direction) & inUse;
 }
 
 }  // namespace swept::detail

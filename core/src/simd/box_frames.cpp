@@ -15,103 +15,96 @@ using Eigen::Vector3d;
 constexpr double kLeastSine = 0.02;
 constexpr double kMostSkew = 1e-4;
 
-}  // namespace
-
-// Lemma (rounding of box gaps). Let u = 2^-24 and M bound the 1-norm of the translation plus those
-// of all points of both sides' boxes. Moving a centre into the first frame takes at most 6 u M per
-// component (three products, three sums, the rounding of the rotation and of the translation), the
-// difference of the centres u M more; projecting it on an axis of the second frame 17 u M in all,
-// and the projected half extents and their sums 8 u M. With fused multiply-adds there is less. For
-// edge axes, before division by their length, the figures are no larger. The inverse frames take
-// their translation from the rounded rotation, 9 u M more. 40 u M covers the sum. A linear part
-// that deviates from a rotation by s (entries of R^T R - 1) adds at most 4 s M.
-BoxFrames::BoxFrames(const Eigen::Isometry3d& first_from_second, double reach) {
-  const Matrix3d rotation = first_from_second.linear();
-  const double skew =
-      (rotation.transpose() * rotation - Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  const Vector3d moved = first_from_second.translation();
-  const double magnitude = reach + moved.cwiseAbs().sum();
-  usable_ = skew < kMostSkew && magnitude > 1e-12 && magnitude < 1e12;
-  if (!usable_) return;
-  rounding = static_cast<float>(1.01 * (40.0 * 0x1p-24 + 4.0 * skew) * magnitude);
-  for (int i = 0; i < 3; ++i) translation[i] = static_cast<float>(moved[i]);
-  finish(rotation);
+/// Columns.
+Matrix3d axesOf(const OrientedBox& box) {
+  Matrix3d axes;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) axes(i, j) = box.axes[j][i];
+  }
+  return axes;
 }
 
-void BoxFrames::finish(const Matrix3d& rotation) {
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      axes[i][j] = static_cast<float>(rotation(i, j));
-      absAxes[i][j] = std::abs(axes[i][j]);
-      const double sine = std::sqrt(std::max(0.0, 1.0 - rotation(i, j) * rotation(i, j)));
-      edgeScale[i][j] = sine > kLeastSine ? static_cast<float>(1.0 / sine) : 0.0F;
-    }
-  }
+Vector3d halfOf(const OrientedBox& box) {
+  return {box.half[0], box.half[1], box.half[2]};
+}
+
+}  // namespace
+
+// Lemma (rounding of box gaps). Let u = 2^-24 and m = |offset|_1 + |center|_1 + |half|_1 + |half of
+// the other|_1, where the offset and the centre are taken from the node's origin. The stored axes
+// a_i are orthonormal up to 3 u (Gram matrix), and so are those of the other box, b_j.
+//  - A box is given by |a_i . x| <= h_i; as the parallelepiped sum t_i a_i it has |t_i| <= h_i +
+//    4 u |h|_1. For both boxes: 8 u m of extents.
+//  - The offset from the lane's centre: one rounding of the other's centre to a float, one of the
+//    difference: 2 u m in the 1-norm. Along a_i, with three products: 5 u m in all. Along b_j,
+//    whose components are rounded too: 7 u m.
+//  - The entries a_i . b_j are known to 5 u, which costs 5 u m of the extents; adding them up 5 u
+//  m.
+// Face axes: at most 27 u m. Along an edge axis n = sum w_k a_k, w = e_i x (column j): the products
+// of offsets and entries 5 sqrt(2) u m each for the errors of either factor, and 3 u m for
+// themselves; own extents a_m . n = w_m + 5 u; the other's, whose entries w . (column) are off by
+// 16 u: with the sums 26 u m more. With the boxes' 8 u m that is 53 u m before division by the
+// length, and 2 u m for the last differences. 96 u m covers each.
+//
+// What is done in double precision, before coordinates are relative to the node's origin, rounds by
+// 32 * 2^-53 of the 1-norms of all coordinates. A linear part that deviates from a rotation by s
+// (entries of R^T R - 1) changes gaps by at most 8 s m, and its inverse by transposition the
+// distance of the frames by 4 s of these 1-norms.
+BoxFrames::BoxFrames(const Eigen::Isometry3d& first_from_second, double reach)
+    : linear(first_from_second.linear()), translation(first_from_second.translation()) {
+  const double skew = (linear.transpose() * linear - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double magnitude = reach + translation.cwiseAbs().sum();
+  usable_ = skew < kMostSkew && magnitude > 1e-12 && magnitude < 1e12;
+  rounding = (32.0 * 0x1p-53 + 4.0 * skew) * magnitude;
+  perMetre = kBoxRounding + 8.0 * skew;
 }
 
 BoxFrames BoxFrames::inverse() const {
-  BoxFrames turned;
-  turned.usable_ = usable_;
-  turned.rounding = rounding;
-  for (int i = 0; i < 3; ++i) {
-    double along = 0.0;
-    for (int j = 0; j < 3; ++j) {
-      turned.axes[i][j] = axes[j][i];
-      turned.absAxes[i][j] = absAxes[j][i];
-      turned.edgeScale[i][j] = edgeScale[j][i];
-      along -= static_cast<double>(axes[j][i]) * translation[j];
-    }
-    turned.translation[i] = static_cast<float>(along);
-  }
+  BoxFrames turned = *this;
+  turned.linear = linear.transpose();
+  turned.translation = -(turned.linear * translation);
   return turned;
 }
 
-BoxGap boxGap(const BoxF& box, const BoxFrames& frames, const BoxF& other) {
-  Matrix3d rotation;
-  Vector3d offset;  // from the box's centre to the other's
-  Vector3d half;
-  Vector3d otherHalf;
-  for (int i = 0; i < 3; ++i) {
-    double at = frames.translation[i];
-    for (int j = 0; j < 3; ++j) {
-      rotation(i, j) = frames.axes[i][j];
-      at += rotation(i, j) * other.center[j];
-    }
-    offset[i] = at - box.center[i];
-    half[i] = box.half[i];
-    otherHalf[i] = other.half[i];
-  }
+BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other) {
+  const Matrix3d own = axesOf(box);
+  const Matrix3d rotation = own.transpose() * (frames.linear * axesOf(other));
+  const Vector3d center = frames.linear * other.center + frames.translation - box.center;
+  const Vector3d offset = own.transpose() * center;
+  const Vector3d half = halfOf(box);
+  const Vector3d otherHalf = halfOf(other);
+  const double rounding =
+      frames.rounding + frames.perMetre * (center.cwiseAbs().sum() + half.sum() + otherHalf.sum());
   const Matrix3d spread = rotation.cwiseAbs();
   const Vector3d alongOther = rotation.transpose() * offset;
   const auto clamped = [&](const Vector3d& along, const Vector3d& extents) {
-    const Vector3d gap =
-        (along.cwiseAbs() - extents).array() - static_cast<double>(frames.rounding);
+    const Vector3d gap = (along.cwiseAbs() - extents).array() - rounding;
     return Vector3d(gap.cwiseMax(0.0).cwiseProduct(along.cwiseSign()));
   };
   // Gaps along the three orthogonal axes of one box add up as a vector: along its direction the two
   // boxes are apart by its length.
   const Vector3d inFirst = clamped(offset, half + spread * otherHalf);
   const Vector3d inOther = rotation * clamped(alongOther, otherHalf + spread.transpose() * half);
-  const Vector3d best = inFirst.squaredNorm() >= inOther.squaredNorm() ? inFirst : inOther;
+  Vector3d best = inFirst.squaredNorm() >= inOther.squaredNorm() ? inFirst : inOther;
   BoxGap gap;
   gap.value = best.norm() * (1.0 - 1e-6);
-  if (gap.value > 0.0) gap.direction = best.normalized();
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      const double scale = frames.edgeScale[i][j];
-      if (!(scale > 0.0)) continue;
+      const double sine = std::sqrt(std::max(0.0, 1.0 - rotation(i, j) * rotation(i, j)));
+      if (!(sine > kLeastSine)) continue;
       const Vector3d axis = Vector3d::Unit(i).cross(rotation.col(j));
       const double along = offset.dot(axis);
       const double extents =
           half.dot(axis.cwiseAbs()) + otherHalf.dot((rotation.transpose() * axis).cwiseAbs());
-      const double value = (std::abs(along) - extents - frames.rounding) * scale * (1.0 - 1e-6);
+      // The cosine is off by a few units of single precision, and the length by this at most.
+      const double value = (std::abs(along) - extents - rounding) / (sine + 1e-6 / sine);
       if (value > gap.value) {
         gap.value = value;
-        gap.direction = (along < 0.0 ? -scale : scale) * axis;
+        best = along < 0.0 ? Vector3d(-axis) : axis;
       }
     }
   }
-  if (gap.value > 0.0) gap.direction.normalize();
+  if (gap.value > 0.0) gap.direction = (own * best).normalized();
   return gap;
 }
 
