@@ -15,6 +15,33 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+/// Pairs of pieces put off, the nearest first. Of a fixed size: what finds no room is looked at
+/// right away, in an order that is merely less good.
+class Waiting {
+ public:
+  struct Pair {
+    float lower;  ///< m, proven distance
+    int placeA;
+    int placeB;
+  };
+  bool isFull() const { return count_ == kMost; }
+  bool isEmpty() const { return count_ == 0; }
+  void push(const Pair& pair) {
+    pairs_[count_++] = pair;
+    std::push_heap(pairs_.begin(), pairs_.begin() + count_, isFarther);
+  }
+  Pair pop() {
+    std::pop_heap(pairs_.begin(), pairs_.begin() + count_, isFarther);
+    return pairs_[--count_];
+  }
+
+ private:
+  static constexpr int kMost = 1024;
+  static bool isFarther(const Pair& a, const Pair& b) { return a.lower > b.lower; }
+  std::array<Pair, kMost> pairs_;
+  int count_ = 0;
+};
+
 class Search {
  public:
   Search(const Side& a, const Side& b, const Isometry3d& a_from_b, const PieceGoal& goal)
@@ -28,6 +55,14 @@ class Search {
       const PiecePair pieces(a_, b_, a_from_b_);
       pieces_ = &pieces;
       descend(pieces.rootA(), pieces.rootB(), result_.hint);
+      while (!waiting_.isEmpty() && !inContact()) {
+        const Waiting::Pair next = waiting_.pop();
+        if (next.lower > settledBeyond()) {
+          settle(next.lower);
+          break;
+        }
+        descend(pieces.piece(true, next.placeA), pieces.piece(false, next.placeB), result_.hint);
+      }
       result_.normal.setZero();
     }
     return finish();
@@ -132,6 +167,7 @@ class Search {
         settle(lower[lane]);
         continue;
       }
+      if (putOff(split, lane, other, lower[lane])) continue;
       const Piece piece = PiecePair::child(split, lane);
       Vector3d direction = guess;
       if (lower[lane] > 0.0F && settledAlong(piece, split.ofA, other, direction)) continue;
@@ -141,6 +177,15 @@ class Search {
         descend(other, piece, direction);
       }
     }
+  }
+
+  /// A distance query looks at the nearest of all pairs first: no other order looks at fewer. Pairs
+  /// that may overlap have to be looked at anyway. A motion bound gains nothing from the order.
+  bool putOff(const PiecePair::Split& split, int lane, const Piece& other, float lower) {
+    if (goal_.approach != nullptr || !(lower > 0.0F) || waiting_.isFull()) return false;
+    const int place = PiecePair::placeOf(split, lane);
+    waiting_.push({lower, split.ofA ? place : other.place, split.ofA ? other.place : place});
+    return true;
   }
 
   /// The lanes that are not settled, nearest first.
@@ -237,6 +282,7 @@ class Search {
   const PiecePair* pieces_ = nullptr;  ///< null while only convex bodies are looked at
   Vector3d ownPoint_ = Vector3d::Zero();
   PieceResult result_;
+  Waiting waiting_;
   bool failed_ = false;
   bool hullsApart_ = false;  ///< proven: no enclosure either
 };
