@@ -21,7 +21,7 @@ using reference::Random;
 /// In the order of the variant.
 inline constexpr std::array kNames{"Sphere", "Box",       "Cylinder", "Capsule",
                                    "Cone",   "Ellipsoid", "Hull",     "Triangle",
-                                   "Plane",  "HalfSpace", "Mesh"};
+                                   "Plane",  "HalfSpace", "Mesh",     "Cloud"};
 static_assert(std::variant_size_v<swept::Shape> == kNames.size(),
               "a new shape needs samples, and so do its pairs");
 
@@ -100,8 +100,12 @@ class Sampler {
         return swept::Plane{random.direction(), random.uniform(-0.5, 0.5)};
       case 9:
         return swept::HalfSpace{random.direction(), random.uniform(-0.5, 0.5)};
-      default:
+      case 10:
         return form == Form::Small ? box(size) : hollow();
+      default: {
+        const auto points = cloud(size, 12);
+        return swept::PointCloud::build(points, form == Form::Flat ? 0.0 : 0.1 * size.maxCoeff());
+      }
     }
   }
 

@@ -51,6 +51,9 @@ struct SupportPoint {
   Vector3d operator()(const swept::Plane& s) const { return s.offset * s.normal; }
   Vector3d operator()(const swept::HalfSpace& s) const { return s.offset * s.normal; }
   Vector3d operator()(const swept::TriangleMesh& s) const { return farthest(s.vertices(), n); }
+  Vector3d operator()(const swept::PointCloud& s) const {
+    return farthest(s.points(), n) + s.radius() * n;
+  }
 
  private:
   Vector3d rim(double radius) const {
@@ -128,6 +131,11 @@ struct Outside {
       least = std::min(least, reference::pointTriangle(p, {v[t[0]], v[t[1]], v[t[2]]}));
     }
     return least;
+  }
+  double operator()(const swept::PointCloud& s) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3d& point : s.points()) least = std::min(least, (p - point).norm());
+    return std::max(0.0, least - s.radius());
   }
 };
 
