@@ -176,8 +176,12 @@ SignedDistanceResult signedByEpa(const Convex& a, const Convex& b, const Isometr
   const double rounding = tolerance::kSupportRounding * radii;
   result.lower -= radii + rounding;
   result.upper -= radii - rounding;
-  result.pointA += radiusA * result.normal;
-  result.pointB -= radiusB * result.normal;
+  // The normal proves, but the way between the points is what makes them as far apart as it says.
+  const Vector3d way = result.pointB - result.pointA;
+  const double length = way.norm();
+  const Vector3d n = apart.lower > 0.0 && length > 0.0 ? Vector3d(way / length) : result.normal;
+  result.pointA += radiusA * n;
+  result.pointB -= radiusB * n;
   return result;
 }
 
