@@ -96,7 +96,10 @@ struct ToFcl {
   Geometry operator()(const swept::HalfSpace& s) const {
     return std::make_shared<fcl::Halfspaced>(s.normal, s.offset);
   }
-  Geometry operator()(const swept::TriangleMesh&) const { return nullptr; }
+  template <typename Pieces>
+  Geometry operator()(const Pieces&) const {
+    throw std::invalid_argument("not convex");
+  }
 };
 
 struct FclPair {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -216,7 +217,11 @@ class Generator {
   Vector3d onPlane(const Vector3d& normal, double offset) {
     return offset * normal + uniform(-0.5, 0.5) * normal.unitOrthogonal();
   }
-  Feature feature(const swept::TriangleMesh&) { return {Vector3d::Zero(), Vector3d::UnitX()}; }
+  /// Meshes and clouds are not convex.
+  template <typename Pieces>
+  Feature feature(const Pieces&) {
+    throw std::invalid_argument("no features");
+  }
 
   std::mt19937 engine_;
 };
