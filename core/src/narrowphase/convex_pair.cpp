@@ -15,6 +15,7 @@
 #include "narrowphase/point_cylinder.hpp"
 #include "narrowphase/point_point.hpp"
 #include "narrowphase/point_segment.hpp"
+#include "narrowphase/point_triangle.hpp"
 #include "narrowphase/segment_segment.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -326,7 +327,9 @@ struct PairQueries {
     if (!flat && isExtreme(magnitudeOf(a, b, a_from_b))) {
       return contactOf(extremePair(a, b, a_from_b, Goal(0.0)));
     }
-    if constexpr (kindA == Core::Box && kindB == Core::Box) {
+    if constexpr (flat) {
+      return flatCollide(a, b, a_from_b);
+    } else if constexpr (kindA == Core::Box && kindB == Core::Box) {
       return boxesCollide(a, b, a_from_b);
     } else {
       if constexpr (HasClosedForm<kindA, kindB>) {
@@ -337,7 +340,7 @@ struct PairQueries {
           return apart <= 0.0 ? Contact::Touching : Contact::Unknown;
         }
       }
-      if constexpr (!kFlat<kindA> && !kFlat<kindB> && !kRound<kindA> && !kRound<kindB>) {
+      if constexpr (!kRound<kindA> && !kRound<kindB>) {
         const Look found = look<kindA, kindB>(a, b, a_from_b);
         if (found.inside) return Contact::Touching;
         if (found.separation > pairRounding(a, b, a_from_b)) return Contact::Separate;

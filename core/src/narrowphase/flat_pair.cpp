@@ -27,37 +27,64 @@ struct Gap {
   bool endless = false;                ///< no translation separates the two
 };
 
-/// Plane or half-space of normal n and offset d against a bounded body, both in the frame of the
-/// first. The body's least coordinate along n is that of one support point.
-Gap againstBounded(const Convex& flat, const Convex& body, const Isometry3d& flat_from_body) {
-  const Vector3d& n = flat.size;
-  const Vector3d alongBody = flat_from_body.linear().transpose() * n;
-  const Vector3d lowest = flat_from_body * body.support(-alongBody);
+/// A plane or half-space and the bounded body at it, both in a's frame.
+struct Wall {
+  const Convex& flat;
+  const Convex& body;
+  const Isometry3d& a_from_b;
+  const bool flatIsA;
+  Vector3d n;     ///< unit, of the flat
+  double offset;  ///< m
+
+  Wall(const Convex& a, const Convex& b, const Isometry3d& pose)
+      : flat(a.isFlat() ? a : b), body(a.isFlat() ? b : a), a_from_b(pose), flatIsA(a.isFlat()) {
+    n = flatIsA ? flat.size : Vector3d(pose.linear() * flat.size);
+    offset = flatIsA ? flat.offset : flat.offset + n.dot(pose.translation());
+  }
+
+  Vector3d farthest(const Vector3d& d) const {
+    if (!flatIsA) return body.support(d);
+    return a_from_b.linear() * body.support(a_from_b.linear().transpose() * d) +
+           a_from_b.translation();
+  }
+  /// m. Lemma: the support point, its transformation and the dot product round by at most a few
+  /// ulps of the coordinates, like a step of GJK.
+  double rounding() const {
+    const double magnitude =
+        body.extent + body.radius + a_from_b.translation().cwiseAbs().sum() + std::abs(flat.offset);
+    return tolerance::kSupportRounding * magnitude + body.error;
+  }
+};
+
+/// The body's least coordinate along the normal is that of one support point; a plane has two
+/// sides.
+Gap againstBounded(const Wall& wall) {
+  const double radius = wall.body.radius;
+  const Vector3d lowest = wall.farthest(-wall.n);
   Gap gap;
-  gap.normal = n;
-  gap.value = (n.dot(lowest) - flat.offset) - body.radius;
-  gap.pointB = lowest - body.radius * n;
+  gap.rounding = wall.rounding();
+  gap.normal = wall.n;
+  gap.value = (wall.n.dot(lowest) - wall.offset) - radius;
+  gap.pointB = lowest - radius * wall.n;
   gap.common = gap.pointB;
-  if (flat.core == Convex::Core::Plane) {
-    const Vector3d highest = flat_from_body * body.support(alongBody);
-    const double above = (flat.offset - n.dot(highest)) - body.radius;
-    const Vector3d top = highest + body.radius * n;
+  if (wall.flat.core == Convex::Core::Plane) {
+    const Vector3d highest = wall.farthest(wall.n);
+    const double above = (wall.offset - wall.n.dot(highest)) - radius;
+    const Vector3d top = highest + radius * wall.n;
     // On the way from the lowest point to the highest, where it crosses the plane.
     const double both = gap.value + above;
     const double share = both < 0.0 ? std::clamp(gap.value / both, 0.0, 1.0) : 0.0;
     gap.common += share * (top - gap.pointB);
     if (above > gap.value) {
       gap.value = above;
-      gap.normal = -n;
+      gap.normal = -wall.n;
       gap.pointB = top;
     }
   }
   gap.pointA = gap.pointB - gap.value * gap.normal;
-  // Lemma: the support point, its transformation and the dot product round by at most a few ulps of
-  // the coordinates, like a step of GJK.
-  const double magnitude = body.extent + body.radius +
-                           flat_from_body.translation().cwiseAbs().sum() + std::abs(flat.offset);
-  gap.rounding = tolerance::kSupportRounding * magnitude + body.error;
+  if (wall.flatIsA) return gap;
+  std::swap(gap.pointA, gap.pointB);
+  gap.normal = -gap.normal;
   return gap;
 }
 
@@ -107,15 +134,7 @@ Gap gapOf(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
     return betweenFlats(a, b, normalB, b.offset + normalB.dot(a_from_b.translation()),
                         a_from_b.translation().cwiseAbs().sum());
   }
-  if (a.isFlat()) return againstBounded(a, b, a_from_b);
-  const Isometry3d b_from_a = a_from_b.inverse(Eigen::Isometry);
-  Gap gap = againstBounded(b, a, b_from_a);
-  std::swap(gap.pointA, gap.pointB);
-  gap.pointA = a_from_b * gap.pointA;
-  gap.pointB = a_from_b * gap.pointB;
-  gap.common = a_from_b * gap.common;
-  gap.normal = -(a_from_b.linear() * gap.normal);
-  return gap;
+  return againstBounded(Wall(a, b, a_from_b));
 }
 
 }  // namespace
@@ -137,6 +156,26 @@ GjkResult flatPair(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
   result.lower = std::max(0.0, gap.value - gap.rounding);
   result.satisfied = result.lower > goal.along(gap.normal);
   return result;
+}
+
+Contact flatCollide(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
+  double value = 0.0;
+  double rounding = 0.0;
+  if (a.isFlat() && b.isFlat()) {
+    const Gap gap = gapOf(a, b, a_from_b);
+    value = gap.endless ? -1.0 : gap.value;
+    rounding = gap.rounding;
+  } else {
+    const Wall wall(a, b, a_from_b);
+    rounding = wall.rounding();
+    value = wall.n.dot(wall.farthest(-wall.n)) - wall.offset - wall.body.radius;
+    if (!(value > rounding) && wall.flat.core == Convex::Core::Plane) {
+      value = std::max(value, wall.offset - wall.n.dot(wall.farthest(wall.n)) - wall.body.radius);
+    }
+  }
+  if (!(std::abs(value) < kFarthest && rounding < kFarthest)) return Contact::Unknown;
+  if (value > rounding) return Contact::Separate;
+  return value <= 0.0 ? Contact::Touching : Contact::Unknown;
 }
 
 SignedDistanceResult flatPairSigned(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {

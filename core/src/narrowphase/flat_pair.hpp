@@ -15,6 +15,9 @@ inline constexpr double kParallel = 1e-12;  ///< rad
 GjkResult flatPair(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
                    const Goal& goal);
 
+/// Whether a plane or half-space and the other body share a point.
+Contact flatCollide(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b);
+
 /// Of a plane and a body on both sides of it, minus the shorter way out. -infinity (both bounds)
 /// where no translation separates: crossing planes and half-spaces.
 SignedDistanceResult flatPairSigned(const Convex& a, const Convex& b,

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "narrowphase/core_gap.hpp"
+
+namespace swept::detail {
+
+/// On a triangle, by the regions of its corners, edges and face (Ericson 2005, section 5.1.5).
+/// False for other sets of points, on the triangle, where the normal has no digits, and where the
+/// triangle is so thin that the slab along the normal is not as wide as the distance.
+inline bool footOn(PointsCore, const Convex& triangle, const Eigen::Vector3d& p, Foot& foot) {
+  if (triangle.points.size() != 3) return false;
+  const Eigen::Vector3d& a = triangle.points[0];
+  const Eigen::Vector3d& b = triangle.points[1];
+  const Eigen::Vector3d& c = triangle.points[2];
+  const Eigen::Vector3d e = b - a;
+  const Eigen::Vector3d f = c - a;
+  const Eigen::Vector3d toA = p - a;
+  const double d1 = e.dot(toA);
+  const double d2 = f.dot(toA);
+  const double ee = e.squaredNorm();
+  const double ef = e.dot(f);
+  const double ff = f.squaredNorm();
+  const double d3 = d1 - ee;  // e . (p - b)
+  const double d4 = d2 - ef;  // f . (p - b)
+  const double d5 = d1 - ef;  // e . (p - c)
+  const double d6 = d2 - ff;  // f . (p - c)
+  const double areaA = d3 * d6 - d5 * d4;
+  const double areaB = d5 * d2 - d1 * d6;
+  const double areaC = d1 * d4 - d3 * d2;
+  Eigen::Vector3d away;
+  if (d1 <= 0.0 && d2 <= 0.0) {
+    away = toA;
+  } else if (d3 >= 0.0 && d4 <= d3) {
+    away = p - b;
+  } else if (d6 >= 0.0 && d5 <= d6) {
+    away = p - c;
+  } else if (areaC <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    away = toA - (d1 / ee) * e;
+  } else if (areaB <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    away = toA - (d2 / ff) * f;
+  } else if (areaA <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    away = (p - b) - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
+  } else {
+    // Along the normal, which keeps the digits that a difference of near points loses.
+    const Eigen::Vector3d normal = e.cross(f);
+    away = (normal.dot(toA) / normal.squaredNorm()) * normal;
+  }
+  const double squared = away.squaredNorm();
+  if (!(squared > 1e-280 && squared < 1e280)) return false;
+  foot.distance = std::sqrt(squared);
+  foot.normal = away * (1.0 / foot.distance);
+  foot.point = p - away;
+  const double slab =
+      std::min(foot.normal.dot(toA), std::min(foot.normal.dot(p - b), foot.normal.dot(p - c)));
+  return foot.distance - slab <=
+         kSlab * (triangle.extent + std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()));
+}
+
+}  // namespace swept::detail
