@@ -42,7 +42,43 @@ class BoxAxes {
     return finish(normal);
   }
 
-  bool isFaceOfA() const { return kind_ == Kind::FaceA; }
+  /// The deepest points of two boxes that overlap along `normal`, the axis found: a corner under
+  /// the other's face, or two edges that cross. False where they are not so placed, such as for
+  /// parallel faces.
+  bool deepest(const Eigen::Vector3d& normal, Eigen::Vector3d& onA, Eigen::Vector3d& onB) const {
+    const Eigen::Vector3d inB = c_.transpose() * normal;
+    const Eigen::Vector3d cornerB = support::box(b_, -inB);
+    if (kind_ == Kind::FaceA) {
+      onB = c_ * cornerB + t_;
+      onA = onB;
+      onA[index_] = std::copysign(a_[index_], normal[index_]);
+      return ((onA.cwiseAbs() - a_).array() <= 0.0).all();
+    }
+    const Eigen::Vector3d cornerA = support::box(a_, normal);
+    if (kind_ == Kind::FaceB) {
+      onA = cornerA;
+      Eigen::Vector3d local = c_.transpose() * (onA - t_);
+      local[index_] = std::copysign(b_[index_], -inB[index_]);
+      onB = c_ * local + t_;
+      return ((local.cwiseAbs() - b_).array() <= 0.0).all();
+    }
+    const int i = index_ / 3;
+    const int j = index_ % 3;
+    Eigen::Vector3d startA = cornerA;
+    Eigen::Vector3d startB = cornerB;
+    startA[i] = startB[j] = 0.0;  // the middles of the edges
+    const Eigen::Vector3d middle = c_ * startB + t_;
+    const Eigen::Vector3d w = middle - startA;
+    const double cosine = c_(i, j);
+    const double sine = 1.0 - cosine * cosine;  // squared
+    const double alongA = w[i];
+    const double alongB = w.dot(c_.col(j));
+    const double u = (alongA - alongB * cosine) / sine;
+    const double v = (alongA * cosine - alongB) / sine;
+    onA = startA + u * Eigen::Vector3d::Unit(i);
+    onB = middle + v * c_.col(j);
+    return std::abs(u) <= a_[i] && std::abs(v) <= b_[j];
+  }
 
  private:
   enum class Kind { FaceA, FaceB, Edges };

@@ -189,13 +189,16 @@ SignedDistanceResult signedByEpa(const Convex& a, const Convex& b, const Isometr
 SignedDistanceResult boxesSigned(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
                                  double tolerance) {
   SignedDistanceResult result;
-  const double separation =
-      BoxAxes(a, b, a_from_b).largest(std::numeric_limits<double>::infinity(), result.normal);
+  BoxAxes axes(a, b, a_from_b);
+  const double separation = axes.largest(std::numeric_limits<double>::infinity(), result.normal);
   const double rounding = pairRounding(a, b, a_from_b);
   if (!(separation < -rounding)) return signedByEpa(a, b, a_from_b, result.normal, tolerance);
   result.lower = separation - rounding;
   result.upper = separation + rounding;
-  deepestPoints(a, b, a_from_b, -separation, result);
+  result.iterations = 1;
+  if (!axes.deepest(result.normal, result.pointA, result.pointB)) {
+    deepestPoints(a, b, a_from_b, -separation, result);
+  }
   return result;
 }
 
