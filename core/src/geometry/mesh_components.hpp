@@ -110,18 +110,36 @@ class ComponentFinder {
     return repeats_[triangle] && !parts_[find(triangle)].keepsRepetitions();
   }
 
+  /// Sorted by their ends: into one bucket a vertex by counting, and each of these few by its own.
   void collectEdges() {
-    edges_.reserve(triangles_.size() * 3);
+    std::vector<std::size_t> start;
+    const auto smaller = [&](const Eigen::Vector3i& triangle, int corner) {
+      return static_cast<std::size_t>(std::min(triangle[corner], triangle[(corner + 1) % 3]));
+    };
+    for (const Eigen::Vector3i& triangle : triangles_) {
+      for (int corner = 0; corner < 3; ++corner) {
+        const std::size_t bucket = smaller(triangle, corner);
+        if (bucket + 2 > start.size()) start.resize(bucket + 2, 0);
+        ++start[bucket + 1];
+      }
+    }
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::size_t> next = start;
+    edges_.resize(triangles_.size() * 3);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       for (int corner = 0; corner < 3; ++corner) {
         const auto a = static_cast<std::uint32_t>(triangles_[i][corner]);
         const auto b = static_cast<std::uint32_t>(triangles_[i][(corner + 1) % 3]);
         const std::uint64_t ends = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-        edges_.push_back({ends, static_cast<int>(i), a < b ? 1 : -1});
+        edges_[next[smaller(triangles_[i], corner)]++] = {ends, static_cast<int>(i),
+                                                          a < b ? 1 : -1};
       }
     }
-    std::sort(edges_.begin(), edges_.end(),
-              [](const HalfEdge& a, const HalfEdge& b) { return a.ends < b.ends; });
+    for (std::size_t bucket = 0; bucket + 1 < start.size(); ++bucket) {
+      std::sort(edges_.begin() + static_cast<std::ptrdiff_t>(start[bucket]),
+                edges_.begin() + static_cast<std::ptrdiff_t>(start[bucket + 1]),
+                [](const HalfEdge& a, const HalfEdge& b) { return a.ends < b.ends; });
+    }
   }
 
   template <typename Visitor>
@@ -134,7 +152,31 @@ class ComponentFinder {
     }
   }
 
+  /// Whether two triangles at an edge have the same third corner. Most meshes have none.
+  bool hasRepetitions() {
+    const auto third = [&](const HalfEdge& half) {
+      const auto ends =
+          static_cast<std::uint32_t>(half.ends >> 32) + static_cast<std::uint32_t>(half.ends);
+      std::uint32_t sum = 0;
+      for (const int corner : triangles_[half.triangle]) sum += static_cast<std::uint32_t>(corner);
+      return sum - ends;
+    };
+    bool found = false;
+    forEachEdge([&](std::span<const HalfEdge> edge) {
+      // An edge of many triangles is for the thorough search to compare.
+      if (edge.size() > 8) found = true;
+      for (std::size_t i = 1; i < edge.size() && !found; ++i) {
+        for (std::size_t j = 0; j < i; ++j) found = found || third(edge[i]) == third(edge[j]);
+      }
+    });
+    return found;
+  }
+
   void findRepetitions() {
+    if (!hasRepetitions()) {
+      for (Part& part : parts_) part.survivesCancelling = true;
+      return;
+    }
     std::vector<Eigen::Vector3i> corners(triangles_.begin(), triangles_.end());
     for (Eigen::Vector3i& set : corners) std::sort(set.begin(), set.end());
     std::vector<int> order(corners.size());
