@@ -85,9 +85,9 @@ class Check {
 
 /// Of triangles, three corners each, which are put in the order of the leaves.
 WideBvh built(std::vector<Vector3d>& corners) {
-  const auto tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
+  const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, WideNode::kLanes);
   std::vector<Vector3d> ordered;
-  for (const int from : tree.order()) {
+  for (const int from : tree.order) {
     ordered.insert(ordered.end(), corners.begin() + 3 * from, corners.begin() + 3 * from + 3);
   }
   corners = std::move(ordered);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bvh/wide_bvh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +14,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Tree = BvTree<Aabb>;
+using Node = TreeTopology::Node;
 
 /// m. Boxes that single precision cannot hold are unbounded.
 constexpr double kLargest = 1e30;
@@ -58,6 +59,46 @@ struct Moments {
   Matrix3d scatter() const { return outer - sum * sum.transpose() / count; }
 };
 
+/// A run of primitives.
+struct Run {
+  int first;
+  int count;
+};
+
+Aabb boundsOf(const PrimitivePoints& primitives, const Run& run) {
+  const std::size_t per = primitives.perPrimitive;
+  const auto first = static_cast<std::size_t>(run.first);
+  const auto count = static_cast<std::size_t>(run.count);
+  Aabb box{primitives.points[first * per], primitives.points[first * per]};
+  for (const Vector3d& p : primitives.points.subspan(first * per, count * per)) {
+    box.lower = box.lower.cwiseMin(p);
+    box.upper = box.upper.cwiseMax(p);
+  }
+  if (primitives.radii.empty()) return box;
+  const auto radii = primitives.radii.subspan(first, count);
+  const double radius = *std::max_element(radii.begin(), radii.end());
+  // More than the one rounding of the coordinates.
+  const Vector3d far = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).array() + radius;
+  const Vector3d growth = Vector3d::Constant(radius) + 4e-16 * far;
+  return {box.lower - growth, box.upper + growth};
+}
+
+/// Of every node of a tree.
+std::vector<Aabb> boundsOf(const TreeTopology& tree, const PrimitivePoints& primitives) {
+  std::vector<Aabb> bounds(tree.nodes.size());
+  for (std::size_t i = bounds.size(); i-- > 0;) {  // children follow their parents
+    const Node& node = tree.nodes[i];
+    if (node.rightChild < 0) {
+      bounds[i] = boundsOf(primitives, {node.first, node.count});
+      continue;
+    }
+    const Aabb& left = bounds[i + 1];
+    const Aabb& right = bounds[static_cast<std::size_t>(node.rightChild)];
+    bounds[i] = {left.lower.cwiseMin(right.lower), left.upper.cwiseMax(right.upper)};
+  }
+  return bounds;
+}
+
 /// Fits boxes to runs of primitives.
 class BoxFitter {
  public:
@@ -66,7 +107,7 @@ class BoxFitter {
 
   Moments moments(int primitive) const {
     Moments moments;
-    for (const Vector3d& p : pointsOf(primitive, 1)) {
+    for (const Vector3d& p : pointsOf({primitive, 1})) {
       const Vector3d d = p - middle_;
       moments.count += 1.0;
       moments.sum += d;
@@ -75,16 +116,22 @@ class BoxFitter {
     return moments;
   }
 
-  /// The box of the primitives below a node, along their principal axes or those of the frame,
-  /// whichever has the smaller surface. Its centre is a float from `origin`.
-  OrientedBox fit(const Tree::Node& node, const Moments& moments, const Vector3d& origin) const {
-    const std::span<const Vector3d> points = pointsOf(node.first, node.count);
+  /// Of one primitive.
+  OrientedBox fit(int primitive, const Vector3d& origin) const {
+    const Run run{primitive, 1};
+    return fit(run, boundsOf(primitives_, run), moments(primitive), origin);
+  }
+
+  /// Along the principal axes or those of the frame, whichever box has the smaller surface. Its
+  /// centre is a float from `origin`.
+  OrientedBox fit(const Run& run, const Aabb& bounds, const Moments& moments,
+                  const Vector3d& origin) const {
+    const std::span<const Vector3d> points = pointsOf(run);
     double radius = 0.0;
     if (!primitives_.radii.empty()) {
-      for (int i = node.first; i < node.first + node.count; ++i)
+      for (int i = run.first; i < run.first + run.count; ++i)
         radius = std::max(radius, primitives_.radii[static_cast<std::size_t>(i)]);
     }
-    const Aabb& bounds = node.volume;
     const Vector3d far =
         bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).cwiseMax(origin.cwiseAbs());
     if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
@@ -102,10 +149,10 @@ class BoxFitter {
   }
 
  private:
-  std::span<const Vector3d> pointsOf(int first, int count) const {
+  std::span<const Vector3d> pointsOf(const Run& run) const {
     const std::size_t per = primitives_.perPrimitive;
-    return primitives_.points.subspan(static_cast<std::size_t>(first) * per,
-                                      static_cast<std::size_t>(count) * per);
+    return primitives_.points.subspan(static_cast<std::size_t>(run.first) * per,
+                                      static_cast<std::size_t>(run.count) * per);
   }
 
   static double surface(const OrientedBox& box) {
@@ -142,82 +189,101 @@ class BoxFitter {
 
 class Collapse {
  public:
-  Collapse(const Tree& binary, const PrimitivePoints& primitives)
-      : binary_(binary), fitter_(primitives, binary.node(0).volume.center()) {
-    nodes_.reserve(binary.order().size() / 4 + 1);
+  Collapse(const TreeTopology& binary, const PrimitivePoints& primitives)
+      : binary_(binary.nodes),
+        bounds_(boundsOf(binary, primitives)),
+        fitter_(primitives, bounds_.front().center()) {
+    nodes_.reserve(binary.order.size() / 4 + 1);
+    const Moments moments = addNode(0);
+    const Node& root = binary_.front();
+    rootBox_ = fitter_.fit({root.first, root.count}, bounds(), moments, bounds().center());
   }
 
-  std::vector<WideNode> run(OrientedBox& rootBox) {
-    const Moments moments = addNode(0);
-    rootBox = fitter_.fit(binary_.node(0), moments, binary_.node(0).volume.center());
-    return std::move(nodes_);
-  }
+  std::vector<WideNode> takeNodes() { return std::move(nodes_); }
+  const Aabb& bounds() const { return bounds_.front(); }
+  const OrientedBox& rootBox() const { return rootBox_; }
 
  private:
-  using Lanes = std::array<int, WideNode::kLanes>;  ///< nodes of the binary tree
-
-  Moments addNode(int root) {
-    Lanes lanes;
+  /// Of the binary tree, or a single primitive.
+  struct Lane {
+    std::size_t node;
+    int primitive;  ///< -1: it is a node
+  };
+  struct Lanes {
+    std::array<Lane, WideNode::kLanes> of;
     int count = 0;
-    lanes[count++] = root;
-    while (count < WideNode::kLanes && expandLargest(lanes, count)) {
+    void add(std::size_t node, int primitive) { of[count++] = {node, primitive}; }
+  };
+
+  Moments addNode(std::size_t root) {
+    Lanes lanes;
+    lanes.add(root, -1);
+    while (lanes.count < WideNode::kLanes && splitLargest(lanes)) {
     }
-    while (absorbSmallest(lanes, count)) {
+    while (unfoldSmallest(lanes)) {
     }
     const std::size_t index = nodes_.size();
     nodes_.emplace_back();
     WideNode node{};
-    node.count = count;
-    node.origin = binary_.node(root).volume.center();
+    node.count = lanes.count;
+    node.origin = bounds_[root].center();
     Moments all;
-    for (int i = 0; i < count; ++i) {
-      const Tree::Node& from = binary_.node(lanes[i]);
-      node.child[i] = from.isLeaf() ? ~from.first : static_cast<int>(nodes_.size());
-      const Moments moments = from.isLeaf() ? fitter_.moments(from.first) : addNode(lanes[i]);
-      node.set(i, fitter_.fit(from, moments, node.origin));
+    for (int i = 0; i < lanes.count; ++i) {
+      const auto [from, primitive] = lanes.of[i];
+      if (primitive >= 0) {
+        node.child[i] = ~primitive;
+        node.set(i, fitter_.fit(primitive, node.origin));
+        all.add(fitter_.moments(primitive));
+        continue;
+      }
+      node.child[i] = static_cast<int>(nodes_.size());
+      const Moments moments = addNode(from);
+      const Run run{binary_[from].first, binary_[from].count};
+      node.set(i, fitter_.fit(run, bounds_[from], moments, node.origin));
       all.add(moments);
     }
     nodes_[index] = node;
     return all;
   }
 
-  /// Replaces the lane of the largest box by its two children. Those that will fit into one node
-  /// stay: split up, they would leave many nodes nearly empty.
-  bool expandLargest(Lanes& lanes, int& count) const {
+  /// Replaces the lane of the largest inner node by its two children.
+  bool splitLargest(Lanes& lanes) const {
     int largest = -1;
-    for (int i = 0; i < count; ++i) {
-      const Tree::Node& node = binary_.node(lanes[i]);
-      if (node.count <= WideNode::kLanes && count > 1) continue;
-      if (node.isLeaf()) continue;
-      if (largest < 0 || area(node.volume) > area(binary_.node(lanes[largest]).volume)) largest = i;
+    for (int i = 0; i < lanes.count; ++i) {
+      const std::size_t node = lanes.of[i].node;
+      if (binary_[node].rightChild < 0) continue;
+      if (largest < 0 || area(bounds_[node]) > area(bounds_[lanes.of[largest].node])) largest = i;
     }
     if (largest < 0) return false;
-    expand(lanes, count, largest);
+    const std::size_t parent = lanes.of[largest].node;
+    lanes.of[largest].node = parent + 1;
+    lanes.add(static_cast<std::size_t>(binary_[parent].rightChild), -1);
     return true;
   }
 
-  /// Replaces the lane with the fewest primitives by all of these, if there is room.
-  bool absorbSmallest(Lanes& lanes, int& count) const {
+  /// Replaces the leaf of the fewest primitives by these, if there is room. Other leaves become
+  /// nodes of their own.
+  bool unfoldSmallest(Lanes& lanes) const {
     int smallest = -1;
-    for (int i = 0; i < count; ++i) {
-      const Tree::Node& node = binary_.node(lanes[i]);
-      if (node.isLeaf() || node.count + count - 1 > WideNode::kLanes) continue;
-      if (smallest < 0 || node.count < binary_.node(lanes[smallest]).count) smallest = i;
+    for (int i = 0; i < lanes.count; ++i) {
+      const Lane& lane = lanes.of[i];
+      const Node& node = binary_[lane.node];
+      if (lane.primitive >= 0 || node.rightChild >= 0) continue;
+      if (node.count + lanes.count - 1 > WideNode::kLanes) continue;
+      if (smallest < 0 || node.count < binary_[lanes.of[smallest].node].count) smallest = i;
     }
     if (smallest < 0) return false;
-    expand(lanes, count, smallest);
+    const std::size_t leaf = lanes.of[smallest].node;
+    lanes.of[smallest].primitive = binary_[leaf].first;
+    for (int i = 1; i < binary_[leaf].count; ++i) lanes.add(leaf, binary_[leaf].first + i);
     return true;
   }
 
-  void expand(Lanes& lanes, int& count, int lane) const {
-    const int parent = lanes[lane];
-    lanes[lane] = parent + 1;
-    lanes[count++] = binary_.node(parent).rightChild;
-  }
-
-  const Tree& binary_;
+  const std::vector<Node>& binary_;
+  const std::vector<Aabb> bounds_;
   const BoxFitter fitter_;
   std::vector<WideNode> nodes_;
+  OrientedBox rootBox_;
 };
 
 }  // namespace
@@ -243,12 +309,14 @@ void WideNode::set(int lane, const OrientedBox& box) {
   reach = std::max(reach, roundedUp(size));
 }
 
-WideBvh::WideBvh(const Tree& binary, const PrimitivePoints& primitives)
-    : bounds_(binary.node(0).volume) {
+WideBvh::WideBvh(const TreeTopology& binary, const PrimitivePoints& primitives) {
+  Collapse collapse(binary, primitives);
+  nodes_ = collapse.takeNodes();
+  bounds_ = collapse.bounds();
+  rootBox_ = collapse.rootBox();
   for (int i = 0; i < 3; ++i) {
     reach_ += std::max(std::abs(bounds_.lower[i]), std::abs(bounds_.upper[i]));
   }
-  nodes_ = Collapse(binary, primitives).run(rootBox_);
 }
 
 }  // namespace swept::detail

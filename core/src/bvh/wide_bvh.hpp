@@ -40,15 +40,15 @@ struct alignas(32) WideNode {
 ///
 /// The boxes of a smooth surface, unlike axis-aligned ones, get thin with the square of their
 /// length: what makes the difference between two such surfaces in near contact (Gottschalk, Lin,
-/// Manocha 1996, section 5).
+/// Manocha 1996).
 class WideBvh {
  public:
   /// A path from the root has at most this many nodes.
   static constexpr int kMaxDepth = kMaxTreeDepth;
 
-  /// In the shape of a binary tree with one primitive a leaf. `primitives` are those of the tree,
-  /// in the order of its leaves, and so are they numbered.
-  WideBvh(const BvTree<Aabb>& binary, const PrimitivePoints& primitives);
+  /// In the shape of a binary tree with at most kLanes primitives a leaf. `primitives` are those of
+  /// the tree, in the order of its leaves, and so are they numbered.
+  WideBvh(const TreeTopology& binary, const PrimitivePoints& primitives);
 
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const Aabb& bounds() const { return bounds_; }           ///< m, of all primitives

@@ -31,13 +31,14 @@ void requireUsable(std::span<const Eigen::Vector3d> points, double radius) {
 PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double radius) {
   requireUsable(points, radius);
   const std::vector<double> radii(points.size(), radius);
-  const auto tree = BvTree<Aabb>::build({points, 1, radii}, SurfaceAreaSplit{});
+  const auto tree =
+      TreeTopology::build({points, 1, radii}, SurfaceAreaSplit{}, detail::WideNode::kLanes);
   std::vector<Eigen::Vector3d> ordered;
   ordered.reserve(points.size());
-  for (const int source : tree.order()) ordered.push_back(points[source]);
+  for (const int source : tree.order) ordered.push_back(points[source]);
   auto bvh = std::make_shared<const detail::WideBvh>(tree, PrimitivePoints{ordered, 1, radii});
   return PointCloud(std::make_shared<const Data>(
-      Data{std::move(ordered), tree.order(), ConvexHull::of(points), radius, std::move(bvh)}));
+      Data{std::move(ordered), tree.order, ConvexHull::of(points), radius, std::move(bvh)}));
 }
 
 }  // namespace swept

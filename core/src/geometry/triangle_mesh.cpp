@@ -210,12 +210,12 @@ detail::WideBvh orderByTree(std::span<const Eigen::Vector3d> vertices,
   };
   corners.reserve(triangles.size() * 3);
   collectCorners();
-  const auto tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
+  const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, detail::WideNode::kLanes);
   std::vector<TriangleMesh::Triangle> orderedTriangles(triangles.size());
   std::vector<int> orderedComponents(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    orderedTriangles[i] = triangles[tree.order()[i]];
-    orderedComponents[i] = componentOf[tree.order()[i]];
+    orderedTriangles[i] = triangles[tree.order[i]];
+    orderedComponents[i] = componentOf[tree.order[i]];
   }
   triangles = std::move(orderedTriangles);
   componentOf = std::move(orderedComponents);
