@@ -122,8 +122,8 @@ class BoxFitter {
     return fit(run, boundsOf(primitives_, run), moments(primitive), origin);
   }
 
-  /// Along the principal axes or those of the frame, whichever box has the smaller surface. Its
-  /// centre is a float from `origin`.
+  /// Along the principal axes, the same turned, or those of the frame: the box of least surface.
+  /// Its centre is a float from `origin`.
   OrientedBox fit(const Run& run, const Aabb& bounds, const Moments& moments,
                   const Vector3d& origin) const {
     const std::span<const Vector3d> points = pointsOf(run);
@@ -142,6 +142,11 @@ class BoxFitter {
       axes = principalAxes(moments.scatter());
     }
     OrientedBox box = along(axes, points, radius, origin, far.sum());
+    // Principal axes of a patch about as wide as it is long may be those of its diagonals.
+    if (points.size() > 3 && box.half[1] > 0.6F * box.half[0]) {
+      const OrientedBox diagonal = along(turned(axes), points, radius, origin, far.sum());
+      if (surface(diagonal) < surface(box)) box = diagonal;
+    }
     if (surface(box) > area(bounds)) {
       box = along(Matrix3d::Identity(), points, radius, origin, far.sum());
     }
@@ -159,6 +164,14 @@ class BoxFitter {
     return 4.0 * (static_cast<double>(box.half[0]) * box.half[1] +
                   static_cast<double>(box.half[1]) * box.half[2] +
                   static_cast<double>(box.half[2]) * box.half[0]);
+  }
+
+  /// By 45 degrees about the last axis.
+  static Matrix3d turned(const Matrix3d& axes) {
+    Matrix3d result = axes;
+    result.col(0) = std::sqrt(0.5) * (axes.col(0) + axes.col(1));
+    result.col(1) = std::sqrt(0.5) * (axes.col(1) - axes.col(0));
+    return result;
   }
 
   /// Lemma: p - origin rounds by half an epsilon of the coordinates, whose 1-norms are at most
