@@ -122,6 +122,9 @@ class Depth {
   /// Each part is in its body, so a translation that separates the bodies separates each pair.
   void parts() {
     if (countOf(a_) * countOf(b_) > kMostParts) return;
+    // Lemma: the offset of two parts rounds by a few ulps of the coordinates it is a difference of.
+    const double moved = tolerance::kSupportRounding *
+                         (a_.convex.extent + b_.convex.extent + a_from_b_.translation().norm());
     forEachPart(a_, [&](const Convex& partA, const Vector3d& centerA) {
       forEachPart(b_, [&](const Convex& partB, const Vector3d& centerB) {
         Isometry3d pose = a_from_b_;
@@ -130,7 +133,7 @@ class Depth {
         depth_.iterations += found.iterations;
         // The parts of a mesh are hulls, which may reach beyond it by this.
         const double depth = -found.upper - partA.error - partB.error -
-                             2.0 * kConvexPart * (partA.extent + partB.extent);
+                             2.0 * kConvexPart * (partA.extent + partB.extent) - moved;
         if (depth > depth_.lower) {
           depth_.lower = depth;
           depth_.pointA = found.pointA + centerA;

@@ -145,10 +145,13 @@ float PiecePair::boundAgainstFlat(const OrientedBox& box, bool ofA) const {
   }
   const GjkResult apart = ofA ? flatPair(flat, body, a_from_b_.inverse() * side_from_box, Goal(0.0))
                               : flatPair(flat, body, a_from_b_ * side_from_box, Goal(0.0));
-  // Lemma: flatPair allows for the rounding of the coordinates; the axes are orthonormal only as
-  // far as kBoxRounding times the size goes.
-  const double size = body.extent * 2.0 * kBoxRounding;
-  return roundedDown(apart.lower - size);
+  // Lemma: flatPair allows for the rounding of the relative coordinates it is given; those they are
+  // differences of may be larger. The axes are orthonormal only as far as kBoxRounding times the
+  // size goes.
+  const double rounded =
+      tolerance::kSupportRounding * (box.center.norm() + a_from_b_.translation().norm()) +
+      2.0 * kBoxRounding * body.extent;
+  return roundedDown(apart.lower - rounded);
 }
 
 BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other) const {
@@ -183,6 +186,11 @@ void PiecePair::place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) 
   const Vector3d centerB = placeOne(b_, pieceB, leaves.cornersB, leaves.b);
   leaves.a_from_b = a_from_b_;
   leaves.a_from_b.translation() = a_from_b_ * centerB - leaves.centerA;
+  // Lemma: the translation, and what is left of a triangle's corners, round by a few ulps of the
+  // coordinates they are differences of, which may be far larger than the leaves and their offset.
+  const double moved = rounding_ + tolerance::kSupportRounding * a_.convex.extent;
+  if (!pieceA.isWhole()) leaves.a.error += moved;
+  if (pieceA.isWhole() && !pieceB.isWhole()) leaves.b.error += moved;
 }
 
 TriangleCorners PiecePair::movedCorners(int triangle) const {
