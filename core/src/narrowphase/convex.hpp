@@ -128,14 +128,14 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
   return Eigen::Vector3d::Zero();
 }
 
-inline Convex Convex::of(const Sphere& sphere) {
+[[gnu::always_inline]] inline Convex Convex::of(const Sphere& sphere) {
   Convex convex;
   convex.core = Core::Point;
   convex.radius = sphere.radius;
   return convex;
 }
 
-inline Convex Convex::of(const Box& box) {
+[[gnu::always_inline]] inline Convex Convex::of(const Box& box) {
   Convex convex;
   convex.core = Core::Box;
   convex.size = box.halfExtents;
@@ -143,7 +143,7 @@ inline Convex Convex::of(const Box& box) {
   return convex;
 }
 
-inline Convex Convex::of(const Cylinder& cylinder) {
+[[gnu::always_inline]] inline Convex Convex::of(const Cylinder& cylinder) {
   Convex convex;
   convex.core = Core::Cylinder;
   convex.size = {cylinder.radius, 0.0, cylinder.halfLength};
@@ -151,7 +151,7 @@ inline Convex Convex::of(const Cylinder& cylinder) {
   return convex;
 }
 
-inline Convex Convex::of(const Capsule& capsule) {
+[[gnu::always_inline]] inline Convex Convex::of(const Capsule& capsule) {
   Convex convex;
   convex.core = Core::Segment;
   convex.size = {0.0, 0.0, capsule.halfLength};
@@ -160,7 +160,7 @@ inline Convex Convex::of(const Capsule& capsule) {
   return convex;
 }
 
-inline Convex Convex::of(const Cone& cone) {
+[[gnu::always_inline]] inline Convex Convex::of(const Cone& cone) {
   Convex convex;
   convex.core = Core::Cone;
   convex.size = {cone.radius, 0.0, cone.halfLength};
@@ -168,7 +168,7 @@ inline Convex Convex::of(const Cone& cone) {
   return convex;
 }
 
-inline Convex Convex::of(const Ellipsoid& ellipsoid) {
+[[gnu::always_inline]] inline Convex Convex::of(const Ellipsoid& ellipsoid) {
   Convex convex;
   convex.core = Core::Ellipsoid;
   convex.size = ellipsoid.semiAxes;
@@ -176,7 +176,7 @@ inline Convex Convex::of(const Ellipsoid& ellipsoid) {
   return convex;
 }
 
-inline Convex Convex::of(const Plane& plane) {
+[[gnu::always_inline]] inline Convex Convex::of(const Plane& plane) {
   Convex convex;
   convex.core = Core::Plane;
   convex.size = plane.normal;
@@ -185,13 +185,13 @@ inline Convex Convex::of(const Plane& plane) {
   return convex;
 }
 
-inline Convex Convex::of(const HalfSpace& halfSpace) {
+[[gnu::always_inline]] inline Convex Convex::of(const HalfSpace& halfSpace) {
   Convex convex = of(Plane{halfSpace.normal, halfSpace.offset});
   convex.core = Core::HalfSpace;
   return convex;
 }
 
-inline Convex Convex::of(const ConvexHull& hull) {
+[[gnu::always_inline]] inline Convex Convex::of(const ConvexHull& hull) {
   Convex convex;
   convex.core = Core::Points;
   convex.points = hull.vertices();
@@ -212,7 +212,7 @@ inline Convex Convex::ofPoints(std::span<const Eigen::Vector3d> points) {
   return convex;
 }
 
-inline Convex Convex::of(const Triangle& triangle) {
+[[gnu::always_inline]] inline Convex Convex::of(const Triangle& triangle) {
   return ofPoints(triangle.corners);
 }
 

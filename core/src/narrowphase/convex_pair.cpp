@@ -37,8 +37,9 @@ concept HasFoot = requires(const Convex& body, const Vector3d& p, Foot& foot) {
 
 template <Core kind>
 requires HasFoot<kind>
-inline bool closedForm(PointCore, CoreTag<kind> tag, const Convex& a, const Convex& b,
-                       const Isometry3d& a_from_b, CoreGap& gap) {
+[[gnu::always_inline]] inline bool closedForm(PointCore, CoreTag<kind> tag, const Convex& a,
+                                              const Convex& b, const Isometry3d& a_from_b,
+                                              CoreGap& gap) {
   Foot foot;
   if (!footOn(tag, b, originOfAInB(a_from_b), foot)) return false;
   gap = gapFromPoint(foot, a_from_b, pairRounding(a, b, a_from_b));
@@ -47,8 +48,9 @@ inline bool closedForm(PointCore, CoreTag<kind> tag, const Convex& a, const Conv
 
 template <Core kind>
 requires HasFoot<kind>
-inline bool closedForm(CoreTag<kind> tag, PointCore, const Convex& a, const Convex& b,
-                       const Isometry3d& a_from_b, CoreGap& gap) {
+[[gnu::always_inline]] inline bool closedForm(CoreTag<kind> tag, PointCore, const Convex& a,
+                                              const Convex& b, const Isometry3d& a_from_b,
+                                              CoreGap& gap) {
   Foot foot;
   if (!footOn(tag, a, a_from_b.translation(), foot)) return false;
   gap = gapToPoint(foot, a_from_b, pairRounding(a, b, a_from_b));
@@ -67,42 +69,54 @@ constexpr bool kFlat = kind == Core::Plane || kind == Core::HalfSpace;
 template <Core kind>
 constexpr bool kRound = kind == Core::Point || kind == Core::Segment;
 
-/// Grown by their balls, the bodies are apart by the cores' distance less both radii.
-inline GjkResult grown(const CoreGap& gap, const Convex& a, const Convex& b, const Goal& goal) {
-  GjkResult result;
+/// Grown by their balls, the bodies are apart by the cores' distance less both radii. Fills the
+/// caller's result in place: copies of results cost as much as the closed forms of spheres.
+template <typename Result>
+[[gnu::always_inline]] inline void grow(const CoreGap& gap, const Convex& a, const Convex& b,
+                                        Result& result) {
   result.iterations = 1;
   const double apart = gap.distance - a.radius - b.radius;
   if (apart > 0.0) {
     result.upper = apart;
-    result.pointA = gap.pointA + a.radius * gap.normal;
-    result.pointB = gap.pointB - b.radius * gap.normal;
-    result.normal = gap.normal;
+    result.pointA = moved(gap.pointA, a.radius, gap.normal);
+    result.pointB = moved(gap.pointB, -b.radius, gap.normal);
     result.lower = std::max(0.0, apart - gap.rounding);
-    result.satisfied = result.lower > goal.along(gap.normal);
-    return result;
+    result.normal = gap.normal;
+    return;
   }
   result.upper = 0.0;
-  result.normal = gap.normal;
   if (gap.distance > 0.0) {
     // Any point at s from A's core, distance - radiusB <= s <= radiusA, belongs to both.
     const double s = std::clamp(0.5 * (a.radius + gap.distance - b.radius), 0.0, gap.distance);
-    result.pointA = gap.pointA + s * gap.normal;
+    result.pointA = moved(gap.pointA, s, gap.normal);
   } else {
     result.pointA = gap.common;
   }
   result.pointB = result.pointA;
+  result.normal = gap.normal;
+}
+
+inline GjkResult grown(const CoreGap& gap, const Convex& a, const Convex& b, const Goal& goal) {
+  GjkResult result;
+  grow(gap, a, b, result);
+  result.satisfied = result.lower > 0.0 && result.lower > goal.along(gap.normal);
   return result;
 }
 
-inline SignedDistanceResult grownSigned(const CoreGap& gap, const Convex& a, const Convex& b) {
-  SignedDistanceResult result;
+[[gnu::always_inline]] inline void growSigned(const CoreGap& gap, const Convex& a, const Convex& b,
+                                              SignedDistanceResult& result) {
   const double apart = gap.distance - a.radius - b.radius;
   result.iterations = 1;
   result.lower = apart - gap.rounding;
   result.upper = apart + gap.rounding;
   result.normal = gap.normal;
-  result.pointA = gap.pointA + a.radius * gap.normal;
-  result.pointB = gap.pointB - b.radius * gap.normal;
+  result.pointA = moved(gap.pointA, a.radius, gap.normal);
+  result.pointB = moved(gap.pointB, -b.radius, gap.normal);
+}
+
+inline SignedDistanceResult grownSigned(const CoreGap& gap, const Convex& a, const Convex& b) {
+  SignedDistanceResult result;
+  growSigned(gap, a, b, result);
   return result;
 }
 
@@ -325,6 +339,16 @@ struct PairQueries {
     }
   }
 
+  /// True with the gap of the cores where these have a closed form that answers.
+  [[gnu::always_inline]] static bool inClosedForm(const Convex& a, const Convex& b,
+                                                  const Isometry3d& a_from_b, CoreGap& gap) {
+    if constexpr (HasClosedForm<kindA, kindB>) {
+      if (isExtreme(magnitudeOf(a, b, a_from_b))) return false;
+      return closedForm(CoreTag<kindA>{}, CoreTag<kindB>{}, a, b, a_from_b, gap);
+    }
+    return false;
+  }
+
   static Contact collide(const Convex& a, const Convex& b, const Isometry3d& a_from_b) {
     constexpr bool flat = kFlat<kindA> || kFlat<kindB>;
     if (!flat && isExtreme(magnitudeOf(a, b, a_from_b))) {
@@ -421,6 +445,12 @@ SignedDistanceResult convexPairSigned(const Convex& a, const Convex& b, const Is
 bool convexDistance(const Shape& a, const Shape& b, const Isometry3d& a_from_b,
                     const DistanceOptions& options, DistanceResult& result) {
   return visitConvex(a, b, [&](auto queries, const Convex& bodyA, const Convex& bodyB) {
+    CoreGap gap;
+    if (queries.inClosedForm(bodyA, bodyB, a_from_b, gap)) {
+      grow(gap, bodyA, bodyB, result);
+      if (!(result.lower > 0.0)) result.normal.setZero();
+      return;
+    }
     const GjkResult found =
         queries.distance(bodyA, bodyB, a_from_b, options.guess, Goal(options.enough),
                          options.contact, options.tolerance, GjkMode::Exact);
@@ -436,6 +466,11 @@ bool convexDistance(const Shape& a, const Shape& b, const Isometry3d& a_from_b,
 bool convexSigned(const Shape& a, const Shape& b, const Isometry3d& a_from_b, double tolerance,
                   SignedDistanceResult& result) {
   return visitConvex(a, b, [&](auto queries, const Convex& bodyA, const Convex& bodyB) {
+    CoreGap gap;
+    if (queries.inClosedForm(bodyA, bodyB, a_from_b, gap)) {
+      growSigned(gap, bodyA, bodyB, result);
+      return;
+    }
     result = queries.signedDistance(bodyA, bodyB, a_from_b, tolerance);
   });
 }

@@ -36,14 +36,16 @@ using EllipsoidCore = CoreTag<Convex::Core::Ellipsoid>;
 using PointsCore = CoreTag<Convex::Core::Points>;
 
 /// m. No coordinate of the two cores' points, of their differences or of their witnesses is larger.
-inline double magnitudeOf(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
+[[gnu::always_inline]] inline double magnitudeOf(const Convex& a, const Convex& b,
+                                                 const Eigen::Isometry3d& a_from_b) {
   return a.extent + b.extent + a_from_b.translation().cwiseAbs().sum() + a.radius + b.radius;
 }
 
 /// m. Lemma: a closed form takes a few dozen operations on coordinates of at most the magnitudes
 /// summed here, each of which errs by half an epsilon; differences of such coordinates keep that
 /// absolute error, and so do norms of differences.
-inline double pairRounding(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
+[[gnu::always_inline]] inline double pairRounding(const Convex& a, const Convex& b,
+                                                  const Eigen::Isometry3d& a_from_b) {
   return tolerance::kSupportRounding * magnitudeOf(a, b, a_from_b) + a.error + b.error;
 }
 
@@ -54,26 +56,51 @@ struct Foot {
   Eigen::Vector3d point;   ///< m
 };
 
+/// p + s d, coordinate by coordinate: loads of two at once would wait for what was just stored one
+/// by one.
+[[gnu::always_inline]] inline Eigen::Vector3d moved(const Eigen::Vector3d& p, double s,
+                                                    const Eigen::Vector3d& d) {
+  return {p.x() + s * d.x(), p.y() + s * d.y(), p.z() + s * d.z()};
+}
+
+[[gnu::always_inline]] inline Eigen::Vector3d turned(const Eigen::Isometry3d& pose,
+                                                     const Eigen::Vector3d& d) {
+  const auto& m = pose.matrix();
+  return {m(0, 0) * d.x() + m(0, 1) * d.y() + m(0, 2) * d.z(),
+          m(1, 0) * d.x() + m(1, 1) * d.y() + m(1, 2) * d.z(),
+          m(2, 0) * d.x() + m(2, 1) * d.y() + m(2, 2) * d.z()};
+}
+[[gnu::always_inline]] inline Eigen::Vector3d turnedBack(const Eigen::Isometry3d& pose,
+                                                         const Eigen::Vector3d& d) {
+  const auto& m = pose.matrix();
+  return {m(0, 0) * d.x() + m(1, 0) * d.y() + m(2, 0) * d.z(),
+          m(0, 1) * d.x() + m(1, 1) * d.y() + m(2, 1) * d.z(),
+          m(0, 2) * d.x() + m(1, 2) * d.y() + m(2, 2) * d.z()};
+}
+
 /// A point against a core, from the core's foot in its own frame.
-inline CoreGap gapFromPoint(const Foot& footOnB, const Eigen::Isometry3d& a_from_b,
-                            double rounding) {
+[[gnu::always_inline]] inline CoreGap gapFromPoint(const Foot& footOnB,
+                                                   const Eigen::Isometry3d& a_from_b,
+                                                   double rounding) {
   return {footOnB.distance,
           rounding,
-          -(a_from_b.linear() * footOnB.normal),
+          -turned(a_from_b, footOnB.normal),
           Eigen::Vector3d::Zero(),
-          a_from_b.linear() * footOnB.point + a_from_b.translation(),
+          moved(a_from_b.translation(), 1.0, turned(a_from_b, footOnB.point)),
           Eigen::Vector3d::Zero()};
 }
 
 /// A core against a point, from the core's foot.
-inline CoreGap gapToPoint(const Foot& footOnA, const Eigen::Isometry3d& a_from_b, double rounding) {
+[[gnu::always_inline]] inline CoreGap gapToPoint(const Foot& footOnA,
+                                                 const Eigen::Isometry3d& a_from_b,
+                                                 double rounding) {
   return {footOnA.distance,      rounding, footOnA.normal, footOnA.point, a_from_b.translation(),
           a_from_b.translation()};
 }
 
 /// The origin of a in the frame of b.
-inline Eigen::Vector3d originOfAInB(const Eigen::Isometry3d& a_from_b) {
-  return -(a_from_b.linear().transpose() * a_from_b.translation());
+[[gnu::always_inline]] inline Eigen::Vector3d originOfAInB(const Eigen::Isometry3d& a_from_b) {
+  return -turnedBack(a_from_b, a_from_b.translation());
 }
 
 }  // namespace swept::detail

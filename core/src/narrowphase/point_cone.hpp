@@ -11,7 +11,8 @@ namespace swept::detail {
 /// Beyond the rim and the apex the offset is taken in the slope's own directions, whose signs have
 /// just been tested: the normal then lies in the corner's normal cone however close the point is,
 /// and separates by the whole distance.
-inline bool footOn(ConeCore, const Convex& cone, const Eigen::Vector3d& p, Foot& foot) {
+[[gnu::always_inline]] inline bool footOn(ConeCore, const Convex& cone, const Eigen::Vector3d& p,
+                                          Foot& foot) {
   const double across = p.x() * p.x() + p.y() * p.y();
   if (!(across < 1e280) || (across > 0.0 && across < 1e-280)) return false;
   const double rho = std::sqrt(across);

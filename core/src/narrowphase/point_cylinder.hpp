@@ -6,7 +6,8 @@
 namespace swept::detail {
 
 /// On a cylinder, in the half-plane of the axis and the point.
-inline bool footOn(CylinderCore, const Convex& cylinder, const Eigen::Vector3d& p, Foot& foot) {
+[[gnu::always_inline]] inline bool footOn(CylinderCore, const Convex& cylinder,
+                                          const Eigen::Vector3d& p, Foot& foot) {
   const double across = p.x() * p.x() + p.y() * p.y();
   if (!(across < 1e280) || (across > 0.0 && across < 1e-280)) return false;
   const double rho = std::sqrt(across);

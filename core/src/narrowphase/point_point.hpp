@@ -6,8 +6,9 @@
 namespace swept::detail {
 
 /// Spheres.
-inline bool closedForm(PointCore, PointCore, const Convex& a, const Convex& b,
-                       const Eigen::Isometry3d& a_from_b, CoreGap& gap) {
+[[gnu::always_inline]] inline bool closedForm(PointCore, PointCore, const Convex& a,
+                                              const Convex& b, const Eigen::Isometry3d& a_from_b,
+                                              CoreGap& gap) {
   const Eigen::Vector3d offset = a_from_b.translation();
   const double squared = offset.squaredNorm();
   if (!(squared > 1e-280 && squared < 1e280)) return false;

@@ -8,13 +8,14 @@
 namespace swept::detail {
 
 /// On a segment of the z axis. False next to the segment, where the normal has no digits.
-inline bool footOn(SegmentCore, const Convex& segment, const Eigen::Vector3d& p, Foot& foot) {
+[[gnu::always_inline]] inline bool footOn(SegmentCore, const Convex& segment,
+                                          const Eigen::Vector3d& p, Foot& foot) {
   foot.point = {0.0, 0.0, std::clamp(p.z(), -segment.size.z(), segment.size.z())};
   const Eigen::Vector3d away = p - foot.point;
   const double squared = away.squaredNorm();
   if (!(squared > 1e-280 && squared < 1e280)) return false;
   foot.distance = std::sqrt(squared);
-  foot.normal = away * (1.0 / foot.distance);
+  foot.normal = moved(Eigen::Vector3d::Zero(), 1.0 / foot.distance, away);
   return true;
 }
 

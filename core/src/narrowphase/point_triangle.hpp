@@ -8,7 +8,8 @@ namespace swept::detail {
 /// On a triangle, by the regions of its corners, edges and face (Ericson 2005, section 5.1.5).
 /// False for other sets of points, on the triangle, where the normal has no digits, and where the
 /// triangle is so thin that the slab along the normal is not as wide as the distance.
-inline bool footOn(PointsCore, const Convex& triangle, const Eigen::Vector3d& p, Foot& foot) {
+[[gnu::always_inline]] inline bool footOn(PointsCore, const Convex& triangle,
+                                          const Eigen::Vector3d& p, Foot& foot) {
   if (triangle.points.size() != 3) return false;
   const Eigen::Vector3d& a = triangle.points[0];
   const Eigen::Vector3d& b = triangle.points[1];

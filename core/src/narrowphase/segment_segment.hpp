@@ -9,8 +9,9 @@ namespace swept::detail {
 
 /// Capsules: the nearest points of two segments (after Lumelsky 1985), proven by the slab between
 /// them. False where the two meet or are so nearly parallel that rounding spoils the answer.
-inline bool closedForm(SegmentCore, SegmentCore, const Convex& a, const Convex& b,
-                       const Eigen::Isometry3d& a_from_b, CoreGap& gap) {
+[[gnu::always_inline]] inline bool closedForm(SegmentCore, SegmentCore, const Convex& a,
+                                              const Convex& b, const Eigen::Isometry3d& a_from_b,
+                                              CoreGap& gap) {
   const Eigen::Vector3d d = a_from_b.linear().col(2);
   const Eigen::Vector3d t = a_from_b.translation();
   const double halfA = a.size.z();
@@ -38,6 +39,7 @@ inline bool closedForm(SegmentCore, SegmentCore, const Convex& a, const Convex& 
   if (!(gap.distance - separation <= gap.rounding)) return false;
   gap.rounding *= 2.0;
   gap.pointA = {0.0, 0.0, u};
+  gap.common = gap.pointA;
   gap.pointB = t + v * d;
   return true;
 }
