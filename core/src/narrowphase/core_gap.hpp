@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "narrowphase/by_coordinates.hpp"
 #include "narrowphase/convex.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -56,37 +57,15 @@ struct Foot {
   Eigen::Vector3d point;   ///< m
 };
 
-/// p + s d, coordinate by coordinate: loads of two at once would wait for what was just stored one
-/// by one.
-[[gnu::always_inline]] inline Eigen::Vector3d moved(const Eigen::Vector3d& p, double s,
-                                                    const Eigen::Vector3d& d) {
-  return {p.x() + s * d.x(), p.y() + s * d.y(), p.z() + s * d.z()};
-}
-
-[[gnu::always_inline]] inline Eigen::Vector3d turned(const Eigen::Isometry3d& pose,
-                                                     const Eigen::Vector3d& d) {
-  const auto& m = pose.matrix();
-  return {m(0, 0) * d.x() + m(0, 1) * d.y() + m(0, 2) * d.z(),
-          m(1, 0) * d.x() + m(1, 1) * d.y() + m(1, 2) * d.z(),
-          m(2, 0) * d.x() + m(2, 1) * d.y() + m(2, 2) * d.z()};
-}
-[[gnu::always_inline]] inline Eigen::Vector3d turnedBack(const Eigen::Isometry3d& pose,
-                                                         const Eigen::Vector3d& d) {
-  const auto& m = pose.matrix();
-  return {m(0, 0) * d.x() + m(1, 0) * d.y() + m(2, 0) * d.z(),
-          m(0, 1) * d.x() + m(1, 1) * d.y() + m(2, 1) * d.z(),
-          m(0, 2) * d.x() + m(1, 2) * d.y() + m(2, 2) * d.z()};
-}
-
 /// A point against a core, from the core's foot in its own frame.
 [[gnu::always_inline]] inline CoreGap gapFromPoint(const Foot& footOnB,
                                                    const Eigen::Isometry3d& a_from_b,
                                                    double rounding) {
   return {footOnB.distance,
           rounding,
-          -turned(a_from_b, footOnB.normal),
+          -turned(a_from_b.linear(), footOnB.normal),
           Eigen::Vector3d::Zero(),
-          moved(a_from_b.translation(), 1.0, turned(a_from_b, footOnB.point)),
+          moved(a_from_b.translation(), 1.0, turned(a_from_b.linear(), footOnB.point)),
           Eigen::Vector3d::Zero()};
 }
 
@@ -100,7 +79,7 @@ struct Foot {
 
 /// The origin of a in the frame of b.
 [[gnu::always_inline]] inline Eigen::Vector3d originOfAInB(const Eigen::Isometry3d& a_from_b) {
-  return -turnedBack(a_from_b, a_from_b.translation());
+  return -turnedBack(a_from_b.linear(), a_from_b.translation());
 }
 
 }  // namespace swept::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "narrowphase/by_coordinates.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -44,8 +45,8 @@ struct Wall {
 
   Vector3d farthest(const Vector3d& d) const {
     if (!flatIsA) return body.support(d);
-    return a_from_b.linear() * body.support(a_from_b.linear().transpose() * d) +
-           a_from_b.translation();
+    const Vector3d local = body.support(turnedBack(a_from_b.linear(), d));
+    return moved(a_from_b.translation(), 1.0, turned(a_from_b.linear(), local));
   }
   /// m. Lemma: the support point, its transformation and the dot product round by at most a few
   /// ulps of the coordinates, like a step of GJK.
