@@ -43,6 +43,11 @@ namespace swept::detail {
   } else if (areaA <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
     away = (p - b) - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
   } else {
+    // Of slivers, the areas may be positive by rounding alone, and the foot beside the triangle.
+    constexpr double kAreaRounding = 4e-15;
+    const double products = std::abs(d3 * d6) + std::abs(d5 * d4) + std::abs(d5 * d2) +
+                            std::abs(d1 * d6) + std::abs(d1 * d4) + std::abs(d3 * d2);
+    if (!(std::min(areaA, std::min(areaB, areaC)) > kAreaRounding * products)) return false;
     // Along the normal, which keeps the digits that a difference of near points loses.
     const Eigen::Vector3d normal = e.cross(f);
     away = (normal.dot(toA) / normal.squaredNorm()) * normal;
