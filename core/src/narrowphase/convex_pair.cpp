@@ -191,6 +191,8 @@ SignedDistanceResult signedByEpa(const Convex& a, const Convex& b, const Isometr
   const double rounding = tolerance::kSupportRounding * radii;
   result.lower -= radii + rounding;
   result.upper -= radii - rounding;
+  // Points witness a distance; of a depth that they leave, their rounding counts.
+  if (result.upper < 0.0) result.upper += pairRounding(coreA, coreB, a_from_b);
   // The normal proves, but the way between the points is what makes them as far apart as it says.
   const Vector3d way = result.pointB - result.pointA;
   const double length = way.norm();

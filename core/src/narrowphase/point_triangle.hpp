@@ -44,10 +44,13 @@ namespace swept::detail {
     away = (p - b) - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
   } else {
     // Of slivers, the areas may be positive by rounding alone, and the foot beside the triangle.
-    constexpr double kAreaRounding = 4e-15;
-    const double products = std::abs(d3 * d6) + std::abs(d5 * d4) + std::abs(d5 * d2) +
-                            std::abs(d1 * d6) + std::abs(d1 * d4) + std::abs(d3 * d2);
-    if (!(std::min(areaA, std::min(areaB, areaC)) > kAreaRounding * products)) return false;
+    // Lemma: each d errs by a few ulps of the squares' sum and is at most that, so that an area
+    // errs by less than 150 ulps of the sum's square.
+    constexpr double kAreaRounding = 4e-14;
+    const double squares = ee + ff + toA.squaredNorm();
+    if (!(std::min(areaA, std::min(areaB, areaC)) > kAreaRounding * squares * squares)) {
+      return false;
+    }
     // Along the normal, which keeps the digits that a difference of near points loses.
     const Eigen::Vector3d normal = e.cross(f);
     away = (normal.dot(toA) / normal.squaredNorm()) * normal;
