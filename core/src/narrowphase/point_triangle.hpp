@@ -30,6 +30,7 @@ namespace swept::detail {
   const double areaB = d5 * d2 - d1 * d6;
   const double areaC = d1 * d4 - d3 * d2;
   Eigen::Vector3d away;
+  bool onFace = false;
   if (d1 <= 0.0 && d2 <= 0.0) {
     away = toA;
   } else if (d3 >= 0.0 && d4 <= d3) {
@@ -54,16 +55,22 @@ namespace swept::detail {
     // Along the normal, which keeps the digits that a difference of near points loses.
     const Eigen::Vector3d normal = e.cross(f);
     away = (normal.dot(toA) / normal.squaredNorm()) * normal;
+    onFace = true;
   }
   const double squared = away.squaredNorm();
   if (!(squared > 1e-280 && squared < 1e280)) return false;
   foot.distance = std::sqrt(squared);
   foot.normal = away * (1.0 / foot.distance);
   foot.point = p - away;
-  const double slab =
-      std::min(foot.normal.dot(toA), std::min(foot.normal.dot(p - b), foot.normal.dot(p - c)));
-  return foot.distance - slab <=
-         kSlab * (triangle.extent + std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()));
+  const double alongA = foot.normal.dot(toA);
+  const double alongB = foot.normal.dot(p - b);
+  const double alongC = foot.normal.dot(p - c);
+  const double allowed =
+      kSlab * (triangle.extent + std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()));
+  // The normal of a thin triangle has few digits: the foot is on the triangle only if all corners
+  // are in the foot's plane.
+  const bool flat = std::max(alongA, std::max(alongB, alongC)) - foot.distance <= allowed;
+  return foot.distance - std::min(alongA, std::min(alongB, alongC)) <= allowed && (flat || !onFace);
 }
 
 }  // namespace swept::detail
