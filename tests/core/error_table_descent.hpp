@@ -111,7 +111,8 @@ std::vector<Vector3d> promising(std::size_t most, const F& f) {
   }
   std::sort(sampled.begin(), sampled.end(), [](auto& l, auto& r) { return l.first < r.first; });
   std::vector<Vector3d> found;
-  for (const auto& [value, n] : sampled) {
+  for (const auto& sample : sampled) {
+    const Vector3d& n = sample.second;
     const bool isNew = std::none_of(found.begin(), found.end(),
                                     [&](const Vector3d& other) { return other.dot(n) > 0.93; });
     if (isNew) found.push_back(n);

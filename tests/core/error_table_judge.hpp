@@ -15,6 +15,11 @@ namespace error_table {
 /// are asked for. Some times the rounding that they allow for.
 inline constexpr double kAsked = 1e-13;
 
+/// Times the rounding of one support evaluation, which two bodies and the placing of pieces have
+/// more than one of: bodies this close may be said to touch. Points that witness an `upper` > 0 are
+/// rounded, too; depths allow for all of it.
+inline constexpr double kTouching = 4.0;
+
 /// Errors relative to the size of each pair.
 struct Column {
   std::vector<double> errors;
@@ -45,7 +50,7 @@ class Judge {
         turn_(pose_.linear()),
         truth_(placement.truth),
         size_(std::max(a.body.extent, b.body.extent) + pose_.translation().norm()),
-        rounding_(swept::tolerance::kSupportRounding *
+        rounding_(kTouching * swept::tolerance::kSupportRounding *
                   (std::sqrt(3.0) * (a.body.extent + b.body.extent) + pose_.translation().norm())),
         row_(row) {}
 
@@ -69,10 +74,7 @@ class Judge {
     // Of meshes in overlap the points are those that witness `upper`.
     if (!isMesh(a_) && !isMesh(b_)) witness("signedDistance", found, truth_);
     const auto apart = swept::distance(a_.shape, b_.shape, pose_, options());
-    const bool contact = apart.upper <= 0.0 || truth_.upper > -rounding_;
-    if (!(apart.lower <= 0.0 && contact)) {
-      wrong("distance", "apart in overlap", apart.upper, apart, truth_);
-    }
+    interval("distance", apart, {0, 0}, row_.distance);
   }
 
  private:
@@ -102,7 +104,8 @@ class Judge {
     if (Real(found.lower) > truth.upper) {
       wrong(query, "lower above the truth", found.lower - truth.upper, found, truth);
     }
-    if (Real(found.upper) < truth.lower - Real(rounding_)) {
+    const Real allowed = truth.upper < -rounding_ ? 0.0 : rounding_;
+    if (Real(found.upper) < truth.lower - allowed) {
       wrong(query, "upper below the truth", truth.lower - found.upper, found, truth);
     }
     note(std::max(off(Real(found.lower), truth), off(Real(found.upper), truth)), query, "interval",
@@ -155,8 +158,7 @@ class Judge {
   const ExactTurn turn_;
   Truth truth_;
   const double size_;
-  /// m. The points that witness `upper` are rounded, and where rounding leaves open whether two
-  /// bodies touch they are taken to. The library adds up coordinates: hence the root of 3.
+  /// m. How far `upper` may be below the truth, but for depths.
   const double rounding_;
   Row& row_;
 };

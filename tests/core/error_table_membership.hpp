@@ -67,12 +67,22 @@ inline Real distanceToCone(const Body& body, const Point& p) {
       std::min(oracle::pointSegment(q, {0, l, 0}, rim), oracle::pointSegment(q, {0, -l, 0}, rim)));
 }
 
+inline Real distanceToBalls(const Body& body, const Point& p) {
+  Real squared = std::numeric_limits<double>::infinity();
+  for (const Vector3d& center : body.points) {
+    const Point d = p - real(center);
+    squared = std::min(squared, d.dot(d));
+  }
+  return std::max(Real(0), Real(sqrt(squared) - body.radius));
+}
+
 /// m. Of a point, in the body's frame, from the body; from its surface where that has triangles.
 inline Real distanceTo(const Body& body, const Point& p) {
   const Real zero = 0;
   switch (body.core) {
     case Body::Core::Points:
       if (!body.surface.empty()) return distanceToSurface(body, p);
+      if (body.edges.empty()) return distanceToBalls(body, p);
       return std::max(
           zero,
           Real(sqrt(oracle::pointSegment(p, real(body.points.front()), real(body.points.back()))) -

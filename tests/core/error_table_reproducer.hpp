@@ -84,7 +84,10 @@ class Reproducer {
       }
       return text + "})";
     }
-    std::string operator()(const auto&) const { return "/* a shape without a printer */"; }
+    std::string operator()(const swept::PointCloud& s) const {
+      return "PointCloud::build(std::vector<Vector3d>" + list(s.points()) + ", " +
+             number(s.radius()) + ")";
+    }
   };
 
   static std::string shape(const swept::Shape& s) { return std::visit(Printer{}, s); }

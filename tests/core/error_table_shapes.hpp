@@ -23,6 +23,15 @@ inline void finish(Body& body) {
   if (body.surface.empty()) body.surface = body.faces;
 }
 
+/// Now and then, far from the origin of its frame.
+inline bool moveAway(Body& body, Random& random, double size) {
+  if (!random.chance(0.2)) return false;
+  const double reach = size * random.decades(0.0, 3.0);
+  const Vector3d shift = reach * random.direction();
+  for (Vector3d& p : body.points) p += shift;
+  return true;
+}
+
 inline Vector3d approximateNormal(const Body& body, const Eigen::Vector3i& f) {
   const Vector3d a = body.points[f[0]];
   return (body.points[f[1]] - a).cross(body.points[f[2]] - a).normalized();
@@ -139,6 +148,7 @@ inline Solid drawEllipsoid(Random& random, double size) {
 
 inline Solid drawHull(Random& random, double size) {
   Body body = random.chance(0.25) ? boxBody(boxSizes(random, size)) : randomPolytope(random, size);
+  moveAway(body, random, size);
   finish(body);
   return {swept::ConvexHull::of(body.points), body};
 }
@@ -149,6 +159,7 @@ inline Solid drawTriangle(Random& random, double size) {
   if (random.chance(0.1)) {  // a sliver
     body.points[2] = 0.4 * body.points[0] + 0.6 * body.points[1] + 1e-6 * body.points[2];
   }
+  moveAway(body, random, size);
   body.faces = {{0, 1, 2}, {0, 2, 1}};
   const Vector3d n = approximateNormal(body, body.faces[0]);
   for (int i = 0; i < 3; ++i) {
@@ -199,8 +210,21 @@ inline Solid drawMesh(Random& random, double size) {
     body.points.push_back(0.5 * (center + middle));
     for (int i = 0; i < 3; ++i) body.surface.emplace_back(f[i], f[(i + 1) % 3], apex);
   }
+  // Rounding may make such a one not quite convex.
+  if (moveAway(body, random, size)) body.convex = false;
   finish(body);
   return {swept::TriangleMesh::build(body.points, body.surface), body};
+}
+
+/// Balls; their hull touches where one of them does.
+inline Solid drawCloud(Random& random, double size) {
+  Body body;
+  body.convex = false;
+  for (int i = 0; i < 8; ++i) body.points.push_back(size * random.inBall());
+  body.radius = size * random.decades(-3.0, -1.0);
+  moveAway(body, random, size);
+  finish(body);
+  return {swept::PointCloud::build(body.points, body.radius), body};
 }
 
 inline const std::vector<Kind>& kinds() {
@@ -217,6 +241,7 @@ inline const std::vector<Kind>& kinds() {
       {"plane", drawPlane, {Face}, true},
       {"half-space", drawHalfSpace, {Face}, true},
       {"closed mesh", drawMesh, {Vertex, Edge, Face}},
+      {"point cloud", drawCloud, {Vertex}},
   };
   return all;
 }

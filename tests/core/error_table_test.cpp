@@ -19,9 +19,11 @@ constexpr int kApart = 800;
 constexpr int kOverlapping = 240;
 constexpr const char* kReadme = SWEPT_MODELS_DIR "/../core/README.md";
 
-/// One digit of 1, 2, 5, rounded up.
-std::string roundedUp(double x) {
-  if (!(x > 0.0)) return "0";
+/// One digit of 1, 2, 5, rounded up from a little more: another instruction set may order sums in
+/// another way.
+std::string roundedUp(double measured) {
+  if (!(measured > 0.0)) return "0";
+  const double x = 1.2 * measured;
   const int power = static_cast<int>(std::floor(std::log10(x)));
   for (const auto& [digit, raise] : {std::pair{"1", 0}, {"2", 0}, {"5", 0}, {"1", 1}}) {
     const std::string text = digit + ("e" + std::to_string(power + raise));
@@ -114,6 +116,11 @@ class ErrorTable : public testing::TestWithParam<PairOfKinds> {
   }
 };
 
+/// Parallel planes do not overlap, and the depth of a cloud is not that of its hull.
+bool hasDepth(const PairOfKinds& pair) {
+  return nameOf(pair) != "plane, plane" && !nameOf(pair).ends_with("point cloud");
+}
+
 /// Every feature of a bounded shape touches a bounded one.
 void expectFeatures(const Kind& kind, const std::array<int, kFeatures>& counts) {
   for (const Feature feature : kind.features) {
@@ -135,8 +142,7 @@ TEST_P(ErrorTable, IntervalsHoldTheTruthAndErrorsAreAsStated) {
     expectFeatures(kinds()[i], row.featuresA);
     expectFeatures(kinds()[j], row.featuresB);
   }
-  const bool planes = nameOf(GetParam()) == "plane, plane";  // parallel ones do not overlap
-  EXPECT_GE(row.depth.errors.size(), planes ? 0 : kOverlapping / 3);
+  EXPECT_GE(row.depth.errors.size(), hasDepth(GetParam()) ? kOverlapping / 3 : 0);
   const std::array<double, kNumbers> measured = numbersOf(row);
   const std::string name = nameOf(GetParam());
   std::string line = "| " + name;
