@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "narrowphase/core_gap.hpp"
 
 namespace swept::detail {
+
+/// From the nearest point of an edge to a point, which is `fromStart` from the edge's start.
+inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eigen::Vector3d& edge) {
+  const double t = std::clamp(fromStart.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+  return fromStart - t * edge;
+}
 
 /// On a triangle, by the regions of its corners, edges and face (Ericson 2005, section 5.1.5).
 /// False for other sets of points, on the triangle, where the normal has no digits, and where the
@@ -44,18 +52,24 @@ namespace swept::detail {
   } else if (areaA <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
     away = (p - b) - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
   } else {
-    // Of slivers, the areas may be positive by rounding alone, and the foot beside the triangle.
     // Lemma: each d errs by a few ulps of the squares' sum and is at most that, so that an area
-    // errs by less than 150 ulps of the sum's square.
+    // errs by less than 150 ulps of the sum's square. A foot that may be beside the triangle is
+    // looked for on the edge that it is near.
     constexpr double kAreaRounding = 4e-14;
     const double squares = ee + ff + toA.squaredNorm();
-    if (!(std::min(areaA, std::min(areaB, areaC)) > kAreaRounding * squares * squares)) {
-      return false;
+    const double least = std::min(areaA, std::min(areaB, areaC));
+    if (least > kAreaRounding * squares * squares) {
+      // Along the normal, which keeps the digits that a difference of near points loses.
+      const Eigen::Vector3d normal = e.cross(f);
+      away = (normal.dot(toA) / normal.squaredNorm()) * normal;
+      onFace = true;
+    } else if (least == areaC) {
+      away = awayFromEdge(toA, e);
+    } else if (least == areaB) {
+      away = awayFromEdge(toA, f);
+    } else {
+      away = awayFromEdge(p - b, c - b);
     }
-    // Along the normal, which keeps the digits that a difference of near points loses.
-    const Eigen::Vector3d normal = e.cross(f);
-    away = (normal.dot(toA) / normal.squaredNorm()) * normal;
-    onFace = true;
   }
   const double squared = away.squaredNorm();
   if (!(squared > 1e-280 && squared < 1e280)) return false;
