@@ -266,7 +266,7 @@ class Measurement {
                });
 #endif
     takeTurns(turns, kTurns);
-    print(table, set, "all contacts", turns);
+    print(table, set, "penetration (all contacts)", turns);
     int wrong = 0;
     for (std::size_t i = 0; i < set.poses.size(); ++i) {
       if (!set.touches.empty() && (own.contacts[i] > 0) != (set.touches[i] != 0))
