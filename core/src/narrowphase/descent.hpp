@@ -76,7 +76,7 @@ class Descent {
     Simplex simplex;
     simplex.size = count;
     for (int i = 0; i < count; ++i) simplex.vertices[i] = {p_[i], onA_[i], onA_[i] + p_[i], 0.0};
-    simplex.reduceCarefully();
+    simplex.reduceToNearest();
     return simplex;
   }
   void take(const Simplex& simplex) {

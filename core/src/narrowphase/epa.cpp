@@ -19,7 +19,7 @@ void witness(const Polytope& polytope, EpaResult& result) {
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](int face) {
     Simplex simplex = polytope.triangle(face);
-    const double distance = simplex.reduceCarefully().norm();
+    const double distance = simplex.reduceToNearest().norm();
     if (!(distance < least)) return;
     least = distance;
     result.pointA = simplex.pointA();

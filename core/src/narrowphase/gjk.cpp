@@ -236,7 +236,7 @@ class Search {
   void measure(const Vector3d& d) {
     if (simplex_.size() == 0) return;
     if (nearest_.size == 0) nearest_ = simplex_.weighted();
-    if (!nearest_.hasShares()) nearest_.reduceCarefully();
+    if (!nearest_.hasShares()) nearest_.reduceToNearest();
     const Vector3d apart = nearest_.nearest();
     result_.pointA = nearest_.pointA();
     result_.pointB = result_.pointA + apart;

@@ -23,11 +23,10 @@ struct Simplex {
   bool hasShares() const;
 
   /// Drops the vertices that do not support the point of the simplex nearest to the origin, sets
-  /// the weights and returns that point. Four vertices are left exactly when the origin is inside.
+  /// the weights, which are shares, and returns that point. Every feature is looked at and measured
+  /// by its weighted sum, so that flat and thin simplices near the origin do not mislead; four
+  /// vertices are left only when the origin is inside.
   Eigen::Vector3d reduceToNearest();
-  /// As reduceToNearest(), but every feature is looked at and measured by its weighted sum, so that
-  /// flat and thin simplices near the origin do not mislead; the weights are shares.
-  Eigen::Vector3d reduceCarefully();
 
   Eigen::Vector3d nearest() const;  ///< m, the weighted sum of the differences
   Eigen::Vector3d pointA() const;
