@@ -95,10 +95,13 @@ class BodyTree {
     double radius;           ///< m
   };
 
-  /// False for NaN.
+  /// False for NaN. Without branches: which side it is, is anyone's guess.
   static bool apart(const Aabb& a, const Aabb& b) {
-    return (a.lower.x() > b.upper.x()) | (b.lower.x() > a.upper.x()) | (a.lower.y() > b.upper.y()) |
-           (b.lower.y() > a.upper.y()) | (a.lower.z() > b.upper.z()) | (b.lower.z() > a.upper.z());
+    const int outside =
+        static_cast<int>(a.lower.x() > b.upper.x()) | static_cast<int>(b.lower.x() > a.upper.x()) |
+        static_cast<int>(a.lower.y() > b.upper.y()) | static_cast<int>(b.lower.y() > a.upper.y()) |
+        static_cast<int>(a.lower.z() > b.upper.z()) | static_cast<int>(b.lower.z() > a.upper.z());
+    return outside != 0;
   }
   static LocalBox localBox(const Shape& shape);
   static bool apart(const LocalBox& a, const LocalBox& b, const Eigen::Isometry3d& a_from_b);
