@@ -67,12 +67,12 @@ TEST(Motion, SeveralStatesAreConsecutiveMotions) {
 /// poses may be rounded by.
 TEST(Motion, GrazingWithinRoundingIsUndecided) {
   const Gantry gantry;
-  const Outcome run = gantry.run("motion", {"0,0.20000000000005", "2,0.20000000000005"});
+  const Outcome run = gantry.run("motion", {"0,0.20000000000001", "2,0.20000000000001"});
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_THAT(run.out, ContainsRegex("undecided +t = 0\\.[0-9]+\n"));
   EXPECT_THAT(run.out, Not(HasSubstr("contact")));
   const auto segment = jsonOf(
-      gantry.run("motion", {"0,0.20000000000005", "2,0.20000000000005", "--json"}))["segments"][0];
+      gantry.run("motion", {"0,0.20000000000001", "2,0.20000000000001", "--json"}))["segments"][0];
   EXPECT_EQ(segment["verdict"], "undecided");
   EXPECT_GE(segment["undecided_at"], 0.39);
   EXPECT_LE(segment["undecided_at"], 0.61);

@@ -68,6 +68,8 @@ struct Pair {
   /// terms, the rotation of n and of a point, and the norm of n contribute at most a few ulps of
   /// the coordinates' magnitude.
   const double rounding;
+  /// m. Points this near may be one: what their own rounding is, not what it is allowed to be.
+  const double coincident;
 
   Pair(const Convex& bodyA, const Convex& bodyB, const Eigen::Isometry3d& a_from_b)
       : a(bodyA),
@@ -75,7 +77,8 @@ struct Pair {
         offset(a_from_b.translation()),
         rotation(a_from_b.linear()),
         magnitude(magnitudeOf(bodyA, bodyB, a_from_b)),
-        rounding(tolerance::kSupportRounding * magnitude + a.error + b.error) {}
+        rounding(tolerance::kSupportRounding * magnitude + a.error + b.error),
+        coincident(0.25 * tolerance::kSupportRounding * magnitude + a.error + b.error) {}
 
   /// The point of B - A that lies deepest along d, and A's part of it.
   void support(const Vector3d& d, Vector3d& w, Vector3d& onA) const {
@@ -217,7 +220,7 @@ class Search {
     squared_ = squared;
     distance_ = std::sqrt(squared);
     return simplex_.size() < 4 && distance_ - radii_ > request_.contact &&
-           distance_ > pair_.rounding;
+           distance_ > pair_.coincident;
   }
 
   /// Whether four points hold the origin by their weights too.
@@ -225,7 +228,7 @@ class Search {
     Descent whole = simplex_;
     whole.take(step);
     const Simplex weighted = whole.weighted();
-    if (!(weighted.nearest().norm() <= pair_.rounding)) return false;
+    if (!(weighted.nearest().norm() <= pair_.coincident)) return false;
     simplex_ = whole;
     nearest_ = weighted;
     squared_ = distance_ = 0.0;
@@ -241,7 +244,7 @@ class Search {
     result_.pointA = nearest_.pointA();
     result_.pointB = result_.pointA + apart;
     double distance = apart.norm();
-    if (distance <= pair_.rounding) distance = 0.0;
+    if (distance <= pair_.coincident) distance = 0.0;
     growWitness(result_, apart, distance, pair_.a.radius, pair_.b.radius);
     result_.upper = std::max(result_.upper, result_.lower);
     if (!result_.normal.isZero()) return;
