@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "swept/core/shapes.hpp"
+
+namespace swept {
+
+struct SphereCoverOptions {
+  /// m. No ball of the finest level should reach farther beyond the shape.
+  double finestOverhang = 0.0;
+  /// Relative to the radius of the first ball; the larger of both is aimed at. At least 1e-3 of the
+  /// radius is, so that a cover stays finite.
+  double finestRelative = 1.0 / 32.0;
+  /// A level that would take the tree past this is left out.
+  int mostBalls = 4096;
+  int mostInnerBalls = 16;
+};
+
+/// A ball in single precision, as vector kernels read it.
+struct CoverBall {
+  Eigen::Vector3f center;  ///< m, in the shape's frame
+  float radius;            ///< m
+};
+
+/// Balls that contain a shape, as a tree from coarse to fine, and balls inside it.
+///
+/// Proven, rounding included: each point of the shape is in the ball of some leaf and in the balls
+/// of all ancestors of that leaf; so any set of nodes that meets every path from the root to a leaf
+/// covers the shape. A closed mesh is covered with its interior, an open one is a surface.
+struct SphereCover {
+  struct Node {
+    CoverBall ball;
+    float overhang;  ///< m, proven: no point of the ball is farther than this from the shape
+    /// m. How far the ball reaches beyond the shape with its pockets filled. Collision meshes are
+    /// often open shells; what these surround no body gets into without crossing them, and large
+    /// balls may fill it. A pocket is what a grid of 48 cells along the mesh shuts off from the
+    /// outside, so this is an estimate for open meshes that have one, and `overhang` elsewhere.
+    float beyond;
+    int level;       ///< 0 at the root; children may skip levels
+    int firstChild;  ///< children are consecutive nodes
+    int childCount;  ///< 0: a leaf
+  };
+  /// Of the set of nodes `cut(level)`.
+  struct Level {
+    double aimed;  ///< m, `beyond` that the level was built for
+    int ballCount = 0;
+    double largestOverhang;  ///< m, proven. More than `aimed` only where an open mesh has a pocket
+                             ///< and on inputs so extreme that rounding counts
+  };
+
+  std::vector<Node> nodes;  ///< parents before children; node 0 is the root
+  std::vector<Level> levels;
+  std::vector<CoverBall> inner;  ///< wholly inside the solid, largest first; none for surfaces
+
+  /// Indices of the nodes that cover the shape at a level: the last node of each path whose level
+  /// is not above `level`.
+  std::vector<int> cut(int level) const;
+};
+
+/// Builds a cover; the same input gives the same cover. Throws std::invalid_argument, naming the
+/// shape, for planes and half-spaces. Sizes beyond single precision give balls of infinite radius.
+SphereCover sphereCover(const Shape& shape, const SphereCoverOptions& options = {});
+
+}  // namespace swept

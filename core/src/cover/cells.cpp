@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cover/cells.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "cover/clip.hpp"
+
+namespace swept::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d cornerOf(const Cell& cell, int index) {
+  return {(index & 1 ? cell.upper : cell.lower).x(), (index & 2 ? cell.upper : cell.lower).y(),
+          (index & 4 ? cell.upper : cell.lower).z()};
+}
+
+/// Points in one cube of a coarse grid become one point, whose blur is what they are off by.
+double thinOut(std::vector<Vector3d>& points) {
+  constexpr int kGrid = 4;
+  Vector3d lower = points.front();
+  Vector3d upper = lower;
+  for (const Vector3d& point : points) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  struct Box {
+    Vector3d lower, upper;
+    bool used = false;
+  };
+  std::array<Box, kGrid * kGrid * kGrid> boxes;
+  const double step = std::max((upper - lower).maxCoeff() / kGrid, 1e-300);
+  for (const Vector3d& point : points) {
+    std::array<int, 3> at;
+    for (int axis = 0; axis < 3; ++axis) {
+      at[axis] = std::clamp(static_cast<int>((point[axis] - lower[axis]) / step), 0, kGrid - 1);
+    }
+    Box& box = boxes[static_cast<std::size_t>((at[2] * kGrid + at[1]) * kGrid + at[0])];
+    box.lower = box.used ? box.lower.cwiseMin(point) : point;
+    box.upper = box.used ? box.upper.cwiseMax(point) : point;
+    box.used = true;
+  }
+  points.clear();
+  double blur = 0.0;
+  for (const Box& box : boxes) {
+    if (!box.used) continue;
+    points.push_back(0.5 * (box.lower + box.upper));
+    blur = std::max(blur, 0.5 * (box.upper - box.lower).norm());
+  }
+  return blur;
+}
+
+/// The extremes first: a ball that does not contain all fails early.
+void extremesFirst(std::vector<Vector3d>& points) {
+  std::size_t front = 0;
+  for (int axis = 0; axis < 3 && front + 2 <= points.size(); ++axis) {
+    const auto [low, high] = std::minmax_element(
+        points.begin() + static_cast<std::ptrdiff_t>(front), points.end(),
+        [axis](const Vector3d& a, const Vector3d& b) { return a[axis] < b[axis]; });
+    const auto highest = static_cast<std::size_t>(high - points.begin());
+    std::swap(points[front++], *low);
+    // The first swap may have moved the other one.
+    const std::size_t other =
+        highest == front - 1 ? static_cast<std::size_t>(low - points.begin()) : highest;
+    if (other >= front) std::swap(points[front++], points[other]);
+  }
+}
+
+}  // namespace
+
+bool Cell::isIn(const Vector3d& center, double radius) const {
+  const double squared = (middle - center).squaredNorm();
+  const double inner = radius - reach;
+  if (inner >= 0.0 && squared <= inner * inner) return true;
+  const double outer = radius + reach;
+  if (!(squared <= outer * outer)) return false;
+  const double least = radius - blur;
+  if (!(least >= 0.0)) return false;
+  for (const Vector3d& point : content) {
+    if (!((point - center).squaredNorm() <= least * least)) return false;
+  }
+  return true;
+}
+
+double Cell::farthest(const Vector3d& center) const {
+  double squared = 0.0;
+  for (const Vector3d& point : content) {
+    squared = std::max(squared, (point - center).squaredNorm());
+  }
+  return std::sqrt(squared) + blur;
+}
+
+Cells::Cells(const Solid& solid) : solid_(solid), margin_(1e-12 * solid.scale()) {}
+
+Cell Cells::root() const {
+  Cell cell;
+  cell.lower = cell.upper = solid_.vertices().front();
+  for (const Vector3d& vertex : solid_.vertices()) {
+    cell.lower = cell.lower.cwiseMin(vertex);
+    cell.upper = cell.upper.cwiseMax(vertex);
+  }
+  if (solid_.triangles().empty()) {
+    for (const Vector3d& vertex : solid_.vertices()) {
+      cell.corners.push_back(vertex);
+      cell.patches.push_back({1, -1});
+    }
+  }
+  for (std::size_t i = 0; i < solid_.triangles().size(); ++i) {
+    for (const int corner : solid_.triangles()[i])
+      cell.corners.push_back(solid_.vertices()[corner]);
+    cell.patches.push_back({3, static_cast<int>(i)});
+  }
+  return cell;
+}
+
+void Cells::split(const Cell& cell, std::vector<Cell>& out) {
+  int axis = 0;
+  (cell.upper - cell.lower).maxCoeff(&axis);
+  const double at = 0.5 * (cell.lower[axis] + cell.upper[axis]);
+  for (const double side : {1.0, -1.0}) {
+    Cell half;
+    half.lower = cell.lower;
+    half.upper = cell.upper;
+    (side > 0.0 ? half.upper : half.lower)[axis] = at;
+    std::size_t first = 0;
+    for (const Cell::Patch& patch : cell.patches) {
+      const auto count = static_cast<std::size_t>(patch.count);
+      const std::size_t before = half.corners.size();
+      clipPolygon(std::span(cell.corners).subspan(first, count), axis, at + side * margin_, side,
+                  [&](const Vector3d& corner) { half.corners.push_back(corner); });
+      first += count;
+      const auto kept = static_cast<int>(half.corners.size() - before);
+      if (kept > 0) half.patches.push_back({kept, patch.triangle});
+    }
+    if (!half.isSolid() || cell.isSolid() || middleIsSolid(half)) out.push_back(std::move(half));
+  }
+}
+
+void Cells::gather(Cell& cell) {
+  constexpr std::size_t kMostPoints = 40;
+  cell.content = cell.corners;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner = cornerOf(cell, i);
+    if (cell.isSolid() || encloses(corner)) cell.content.push_back(corner);
+  }
+  cell.blur = 0.0;
+  if (cell.content.size() > kMostPoints) {
+    cell.blur = thinOut(cell.content);
+  }
+  Vector3d lower = cell.content.front();
+  Vector3d upper = lower;
+  for (const Vector3d& point : cell.content) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  cell.middle = 0.5 * (lower + upper);
+  cell.reach = cell.farthest(cell.middle);
+  extremesFirst(cell.content);
+}
+
+std::size_t Cells::Hash::operator()(const Key& key) const {
+  std::uint64_t hash = 0;
+  for (const double coordinate : key) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+bool Cells::encloses(const Vector3d& corner) {
+  const auto [entry, isNew] = corners_.try_emplace({corner.x(), corner.y(), corner.z()}, false);
+  if (isNew) entry->second = solid_.encloses(corner);
+  return entry->second;
+}
+
+bool Cells::middleIsSolid(const Cell& cell) {
+  // No surface between the middle and the corners.
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner = cornerOf(cell, i);
+    const auto known = corners_.find({corner.x(), corner.y(), corner.z()});
+    if (known != corners_.end()) return known->second;
+  }
+  return solid_.encloses(0.5 * (cell.lower + cell.upper));
+}
+
+}  // namespace swept::detail

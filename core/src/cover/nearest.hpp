@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "bvh/wide_bvh.hpp"
+
+namespace swept::detail {
+
+/// The point of a set of triangles, or of a set of points, nearest to a given one.
+///
+/// Lemma: the distance found is off by less than `error(p)`, either way. Above: each value compared
+/// is the distance of p from a convex combination of corners. Below: (1) a box is passed over when
+/// its distance, in single precision, exceeds the best; six roundings of coordinates relative to
+/// the origin of the tree, each 2^-24 of at most reach + |p|, are below 1e-6 of these. (2) The
+/// distance from the three sides of a triangle is exact up to rounding in double. A nearest point
+/// strictly inside it can be missed only where its barycentric coordinates, whose error is about u
+/// L / w for a triangle of length L and width w, have the wrong sign: then a side is as near up to
+/// the smaller of w and u L^2 / w, which is below 1e-7 L. All is covered by 4e-6 (reach + |p|).
+class Nearest {
+ public:
+  struct Found {
+    double squared = std::numeric_limits<double>::infinity();  ///< m^2
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();           ///< m
+    int primitive = -1;  ///< -1: nothing is nearer than the bound given
+  };
+
+  /// `triangles` are in the order of the tree's leaves; all have to outlive this.
+  Nearest(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
+          const WideBvh& bvh);
+  /// For points, in the order of the tree's leaves.
+  Nearest(std::span<const Eigen::Vector3d> points, const WideBvh& bvh);
+
+  /// Looks only for what is nearer than `bound` (m).
+  Found find(const Eigen::Vector3d& p, double bound) const;
+  double error(const Eigen::Vector3d& p) const;  ///< m
+  /// Of the triangle; zero where rounding leaves none, and for points.
+  Eigen::Vector3d unitNormal(int primitive) const;
+
+ private:
+  struct Facet {
+    Eigen::Vector3d a, ab, ac, normal;
+    double abab, abac, acac;
+    double inverse;  ///< of the determinant
+    bool sliver;     ///< the sides decide, whatever the inner coordinates say
+  };
+  void test(int primitive, const Eigen::Vector3d& p, Found& best) const;
+
+  std::span<const Eigen::Vector3d> points_;
+  std::vector<Facet> facets_;
+  const WideBvh& bvh_;
+};
+
+}  // namespace swept::detail

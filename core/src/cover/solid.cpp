@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cover/solid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <stdexcept>
+#include <string>
+
+#include "cover/outer_polyhedron.hpp"
+
+namespace swept::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+double distance(const Nearest& nearest, const Vector3d& p) {
+  return std::sqrt(nearest.find(p, std::numeric_limits<double>::infinity()).squared);
+}
+
+[[noreturn]] void refuse(const char* name) {
+  throw std::invalid_argument(std::string("no balls cover a ") + name + ", which is unbounded");
+}
+
+}  // namespace
+
+Solid::Solid(const Shape& shape) {
+  if (std::holds_alternative<Plane>(shape)) refuse("plane");
+  if (std::holds_alternative<HalfSpace>(shape)) refuse("half-space");
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+    mesh_ = *mesh;
+  } else if (const auto* cloud = std::get_if<PointCloud>(&shape)) {
+    cloud_ = *cloud;
+    inflation_ = cloud->radius();
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    usePoints(std::array{Vector3d(Vector3d::Zero())}, sphere->radius);
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape);
+             capsule != nullptr && capsule->halfLength == 0.0) {
+    usePoints(std::array{Vector3d(Vector3d::Zero())}, capsule->radius);
+  } else if (const auto* hull = std::get_if<ConvexHull>(&shape)) {
+    useHull(*hull, 0.0);
+  } else {
+    std::visit(
+        [&](const auto& convex) {
+          if constexpr (requires { outerPoints(convex); }) {
+            const OuterPoints outer = outerPoints(convex);
+            useHull(ConvexHull::of(outer.points), outer.slack);
+          }
+        },
+        shape);
+  }
+
+  if (mesh_) {
+    nearest_.emplace(mesh_->vertices(), mesh_->triangles(), mesh_->bvh());
+    const bool surface = mesh_->interior() == MeshInterior::Surface;
+    hasInside_ = !surface && mesh_->report().closedComponents > 0;
+    if (surface || !mesh_->isClosed()) findPockets();
+  } else {
+    nearest_.emplace(cloud_->points(), cloud_->bvh());
+  }
+  for (const Vector3d& vertex : vertices())
+    scale_ = std::max(scale_, vertex.lpNorm<Eigen::Infinity>());
+  // A path of at most 64 cuts moves a corner by 4 roundings each; a fact about a point within
+  // rounding of the surface is off by 1e-14 of the scale. This is a hundred times both.
+  constexpr double kPad = 1e-11;
+  pad_ += kPad * scale_;
+}
+
+void Solid::useHull(const ConvexHull& hull, double slack) {
+  const ThickHull thick = thickHull(hull);
+  slack_ = slack + thick.slack + hull.error() + thick.hull.error();
+  pad_ = hull.error() + thick.hull.error();
+  if (thick.hull.faces().empty()) return usePoints(hull.vertices(), 0.0);
+  isFlat_ = thick.slack > 0.0;
+  mesh_ = TriangleMesh::build(thick.hull.vertices(), thick.hull.faces());
+}
+
+void Solid::usePoints(std::span<const Vector3d> points, double radius) {
+  cloud_ = PointCloud::build(points, 0.0);
+  inflation_ = radius;
+}
+
+std::span<const Vector3d> Solid::vertices() const {
+  return mesh_ ? mesh_->vertices() : cloud_->points();
+}
+
+std::span<const Eigen::Vector3i> Solid::triangles() const {
+  if (!mesh_) return {};
+  return mesh_->triangles();
+}
+
+void Solid::findPockets() {
+  pockets_.emplace(mesh_->vertices(), mesh_->triangles());
+  if (pockets_->areNone()) return pockets_.reset();
+  std::vector<Vector3d> corners;
+  for (const Eigen::Vector3i& triangle : pockets_->skinTriangles()) {
+    for (const int corner : triangle) corners.push_back(pockets_->skinVertices()[corner]);
+  }
+  const auto tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
+  std::vector<Eigen::Vector3i> ordered;
+  for (const int source : tree.order()) {
+    ordered.emplace_back(3 * source, 3 * source + 1, 3 * source + 2);
+  }
+  skinTree_ = std::make_shared<const WideBvh>(tree);
+  nearestSkin_.emplace(corners, ordered, *skinTree_);
+}
+
+Candidate Solid::at(const Vector3d& p) const {
+  const double loss = nearest_->error(p) + slack_;
+  if (pockets_) {
+    const double toSkin = distance(*nearestSkin_, p);
+    if (pockets_->contain(p, toSkin)) return {p, toSkin - loss, true};
+  }
+  const double found = distance(*nearest_, p);
+  return {p, (encloses(p) ? found : -found) - loss};
+}
+
+Candidate Solid::inside(const Vector3d& p) const {
+  return {p, distance(*nearest_, p) - nearest_->error(p) - slack_};
+}
+
+std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, double radius) const {
+  if (pockets_ ? !pockets_->isSkin(triangle) : !hasInside_) return std::nullopt;
+  const Vector3d normal = nearest_->unitNormal(triangle);
+  if (normal.isZero()) return std::nullopt;
+  // Normals nearly always point outward.
+  bool wrongSide = false;
+  auto ball = inscribedAlong(foot, -normal, radius, wrongSide);
+  if (wrongSide) ball = inscribedAlong(foot, normal, radius, wrongSide);
+  return ball;
+}
+
+/// Shrinking ball (Ma, Bae, Choi 2012, "3D medial axis point approximation using nearest
+/// neighbors"): while something is nearer to the centre than the foot, take the ball through both.
+std::optional<Candidate> Solid::inscribedAlong(const Vector3d& foot, const Vector3d& inward,
+                                               double radius, bool& wrongSide) const {
+  constexpr int kSteps = 8;
+  constexpr double kEnough = 0.98;
+  const Nearest& nearest = pockets_ ? *nearestSkin_ : *nearest_;
+  wrongSide = false;
+  double t = radius;
+  for (int step = 0; step < kSteps; ++step) {
+    const Vector3d center = foot + t * inward;
+    const Nearest::Found found = nearest.find(center, kEnough * t);
+    if (found.primitive < 0) {
+      const double depth = kEnough * t - nearest_->error(center) - slack_;
+      if (!(depth > 0.0)) return std::nullopt;
+      if (pockets_ && pockets_->contain(center, depth)) return Candidate{center, depth, true};
+      if (!pockets_ && encloses(center)) return Candidate{center, depth};
+      wrongSide = true;
+      return std::nullopt;
+    }
+    const Vector3d across = found.point - foot;
+    const double next = across.squaredNorm() / (2.0 * across.dot(inward));
+    if (!(next > 0.0) || !(next < t)) return std::nullopt;
+    t = next;
+  }
+  return std::nullopt;
+}
+
+double Solid::overhang(const Candidate& candidate, double radius) const {
+  if (!candidate.inPocket) return radius - candidate.depth;
+  // In a pocket the shape is all around, but only its surface counts.
+  return farthestFromSurface(candidate.center, radius, distance(*nearest_, candidate.center));
+}
+
+/// Upper bound of the distance to the surface over a ball: its values change by no more than the
+/// way gone, so a cube around a point has none above the value there plus half its diagonal. The
+/// cube with the largest bound is split until the work is done.
+double Solid::farthestFromSurface(const Vector3d& center, double radius, double atCenter) const {
+  constexpr int kEvaluations = 25;
+  struct Cube {
+    double bound;
+    Vector3d middle;
+    double half;
+    double here;
+    bool operator<(const Cube& other) const { return bound < other.bound; }
+  };
+  const double error = nearest_->error(center) + slack_ + 4e-6 * radius;
+  std::priority_queue<Cube> cubes;
+  cubes.push({atCenter + radius, center, radius, atCenter});
+  for (int evaluations = 1; evaluations + 8 <= kEvaluations && !cubes.empty(); evaluations += 8) {
+    const Cube top = cubes.top();
+    cubes.pop();
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d sign(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0,
+                          corner & 4 ? 1.0 : -1.0);
+      const Vector3d middle = top.middle + 0.5 * top.half * sign;
+      const double reach = 0.5 * top.half * std::sqrt(3.0);
+      if ((middle - center).norm() > radius + reach) continue;
+      const double most = (top.here + reach) * (1.0 + 1e-5) + error;
+      const double found =
+          hasInside_ && encloses(middle) ? 0.0 : std::sqrt(nearest_->find(middle, most).squared);
+      cubes.push({std::min(found + reach, top.bound), middle, 0.5 * top.half, found});
+    }
+  }
+  return (cubes.empty() ? atCenter + radius : cubes.top().bound) + error;
+}
+
+}  // namespace swept::detail

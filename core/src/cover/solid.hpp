@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cover/nearest.hpp"
+#include "cover/pockets.hpp"
+#include "swept/core/shapes.hpp"
+
+namespace swept::detail {
+
+/// A point where a ball may go.
+struct Candidate {
+  Eigen::Vector3d center;  ///< m
+  /// m. Positive inside: the ball of this radius is part of the solid. Negative outside: some point
+  /// of the shape is this near.
+  double depth;
+  /// The depth is that in the shape with its pockets filled, and not proven.
+  bool inPocket = false;
+};
+
+/// What a cover is built from: triangles (those of a mesh, or of a polyhedron that contains a
+/// convex shape) or points, each grown by a radius.
+///
+/// Lemma (convex shapes): let the polyhedron P contain the shape S and be contained in S grown by
+/// s. Where a ball of radius d is in P, one of radius d - s is in S (cancel the ball of radius s on
+/// both sides of B(d - s) + B(s) within S + B(s): Radstrom 1952), and where a point is at distance
+/// d from P it is at most d + s from S. So depths in S are at least those in P minus `slack`.
+class Solid {
+ public:
+  /// Throws std::invalid_argument for planes and half-spaces.
+  explicit Solid(const Shape& shape);
+  Solid(const Solid&) = delete;
+  Solid& operator=(const Solid&) = delete;
+
+  std::span<const Eigen::Vector3d> vertices() const;
+  /// Empty for points.
+  std::span<const Eigen::Vector3i> triangles() const;
+
+  /// False for surfaces without pockets, flat shapes and points: no ball is inside.
+  bool hasDepth() const { return (hasInside_ && !isFlat_) || pockets_; }
+  /// Proven, up to the rounding that TriangleMesh::encloses() speaks of.
+  bool encloses(const Eigen::Vector3d& p) const { return mesh_ && mesh_->encloses(p); }
+  /// Proven lower bound.
+  Candidate at(const Eigen::Vector3d& p) const;
+  /// The same for a point that is known to be enclosed.
+  Candidate inside(const Eigen::Vector3d& p) const;
+  /// A ball of at most `radius` (m) inside the solid, or in a pocket, that touches the surface at
+  /// `foot`, a point of a triangle; none where there is no room, and at triangles in a pocket.
+  std::optional<Candidate> inscribed(const Eigen::Vector3d& foot, int triangle,
+                                     double radius) const;
+  /// m, proven: no point of the ball is farther than this from the shape.
+  double overhang(const Candidate& candidate, double radius) const;
+
+  double inflation() const { return inflation_; }  ///< m, radius of what is around the points
+  /// m. Rounding of clipped points, and what a hull left out: to be added to radii.
+  double pad() const { return pad_; }
+  double scale() const { return scale_; }  ///< m, no coordinate is larger
+
+ private:
+  void useHull(const ConvexHull& hull, double slack);
+  void usePoints(std::span<const Eigen::Vector3d> points, double radius);
+  /// `wrongSide` receives whether there was room on that side, but not of the solid.
+  void findPockets();
+  std::optional<Candidate> inscribedAlong(const Eigen::Vector3d& foot,
+                                          const Eigen::Vector3d& inward, double radius,
+                                          bool& wrongSide) const;
+  double farthestFromSurface(const Eigen::Vector3d& center, double radius, double atCenter) const;
+
+  std::optional<TriangleMesh> mesh_;
+  std::optional<PointCloud> cloud_;
+  std::optional<Nearest> nearest_;
+  std::optional<Pockets> pockets_;
+  std::shared_ptr<const WideBvh> skinTree_;
+  std::optional<Nearest> nearestSkin_;  ///< of the pockets
+  bool isFlat_ = false;
+  bool hasInside_ = false;  ///< some component is closed
+  double inflation_ = 0.0;
+  double slack_ = 0.0;
+  double pad_ = 0.0;
+  double scale_ = 0.0;
+};
+
+}  // namespace swept::detail
