@@ -37,7 +37,7 @@ float roundedDown(double value) {
 double cellFactor(double relativeOverhang) {
   if (relativeOverhang > 0.2) return 0.65;
   if (relativeOverhang > 0.1) return 1.25;
-  return relativeOverhang > 0.05 ? 1.75 : 3.0;
+  return relativeOverhang > 0.06 ? 1.75 : 3.0;
 }
 
 /// Overhangs from about a quarter of the radius down, by halves; the last step is at most 1.4 times

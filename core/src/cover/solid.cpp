@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cover/outer_polyhedron.hpp"
+#include "geometry/mesh_components.hpp"
 
 namespace swept::detail {
 namespace {
@@ -57,6 +58,7 @@ Solid::Solid(const Shape& shape) {
     const bool surface = mesh_->interior() == MeshInterior::Surface;
     hasInside_ = !surface && mesh_->report().closedComponents > 0;
     if (surface || !mesh_->isClosed()) findPockets();
+    if (hasInside_ && !pockets_) findShells();
   } else {
     nearest_.emplace(cloud_->points(), cloud_->bvh());
   }
@@ -107,48 +109,97 @@ void Solid::findPockets() {
   nearestSkin_.emplace(corners, ordered, *skinTree_);
 }
 
+/// Parts inside a link, or links made of parts that overlap, have triangles within the solid; they
+/// bound no ball in the shell around them. Small parts are not worth the trouble.
+void Solid::findShells() {
+  constexpr double kLarge = 0.2;
+  if (mesh_->report().closedComponents < 2) return;
+  const MeshComponents parts = ComponentFinder(mesh_->triangles()).result();
+  if (parts.triangles.size() != mesh_->triangles().size()) return;
+  std::vector<std::vector<Eigen::Vector3i>> trianglesOf(parts.oriented.size());
+  for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
+    if (parts.componentOf[i] >= 0) trianglesOf[parts.componentOf[i]].push_back(parts.triangles[i]);
+  }
+  const Aabb whole = boundingBox(*mesh_);
+  std::vector<int> shellOfComponent(trianglesOf.size(), -1);
+  for (std::size_t i = 0; i < trianglesOf.size(); ++i) {
+    Aabb box{mesh_->vertices()[trianglesOf[i][0][0]], mesh_->vertices()[trianglesOf[i][0][0]]};
+    for (const Eigen::Vector3i& triangle : trianglesOf[i]) {
+      for (const int corner : triangle) {
+        box.lower = box.lower.cwiseMin(mesh_->vertices()[corner]);
+        box.upper = box.upper.cwiseMax(mesh_->vertices()[corner]);
+      }
+    }
+    if (box.size() < kLarge * kLarge * whole.size()) continue;
+    const TriangleMesh mesh = TriangleMesh::build(mesh_->vertices(), trianglesOf[i]);
+    if (!mesh.isClosed()) continue;
+    shellOfComponent[i] = static_cast<int>(shells_.size());
+    shells_.push_back(std::make_unique<const Shell>(
+        Shell{mesh, Nearest(mesh.vertices(), mesh.triangles(), mesh.bvh()), box}));
+  }
+  for (const int component : parts.componentOf) {
+    shellOf_.push_back(component < 0 ? -1 : shellOfComponent[component]);
+  }
+}
+
+double Solid::depthIn(const Vector3d& p, double toTriangles) const {
+  double depth = toTriangles;
+  for (const auto& shell : shells_) {
+    if (shell->encloses(p)) depth = std::max(depth, distance(shell->nearest, p));
+  }
+  return depth - nearest_->error(p) - slack_;
+}
+
 Candidate Solid::at(const Vector3d& p) const {
-  const double loss = nearest_->error(p) + slack_;
   if (pockets_) {
     const double toSkin = distance(*nearestSkin_, p);
-    if (pockets_->contain(p, toSkin)) return {p, toSkin - loss, true};
+    if (pockets_->contain(p, toSkin)) return {p, toSkin - nearest_->error(p), true};
   }
   const double found = distance(*nearest_, p);
-  return {p, (encloses(p) ? found : -found) - loss};
+  if (encloses(p)) return {p, depthIn(p, found)};
+  return {p, -found - nearest_->error(p) - slack_};
 }
 
 Candidate Solid::inside(const Vector3d& p) const {
-  return {p, distance(*nearest_, p) - nearest_->error(p) - slack_};
+  return {p, depthIn(p, distance(*nearest_, p))};
 }
 
 std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, double radius) const {
   if (pockets_ ? !pockets_->isSkin(triangle) : !hasInside_) return std::nullopt;
   const Vector3d normal = nearest_->unitNormal(triangle);
   if (normal.isZero()) return std::nullopt;
+  const Shell* own = nullptr;
+  if (!shells_.empty() && shellOf_[triangle] >= 0) own = shells_[shellOf_[triangle]].get();
+  for (const auto& shell : shells_) {
+    if (shell.get() != own && shell->encloses(foot)) return std::nullopt;
+  }
+  const Hollow hollow{pockets_ ? *nearestSkin_ : own != nullptr ? own->nearest : *nearest_, own};
   // Normals nearly always point outward.
   bool wrongSide = false;
-  auto ball = inscribedAlong(foot, -normal, radius, wrongSide);
-  if (wrongSide) ball = inscribedAlong(foot, normal, radius, wrongSide);
+  auto ball = inscribedAlong(foot, -normal, radius, hollow, wrongSide);
+  if (wrongSide) ball = inscribedAlong(foot, normal, radius, hollow, wrongSide);
   return ball;
 }
 
 /// Shrinking ball (Ma, Bae, Choi 2012, "3D medial axis point approximation using nearest
 /// neighbors"): while something is nearer to the centre than the foot, take the ball through both.
 std::optional<Candidate> Solid::inscribedAlong(const Vector3d& foot, const Vector3d& inward,
-                                               double radius, bool& wrongSide) const {
+                                               double radius, const Hollow& hollow,
+                                               bool& wrongSide) const {
   constexpr int kSteps = 8;
   constexpr double kEnough = 0.98;
-  const Nearest& nearest = pockets_ ? *nearestSkin_ : *nearest_;
   wrongSide = false;
   double t = radius;
   for (int step = 0; step < kSteps; ++step) {
     const Vector3d center = foot + t * inward;
-    const Nearest::Found found = nearest.find(center, kEnough * t);
+    const Nearest::Found found = hollow.nearest.find(center, kEnough * t);
     if (found.primitive < 0) {
       const double depth = kEnough * t - nearest_->error(center) - slack_;
       if (!(depth > 0.0)) return std::nullopt;
-      if (pockets_ && pockets_->contain(center, depth)) return Candidate{center, depth, true};
-      if (!pockets_ && encloses(center)) return Candidate{center, depth};
+      const bool isRoom = pockets_                  ? pockets_->contain(center, depth)
+                          : hollow.shell != nullptr ? hollow.shell->encloses(center)
+                                                    : encloses(center);
+      if (isRoom) return Candidate{center, depth, pockets_.has_value()};
       wrongSide = true;
       return std::nullopt;
     }

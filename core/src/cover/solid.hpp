@@ -64,11 +64,27 @@ class Solid {
  private:
   void useHull(const ConvexHull& hull, double slack);
   void usePoints(std::span<const Eigen::Vector3d> points, double radius);
-  /// `wrongSide` receives whether there was room on that side, but not of the solid.
+  /// One closed component of several. It is part of the solid whatever the others do within it.
+  struct Shell {
+    TriangleMesh mesh;
+    Nearest nearest;
+    Aabb box;
+    bool encloses(const Eigen::Vector3d& p) const { return box.contains(p) && mesh.encloses(p); }
+  };
+  /// What bounds a ball: triangles, and the component that it has to stay in, if it is one.
+  struct Hollow {
+    const Nearest& nearest;
+    const Shell* shell;
+  };
+
   void findPockets();
+  void findShells();
+  /// m, of an enclosed point that is this far from the nearest triangle.
+  double depthIn(const Eigen::Vector3d& p, double toTriangles) const;
+  /// `wrongSide` receives whether there was room on that side, but outside.
   std::optional<Candidate> inscribedAlong(const Eigen::Vector3d& foot,
                                           const Eigen::Vector3d& inward, double radius,
-                                          bool& wrongSide) const;
+                                          const Hollow& hollow, bool& wrongSide) const;
   double farthestFromSurface(const Eigen::Vector3d& center, double radius, double atCenter) const;
 
   std::optional<TriangleMesh> mesh_;
@@ -76,7 +92,9 @@ class Solid {
   std::optional<Nearest> nearest_;
   std::optional<Pockets> pockets_;
   std::shared_ptr<const WideBvh> skinTree_;
-  std::optional<Nearest> nearestSkin_;  ///< of the pockets
+  std::optional<Nearest> nearestSkin_;                ///< of the pockets
+  std::vector<std::unique_ptr<const Shell>> shells_;  ///< the large ones; none: a single component
+  std::vector<int> shellOf_;                          ///< per triangle; -1: none
   bool isFlat_ = false;
   bool hasInside_ = false;  ///< some component is closed
   double inflation_ = 0.0;
