@@ -35,7 +35,7 @@ float roundedDown(double value) {
 /// Of an overhang: the smaller the cells, the fewer balls do, and the more time it takes; coarse
 /// levels have few cells anyway.
 double cellFactor(double relativeOverhang) {
-  if (relativeOverhang > 0.2) return 0.65;
+  if (relativeOverhang > 0.2) return 0.8;
   if (relativeOverhang > 0.1) return 1.25;
   return relativeOverhang > 0.06 ? 1.75 : 3.0;
 }
@@ -126,7 +126,10 @@ std::vector<CoverBuilder::Node> CoverBuilder::childrenOf(Node& node, int level,
     const double radius = place.depth + aim.overhang;
     if (radius > 0.0) division.balls.push_back({place, radius});
   }
-  std::vector<Cell> solids = refine(std::move(node.cells), aim, division);
+  // Balls much deeper than the node's own are rare, and take long to find.
+  const double mostDepth = std::min(
+      {rootRadius_, kDeepest * aim.overhang, 2.0 * std::max(node.place.depth, aim.overhang)});
+  std::vector<Cell> solids = refine(std::move(node.cells), mostDepth, aim, division);
   chooseFor(division, 0);
   placeSolids(std::move(solids), aim.overhang, division);
   chooseFor(division, division.placed);
@@ -157,8 +160,8 @@ std::vector<CoverBuilder::Node> CoverBuilder::childrenOf(Node& node, int level,
 
 /// Divides the node's cells with surface until each is small for this level and in one of the
 /// balls, and finds these balls. Returns the solid cells.
-std::vector<Cell> CoverBuilder::refine(std::vector<Cell> pending, const LevelAim& aim,
-                                       Division& division) {
+std::vector<Cell> CoverBuilder::refine(std::vector<Cell> pending, double mostDepth,
+                                       const LevelAim& aim, Division& division) {
   std::vector<Cell> solids;
   const auto known = static_cast<std::ptrdiff_t>(division.balls.size());
   // Without depth each cell gets its own ball: the larger the better.
@@ -179,7 +182,7 @@ std::vector<Cell> CoverBuilder::refine(std::vector<Cell> pending, const LevelAim
     const bool amply = std::any_of(
         division.balls.begin(), division.balls.begin() + known,
         [&](const Ball& ball) { return cell.isIn(ball.place.center, kAmply * ball.radius); });
-    if (!amply) suggest(cell, aim.overhang, division.balls);
+    if (!amply) suggest(cell, mostDepth, aim.overhang, division.balls);
     if (amply || isCovered(cell, aim.overhang, divisible, division.balls)) {
       division.cells.push_back(std::move(cell));
     } else {
@@ -248,7 +251,8 @@ void CoverBuilder::placeSolids(std::vector<Cell> pending, double delta, Division
 }
 
 /// Adds an inscribed ball that touches the surface in the cell.
-void CoverBuilder::suggest(const Cell& cell, double delta, std::vector<Ball>& balls) {
+void CoverBuilder::suggest(const Cell& cell, double mostDepth, double delta,
+                           std::vector<Ball>& balls) {
   Vector3d foot = Vector3d::Zero();
   int triangle = -1;
   double nearest = std::numeric_limits<double>::infinity();
@@ -264,7 +268,7 @@ void CoverBuilder::suggest(const Cell& cell, double delta, std::vector<Ball>& ba
     triangle = patch.triangle;
   }
   if (triangle < 0) return;
-  const auto place = solid_.inscribed(foot, triangle, std::min(rootRadius_, kDeepest * delta));
+  const auto place = solid_.inscribed(foot, triangle, mostDepth);
   if (!place) return;
   if (!place->inPocket) seen_.push_back(*place);
   const double closeSquared = kSameCenter * kSameCenter * delta * delta;

@@ -54,10 +54,11 @@ class CoverBuilder {
 
   bool addLevel(int level, const LevelAim& aim);
   std::vector<Node> childrenOf(Node& node, int level, const LevelAim& aim);
-  std::vector<Cell> refine(std::vector<Cell> pending, const LevelAim& aim, Division& division);
+  std::vector<Cell> refine(std::vector<Cell> pending, double mostDepth, const LevelAim& aim,
+                           Division& division);
   static void chooseFor(Division& division, std::size_t first);
   void placeSolids(std::vector<Cell> pending, double delta, Division& division);
-  void suggest(const Cell& cell, double delta, std::vector<Ball>& balls);
+  void suggest(const Cell& cell, double mostDepth, double delta, std::vector<Ball>& balls);
   bool isCovered(const Cell& cell, double delta, bool divisible, std::vector<Ball>& balls);
   SphereCover::Node finished(const Node& node) const;
   std::vector<CoverBall> innerBalls() const;

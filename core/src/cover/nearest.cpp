@@ -30,10 +30,9 @@ void consider(const Vector3d& p, const Vector3d& candidate, int primitive, Neare
   best = {squared, candidate, primitive};
 }
 
-Vector3d onSegment(const Vector3d& from, const Vector3d& along, const Vector3d& p) {
-  const double length = along.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((p - from).dot(along) / length, 0.0, 1.0) : 0.0;
-  return from + t * along;
+double inverseOf(double value) {
+  const double inverse = 1.0 / value;
+  return std::isfinite(inverse) ? inverse : 0.0;
 }
 
 }  // namespace
@@ -41,24 +40,31 @@ Vector3d onSegment(const Vector3d& from, const Vector3d& along, const Vector3d& 
 Nearest::Nearest(std::span<const Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
                  const WideBvh& bvh)
     : bvh_(bvh) {
-  constexpr double kSliver = 1e-12;  // square of sin of the angle at the first corner
   facets_.reserve(triangles.size());
   for (const Eigen::Vector3i& corners : triangles) {
-    const Vector3d& a = vertices[corners[0]];
-    const Vector3d ab = vertices[corners[1]] - a;
-    const Vector3d ac = vertices[corners[2]] - a;
-    Facet facet{a,   ab,  ac, Vector3d::Zero(), ab.squaredNorm(), ab.dot(ac), ac.squaredNorm(),
-                0.0, true};
-    const double determinant = facet.abab * facet.acac - facet.abac * facet.abac;
-    facet.inverse = 1.0 / determinant;
-    facet.sliver =
-        !(determinant > kSliver * facet.abab * facet.acac) || !std::isfinite(facet.inverse);
-    if (!std::isfinite(facet.inverse)) facet.inverse = 0.0;
-    const Vector3d normal = ab.cross(ac);
-    const double length = normal.norm();
-    if (length > 0.0 && std::isfinite(length)) facet.normal = normal / length;
-    facets_.push_back(facet);
+    facets_.push_back(facetOf(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]));
   }
+}
+
+Nearest::Facet Nearest::facetOf(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  constexpr double kSliver = 1e-12;  // square of the sine of the angle at the first corner
+  const auto side = [](const Vector3d& from, const Vector3d& to) {
+    const Vector3d along = to - from;
+    return Facet::Side{from, along, inverseOf(along.squaredNorm())};
+  };
+  Facet facet{{side(a, b), side(a, c), side(b, c)}, Vector3d::Zero(), 0.0, 0.0, 0.0, 0.0, true};
+  const Vector3d ab = b - a;
+  const Vector3d ac = c - a;
+  facet.abab = ab.squaredNorm();
+  facet.abac = ab.dot(ac);
+  facet.acac = ac.squaredNorm();
+  const double determinant = facet.abab * facet.acac - facet.abac * facet.abac;
+  facet.inverse = inverseOf(determinant);
+  facet.sliver = !(determinant > kSliver * facet.abab * facet.acac) || facet.inverse == 0.0;
+  const Vector3d normal = ab.cross(ac);
+  const double length = normal.norm();
+  if (length > 0.0 && std::isfinite(length)) facet.normal = normal / length;
+  return facet;
 }
 
 Nearest::Nearest(std::span<const Vector3d> points, const WideBvh& bvh)
@@ -76,20 +82,23 @@ Vector3d Nearest::unitNormal(int primitive) const {
 void Nearest::test(int primitive, const Vector3d& p, Found& best) const {
   if (facets_.empty()) return consider(p, points_[primitive], primitive, best);
   const Facet& facet = facets_[primitive];
-  const Vector3d ap = p - facet.a;
+  const Facet::Side& ab = facet.sides[0];
+  const Facet::Side& ac = facet.sides[1];
+  const Vector3d ap = p - ab.from;
   const double height = ap.dot(facet.normal);
   if (!facet.sliver && height * height > best.squared) return;
-  const double onAb = ap.dot(facet.ab);
-  const double onAc = ap.dot(facet.ac);
+  const double onAb = ap.dot(ab.along);
+  const double onAc = ap.dot(ac.along);
   const double s = (facet.acac * onAb - facet.abac * onAc) * facet.inverse;
   const double t = (facet.abab * onAc - facet.abac * onAb) * facet.inverse;
   if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) {
-    consider(p, facet.a + s * facet.ab + t * facet.ac, primitive, best);
+    consider(p, ab.from + s * ab.along + t * ac.along, primitive, best);
     if (!facet.sliver) return;
   }
-  consider(p, onSegment(facet.a, facet.ab, p), primitive, best);
-  consider(p, onSegment(facet.a, facet.ac, p), primitive, best);
-  consider(p, onSegment(facet.a + facet.ab, facet.ac - facet.ab, p), primitive, best);
+  for (const Facet::Side& side : facet.sides) {
+    const double along = std::clamp((p - side.from).dot(side.along) * side.inverse, 0.0, 1.0);
+    consider(p, side.from + along * side.along, primitive, best);
+  }
 }
 
 Nearest::Found Nearest::find(const Vector3d& p, double bound) const {

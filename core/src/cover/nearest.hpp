@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -42,11 +43,19 @@ class Nearest {
 
  private:
   struct Facet {
-    Eigen::Vector3d a, ab, ac, normal;
+    /// From corner to corner, and one over the squared length; 0 for a side without length.
+    struct Side {
+      Eigen::Vector3d from, along;
+      double inverse;
+    };
+    std::array<Side, 3> sides;  ///< ab, ac, bc
+    Eigen::Vector3d normal;
     double abab, abac, acac;
     double inverse;  ///< of the determinant
     bool sliver;     ///< the sides decide, whatever the inner coordinates say
   };
+  static Facet facetOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                       const Eigen::Vector3d& c);
   void test(int primitive, const Eigen::Vector3d& p, Found& best) const;
 
   std::span<const Eigen::Vector3d> points_;
