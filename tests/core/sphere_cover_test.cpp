@@ -315,9 +315,9 @@ TEST(SphereCover, HugeAndTinyAndFarShapes) {
 }
 
 /// The message of the std::invalid_argument that covering a shape throws.
-std::string refusal(const Shape& shape) {
+std::string refusal(const Shape& shape, const SphereCoverOptions& options = {}) {
   try {
-    sphereCover(shape);
+    sphereCover(shape, options);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -328,6 +328,20 @@ TEST(SphereCover, RefusesUnboundedShapes) {
   EXPECT_NE(refusal(Plane{Vector3d::UnitZ(), 0.0}).find("plane"), std::string::npos);
   EXPECT_NE(refusal(HalfSpace{Vector3d::UnitZ(), 0.0}).find("half-space"), std::string::npos);
   EXPECT_EQ(refusal(Sphere{1.0}), "");
+}
+
+TEST(SphereCover, RefusesOptionsThatMeanNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto message = [](const SphereCoverOptions& options) {
+    return refusal(Sphere{1.0}, options);
+  };
+  EXPECT_EQ(message({.finestOverhang = -0.5}),
+            "sphere cover option finestOverhang is -0.5; allowed: at least 0");
+  EXPECT_NE(message({.finestOverhang = nan}), "");
+  EXPECT_NE(message({.finestRelative = nan}), "");
+  EXPECT_EQ(message({.mostBalls = 0}), "sphere cover option mostBalls is 0; allowed: at least 1");
+  EXPECT_NE(message({.mostInnerBalls = -1}), "");
+  EXPECT_EQ(sphereCover(Box{{1, 1, 1}}, {.mostInnerBalls = 0}).inner.size(), 0u);
 }
 
 }  // namespace

@@ -104,8 +104,7 @@ bool CoverBuilder::addLevel(int level, const LevelAim& aim) {
       nodes_[i] = std::move(children.front());
       continue;
     }
-    if (nodes_.size() + children.size() >
-        static_cast<std::size_t>(std::max(options_.mostBalls, 1))) {
+    if (nodes_.size() + children.size() > static_cast<std::size_t>(options_.mostBalls)) {
       nodes_.resize(before);
       for (Node& node : nodes_) {
         if (node.firstChild >= static_cast<int>(before)) node.childCount = 0;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <stdexcept>
 
 #include "cover/cover_builder.hpp"
 
@@ -11,6 +13,13 @@ namespace {
 
 /// Squares of larger sizes leave single precision.
 constexpr double kLargestRadius = 1e15;
+
+void requireOption(const char* name, double value, double least) {
+  if (value >= least) return;
+  std::ostringstream message;
+  message << "sphere cover option " << name << " is " << value << "; allowed: at least " << least;
+  throw std::invalid_argument(message.str());
+}
 
 SphereCover everywhere() {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -39,6 +48,10 @@ std::vector<int> SphereCover::cut(int level) const {
 }
 
 SphereCover sphereCover(const Shape& shape, const SphereCoverOptions& options) {
+  requireOption("finestOverhang", options.finestOverhang, 0.0);
+  requireOption("finestRelative", options.finestRelative, 0.0);
+  requireOption("mostBalls", options.mostBalls, 1.0);
+  requireOption("mostInnerBalls", options.mostInnerBalls, 0.0);
   const BoundingSphere ball = boundingSphere(shape);
   const bool bounded =
       !std::holds_alternative<Plane>(shape) && !std::holds_alternative<HalfSpace>(shape);

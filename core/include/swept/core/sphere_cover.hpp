@@ -14,8 +14,7 @@ struct SphereCoverOptions {
   /// Relative to the radius of the first ball; the larger of both is aimed at. At least 1e-3 of the
   /// radius is, so that a cover stays finite.
   double finestRelative = 1.0 / 32.0;
-  /// A level that would take the tree past this is left out.
-  int mostBalls = 4096;
+  int mostBalls = 4096;  ///< a level that would take the tree past this is left out
   int mostInnerBalls = 16;
 };
 
@@ -61,7 +60,8 @@ struct SphereCover {
 };
 
 /// Builds a cover; the same input gives the same cover. Throws std::invalid_argument, naming the
-/// shape, for planes and half-spaces. Sizes beyond single precision give balls of infinite radius.
+/// shape, for planes and half-spaces, and naming the value for options below 0 (`mostBalls`: 1) or
+/// NaN. Sizes beyond single precision give balls of infinite radius.
 SphereCover sphereCover(const Shape& shape, const SphereCoverOptions& options = {});
 
 }  // namespace swept
