@@ -270,6 +270,9 @@ TEST(SphereCover, DegenerateShapes) {
       {"two corners", Triangle{{Vector3d(0, 0, 0), Vector3d(1, 0, 1), Vector3d(1, 0, 1)}}},
       {"wire", Box{{1.0, 1e-7, 1e-7}}},
       {"foil", Box{{1.0, 1.0, 1e-8}}},
+      {"hardly flat hull",
+       ConvexHull::of(std::vector<Vector3d>{
+           {0, 0, 0}, {1, 0, 1e-15}, {0, 1, 0}, {1, 1, -1e-15}, {0.5, 0.5, 1e-14}})},
       {"sliver", meshOf({{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-13, 0}, {0.5, 0, 1e-9}},
                          {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}}})}};
   for (const NamedShape& entry : flat) {
@@ -289,6 +292,21 @@ TEST(SphereCover, DegenerateShapes) {
     ASSERT_EQ(cover.nodes.size(), 1u);
     EXPECT_LT(cover.nodes.front().ball.radius, 1e-6F);
     EXPECT_TRUE(cover.inner.empty());
+  }
+}
+
+TEST(SphereCover, MinuteShapes) {
+  for (const double size : {1e-14, 1e-16, 1e-80, 1e-310}) {
+    for (const Shape& shape :
+         std::vector<Shape>{Box{{size, size, size}}, Cylinder{size, size},
+                            Ellipsoid{{size, size, size}}, Sphere{size}, Box{{size, size, 0.0}}}) {
+      const SphereCover cover = sphereCover(shape);
+      std::mt19937 random(2);
+      for (const Vector3d& p : sample(shape, random, 100)) {
+        ASSERT_TRUE(test::covers(cover, p, 0.0));
+      }
+      EXPECT_LE(cover.nodes.front().ball.radius, 2.0 * size + 1e-44);
+    }
   }
 }
 
@@ -312,6 +330,7 @@ TEST(SphereCover, HugeAndTinyAndFarShapes) {
   const SphereCover beyond = sphereCover(Box{{1e300, 1.0, 1.0}});
   ASSERT_EQ(beyond.nodes.size(), 1u);
   EXPECT_TRUE(std::isinf(beyond.nodes.front().ball.radius));
+  expectCovered(Cylinder{1e20, 1e20}, sphereCover(Cylinder{1e20, 1e20}), 500);
 }
 
 /// The message of the std::invalid_argument that covering a shape throws.

@@ -116,6 +116,7 @@ Cell Cells::root() const {
 }
 
 void Cells::split(const Cell& cell, std::vector<Cell>& out) {
+  ++splits_;
   int axis = 0;
   (cell.upper - cell.lower).maxCoeff(&axis);
   const double at = 0.5 * (cell.lower[axis] + cell.upper[axis]);

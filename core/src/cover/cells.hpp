@@ -53,8 +53,11 @@ class Cells {
   Cell root() const;
   /// Appends the halves, across the longest side, that have content.
   void split(const Cell& cell, std::vector<Cell>& out);
-  /// Whether halving it again means something in double precision.
-  bool canSplit(const Cell& cell) const { return cell.size() > 1e3 * margin_; }
+  /// Whether halving it again means something in double precision, and the work allowed is not
+  /// done.
+  bool canSplit(const Cell& cell) const {
+    return cell.size() > 1e3 * margin_ && splits_ < kMostSplits;
+  }
   /// Fills in content, blur, middle and reach.
   void gather(Cell& cell);
 
@@ -66,8 +69,12 @@ class Cells {
   bool encloses(const Eigen::Vector3d& corner);
   bool middleIsSolid(const Cell& cell);
 
+  /// Links to a hundredth of their size need some ten thousand.
+  static constexpr int kMostSplits = 1 << 19;
+
   const Solid& solid_;
-  double margin_;                                ///< m
+  double margin_;  ///< m
+  int splits_ = 0;
   std::unordered_map<Key, bool, Hash> corners_;  ///< of boxes; most belong to several
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cover/rounded.hpp"
 #include "cover/set_cover.hpp"
 
 namespace swept::detail {
@@ -21,16 +22,6 @@ constexpr double kSameDepth = 0.1;     // this, count as known
 
 // A cell in a ball of this part of the radius needs no ball of its own.
 constexpr double kAmply = 0.9;
-
-float roundedUp(double value) {
-  const auto rounded = static_cast<float>(value);
-  if (static_cast<double>(rounded) >= value) return rounded;
-  return std::nextafter(rounded, std::numeric_limits<float>::infinity());
-}
-
-float roundedDown(double value) {
-  return -roundedUp(-value);
-}
 
 /// Of an overhang: the smaller the cells, the fewer balls do, and the more time it takes; coarse
 /// levels have few cells anyway.

@@ -64,8 +64,8 @@ Solid::Solid(const Shape& shape) {
   }
   for (const Vector3d& vertex : vertices())
     scale_ = std::max(scale_, vertex.lpNorm<Eigen::Infinity>());
-  // A path of at most 64 cuts moves a corner by 4 roundings each; a fact about a point within
-  // rounding of the surface is off by 1e-14 of the scale. This is a hundred times both.
+  // A path of at most 100 cuts (Cells::canSplit) moves a corner by 8 roundings each, 1e-13 of the
+  // scale; what is uncertain about points within rounding of the surface is 1e-14 of it.
   constexpr double kPad = 1e-11;
   pad_ += kPad * scale_;
 }
@@ -74,9 +74,18 @@ void Solid::useHull(const ConvexHull& hull, double slack) {
   const ThickHull thick = thickHull(hull);
   slack_ = slack + thick.slack + hull.error() + thick.hull.error();
   pad_ = hull.error() + thick.hull.error();
-  if (thick.hull.faces().empty()) return usePoints(hull.vertices(), 0.0);
   isFlat_ = thick.slack > 0.0;
-  mesh_ = TriangleMesh::build(thick.hull.vertices(), thick.hull.faces());
+  if (!thick.hull.faces().empty()) {
+    mesh_ = TriangleMesh::build(thick.hull.vertices(), thick.hull.faces());
+    if (mesh_->isClosed()) return;
+    mesh_.reset();
+  }
+  // One point, or too small for a polyhedron in double precision: a ball around all of it.
+  const Aabb box = boundingBox(hull);
+  const double reach = 0.5 * (box.upper - box.lower).lpNorm<1>();
+  usePoints(std::array{box.center()}, 0.0);
+  slack_ += reach;
+  pad_ += reach;
 }
 
 void Solid::usePoints(std::span<const Vector3d> points, double radius) {
@@ -143,11 +152,12 @@ void Solid::findShells() {
 }
 
 double Solid::depthIn(const Vector3d& p, double toTriangles) const {
-  double depth = toTriangles;
+  double depth = toTriangles - nearest_->error(p);
   for (const auto& shell : shells_) {
-    if (shell->encloses(p)) depth = std::max(depth, distance(shell->nearest, p));
+    if (!shell->encloses(p)) continue;
+    depth = std::max(depth, distance(shell->nearest, p) - shell->nearest.error(p));
   }
-  return depth - nearest_->error(p) - slack_;
+  return depth - slack_;
 }
 
 Candidate Solid::at(const Vector3d& p) const {
@@ -194,7 +204,7 @@ std::optional<Candidate> Solid::inscribedAlong(const Vector3d& foot, const Vecto
     const Vector3d center = foot + t * inward;
     const Nearest::Found found = hollow.nearest.find(center, kEnough * t);
     if (found.primitive < 0) {
-      const double depth = kEnough * t - nearest_->error(center) - slack_;
+      const double depth = kEnough * t - hollow.nearest.error(center) - slack_;
       if (!(depth > 0.0)) return std::nullopt;
       const bool isRoom = pockets_                  ? pockets_->contain(center, depth)
                           : hollow.shell != nullptr ? hollow.shell->encloses(center)
@@ -229,7 +239,8 @@ double Solid::farthestFromSurface(const Vector3d& center, double radius, double 
     double here;
     bool operator<(const Cube& other) const { return bound < other.bound; }
   };
-  const double error = nearest_->error(center) + slack_ + 4e-6 * radius;
+  // Of any point looked at: none is farther from the centre than 3 radii, in the 1-norm.
+  const double error = nearest_->error(center) + 12e-6 * radius + slack_;
   std::priority_queue<Cube> cubes;
   cubes.push({atCenter + radius, center, radius, atCenter});
   for (int evaluations = 1; evaluations + 8 <= kEvaluations && !cubes.empty(); evaluations += 8) {

@@ -2,16 +2,18 @@
 #include "swept/core/sphere_cover.hpp"
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
 #include "cover/cover_builder.hpp"
+#include "cover/rounded.hpp"
 
 namespace swept {
 namespace {
 
-/// Squares of larger sizes leave single precision.
+/// Between these the fourth powers of a thousandth of a size, and the squares in single precision,
+/// are normal numbers.
+constexpr double kSmallestRadius = 1e-15;
 constexpr double kLargestRadius = 1e15;
 
 void requireOption(const char* name, double value, double least) {
@@ -21,11 +23,21 @@ void requireOption(const char* name, double value, double least) {
   throw std::invalid_argument(message.str());
 }
 
-SphereCover everywhere() {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// Of a shape that contains a point: none of the ball's is farther from it than the diameter.
+SphereCover oneBall(const BoundingSphere& ball) {
+  SphereCover::Node node;
+  node.ball.center = ball.center.cast<float>();
+  if (!node.ball.center.allFinite()) node.ball.center.setZero();
+  const double moved = (node.ball.center.cast<double>() - ball.center).stableNorm();
+  node.ball.radius = detail::roundedUp((ball.radius + moved) * (1.0 + 1e-12));
+  node.overhang = detail::roundedUp(2.0 * node.ball.radius);
+  node.beyond = node.overhang;
+  node.level = 0;
+  node.firstChild = 0;
+  node.childCount = 0;
   SphereCover cover;
-  cover.nodes.push_back({{Eigen::Vector3f::Zero(), kInfinity}, kInfinity, kInfinity, 0, 0, 0});
-  cover.levels.push_back({kInfinity, 1, kInfinity});
+  cover.nodes.push_back(node);
+  cover.levels.push_back({node.overhang, 1, node.overhang});
   return cover;
 }
 
@@ -55,7 +67,9 @@ SphereCover sphereCover(const Shape& shape, const SphereCoverOptions& options) {
   const BoundingSphere ball = boundingSphere(shape);
   const bool bounded =
       !std::holds_alternative<Plane>(shape) && !std::holds_alternative<HalfSpace>(shape);
-  if (bounded && !(ball.center.norm() + ball.radius < kLargestRadius)) return everywhere();
+  const bool isTiny = ball.radius < kSmallestRadius && ball.radius > 0.0;
+  const bool isHuge = !(ball.center.stableNorm() + ball.radius < kLargestRadius);
+  if (bounded && (isTiny || isHuge)) return oneBall(ball);
   return detail::CoverBuilder(shape, options).build();
 }
 

@@ -47,7 +47,7 @@ struct SphereCover {
     double aimed;  ///< m, `beyond` that the level was built for
     int ballCount = 0;
     double largestOverhang;  ///< m, proven. More than `aimed` only where an open mesh has a pocket
-                             ///< and on inputs so extreme that rounding counts
+                             ///< and on inputs so extreme that rounding or the cap on work counts
   };
 
   std::vector<Node> nodes;  ///< parents before children; node 0 is the root
@@ -61,7 +61,7 @@ struct SphereCover {
 
 /// Builds a cover; the same input gives the same cover. Throws std::invalid_argument, naming the
 /// shape, for planes and half-spaces, and naming the value for options below 0 (`mostBalls`: 1) or
-/// NaN. Sizes beyond single precision give balls of infinite radius.
+/// NaN. Shapes smaller than 1e-15 m, or that reach farther than 1e15 m, get a single ball.
 SphereCover sphereCover(const Shape& shape, const SphereCoverOptions& options = {});
 
 }  // namespace swept
