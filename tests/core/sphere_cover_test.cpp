@@ -146,6 +146,15 @@ TEST(SphereCover, LevelsReachTheOverhangTheyAimAt) {
   }
 }
 
+TEST(SphereCover, FineLevelsOfThickSolidsFillTheInsideWithFewBalls) {
+  // Balls of a fine level touch the surface and are no deeper than needed there: the deep inside,
+  // halved down to the size of the level, was too much work and ended in balls that were too large.
+  const SphereCover cover =
+      sphereCover(Cylinder{1.0, 1.0}, {.finestRelative = 0.01, .mostBalls = 20000});
+  EXPECT_LE(cover.levels.back().largestOverhang, cover.levels.back().aimed * (1.0 + 1e-6));
+  EXPECT_LE(cover.levels.back().ballCount, 9000);
+}
+
 TEST(SphereCover, InnerBallsAreInside) {
   std::mt19937 random(23);
   int shapesWithInside = 0;

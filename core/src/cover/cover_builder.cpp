@@ -213,9 +213,16 @@ void CoverBuilder::chooseFor(Division& division, std::size_t first) {
 }
 
 /// The balls chosen for the surface contain most of the inside: cells go to one that contains them,
-/// halved while none does. What is left waits for a choice of its own.
+/// halved while it seems that several share them. The rest, deep inside, waits for a choice of its
+/// own.
 void CoverBuilder::placeSolids(std::vector<Cell> pending, double delta, Division& division) {
   std::vector<Cell> left;
+  const auto reachesMiddle = [&](const Cell& cell) {
+    return std::any_of(division.chosen.begin(), division.chosen.end(), [&](int index) {
+      const Ball& ball = division.balls[index];
+      return (cell.middle - ball.place.center).squaredNorm() < ball.radius * ball.radius;
+    });
+  };
   while (!pending.empty()) {
     Cell cell = std::move(pending.back());
     pending.pop_back();
@@ -228,7 +235,7 @@ void CoverBuilder::placeSolids(std::vector<Cell> pending, double delta, Division
     if (owner != division.chosen.end()) {
       division.owner.push_back(static_cast<int>(owner - division.chosen.begin()));
       division.cells.push_back(std::move(cell));
-    } else if (divisible && cell.size() > delta) {
+    } else if (divisible && cell.size() > delta && reachesMiddle(cell)) {
       cells_.split(cell, pending);
     } else if (isCovered(cell, delta, divisible, division.balls)) {
       left.push_back(std::move(cell));
