@@ -11,12 +11,19 @@ namespace {
 using Eigen::Vector3d;
 
 /// Squared distances of a point from the eight boxes of a node.
-std::array<float, WideNode::kLanes> boxDistances(const WideNode& node,
-                                                 const std::array<float, 3>& p) {
+std::array<float, WideNode::kLanes> boxDistances(const WideNode& node, const Vector3d& p) {
+  std::array<WideNode::Row, 3> offset;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<float>(p[i] - node.origin[i]);
+    for (int lane = 0; lane < WideNode::kLanes; ++lane) offset[i][lane] = at - node.center[i][lane];
+  }
   std::array<float, WideNode::kLanes> squared{};
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int j = 0; j < 3; ++j) {
+    const std::array<WideNode::Row, 3>& axis = node.axes[j];
     for (int lane = 0; lane < WideNode::kLanes; ++lane) {
-      const float beyond = std::abs(p[axis] - node.center[axis][lane]) - node.half[axis][lane];
+      const float along = axis[0][lane] * offset[0][lane] + axis[1][lane] * offset[1][lane] +
+                          axis[2][lane] * offset[2][lane];
+      const float beyond = std::abs(along) - node.half[j][lane];
       const float gap = beyond > 0.0F ? beyond : 0.0F;
       squared[lane] += gap * gap;
     }
@@ -72,7 +79,11 @@ Nearest::Nearest(std::span<const Vector3d> points, const WideBvh& bvh)
 
 double Nearest::error(const Vector3d& p) const {
   constexpr double kRelative = 4e-6;
-  return kRelative * (bvh_.reach() + (p - bvh_.origin()).lpNorm<1>());
+  constexpr double kOffset = 1e-15;
+  const Aabb& bounds = bvh_.bounds();
+  const double extent = (bounds.upper - bounds.lower).lpNorm<1>();
+  const double away = (p - 0.5 * (bounds.lower + bounds.upper)).lpNorm<1>();
+  return kRelative * (extent + away) + kOffset * (bvh_.reach() + p.lpNorm<1>());
 }
 
 Vector3d Nearest::unitNormal(int primitive) const {
@@ -104,10 +115,6 @@ void Nearest::test(int primitive, const Vector3d& p, Found& best) const {
 Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
   Found best;
   best.squared = bound * bound;
-  const Vector3d relative = p - bvh_.origin();
-  const std::array<float, 3> single{static_cast<float>(relative.x()),
-                                    static_cast<float>(relative.y()),
-                                    static_cast<float>(relative.z())};
   struct Pending {
     float squared;
     int node;
@@ -120,7 +127,7 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
     const Pending top = stack[--pending];
     if (top.squared > best.squared) continue;
     const WideNode& node = bvh_.nodes()[top.node];
-    const auto squared = boxDistances(node, single);
+    const auto squared = boxDistances(node, p);
     const int first = pending;
     for (int lane = 0; lane < node.count; ++lane) {
       if (squared[lane] > best.squared) continue;

@@ -109,13 +109,16 @@ void Solid::findPockets() {
   for (const Eigen::Vector3i& triangle : pockets_->skinTriangles()) {
     for (const int corner : triangle) corners.push_back(pockets_->skinVertices()[corner]);
   }
-  const auto tree = BvTree<Aabb>::build({corners, 3}, SurfaceAreaSplit{});
+  const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, WideNode::kLanes);
+  std::vector<Vector3d> orderedCorners;
   std::vector<Eigen::Vector3i> ordered;
-  for (const int source : tree.order()) {
-    ordered.emplace_back(3 * source, 3 * source + 1, 3 * source + 2);
+  for (const int source : tree.order) {
+    const int first = static_cast<int>(orderedCorners.size());
+    ordered.emplace_back(first, first + 1, first + 2);
+    for (int k = 0; k < 3; ++k) orderedCorners.push_back(corners[3 * source + k]);
   }
-  skinTree_ = std::make_shared<const WideBvh>(tree);
-  nearestSkin_.emplace(corners, ordered, *skinTree_);
+  skinTree_ = std::make_shared<const WideBvh>(tree, PrimitivePoints{orderedCorners, 3});
+  nearestSkin_.emplace(orderedCorners, ordered, *skinTree_);
 }
 
 /// Parts inside a link, or links made of parts that overlap, have triangles within the solid; they
