@@ -185,6 +185,76 @@ TEST(SphereCover, InnerBallsAreTheDeepestThereAre) {
   EXPECT_GE(sphereCover(torus).inner.front().radius, 0.05 * 0.95 - slack);
 }
 
+TEST(SphereCover, NodesTellTheBallsInsideAroundTheirCentres) {
+  std::mt19937 random(29);
+  int shapesWithInside = 0;
+  int insides = 0;
+  int leave = 0;
+  for (const NamedShape& entry : shapes()) {
+    SCOPED_TRACE(entry.name);
+    const SphereCover cover = sphereCover(entry.shape, {.finestRelative = 0.06});
+    int found = 0;
+    for (const SphereCover::Node& node : cover.nodes) {
+      if (!(node.inside > 0.0F)) continue;
+      ++found;
+      const auto probe = [&](double reach) {
+        const Vector3d p =
+            node.ball.center.cast<double>() + reach * node.inside * test::unitVector(random);
+        return distanceFrom(entry.shape, p) <= slackOf(entry.shape);
+      };
+      for (int i = 0; i < 10; ++i) ASSERT_TRUE(probe(i < 5 ? 1.0 : test::uniform(random, 0, 1)));
+      bool stays = true;
+      for (int i = 0; i < 60; ++i) stays = stays && probe(1.3);
+      leave += stays ? 0 : 1;
+    }
+    shapesWithInside += found > 0 ? 1 : 0;
+    insides += found;
+  }
+  // The same shapes as have inner balls.
+  EXPECT_EQ(shapesWithInside, 15);
+  EXPECT_GT(insides, 1000);
+  EXPECT_GT(leave, 0.6 * insides) << "balls a third larger are inside as well: the check is blunt";
+}
+
+TEST(SphereCover, TheBallsInsideAreTheLargestThereAre) {
+  // A box tells the depth of a point in closed form.
+  const Vector3d half(0.2, 0.15, 0.1);
+  const SphereCover box = sphereCover(Box{half});
+  const SphereCover mesh = sphereCover(meshOf(test::boxSoup(-half, half)));
+  for (const SphereCover* cover : {&box, &mesh}) {
+    int deep = 0;
+    for (const SphereCover::Node& node : cover->nodes) {
+      const double depth = (half - node.ball.center.cast<double>().cwiseAbs()).minCoeff();
+      deep += depth > 0.01 ? 1 : 0;
+      EXPECT_GE(node.inside, 0.97 * depth - 1e-4);
+      EXPECT_GE(node.inside, node.childCount > 0 ? depth - 1e-5 : -1.0);
+      EXPECT_EQ(node.inside > 0.0F, depth > 0.0);
+    }
+    EXPECT_GT(deep, 0.5 * static_cast<double>(cover->nodes.size()));
+    EXPECT_NEAR(cover->nodes.front().inside, half.z(), 1e-5);
+  }
+  EXPECT_NEAR(sphereCover(Sphere{0.25}).nodes.front().inside, 0.25, 1e-6);
+}
+
+TEST(SphereCover, OneOfSeveralComponentsIsEnoughForABallInside) {
+  // The middle part has its surface inside the long bar, which the ball at the middle passes.
+  Soup cross = test::boxSoup({-0.3, -0.05, -0.05}, {0.3, 0.05, 0.05});
+  cross.append(test::boxSoup({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}));
+  EXPECT_NEAR(sphereCover(meshOf(cross)).nodes.front().inside, 0.05, 1e-3);
+  // A shell with a slit is none, but a closed part beside it is.
+  Soup mixed = slitBox();
+  mixed.append(test::boxSoup({0.3, -0.1, -0.1}, {0.5, 0.1, 0.1}));
+  const SphereCover cover = sphereCover(meshOf(mixed));
+  int inPart = 0;
+  int inShell = 0;
+  for (const SphereCover::Node& node : cover.nodes) {
+    if (!(node.inside > 0.0F)) continue;
+    (node.ball.center.x() > 0.3F ? inPart : inShell) += 1;
+  }
+  EXPECT_GT(inPart, 10);
+  EXPECT_EQ(inShell, 0);
+}
+
 TEST(SphereCover, ASphereIsOneExactBall) {
   const SphereCover cover = sphereCover(Sphere{0.25});
   ASSERT_EQ(cover.nodes.size(), 1u);

@@ -81,6 +81,7 @@ SphereCover CoverBuilder::build() {
     }
   }
   cover.inner = innerBalls();
+  findInsides(cover);
   return cover;
 }
 
@@ -300,10 +301,31 @@ SphereCover::Node CoverBuilder::finished(const Node& node) const {
   const double radius = out.ball.radius - solid_.inflation() + moved;
   out.beyond = roundedUp(std::max(0.0, radius - node.place.depth));
   out.overhang = roundedUp(std::max(0.0, solid_.overhang(node.place, radius)));
+  out.inside = -1.0F;
   out.level = node.level;
   out.firstChild = node.firstChild;
   out.childCount = node.childCount;
   return out;
+}
+
+/// The depth known of the centre, or what an inner ball leaves around it. Depths that the search
+/// for inscribed balls cut short are measured where the ball is for more than one leaf.
+void CoverBuilder::findInsides(SphereCover& cover) const {
+  for (std::size_t i = 0; i < cover.nodes.size(); ++i) {
+    SphereCover::Node& node = cover.nodes[i];
+    const Vector3d center = node.ball.center.cast<double>();
+    const Candidate& place = nodes_[i].place;
+    double depth = place.inPocket ? solid_.depth(place.center) : place.depth;
+    if (!place.inPocket && depth > 0.0 && node.childCount > 0) {
+      depth = std::max(depth, solid_.inside(place.center).depth);
+    }
+    depth += solid_.inflation() - solid_.pad() - (center - place.center).norm();
+    for (const CoverBall& ball : cover.inner) {
+      const double apart = (center - ball.center.cast<double>()).norm();
+      depth = std::max(depth, ball.radius - apart * (1.0 + 1e-12));
+    }
+    if (depth > 0.0) node.inside = roundedDown(depth);
+  }
 }
 
 /// The deepest, each at least three quarters of a radius from the centres of those before.

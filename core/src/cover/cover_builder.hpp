@@ -62,6 +62,7 @@ class CoverBuilder {
   bool isCovered(const Cell& cell, double delta, bool divisible, std::vector<Ball>& balls);
   SphereCover::Node finished(const Node& node) const;
   std::vector<CoverBall> innerBalls() const;
+  void findInsides(SphereCover& cover) const;
 
   const SphereCoverOptions options_;
   const Solid solid_;

@@ -168,9 +168,12 @@ Candidate Solid::at(const Vector3d& p) const {
     const double toSkin = distance(*nearestSkin_, p);
     if (pockets_->contain(p, toSkin)) return {p, toSkin - nearest_->error(p), true};
   }
+  return {p, depth(p)};
+}
+
+double Solid::depth(const Vector3d& p) const {
   const double found = distance(*nearest_, p);
-  if (encloses(p)) return {p, depthIn(p, found)};
-  return {p, -found - nearest_->error(p) - slack_};
+  return encloses(p) ? depthIn(p, found) : -found - nearest_->error(p) - slack_;
 }
 
 Candidate Solid::inside(const Vector3d& p) const {

@@ -47,7 +47,9 @@ class Solid {
   bool encloses(const Eigen::Vector3d& p) const { return mesh_ && mesh_->encloses(p); }
   /// Proven lower bound.
   Candidate at(const Eigen::Vector3d& p) const;
-  /// The same for a point that is known to be enclosed.
+  /// m, of `at()` without pockets: always proven.
+  double depth(const Eigen::Vector3d& p) const;
+  /// What at() finds of a point that is known to be enclosed.
   Candidate inside(const Eigen::Vector3d& p) const;
   /// A ball of at most `radius` (m) inside the solid, or in a pocket, that touches the surface at
   /// `foot`, a point of a triangle; none where there is no room, and at triangles in a pocket.

@@ -32,6 +32,7 @@ SphereCover oneBall(const BoundingSphere& ball) {
   node.ball.radius = detail::roundedUp((ball.radius + moved) * (1.0 + 1e-12));
   node.overhang = detail::roundedUp(2.0 * node.ball.radius);
   node.beyond = node.overhang;
+  node.inside = -1.0F;
   node.level = 0;
   node.firstChild = 0;
   node.childCount = 0;

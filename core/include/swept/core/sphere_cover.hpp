@@ -38,6 +38,9 @@ struct SphereCover {
     /// balls may fill it. A pocket is what a grid of 48 cells along the mesh shuts off from the
     /// outside, so this is an estimate for open meshes that have one, and `overhang` elsewhere.
     float beyond;
+    /// m, proven: the ball of this radius around the same centre lies in the shape, within one of
+    /// its closed components (or balls, of a cloud). Negative: none is known.
+    float inside;
     int level;       ///< 0 at the root; children may skip levels
     int firstChild;  ///< children are consecutive nodes
     int childCount;  ///< 0: a leaf
