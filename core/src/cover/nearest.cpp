@@ -3,33 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include "cover/rounded.hpp"
+#include "simd/point_boxes.hpp"
 
 namespace swept::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Squared distances of a point from the eight boxes of a node.
-std::array<float, WideNode::kLanes> boxDistances(const WideNode& node, const Vector3d& p) {
-  std::array<WideNode::Row, 3> offset;
-  for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<float>(p[i] - node.origin[i]);
-    for (int lane = 0; lane < WideNode::kLanes; ++lane) offset[i][lane] = at - node.center[i][lane];
-  }
-  std::array<float, WideNode::kLanes> squared{};
-  for (int j = 0; j < 3; ++j) {
-    const std::array<WideNode::Row, 3>& axis = node.axes[j];
-    for (int lane = 0; lane < WideNode::kLanes; ++lane) {
-      const float along = axis[0][lane] * offset[0][lane] + axis[1][lane] * offset[1][lane] +
-                          axis[2][lane] * offset[2][lane];
-      const float beyond = std::abs(along) - node.half[j][lane];
-      const float gap = beyond > 0.0F ? beyond : 0.0F;
-      squared[lane] += gap * gap;
-    }
-  }
-  return squared;
-}
 
 void consider(const Vector3d& p, const Vector3d& candidate, int primitive, Nearest::Found& best) {
   const double squared = (p - candidate).squaredNorm();
@@ -42,40 +25,76 @@ double inverseOf(double value) {
   return std::isfinite(inverse) ? inverse : 0.0;
 }
 
+void considerSide(const Vector3d& p, const Vector3d& from, const Vector3d& side, double squared,
+                  int primitive, Nearest::Found& best) {
+  const double along = std::clamp((p - from).dot(side) * inverseOf(squared), 0.0, 1.0);
+  consider(p, from + along * side, primitive, best);
+}
+
+void considerTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c,
+                      int primitive, Nearest::Found& best) {
+  constexpr double kSliver = 1e-12;  // square of the sine of the angle at the first corner
+  const Vector3d ab = b - a;
+  const Vector3d ac = c - a;
+  const Vector3d ap = p - a;
+  const double abab = ab.squaredNorm();
+  const double abac = ab.dot(ac);
+  const double acac = ac.squaredNorm();
+  const double determinant = abab * acac - abac * abac;
+  const double inverse = inverseOf(determinant);
+  // Of a sliver the sides decide, whatever the inner coordinates say.
+  const bool sliver = !(determinant > kSliver * abab * acac) || inverse == 0.0;
+  const double height = ap.dot(ab.cross(ac));  // times the length of the normal
+  if (!sliver && height * height > best.squared * determinant) return;
+  const double onAb = ap.dot(ab);
+  const double onAc = ap.dot(ac);
+  const double s = (acac * onAb - abac * onAc) * inverse;
+  const double t = (abab * onAc - abac * onAb) * inverse;
+  if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) {
+    consider(p, a + s * ab + t * ac, primitive, best);
+    if (!sliver) return;
+  }
+  considerSide(p, a, ab, abab, primitive, best);
+  considerSide(p, a, ac, acac, primitive, best);
+  const Vector3d bc = c - b;
+  considerSide(p, b, bc, bc.squaredNorm(), primitive, best);
+}
+
 }  // namespace
 
 Nearest::Nearest(std::span<const Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
                  const WideBvh& bvh)
-    : bvh_(bvh) {
-  facets_.reserve(triangles.size());
-  for (const Eigen::Vector3i& corners : triangles) {
-    facets_.push_back(facetOf(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]));
-  }
-}
-
-Nearest::Facet Nearest::facetOf(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  constexpr double kSliver = 1e-12;  // square of the sine of the angle at the first corner
-  const auto side = [](const Vector3d& from, const Vector3d& to) {
-    const Vector3d along = to - from;
-    return Facet::Side{from, along, inverseOf(along.squaredNorm())};
-  };
-  Facet facet{{side(a, b), side(a, c), side(b, c)}, Vector3d::Zero(), 0.0, 0.0, 0.0, 0.0, true};
-  const Vector3d ab = b - a;
-  const Vector3d ac = c - a;
-  facet.abab = ab.squaredNorm();
-  facet.abac = ab.dot(ac);
-  facet.acac = ac.squaredNorm();
-  const double determinant = facet.abab * facet.acac - facet.abac * facet.abac;
-  facet.inverse = inverseOf(determinant);
-  facet.sliver = !(determinant > kSliver * facet.abab * facet.acac) || facet.inverse == 0.0;
-  const Vector3d normal = ab.cross(ac);
-  const double length = normal.norm();
-  if (length > 0.0 && std::isfinite(length)) facet.normal = normal / length;
-  return facet;
-}
+    : vertices_(vertices), triangles_(triangles), bvh_(bvh) {}
 
 Nearest::Nearest(std::span<const Vector3d> points, const WideBvh& bvh)
-    : points_(points), bvh_(bvh) {}
+    : vertices_(points), bvh_(bvh) {}
+
+Nearest::Nearest(std::span<const Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
+                 std::span<const int> firstOf, const WideBvh& bvh)
+    : vertices_(vertices), triangles_(triangles), firstOf_(firstOf), bvh_(bvh) {
+  findNodesWithParts();
+}
+
+void Nearest::findNodesWithParts() {
+  const std::vector<WideNode>& nodes = bvh_.nodes();
+  std::vector<int> order{0};  // parents first
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const WideNode& node = nodes[order[i]];
+    for (int lane = 0; lane < node.count; ++lane) {
+      if (node.child[lane] >= 0) order.push_back(node.child[lane]);
+    }
+  }
+  hasParts_.assign(nodes.size(), false);
+  for (auto i = order.size(); i-- > 0;) {
+    const WideNode& node = nodes[order[i]];
+    for (int lane = 0; lane < node.count; ++lane) {
+      const int child = node.child[lane];
+      if (child >= 0 ? hasParts_[child] : firstOf_[~child] < firstOf_[~child + 1]) {
+        hasParts_[order[i]] = true;
+      }
+    }
+  }
+}
 
 double Nearest::error(const Vector3d& p) const {
   constexpr double kRelative = 4e-6;
@@ -87,28 +106,23 @@ double Nearest::error(const Vector3d& p) const {
 }
 
 Vector3d Nearest::unitNormal(int primitive) const {
-  return facets_.empty() ? Vector3d(Vector3d::Zero()) : facets_[primitive].normal;
+  if (triangles_.empty()) return Vector3d::Zero();
+  const Eigen::Vector3i& corners = triangles_[primitive];
+  const Vector3d& a = vertices_[corners[0]];
+  const Vector3d normal = (vertices_[corners[1]] - a).cross(vertices_[corners[2]] - a);
+  const double length = normal.norm();
+  if (length > 0.0 && std::isfinite(length)) return normal / length;
+  return Vector3d::Zero();
 }
 
 void Nearest::test(int primitive, const Vector3d& p, Found& best) const {
-  if (facets_.empty()) return consider(p, points_[primitive], primitive, best);
-  const Facet& facet = facets_[primitive];
-  const Facet::Side& ab = facet.sides[0];
-  const Facet::Side& ac = facet.sides[1];
-  const Vector3d ap = p - ab.from;
-  const double height = ap.dot(facet.normal);
-  if (!facet.sliver && height * height > best.squared) return;
-  const double onAb = ap.dot(ab.along);
-  const double onAc = ap.dot(ac.along);
-  const double s = (facet.acac * onAb - facet.abac * onAc) * facet.inverse;
-  const double t = (facet.abab * onAc - facet.abac * onAb) * facet.inverse;
-  if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) {
-    consider(p, ab.from + s * ab.along + t * ac.along, primitive, best);
-    if (!facet.sliver) return;
-  }
-  for (const Facet::Side& side : facet.sides) {
-    const double along = std::clamp((p - side.from).dot(side.along) * side.inverse, 0.0, 1.0);
-    consider(p, side.from + along * side.along, primitive, best);
+  if (triangles_.empty()) return consider(p, vertices_[primitive], primitive, best);
+  const int first = firstOf_.empty() ? primitive : firstOf_[primitive];
+  const int end = firstOf_.empty() ? primitive + 1 : firstOf_[primitive + 1];
+  for (int i = first; i < end; ++i) {
+    const Eigen::Vector3i& corners = triangles_[i];
+    considerTriangle(p, vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]],
+                     primitive, best);
   }
 }
 
@@ -117,7 +131,7 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
   best.squared = bound * bound;
   struct Pending {
     float squared;
-    int node;
+    std::int32_t child;
   };
   // Each level leaves at most seven siblings behind.
   std::array<Pending, (WideNode::kLanes - 1) * WideBvh::kMaxDepth + 1> stack;
@@ -126,19 +140,22 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
   while (pending > 0) {
     const Pending top = stack[--pending];
     if (top.squared > best.squared) continue;
-    const WideNode& node = bvh_.nodes()[top.node];
-    const auto squared = boxDistances(node, p);
+    if (top.child < 0) {
+      test(~top.child, p, best);
+      continue;
+    }
+    const WideNode& node = bvh_.nodes()[top.child];
+    alignas(32) std::array<float, WideNode::kLanes> squared;
     const int first = pending;
-    for (int lane = 0; lane < node.count; ++lane) {
-      if (squared[lane] > best.squared) continue;
-      if (node.child[lane] < 0) {
-        test(~node.child[lane], p, best);
-        continue;
-      }
+    for (std::uint32_t near = pointBoxes(node, p, roundedUp(best.squared), squared); near != 0;
+         near &= near - 1) {
+      const int lane = std::countr_zero(near);
+      const std::int32_t child = node.child[lane];
+      if (!hasParts_.empty() && child >= 0 && !hasParts_[child]) continue;
       // Nearest on top.
       int at = pending++;
       for (; at > first && stack[at - 1].squared < squared[lane]; --at) stack[at] = stack[at - 1];
-      stack[at] = {squared[lane], node.child[lane]};
+      stack[at] = {squared[lane], child};
     }
   }
   return best;

@@ -36,6 +36,10 @@ class Nearest {
           const WideBvh& bvh);
   /// For points, in the order of the tree's leaves.
   Nearest(std::span<const Eigen::Vector3d> points, const WideBvh& bvh);
+  /// For parts of triangles that the tree has: those of primitive i are `triangles` from firstOf[i]
+  /// up to, and without, firstOf[i + 1].
+  Nearest(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
+          std::span<const int> firstOf, const WideBvh& bvh);
 
   /// Looks only for what is nearer than `bound` (m).
   Found find(const Eigen::Vector3d& p, double bound) const;
@@ -44,24 +48,13 @@ class Nearest {
   Eigen::Vector3d unitNormal(int primitive) const;
 
  private:
-  struct Facet {
-    /// From corner to corner, and one over the squared length; 0 for a side without length.
-    struct Side {
-      Eigen::Vector3d from, along;
-      double inverse;
-    };
-    std::array<Side, 3> sides;  ///< ab, ac, bc
-    Eigen::Vector3d normal;
-    double abab, abac, acac;
-    double inverse;  ///< of the determinant
-    bool sliver;     ///< the sides decide, whatever the inner coordinates say
-  };
-  static Facet facetOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                       const Eigen::Vector3d& c);
   void test(int primitive, const Eigen::Vector3d& p, Found& best) const;
+  void findNodesWithParts();
 
-  std::span<const Eigen::Vector3d> points_;
-  std::vector<Facet> facets_;
+  std::span<const Eigen::Vector3d> vertices_;  ///< or points
+  std::span<const Eigen::Vector3i> triangles_;
+  std::span<const int> firstOf_;  ///< empty: one triangle, or point, each
+  std::vector<bool> hasParts_;    ///< per node; empty: all
   const WideBvh& bvh_;
 };
 

@@ -36,6 +36,7 @@ Pockets::Pockets(std::span<const Vector3d> vertices, std::span<const Eigen::Vect
 Pockets::Parts Pockets::partsOf(std::span<const Vector3d> vertices,
                                 std::span<const Eigen::Vector3i> triangles) const {
   Parts parts;
+  parts.list.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     std::array<Vector3d, 3> corners;
     Index first;
@@ -46,6 +47,10 @@ Pockets::Parts Pockets::partsOf(std::span<const Vector3d> vertices,
       const int most = counts_[axis] - 1;
       first[axis] = std::clamp(static_cast<int>((low - origin_[axis]) / cell_), 0, most);
       last[axis] = std::clamp(static_cast<int>((high - origin_[axis]) / cell_), 0, most);
+    }
+    if (first == last) {
+      parts.list.push_back({first, static_cast<int>(i), 0, 0});
+      continue;
     }
     divide(corners, first, last, static_cast<int>(i), parts);
   }
@@ -95,27 +100,38 @@ void Pockets::peel(const Parts& parts, std::span<const Vector3d> vertices,
       skinTriangles_.emplace_back(base, base + i - 1, base + i);
     }
   };
+  auto part = parts.list.begin();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (isWithin[i]) continue;
-    add(std::array{vertices[triangles[i][0]], vertices[triangles[i][1]],
-                   vertices[triangles[i][2]]});
+    skinOf_.push_back(static_cast<int>(skinTriangles_.size()));
+    const auto first = part;
+    while (part != parts.list.end() && part->triangle == static_cast<int>(i)) ++part;
+    if (!isSkin_[i]) continue;
+    if (!isWithin[i]) {
+      add(std::array{vertices[triangles[i][0]], vertices[triangles[i][1]],
+                     vertices[triangles[i][2]]});
+      continue;
+    }
+    for (auto each = first; each != part; ++each) {
+      if (!touchesOutside(each->cell)) continue;
+      add(std::span(parts.corners).subspan(each->first, static_cast<std::size_t>(each->count)));
+    }
   }
-  for (const Part& part : parts.list) {
-    if (!isWithin[static_cast<std::size_t>(part.triangle)] || !touchesOutside(part.cell)) continue;
-    add(std::span(parts.corners).subspan(part.first, static_cast<std::size_t>(part.count)));
-  }
+  skinOf_.push_back(static_cast<int>(skinTriangles_.size()));
 }
 
-bool Pockets::touchesOutside(const Index& cell) const {
+bool Pockets::touchesOutside(const Index& cell) {
+  Kind& kind = kinds_[flat(cell)];
+  if (kind != Kind::Occupied) return kind == Kind::Skin;
+  kind = Kind::Within;
   for (int i = 0; i < 27; ++i) {
     const Index near{cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1};
     bool isCell = true;
     for (int axis = 0; axis < 3; ++axis) {
       isCell = isCell && near[axis] >= 0 && near[axis] < counts_[axis];
     }
-    if (isCell && kinds_[flat(near)] == Kind::Outside) return true;
+    if (isCell && kinds_[flat(near)] == Kind::Outside) kind = Kind::Skin;
   }
-  return false;
+  return kind == Kind::Skin;
 }
 
 void Pockets::walkFromOutside() {
@@ -138,18 +154,22 @@ void Pockets::walkFromOutside() {
   }
 }
 
-bool Pockets::contain(const Vector3d& p, double toSkin) const {
-  if (kinds_.empty()) return false;
+Pockets::Kind Pockets::kindAt(const Vector3d& p) const {
+  if (kinds_.empty()) return Kind::Outside;
   Index cell;
   for (int axis = 0; axis < 3; ++axis) {
     const double along = (p[axis] - origin_[axis]) / cell_;
-    if (!(along >= 0.0) || !(along < counts_[axis])) return false;
+    if (!(along >= 0.0) || !(along < counts_[axis])) return Kind::Outside;
     cell[axis] = static_cast<int>(along);
   }
+  return kinds_[flat(cell)];
+}
+
+bool Pockets::contain(const Vector3d& p, double toSkin) const {
   // A cell with triangles that are well away from the skin has no part outside.
   constexpr double kWellAway = 2.0;
-  const Kind kind = kinds_[flat(cell)];
-  return kind == Kind::Unreached || (kind == Kind::Occupied && toSkin > kWellAway * cell_);
+  const Kind kind = kindAt(p);
+  return kind == Kind::Unreached || (kind != Kind::Outside && toSkin > kWellAway * cell_);
 }
 
 }  // namespace swept::detail

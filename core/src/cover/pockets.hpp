@@ -19,21 +19,26 @@ class Pockets {
   bool areNone() const { return areNone_; }
   /// Whether some of the triangle is next to the outside; the others are within.
   bool isSkin(int triangle) const { return isSkin_[triangle]; }
-  /// Those triangles, or the parts of them next to the outside where others are within.
+  /// Those triangles, or the parts of them next to the outside where others are within; by
+  /// triangle of the mesh, the i-th from skinOf()[i] on.
   const std::vector<Eigen::Vector3d>& skinVertices() const { return skinVertices_; }  ///< m
   const std::vector<Eigen::Vector3i>& skinTriangles() const { return skinTriangles_; }
+  const std::vector<int>& skinOf() const { return skinOf_; }
+  /// False where contain() is false whatever the distance.
+  bool mayContain(const Eigen::Vector3d& p) const { return kindAt(p) != Kind::Outside; }
   /// Whether a point is within; `toSkin`: m, its distance from the nearest triangle of the skin.
   bool contain(const Eigen::Vector3d& p, double toSkin) const;
 
  private:
   using Index = std::array<int, 3>;
-  enum class Kind : std::uint8_t { Unreached, Occupied, Outside };
+  /// Within and Skin: occupied, and known not to touch, or to touch, the outside.
+  enum class Kind : std::uint8_t { Unreached, Occupied, Within, Skin, Outside };
   /// Of a triangle in a cell.
   struct Part {
     Index cell;
     int triangle;
     std::vector<Eigen::Vector3d>::size_type first;  ///< of its corners
-    int count;
+    int count;                                      ///< 0: the whole triangle
   };
   struct Parts {
     std::vector<Part> list;  ///< by triangle
@@ -47,7 +52,8 @@ class Pockets {
   void walkFromOutside();
   void peel(const Parts& parts, std::span<const Eigen::Vector3d> vertices,
             std::span<const Eigen::Vector3i> triangles);
-  bool touchesOutside(const Index& cell) const;
+  bool touchesOutside(const Index& cell);
+  Kind kindAt(const Eigen::Vector3d& p) const;
   int flat(const Index& cell) const {
     return (cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0];
   }
@@ -60,6 +66,7 @@ class Pockets {
   std::vector<bool> isSkin_;
   std::vector<Eigen::Vector3d> skinVertices_;
   std::vector<Eigen::Vector3i> skinTriangles_;
+  std::vector<int> skinOf_;
 };
 
 }  // namespace swept::detail

@@ -105,20 +105,8 @@ std::span<const Eigen::Vector3i> Solid::triangles() const {
 void Solid::findPockets() {
   pockets_.emplace(mesh_->vertices(), mesh_->triangles());
   if (pockets_->areNone()) return pockets_.reset();
-  std::vector<Vector3d> corners;
-  for (const Eigen::Vector3i& triangle : pockets_->skinTriangles()) {
-    for (const int corner : triangle) corners.push_back(pockets_->skinVertices()[corner]);
-  }
-  const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, WideNode::kLanes);
-  std::vector<Vector3d> orderedCorners;
-  std::vector<Eigen::Vector3i> ordered;
-  for (const int source : tree.order) {
-    const int first = static_cast<int>(orderedCorners.size());
-    ordered.emplace_back(first, first + 1, first + 2);
-    for (int k = 0; k < 3; ++k) orderedCorners.push_back(corners[3 * source + k]);
-  }
-  skinTree_ = std::make_shared<const WideBvh>(tree, PrimitivePoints{orderedCorners, 3});
-  nearestSkin_.emplace(orderedCorners, ordered, *skinTree_);
+  nearestSkin_.emplace(pockets_->skinVertices(), pockets_->skinTriangles(), pockets_->skinOf(),
+                       mesh_->bvh());
 }
 
 /// Parts inside a link, or links made of parts that overlap, have triangles within the solid; they
@@ -164,7 +152,7 @@ double Solid::depthIn(const Vector3d& p, double toTriangles) const {
 }
 
 Candidate Solid::at(const Vector3d& p) const {
-  if (pockets_) {
+  if (pockets_ && pockets_->mayContain(p)) {
     const double toSkin = distance(*nearestSkin_, p);
     if (pockets_->contain(p, toSkin)) return {p, toSkin - nearest_->error(p), true};
   }

@@ -93,7 +93,6 @@ class Solid {
   std::optional<PointCloud> cloud_;
   std::optional<Nearest> nearest_;
   std::optional<Pockets> pockets_;
-  std::shared_ptr<const WideBvh> skinTree_;
   std::optional<Nearest> nearestSkin_;                ///< of the pockets
   std::vector<std::unique_ptr<const Shell>> shells_;  ///< the large ones; none: a single component
   std::vector<int> shellOf_;                          ///< per triangle; -1: none
