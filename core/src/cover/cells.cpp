@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "cover/clip.hpp"
 
@@ -90,6 +91,14 @@ double Cell::farthest(const Vector3d& center) const {
     squared = std::max(squared, (point - center).squaredNorm());
   }
   return std::sqrt(squared) + blur;
+}
+
+double Cell::nearest() const {
+  double squared = std::numeric_limits<double>::infinity();
+  for (const Vector3d& corner : corners) {
+    squared = std::min(squared, (corner - middle).squaredNorm());
+  }
+  return std::sqrt(squared);
 }
 
 Cells::Cells(const Solid& solid) : solid_(solid), margin_(1e-12 * solid.scale()) {}

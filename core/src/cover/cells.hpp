@@ -32,6 +32,9 @@ struct Cell {
   double size() const { return (upper - lower).maxCoeff(); }
   /// Whether the ball contains the content.
   bool isIn(const Eigen::Vector3d& center, double radius) const;
+  /// m, distance of the middle from some point of the surface in the cell; of those looked at the
+  /// least.
+  double nearest() const;
   /// m, radius of the least ball around `center` that contains the content.
   double farthest(const Eigen::Vector3d& center) const;
 };

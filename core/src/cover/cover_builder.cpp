@@ -188,9 +188,20 @@ void CoverBuilder::chooseFor(Division& division, std::size_t first) {
   std::vector<std::vector<int>> sets(division.balls.size());
   const std::size_t count = division.cells.size() - first;
   if (count == 0) return;
+  // Most cells are clearly in a ball or clearly not; these are looked at in one go.
+  struct Ends {
+    Vector3d middle;
+    double reach;
+  };
+  std::vector<Ends> ends;
+  for (std::size_t j = 0; j < count; ++j) {
+    ends.push_back({division.cells[first + j].middle, division.cells[first + j].reach});
+  }
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const Ball& ball = division.balls[i];
     for (std::size_t j = 0; j < count; ++j) {
+      const double outer = ball.radius + ends[j].reach;
+      if (!((ends[j].middle - ball.place.center).squaredNorm() <= outer * outer)) continue;
       if (division.cells[first + j].isIn(ball.place.center, ball.radius)) {
         sets[i].push_back(static_cast<int>(j));
       }
@@ -266,7 +277,7 @@ void CoverBuilder::suggest(const Cell& cell, double mostDepth, double delta,
     triangle = patch.triangle;
   }
   if (triangle < 0) return;
-  const auto place = solid_.inscribed(foot, triangle, mostDepth);
+  const auto place = solid_.inscribed(foot, triangle, mostDepth, contacts_);
   if (!place) return;
   if (!place->inPocket) seen_.push_back(*place);
   const double closeSquared = kSameCenter * kSameCenter * delta * delta;
@@ -285,7 +296,8 @@ bool CoverBuilder::isCovered(const Cell& cell, double delta, bool divisible,
     return cell.isIn(ball.place.center, ball.radius);
   };
   if (std::any_of(balls.rbegin(), balls.rend(), contains)) return true;
-  const Candidate own = cell.isSolid() ? solid_.inside(cell.middle) : solid_.at(cell.middle);
+  const Candidate own =
+      cell.isSolid() ? solid_.inside(cell.middle) : solid_.at(cell.middle, cell.nearest());
   const bool good = cell.isIn(own.center, own.depth + delta);
   if (!good && divisible && cell.size() >= kSmallestCell * delta) return false;
   balls.push_back({own, good ? own.depth + delta : cell.reach * (1.0 + 1e-12)});

@@ -70,6 +70,7 @@ class CoverBuilder {
   double rootRadius_ = 0.0;  ///< m
   std::vector<Node> nodes_;
   std::vector<Candidate> seen_;  ///< proven, for the inner balls
+  Contacts contacts_;
 };
 
 }  // namespace swept::detail

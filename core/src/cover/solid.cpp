@@ -17,8 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-double distance(const Nearest& nearest, const Vector3d& p) {
-  return std::sqrt(nearest.find(p, std::numeric_limits<double>::infinity()).squared);
+double distance(const Nearest& nearest, const Vector3d& p,
+                double near = std::numeric_limits<double>::infinity()) {
+  Nearest::Found found = nearest.find(p, near * (1.0 + 1e-6));
+  if (found.primitive < 0) found = nearest.find(p, std::numeric_limits<double>::infinity());
+  return std::sqrt(found.squared);
 }
 
 [[noreturn]] void refuse(const char* name) {
@@ -151,16 +154,16 @@ double Solid::depthIn(const Vector3d& p, double toTriangles) const {
   return depth - slack_;
 }
 
-Candidate Solid::at(const Vector3d& p) const {
+Candidate Solid::at(const Vector3d& p, double near) const {
   if (pockets_ && pockets_->mayContain(p)) {
     const double toSkin = distance(*nearestSkin_, p);
     if (pockets_->contain(p, toSkin)) return {p, toSkin - nearest_->error(p), true};
   }
-  return {p, depth(p)};
+  return {p, depth(p, near)};
 }
 
-double Solid::depth(const Vector3d& p) const {
-  const double found = distance(*nearest_, p);
+double Solid::depth(const Vector3d& p, double near) const {
+  const double found = distance(*nearest_, p, near);
   return encloses(p) ? depthIn(p, found) : -found - nearest_->error(p) - slack_;
 }
 
@@ -168,7 +171,8 @@ Candidate Solid::inside(const Vector3d& p) const {
   return {p, depthIn(p, distance(*nearest_, p))};
 }
 
-std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, double radius) const {
+std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, double radius,
+                                          Contacts& contacts) const {
   if (pockets_ ? !pockets_->isSkin(triangle) : !hasInside_) return std::nullopt;
   const Vector3d normal = nearest_->unitNormal(triangle);
   if (normal.isZero()) return std::nullopt;
@@ -180,8 +184,8 @@ std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, do
   const Hollow hollow{pockets_ ? *nearestSkin_ : own != nullptr ? own->nearest : *nearest_, own};
   // Normals nearly always point outward.
   bool wrongSide = false;
-  auto ball = inscribedAlong(foot, -normal, radius, hollow, wrongSide);
-  if (wrongSide) ball = inscribedAlong(foot, normal, radius, hollow, wrongSide);
+  auto ball = inscribedAlong(foot, -normal, radius, hollow, contacts, wrongSide);
+  if (wrongSide) ball = inscribedAlong(foot, normal, radius, hollow, contacts, wrongSide);
   return ball;
 }
 
@@ -189,11 +193,18 @@ std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, do
 /// neighbors"): while something is nearer to the centre than the foot, take the ball through both.
 std::optional<Candidate> Solid::inscribedAlong(const Vector3d& foot, const Vector3d& inward,
                                                double radius, const Hollow& hollow,
-                                               bool& wrongSide) const {
+                                               Contacts& contacts, bool& wrongSide) const {
   constexpr int kSteps = 8;
   constexpr double kEnough = 0.98;
   wrongSide = false;
   double t = radius;
+  if (contacts.of != &hollow.nearest) contacts = {&hollow.nearest, {}, 0, 0};
+  for (int i = 0; i < contacts.count; ++i) {
+    const Vector3d across = contacts.points[i] - foot;
+    if (!((across - t * inward).squaredNorm() < kEnough * kEnough * t * t)) continue;
+    const double next = across.squaredNorm() / (2.0 * across.dot(inward));
+    if (next > 0.0 && next < t) t = next;
+  }
   for (int step = 0; step < kSteps; ++step) {
     const Vector3d center = foot + t * inward;
     const Nearest::Found found = hollow.nearest.find(center, kEnough * t);
@@ -211,6 +222,7 @@ std::optional<Candidate> Solid::inscribedAlong(const Vector3d& foot, const Vecto
     const double next = across.squaredNorm() / (2.0 * across.dot(inward));
     if (!(next > 0.0) || !(next < t)) return std::nullopt;
     t = next;
+    contacts.add(found.point);
   }
   return std::nullopt;
 }

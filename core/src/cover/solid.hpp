@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +24,20 @@ struct Candidate {
   double depth;
   /// The depth is that in the shape with its pockets filled, and not proven.
   bool inPocket = false;
+};
+
+/// Points that the last balls touched, to start the next search with: those near it shrink the ball
+/// as a search would. Whatever they are, the ball found is proven.
+struct Contacts {
+  const Nearest* of = nullptr;            ///< whose points they are
+  std::array<Eigen::Vector3d, 8> points;  ///< m
+  int count = 0;
+  int next = 0;
+  void add(const Eigen::Vector3d& point) {
+    points[next] = point;
+    next = (next + 1) % static_cast<int>(points.size());
+    count = std::min(count + 1, static_cast<int>(points.size()));
+  }
 };
 
 /// What a cover is built from: triangles (those of a mesh, or of a polyhedron that contains a
@@ -45,16 +62,19 @@ class Solid {
   bool hasDepth() const { return (hasInside_ && !isFlat_) || pockets_; }
   /// Proven, up to the rounding that TriangleMesh::encloses() speaks of.
   bool encloses(const Eigen::Vector3d& p) const { return mesh_ && mesh_->encloses(p); }
-  /// Proven lower bound.
-  Candidate at(const Eigen::Vector3d& p) const;
+  /// Proven lower bound. `near`: m, some point of the surface is no farther, as far as known; makes
+  /// the search short.
+  Candidate at(const Eigen::Vector3d& p,
+               double near = std::numeric_limits<double>::infinity()) const;
   /// m, of `at()` without pockets: always proven.
-  double depth(const Eigen::Vector3d& p) const;
+  double depth(const Eigen::Vector3d& p,
+               double near = std::numeric_limits<double>::infinity()) const;
   /// What at() finds of a point that is known to be enclosed.
   Candidate inside(const Eigen::Vector3d& p) const;
   /// A ball of at most `radius` (m) inside the solid, or in a pocket, that touches the surface at
   /// `foot`, a point of a triangle; none where there is no room, and at triangles in a pocket.
-  std::optional<Candidate> inscribed(const Eigen::Vector3d& foot, int triangle,
-                                     double radius) const;
+  std::optional<Candidate> inscribed(const Eigen::Vector3d& foot, int triangle, double radius,
+                                     Contacts& contacts) const;
   /// m, proven: no point of the ball is farther than this from the shape.
   double overhang(const Candidate& candidate, double radius) const;
 
@@ -86,7 +106,8 @@ class Solid {
   /// `wrongSide` receives whether there was room on that side, but outside.
   std::optional<Candidate> inscribedAlong(const Eigen::Vector3d& foot,
                                           const Eigen::Vector3d& inward, double radius,
-                                          const Hollow& hollow, bool& wrongSide) const;
+                                          const Hollow& hollow, Contacts& contacts,
+                                          bool& wrongSide) const;
   double farthestFromSurface(const Eigen::Vector3d& center, double radius, double atCenter) const;
 
   std::optional<TriangleMesh> mesh_;
