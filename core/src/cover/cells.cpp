@@ -18,6 +18,13 @@ Vector3d cornerOf(const Cell& cell, int index) {
           (index & 4 ? cell.upper : cell.lower).z()};
 }
 
+/// Bit 2 i: the lower side across axis i, bit 2 i + 1: the upper one.
+std::uint32_t sidesOf(int corner) {
+  std::uint32_t sides = 0;
+  for (int axis = 0; axis < 3; ++axis) sides |= 1u << (2 * axis + (corner >> axis & 1));
+  return sides;
+}
+
 /// Points in one cube of a coarse grid become one point, whose blur is what they are off by.
 double thinOut(std::vector<Vector3d>& points) {
   constexpr int kGrid = 4;
@@ -51,6 +58,22 @@ double thinOut(std::vector<Vector3d>& points) {
     blur = std::max(blur, 0.5 * (box.upper - box.lower).norm());
   }
   return blur;
+}
+
+/// The corners at the other ends of edges that the surface does not meet. An edge lies in two sides
+/// of the box, and a patch that meets it, cut a margin m beyond both, has a corner within two
+/// margins of both: with y and z from the two sides inward, y >= -m and z >= -m on the patch and
+/// y + z <= 0 at some corner, so that y <= m and z <= m there, up to the rounding of the cuts.
+std::uint32_t freeNeighbours(std::span<const std::uint32_t> touched, int corner) {
+  std::uint32_t free = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t sides = sidesOf(corner) & ~(3u << (2 * axis));
+    const bool meets = std::any_of(touched.begin(), touched.end(), [sides](std::uint32_t touches) {
+      return (touches & sides) == sides;
+    });
+    if (!meets) free |= 1u << (corner ^ (1 << axis));
+  }
+  return free;
 }
 
 /// The extremes first: a ball that does not contain all fails early.
@@ -134,6 +157,8 @@ void Cells::split(const Cell& cell, std::vector<Cell>& out) {
     half.lower = cell.lower;
     half.upper = cell.upper;
     (side > 0.0 ? half.upper : half.lower)[axis] = at;
+    half.corners.reserve(cell.corners.size() / 2 + 8);
+    half.patches.reserve(cell.patches.size() / 2 + 2);
     std::size_t first = 0;
     for (const Cell::Patch& patch : cell.patches) {
       const auto count = static_cast<std::size_t>(patch.count);
@@ -151,9 +176,9 @@ void Cells::split(const Cell& cell, std::vector<Cell>& out) {
 void Cells::gather(Cell& cell) {
   constexpr std::size_t kMostPoints = 40;
   cell.content = cell.corners;
+  const std::uint32_t inside = cell.isSolid() ? 0xff : cornersInside(cell);
   for (int i = 0; i < 8; ++i) {
-    const Vector3d corner = cornerOf(cell, i);
-    if (cell.isSolid() || encloses(corner)) cell.content.push_back(corner);
+    if (inside >> i & 1) cell.content.push_back(cornerOf(cell, i));
   }
   cell.blur = 0.0;
   if (cell.content.size() > kMostPoints) {
@@ -179,10 +204,58 @@ std::size_t Cells::Hash::operator()(const Key& key) const {
   return hash;
 }
 
-bool Cells::encloses(const Vector3d& corner) {
-  const auto [entry, isNew] = corners_.try_emplace({corner.x(), corner.y(), corner.z()}, false);
-  if (isNew) entry->second = solid_.encloses(corner);
-  return entry->second;
+/// Bit i: corner i is in the solid; clear for one that the surface passes within two margins,
+/// beside which there is a patch's corner in the content, and for which rays are of no use. Along
+/// an edge that the surface does not meet, none or all of it is; so few rays are needed.
+std::uint32_t Cells::cornersInside(const Cell& cell) {
+  if (!solid_.hasInside()) return 0;
+  std::vector<std::uint32_t> touched;  // by corners of patches: the sides, if several
+  for (const Vector3d& corner : cell.corners) {
+    std::uint32_t touches = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (corner[axis] <= cell.lower[axis] + 2.0 * margin_) touches |= 1u << (2 * axis);
+      if (corner[axis] >= cell.upper[axis] - 2.0 * margin_) touches |= 2u << (2 * axis);
+    }
+    if ((touches & (touches - 1)) == 0) continue;
+    if (std::find(touched.begin(), touched.end(), touches) == touched.end()) {
+      touched.push_back(touches);
+    }
+  }
+  std::array<bool*, 8> answers{};
+  std::uint32_t known = 0;
+  std::uint32_t inside = 0;
+  std::uint32_t told = 0;  // have passed on what is known of them
+  for (int i = 0; i < 8; ++i) {
+    const std::uint32_t sides = sidesOf(i);
+    if (std::any_of(touched.begin(), touched.end(),
+                    [sides](std::uint32_t touches) { return (touches & sides) == sides; })) {
+      told |= 1u << i;
+      known |= 1u << i;
+      continue;
+    }
+    const Vector3d at = cornerOf(cell, i);
+    const auto [entry, isNew] = corners_.try_emplace({at.x(), at.y(), at.z()}, false);
+    answers[i] = &entry->second;
+    if (isNew) continue;
+    known |= 1u << i;
+    if (entry->second) inside |= 1u << i;
+  }
+  while (told != 0xff) {
+    if ((known & ~told) == 0) {
+      const int asked = std::countr_one(known);
+      known |= 1u << asked;
+      if (solid_.encloses(cornerOf(cell, asked))) inside |= 1u << asked;
+    }
+    const int from = std::countr_zero(known & ~told);
+    told |= 1u << from;
+    const std::uint32_t learn = freeNeighbours(touched, from) & ~known;
+    known |= learn;
+    if (inside >> from & 1) inside |= learn;
+  }
+  for (int i = 0; i < 8; ++i) {
+    if (answers[i] != nullptr) *answers[i] = inside >> i & 1;
+  }
+  return inside;
 }
 
 bool Cells::middleIsSolid(const Cell& cell) {

@@ -69,7 +69,7 @@ class Cells {
   struct Hash {
     std::size_t operator()(const Key& key) const;
   };
-  bool encloses(const Eigen::Vector3d& corner);
+  std::uint32_t cornersInside(const Cell& cell);
   bool middleIsSolid(const Cell& cell);
 
   /// Links to a hundredth of their size need some ten thousand.

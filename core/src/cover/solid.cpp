@@ -68,7 +68,8 @@ Solid::Solid(const Shape& shape) {
   for (const Vector3d& vertex : vertices())
     scale_ = std::max(scale_, vertex.lpNorm<Eigen::Infinity>());
   // A path of at most 100 cuts (Cells::canSplit) moves a corner by 8 roundings each, 1e-13 of the
-  // scale; what is uncertain about points within rounding of the surface is 1e-14 of it.
+  // scale; what is uncertain about points within rounding of the surface is 1e-14 of it. The corner
+  // of a patch may stand for that of a box 2e-12 of the scale away along each axis.
   constexpr double kPad = 1e-11;
   pad_ += kPad * scale_;
 }

@@ -60,6 +60,8 @@ class Solid {
 
   /// False for surfaces without pockets, flat shapes and points: no ball is inside.
   bool hasDepth() const { return (hasInside_ && !isFlat_) || pockets_; }
+  /// Whether anything is enclosed.
+  bool hasInside() const { return hasInside_; }
   /// Proven, up to the rounding that TriangleMesh::encloses() speaks of.
   bool encloses(const Eigen::Vector3d& p) const { return mesh_ && mesh_->encloses(p); }
   /// Proven lower bound. `near`: m, some point of the surface is no farther, as far as known; makes
