@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <thread>
+
+#include "io/robot_covers.hpp"
 #include "io/srdf.hpp"
 #include "io/urdf_model.hpp"
 #include "io/urdf_outline.hpp"
@@ -27,6 +30,7 @@ std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std
   if (!srdfText.empty()) srdf = detail::readSrdf(srdfText, srdfSource);
   detail::RobotParts parts = detail::assembleRobot(outline, srdf, urdfSource, srdfSource);
   detail::applySrdf(srdf, srdfSource, parts);
+  detail::addCovers(parts.links, std::thread::hardware_concurrency());
   return RobotBuilder::build(std::move(parts));
 }
 

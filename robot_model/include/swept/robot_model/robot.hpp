@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "swept/core/shapes.hpp"
+#include "swept/core/sphere_cover.hpp"
 #include "swept/robot_model/input.hpp"
 
 namespace swept {
@@ -31,6 +32,10 @@ struct CollisionGeometry {
   Shape shape;
   Eigen::Isometry3d link_from_shape;
   std::string source;  ///< mesh file, or the primitive's name
+  /// Outer and inner balls, in the shape's frame; null for planes and half-spaces. Equal geometries
+  /// of a robot share one.
+  std::shared_ptr<const SphereCover> cover = nullptr;
+  double coverSeconds = 0.0;  ///< s, to build the cover; 0 for all but the first that share one
 };
 
 struct Link {
@@ -80,7 +85,8 @@ struct DisabledPair {
   std::string reason;  ///< as the SRDF says it: Adjacent, Never, Default, ...
 };
 
-/// A kinematic tree with collision geometry, from URDF and SRDF. Immutable after loading.
+/// A kinematic tree with collision geometry, from URDF and SRDF. Immutable after loading. Covers are
+/// built on as many threads as there are processors, and are the same on any number.
 ///
 /// Links and joints are stored parents first. Mimicking joints follow their master and have no
 /// variable. Lengths in metres, angles in radians.
