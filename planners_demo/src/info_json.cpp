@@ -5,6 +5,29 @@
 namespace swept {
 namespace {
 
+Json coverJson(const CollisionGeometry& geometry) {
+  if (geometry.cover == nullptr) return nullptr;
+  const SphereCover::Level& finest = geometry.cover->levels.back();
+  return {{"balls", finest.ballCount},
+          {"overhang", finiteOrNull(finest.largestOverhang)},
+          {"inner_balls", geometry.cover->inner.size()},
+          {"seconds", geometry.coverSeconds}};
+}
+
+Json coverTotalsJson(const Robot& robot) {
+  int balls = 0;
+  std::size_t inner = 0;
+  double seconds = 0.0;
+  for (const Link& link : robot.links())
+    for (const CollisionGeometry& geometry : link.collision) {
+      if (geometry.cover == nullptr) continue;
+      balls += geometry.cover->levels.back().ballCount;
+      inner += geometry.cover->inner.size();
+      seconds += geometry.coverSeconds;
+    }
+  return {{"balls", balls}, {"inner_balls", inner}, {"seconds", seconds}};
+}
+
 Json linksJson(const Robot& robot) {
   Json links = Json::array();
   for (const Link& link : robot.links()) {
@@ -12,6 +35,7 @@ Json linksJson(const Robot& robot) {
     for (const CollisionGeometry& geometry : link.collision) {
       Json shape = shapeJson(geometry.shape);
       shape["source"] = geometry.source;
+      shape["cover"] = coverJson(geometry);
       collision.push_back(std::move(shape));
     }
     links.push_back({{"name", link.name}, {"collision", std::move(collision)}});
@@ -105,6 +129,7 @@ Json infoJson(const Arguments& args, const Model& model, const Checker* checker)
   json["srdf"] = model.srdf.file.empty() ? Json(nullptr) : Json(model.srdf.file);
   json["srdf_found_beside_urdf"] = model.srdf.foundBesideUrdf;
   json["links"] = linksJson(*model.robot);
+  json["covers"] = coverTotalsJson(*model.robot);
   json["joints"] = jointsJson(*model.robot);
   json["groups"] = groupsJson(*model.robot);
   json["disabled_pairs"] = disabledPairsJson(*model.robot);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "info.hpp"
@@ -14,16 +16,47 @@ std::string baseName(const std::string& file) {
   return file.substr(file.find_last_of('/') + 1);
 }
 
+/// Of a length in mm or a time in ms.
+std::string milli(double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", 1e3 * value);
+  return text.data();
+}
+
+/// The finest level of the cover of each geometry, its inner balls and the time it took.
 std::string linkTable(const Robot& robot) {
-  TextTable table({{"link"}, {"collision geometry"}, {"file"}});
+  TextTable table({{"link"},
+                   {"collision geometry"},
+                   {"balls", true},
+                   {"overhang", true},
+                   {"inner", true},
+                   {"built in", true},
+                   {"file"}});
+  int balls = 0;
+  std::size_t inner = 0;
+  double seconds = 0.0;
   for (const Link& link : robot.links())
     for (const CollisionGeometry& geometry : link.collision) {
       const bool first = &geometry == &link.collision.front();
       const bool mesh = std::holds_alternative<TriangleMesh>(geometry.shape);
-      table.add({first ? link.name : "", shapeText(geometry.shape),
-                 mesh ? baseName(geometry.source) : ""});
+      std::vector<std::string> row{first ? link.name : "", shapeText(geometry.shape)};
+      if (geometry.cover != nullptr) {
+        const SphereCover::Level& finest = geometry.cover->levels.back();
+        balls += finest.ballCount;
+        inner += geometry.cover->inner.size();
+        seconds += geometry.coverSeconds;
+        row.insert(row.end(),
+                   {std::to_string(finest.ballCount), milli(finest.largestOverhang) + " mm",
+                    std::to_string(geometry.cover->inner.size()),
+                    geometry.coverSeconds > 0.0 ? milli(geometry.coverSeconds) + " ms" : "shared"});
+      } else {
+        row.insert(row.end(), 4, "");
+      }
+      row.push_back(mesh ? baseName(geometry.source) : "");
+      table.add(std::move(row));
     }
-  return table.text();
+  return table.text() + "covers: " + std::to_string(balls) + " balls, " + std::to_string(inner) +
+         " inner balls, built in " + milli(seconds) + " ms\n";
 }
 
 std::string mimicText(const Robot& robot, const Mimic& mimic) {

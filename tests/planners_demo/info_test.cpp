@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "gantry.hpp"
 
 namespace swept::test {
@@ -10,35 +12,47 @@ namespace {
 using testing::EndsWith;
 using testing::HasSubstr;
 
+/// Each time in ms becomes `# ms`.
+std::string withoutTimes(const std::string& text) {
+  return std::regex_replace(text, std::regex(" +[0-9.]+ ms"), " # ms");
+}
+
 TEST(Info, SaysWhatIsThere) {
   const Gantry gantry;
   const Outcome run = gantry.run("info", {});
   EXPECT_EQ(run.exitCode, 0);
   EXPECT_EQ(run.err, "");
-  EXPECT_EQ(run.out, "robot gantry from " + gantry.urdf + "\nSRDF " + gantry.srdf +
-                         " (found beside the URDF)\n"
-                         "3 links, 1 with collision geometry; 2 joints, 2 variables; "
-                         "0 pairs disabled by the SRDF\n"
-                         "\n"
-                         "link  collision geometry     file\n"
-                         "cube  box 0.2 x 0.2 x 0.2 m\n"
-                         "\n"
-                         "joint  type       lower  upper  unit\n"
-                         "slide  prismatic   -0.5    2.5  m\n"
-                         "lift   prismatic      0      1  m\n"
-                         "\n"
-                         "group   tip   named states         variables\n"
-                         "both    cube  left, right, inside  slide,lift\n"
-                         "slider  beam                       slide\n"
-                         "\n"
-                         "scene " +
-                         gantry.scene +
-                         ": 1 body\n"
-                         "world body  geometry\n"
-                         "post        box 0.2 x 0.2 x 0.2 m\n"
-                         "\n"
-                         "group both checks 1 pair: 1 of a link with a world body, "
-                         "0 of two links\n");
+  const std::string balls = jsonOf(gantry.run("info", {"--json"}))["covers"]["balls"].dump();
+  EXPECT_EQ(withoutTimes(run.out),
+            "robot gantry from " + gantry.urdf + "\nSRDF " + gantry.srdf +
+                " (found beside the URDF)\n"
+                "3 links, 1 with collision geometry; 2 joints, 2 variables; "
+                "0 pairs disabled by the SRDF\n"
+                "\n"
+                "link  collision geometry     balls  overhang  inner  built in  file\n"
+                "cube  box 0.2 x 0.2 x 0.2 m    " +
+                balls +
+                "    5.4 mm     16 # ms\n"
+                "covers: " +
+                balls +
+                " balls, 16 inner balls, built in # ms\n"
+                "\n"
+                "joint  type       lower  upper  unit\n"
+                "slide  prismatic   -0.5    2.5  m\n"
+                "lift   prismatic      0      1  m\n"
+                "\n"
+                "group   tip   named states         variables\n"
+                "both    cube  left, right, inside  slide,lift\n"
+                "slider  beam                       slide\n"
+                "\n"
+                "scene " +
+                gantry.scene +
+                ": 1 body\n"
+                "world body  geometry\n"
+                "post        box 0.2 x 0.2 x 0.2 m\n"
+                "\n"
+                "group both checks 1 pair: 1 of a link with a world body, "
+                "0 of two links\n");
 }
 
 TEST(Info, JsonHoldsTheSame) {
@@ -51,6 +65,15 @@ TEST(Info, JsonHoldsTheSame) {
   EXPECT_EQ(json["srdf_found_beside_urdf"], true);
   ASSERT_EQ(json["links"].size(), 3u);
   EXPECT_EQ(json["links"][2]["collision"][0]["kind"], "box");
+  const auto& cover = json["links"][2]["collision"][0]["cover"];
+  EXPECT_EQ(cover["inner_balls"], 16);
+  EXPECT_GT(cover["balls"], 100);
+  EXPECT_GT(cover["overhang"], 0.003);
+  EXPECT_LE(cover["overhang"], 0.0055);
+  EXPECT_GT(cover["seconds"], 0.0);
+  EXPECT_EQ(json["covers"],
+            (nlohmann::json{
+                {"balls", cover["balls"]}, {"inner_balls", 16}, {"seconds", cover["seconds"]}}));
   ASSERT_EQ(json["joints"].size(), 2u);
   EXPECT_EQ(json["joints"][0]["variables"][0]["upper"], 2.5);
   EXPECT_EQ(json["groups"][0]["named_states"]["right"]["slide"], 2.0);
