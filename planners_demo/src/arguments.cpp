@@ -19,6 +19,9 @@ constexpr std::string_view kExitCodes =
 constexpr std::string_view kReplayExitCodes =
     "Exit codes: 0 all passed or skipped, 1 a case failed, 3 bad input or usage.";
 
+constexpr std::string_view kBenchExitCodes =
+    "Exit codes: 0 measured, whatever the verdicts; 3 bad input or usage.";
+
 constexpr std::string_view kStates =
     "States are names from the SRDF or comma-separated values (rad, m) in the order of the "
     "group's\n"
@@ -61,7 +64,6 @@ void addModelOptions(CLI::App& app, Arguments& args) {
                  "SRDF file; without: a .srdf beside the URDF with the same stem, if there is one; "
                  "'none': no SRDF")
       ->type_name("FILE");
-  app.add_option("--scene", args.scene, "planning scene: .yaml, .yml or .scene")->type_name("FILE");
   app.add_option("--group", args.group, "planning group; not needed when there is only one")
       ->type_name("NAME");
   app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
@@ -76,6 +78,10 @@ void addModelOptions(CLI::App& app, Arguments& args) {
       ->check(within(1e-6, 1.0, "between 1e-6 and 1 m"));
   app.add_flag("--json", args.json, "one JSON object on stdout instead of text");
   app.add_flag("-q,--quiet", args.quiet, "no warnings and no progress on stderr");
+}
+
+void addSceneOption(CLI::App& app, Arguments& args) {
+  app.add_option("--scene", args.scene, "planning scene: .yaml, .yml or .scene")->type_name("FILE");
 }
 
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what) {
@@ -109,6 +115,31 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
   app.add_flag("-v,--verbose", args.verbose, "OMPL's messages on stderr");
 }
 
+void addBenchOptions(CLI::App& app, Arguments& args) {
+  app.add_option("--problems", args.problems, "problem file: the worlds of the motions")
+      ->required()
+      ->type_name("FILE.json");
+  app.add_option("--edges", args.edges,
+                 "the motions: set,index,from0,..,to0,..,length; .gz too; planners_demo/README.md")
+      ->required()
+      ->type_name("FILE.csv");
+  app.add_option("--set", args.set, "only motions of this set of problems")->type_name("NAME");
+  app.add_option("--limit", args.limit, "only the first N motions")
+      ->type_name("N")
+      ->check(within(1, std::numeric_limits<int>::max(), "1 or more"));
+  app.add_option("--passes", args.passes, "each motion's time is the least of N (default 5)")
+      ->type_name("N")
+      ->check(within(1, 10000, "between 1 and 10000"));
+  app.add_option("--against", args.against,
+                 "'fcl': also FCL under OMPL's discrete validator, on the same motions")
+      ->type_name("PEER")
+      ->check(CLI::Validator(
+          [](std::string& peer) -> std::string {
+            return peer == "fcl" ? "" : "must be fcl, not " + CLI::detail::trim_copy(peer);
+          },
+          ""));
+}
+
 /// Each runs from the folder that holds `models`.
 std::string_view exampleOf(std::string_view command) {
   if (command == "info")
@@ -120,6 +151,9 @@ std::string_view exampleOf(std::string_view command) {
     return "swept motion models/robots/rook7/rook7.urdf home ready --group arm "
            "--scene models/scenes/narrow_slot.yaml";
   if (command == "replay") return "swept replay models/cases.json";
+  if (command == "edges")
+    return "swept bench edges models/robots/rook7/rook7.urdf --group arm "
+           "--problems models/problems.json --edges models/edges.csv";
   return "swept plan models/robots/rook7/rook7.urdf home ready --group arm "
          "--scene models/scenes/narrow_slot.yaml -o path.json";
 }
@@ -127,6 +161,7 @@ std::string_view exampleOf(std::string_view command) {
 std::string footer(std::string_view command) {
   std::string text = "\nExample:\n  " + std::string(exampleOf(command)) + "\n";
   if (command == "replay") return text + "\n" + std::string(kReplayExitCodes);
+  if (command == "edges") return text + "\n" + std::string(kBenchExitCodes);
   if (command != "info") text = "\n" + std::string(kStates) + "\n" + text;
   if (command == "plan") {
     text += "\nPlanners:";
@@ -148,8 +183,11 @@ std::string footer(std::string_view command) {
 std::string messageOf(const CLI::ParseError& error, int argc, const char* const* argv) {
   const bool noSubcommand = argc > 1 && std::string_view(error.what()).starts_with("A subcommand");
   if (!noSubcommand) return error.what();
+  if (std::string_view(argv[1]) == "bench")
+    return argc > 2 ? std::string("bench has no subcommand '") + argv[2] + "'; there is edges"
+                    : "bench: a subcommand is required; there is edges";
   return std::string("no subcommand '") + argv[1] +
-         "'; there are info, check, motion, plan, replay";
+         "'; there are info, check, motion, plan, replay, bench";
 }
 
 }  // namespace
@@ -167,7 +205,11 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
   auto* motion =
       app.add_subcommand("motion", "Are the straight motions between these states free?");
   auto* plan = app.add_subcommand("plan", "Find a path whose every motion is proven free");
-  for (CLI::App* sub : {info, check, motion, plan}) addModelOptions(*sub, args);
+  auto* bench = app.add_subcommand("bench", "How long checks take on this machine");
+  bench->require_subcommand(1);
+  auto* edges = bench->add_subcommand("edges", "Time per motion, over a list of motions");
+  for (CLI::App* sub : {info, check, motion, plan, edges}) addModelOptions(*sub, args);
+  for (CLI::App* sub : {info, check, motion, plan}) addSceneOption(*sub, args);
   check->add_option("states", args.states, "states to check")->type_name("STATE");
   motion->add_option("states", args.states, "two states or more")->type_name("STATE");
   plan->add_option("states", args.states, "start and goal")
@@ -177,12 +219,14 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
   addProblemOptions(*motion, args, "the motion from start to goal in its world");
   addProblemOptions(*plan, args, "plans from start to goals; without --set or --index all of them");
   addPlanOptions(*plan, args);
+  addBenchOptions(*edges, args);
   auto* replay = app.add_subcommand("replay", "Distances of shape pairs against known answers");
   replay->add_option("cases", args.cases, "cases of two shapes each; planners_demo/README.md")
       ->required()
       ->type_name("FILE.json");
   replay->add_flag("--json", args.json, "one JSON object on stdout instead of text");
-  for (CLI::App* sub : {info, check, motion, plan, replay}) sub->footer(footer(sub->get_name()));
+  for (CLI::App* sub : {info, check, motion, plan, replay, edges})
+    sub->footer(footer(sub->get_name()));
 
   try {
     app.parse(reversedArguments(argc, argv));
@@ -192,6 +236,7 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
     return {.run = {}, .exitCode = static_cast<int>(ExitCode::BadInput)};
   }
   args.command = app.get_subcommands().front()->get_name();
+  if (args.command == "bench") args.command += " " + bench->get_subcommands().front()->get_name();
   return {.run = std::move(args), .exitCode = 0};
 }
 

@@ -12,7 +12,7 @@ namespace swept {
 
 /// The command line, as typed. Each subcommand reads the part it has.
 struct Arguments {
-  std::string command;
+  std::string command;              ///< `bench edges` for a subcommand of a subcommand
   std::string robot;                ///< URDF file
   std::vector<std::string> states;  ///< names or comma-separated values
 
@@ -31,6 +31,11 @@ struct Arguments {
   std::optional<int> index;
 
   std::string cases;  ///< JSON file of replay
+
+  std::string edges;  ///< CSV file of bench edges
+  int passes = 5;
+  std::optional<int> limit;
+  std::string against;  ///< `fcl`, or empty
 
   std::string planner = "RRTConnect";
   double time = 5.0;  ///< s

@@ -13,6 +13,7 @@ ExitCode runCheck(const Arguments& args);
 ExitCode runMotion(const Arguments& args);
 ExitCode runPlan(const Arguments& args);
 ExitCode runReplay(const Arguments& args);
+ExitCode runBenchEdges(const Arguments& args);
 /// `plan` over all problems of a file, or of one set of it.
 ExitCode runPlanSets(const Arguments& args, const PlanRequest& request);
 

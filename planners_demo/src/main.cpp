@@ -16,6 +16,7 @@ swept::ExitCode run(const swept::Arguments& args) {
   if (args.command == "check") return swept::runCheck(args);
   if (args.command == "motion") return swept::runMotion(args);
   if (args.command == "replay") return swept::runReplay(args);
+  if (args.command == "bench edges") return swept::runBenchEdges(args);
   return swept::runPlan(args);
 }
 

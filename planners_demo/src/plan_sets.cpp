@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <exception>
 #include <iostream>
 #include <mutex>
-#include <numeric>
 #include <thread>
 
 #include "commands.hpp"
 #include "planning.hpp"
 #include "progress.hpp"
+#include "quantile.hpp"
 #include "states.hpp"
 #include "text_output.hpp"
 
@@ -89,18 +88,6 @@ struct Summary {
   std::string name;
   std::size_t problems = 0, solved = 0, proven = 0;
   std::vector<double> times;  ///< ascending
-
-  double quantile(double share) const {
-    if (times.empty()) return 0.0;
-    // Nearest rank.
-    const auto rank =
-        static_cast<std::size_t>(std::ceil(share * static_cast<double>(times.size())));
-    return times[std::clamp<std::size_t>(rank, 1, times.size()) - 1];
-  }
-  double mean() const {
-    if (times.empty()) return 0.0;
-    return std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
-  }
 };
 
 Summary summarise(const std::string& name, const std::vector<Entry>& entries,
@@ -143,8 +130,8 @@ std::string setsText(const std::vector<Entry>& entries) {
     table.add({summary.name,
                std::to_string(summary.solved) + "/" + std::to_string(summary.problems),
                std::to_string(summary.proven) + "/" + std::to_string(summary.solved),
-               secondsText(summary.quantile(0.5)), secondsText(summary.mean()),
-               secondsText(summary.quantile(0.95))});
+               secondsText(quantile(summary.times, 0.5)), secondsText(mean(summary.times)),
+               secondsText(quantile(summary.times, 0.95))});
   return text + table.text();
 }
 
@@ -156,9 +143,9 @@ Json setsJson(const std::vector<Entry>& entries, const PlanRequest& request) {
                             {"problems", summary.problems},
                             {"solved", summary.solved},
                             {"proven", summary.proven},
-                            {"median", summary.quantile(0.5)},
-                            {"mean", summary.mean()},
-                            {"p95", summary.quantile(0.95)}});
+                            {"median", quantile(summary.times, 0.5)},
+                            {"mean", mean(summary.times)},
+                            {"p95", quantile(summary.times, 0.95)}});
   json["problems"] = Json::array();
   for (const Entry& entry : entries)
     json["problems"].push_back(

@@ -132,17 +132,17 @@ std::vector<double> listedValues(const Robot& robot, const Group& group, const s
 }
 
 std::vector<double> reordered(const Robot& robot, const Group& group,
-                              const PlanningProblem& problem, const std::vector<double>& values,
-                              const std::string& label) {
-  std::vector<double> q(group.variables.size());
-  for (std::size_t i = 0; i < group.variables.size(); ++i) {
-    const auto found =
-        std::ranges::find(problem.jointNames, robot.variables()[group.variables[i]].name);
-    q[i] = values.at(static_cast<std::size_t>(found - problem.jointNames.begin()));
-  }
+                              const std::vector<std::size_t>& order,
+                              const std::vector<double>& values, const std::string& label) {
+  std::vector<double> q;
+  for (const std::size_t place : order) q.push_back(values.at(place));
   normaliseOrientation(robot, group, q, label);
   keepLimits(robot, group, q, label);
   return q;
+}
+
+std::string labelOf(const PlanningProblem& problem) {
+  return "problem " + problem.set + " " + std::to_string(problem.index);
 }
 
 }  // namespace
@@ -177,21 +177,27 @@ std::vector<double> readState(const Robot& robot, const Group& group, const std:
   return q;
 }
 
+std::vector<std::size_t> problemOrder(const Robot& robot, const Group& group,
+                                      const PlanningProblem& problem) {
+  const std::vector<std::string> wanted = variableNames(robot, group);
+  if (!std::ranges::is_permutation(wanted, problem.jointNames))
+    throw UsageError(labelOf(problem) + ": its joints are " + joined(problem.jointNames, ",") +
+                     ", those of group '" + group.name + "' are " + joined(wanted, ","));
+  std::vector<std::size_t> order;
+  for (const std::string& name : wanted)
+    order.push_back(static_cast<std::size_t>(std::ranges::find(problem.jointNames, name) -
+                                             problem.jointNames.begin()));
+  return order;
+}
+
 ProblemStates problemStates(const Robot& robot, const Group& group,
                             const PlanningProblem& problem) {
-  const std::string label = "problem " + problem.set + " " + std::to_string(problem.index);
-  std::vector<std::string> expected = variableNames(robot, group);
-  std::vector<std::string> given = problem.jointNames;
-  std::ranges::sort(expected);
-  std::ranges::sort(given);
-  if (expected != given)
-    throw UsageError(label + ": its joints are " + joined(problem.jointNames, ",") +
-                     ", those of group '" + group.name + "' are " +
-                     joined(variableNames(robot, group), ","));
+  const std::string label = labelOf(problem);
+  const std::vector<std::size_t> order = problemOrder(robot, group, problem);
   ProblemStates states;
-  states.start = reordered(robot, group, problem, problem.start, label + ", start");
+  states.start = reordered(robot, group, order, problem.start, label + ", start");
   for (const std::vector<double>& goal : problem.goals)
-    states.goals.push_back(reordered(robot, group, problem, goal, label + ", goal"));
+    states.goals.push_back(reordered(robot, group, order, goal, label + ", goal"));
   if (states.goals.empty()) throw UsageError(label + ": it has no goal");
   return states;
 }

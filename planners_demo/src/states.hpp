@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ std::string unitOf(const Robot& robot, const Variable& variable);
 /// number, and a value outside its limits. The result is within the limits exactly.
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
                               const std::string& label);
+
+/// For each variable of the group, its place in the problem's joint names. Throws UsageError when
+/// those are not exactly the group's variables.
+std::vector<std::size_t> problemOrder(const Robot& robot, const Group& group,
+                                      const PlanningProblem& problem);
 
 /// The problem's start and goals in the order of the group's variables. Throws UsageError when the
 /// problem's joints are not exactly the group's variables, or a value is outside its limits.

@@ -61,6 +61,7 @@ struct Effort {
   int intervals = 0;           ///< sub-intervals (or states) whose kinematics were computed
   std::int64_t distances = 0;  ///< exact pair queries
   std::int64_t culled = 0;     ///< pairs settled by bounding volumes alone
+  std::int64_t lanes = 0;      ///< sub-intervals examined in single precision
 };
 
 /// What is known about a whole motion q(t), t in [0, 1].
