@@ -5,7 +5,7 @@ import pathlib
 import random
 import shutil
 
-from generator import arms, disabled_pairs, mesh_files, queries, scenes, tunnel
+from generator import arms, disabled_pairs, edges, mesh_files, queries, scenes, tunnel
 from generator.clearance import Collider
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -51,8 +51,8 @@ def write_scenes(worlds):
     (folder / "table_objects.scene").write_text(scenes.to_moveit_text(worlds["table_objects"]))
 
 
-def write_problems(robot, worlds, asked):
-    """One JSON file per arm, in MotionBenchMaker's layout; only scenes made of primitives."""
+def problems_of(robot, worlds, asked):
+    """In MotionBenchMaker's layout; only scenes made of primitives."""
     sets = {}
     for q in asked:
         if q["robot"] != robot.name or not worlds[q["scene"]].only_primitives():
@@ -60,6 +60,11 @@ def write_problems(robot, worlds, asked):
         problems = sets.setdefault(q["scene"], [])
         problems.append({"index": len(problems) + 1, "world": scenes.to_problem_world(worlds[q["scene"]]),
                          "start": q["start"], "goals": [q["goal"]], "joint_names": robot.group("arm").joints})
+    return sets
+
+
+def write_problems(robot, sets):
+    """One JSON file per arm."""
     lines = []
     for name, problems in sets.items():
         rows = ",\n  ".join(json.dumps(p) for p in problems)
@@ -84,7 +89,9 @@ def main():
     write_scenes(worlds)
     (HERE / "queries.yaml").write_text(queries.to_yaml(asked))
     for name in ("rook7", "rook6"):
-        write_problems(robots[name][0], worlds, asked)
+        write_problems(robots[name][0], problems_of(robots[name][0], worlds, asked))
+    rook7 = robots["rook7"][0]
+    (HERE / "edges.csv").write_text(edges.to_csv(queries.Arm(rook7), problems_of(rook7, worlds, asked)))
     (HERE / "scenes" / "tunnel_motions.csv").write_text(tunnel.to_csv(motions))
 
 

@@ -34,7 +34,7 @@ std::string contents(const std::string& file) {
   if (count < 0) throw InputError(file, 0, "file cannot be read: " + reason);
   // A compressed file that ends early is told of only at the end.
   if (error != Z_OK || gzclose(stream.release()) != Z_OK)
-    throw InputError(file, 0, "compressed data ends before its end");
+    throw InputError(file, 0, "the compressed data ends too early");
   return text;
 }
 
@@ -68,6 +68,7 @@ class EdgesReader {
 
   std::vector<BenchEdge> read() {
     const std::string text = contents(file_);
+    if (text.empty()) throw InputError(file_, 0, "the file is empty");
     std::vector<BenchEdge> edges;
     for (std::size_t begin = 0; begin < text.size();) {
       const std::size_t end = std::min(text.find('\n', begin), text.size());

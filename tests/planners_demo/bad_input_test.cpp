@@ -86,7 +86,8 @@ const Case kOptions[] = {
     {"NoSubcommand", {}, kError + "A subcommand is required (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
-     kError + "no subcommand 'verfy'; there are info, check, motion, plan, replay (try --help)"},
+     kError +
+         "no subcommand 'verfy'; there are info, check, motion, plan, replay, bench (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},
     {"UnknownOption", both("check", {"left", "--frobnicate"}),
      kError + "The following argument was not expected: --frobnicate (try --help)"},
