@@ -78,6 +78,10 @@ class Search {
     result_.iterations += hulls.iterations;
     result_.hint = hulls.normal;
     hullsApart_ = hulls.lower > 0.0;
+    if (!exact && hulls.upper <= 0.0 && !goal_.surfaces && isInBoth(hulls.pointA)) {
+      contactAt(hulls.pointA);
+      return true;
+    }
     if (!exact && !hulls.satisfied) return outOfReach(hulls);
     result_.lower = hulls.lower;
     result_.upper = hulls.upper;
@@ -86,6 +90,15 @@ class Search {
     result_.normal = hulls.lower > 0.0 ? hulls.normal : Vector3d::Zero();
     if (!hulls.satisfied) failed_ = true;
     return true;
+  }
+
+  /// A point that both hulls have is in both meshes, too, unless it lies in a dent.
+  bool isInBoth(const Vector3d& pointInA) const {
+    const auto has = [](const Side& side, const Vector3d& point) {
+      if (side.isConvex()) return true;
+      return side.mesh != nullptr && side.mesh->encloses(point);
+    };
+    return has(a_, pointInA) && has(b_, a_from_b_.inverse() * pointInA);
   }
 
   /// Hulls that are apart, but by less than the motion needs even if the meshes lie deep inside
