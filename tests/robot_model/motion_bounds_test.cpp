@@ -11,6 +11,15 @@
 
 namespace {
 
+/// Frames and velocities of all bodies at t.
+void evaluateAll(const swept::detail::KinematicModel& model,
+                 std::span<const swept::detail::JointMotion> motion, double t,
+                 std::span<swept::detail::BodyState> states) {
+  states[0] = {};
+  for (std::size_t i = 1; i < model.bodies.size(); ++i)
+    swept::detail::evaluateBody(model, motion, t, static_cast<int>(i), states);
+}
+
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using swept::JointType;
@@ -132,7 +141,7 @@ TEST(MotionBounds, HoldAgainstFiniteDifferences) {
     const double step = 1e-4;
     const double t = random.uniform(0.01, 0.99);
     for (int k = 0; k < 3; ++k) {
-      swept::detail::evaluateMotion(model, motion, t + (k - 1) * step, states[k]);
+      evaluateAll(model, motion, t + (k - 1) * step, states[k]);
     }
     const Vector3d point = center + random.uniform(0.0, radius) * random.vector(1.0).normalized();
 
@@ -179,7 +188,7 @@ TEST(MotionBounds, ReachHoldsOverAllConfigurations) {
       std::vector<JointMotion> motion(model.bodies.size());
       ASSERT_TRUE(swept::detail::compileMotion(model, q, q, motion));
       std::vector<BodyState> states(model.bodies.size());
-      swept::detail::evaluateMotion(model, motion, 0.0, states);
+      evaluateAll(model, motion, 0.0, states);
       const Vector3d tip = states[last].world_from_body * center;
       EXPECT_LE(tip.norm() + 0.1, levers.reach);
       EXPECT_LE((tip - base).norm() + 0.1, levers.reachFromBase);
@@ -213,7 +222,7 @@ TEST(MotionModel, PosesAreWithinTheRoundingBound) {
     ASSERT_TRUE(swept::detail::compileMotion(model, from, to, motion));
     std::vector<BodyState> states(model.bodies.size());
     const double t = random.uniform(0.0, 1.0);
-    swept::detail::evaluateMotion(model, motion, t, states);
+    evaluateAll(model, motion, t, states);
     Pose exact = Pose::Identity();
     for (std::size_t i = 1; i <= joints; ++i) {
       const MovingBody& body = model.bodies[i];

@@ -62,6 +62,14 @@ Checker::Checker(std::shared_ptr<const Robot> robot, std::string_view group,
   model_ = detail::compileChecker(std::move(robot), found, std::move(world), options);
 }
 
+Checker::Checker(std::shared_ptr<const detail::CheckerModel> model) : model_(std::move(model)) {}
+
+Checker Checker::withWorld(std::shared_ptr<const World> world) const {
+  if (!world) throw std::invalid_argument("Checker: the world must not be null");
+  return Checker(detail::compileChecker(model_->robot, model_->group, std::move(world),
+                                        model_->options, model_.get()));
+}
+
 const Robot& Checker::robot() const {
   return *model_->robot;
 }
@@ -98,6 +106,17 @@ void Checker::requireSize(std::span<const double> q) const {
 Verdict Checker::checkState(std::span<const double> q, Workspace& workspace) const {
   requireSize(q);
   return detail::checkState(*model_, q, *workspace.data_);
+}
+
+void Checker::checkStates(std::span<const double> states, std::span<Verdict> verdicts,
+                          Workspace& workspace) const {
+  const std::size_t expected = verdicts.size() * static_cast<std::size_t>(dimension());
+  if (states.size() != expected) {
+    throw std::invalid_argument(
+        "Checker: " + std::to_string(verdicts.size()) + " states of group '" + group().name +
+        "' have " + std::to_string(expected) + " values, not " + std::to_string(states.size()));
+  }
+  detail::checkStates(*model_, states, verdicts, *workspace.data_);
 }
 
 StateReport Checker::reportState(std::span<const double> q, Workspace& workspace) const {

@@ -38,11 +38,12 @@ class Compiler {
     model_.world = std::move(world);
   }
 
-  std::shared_ptr<const CheckerModel> compile() {
+  std::shared_ptr<const CheckerModel> compile(const CheckerModel* like) {
     collectRobot();
     collectWorld();
     pairWithWorld();
     pairLinks();
+    model_.lanes = compileLanes(model_, like != nullptr ? &like->lanes : nullptr);
     return std::make_shared<const CheckerModel>(std::move(model_));
   }
 
@@ -58,6 +59,7 @@ class Compiler {
         const BoundingSphere ball = boundingSphere(piece.shape);
         geometry.center = geometry.body_from_shape * ball.center;
         geometry.radius = ball.radius;
+        geometry.cover = piece.cover;
         geometry.levers = leverArms(model_.kinematics, geometry.body, geometry.center, ball.radius);
         model_.robotGeometry.push_back(std::move(geometry));
       }
@@ -247,15 +249,20 @@ std::string CheckerModel::nameOfB(const GeometryPair& pair) const {
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,
-                                                   const CheckerOptions& options) {
-  return Compiler(std::move(robot), group, std::move(world), options).compile();
+                                                   const CheckerOptions& options,
+                                                   const CheckerModel* like) {
+  return Compiler(std::move(robot), group, std::move(world), options).compile(like);
 }
 
 WorkspaceData::WorkspaceData(const CheckerModel& model)
     : motion(model.kinematics.bodies.size()),
       states(model.kinematics.bodies.size()),
+      stateStamps(model.kinematics.bodies.size(), -1),
       placed(model.robotGeometry.size()),
       travels(model.travels.size()),
-      hints(model.pairs.size(), Eigen::Vector3d::Zero()) {}
+      travelStamps(model.travels.size(), -1),
+      hints(model.pairs.size(), Eigen::Vector3d::Zero()),
+      hintStamps(model.pairs.size(), -1),
+      lanes(model.lanes) {}
 
 }  // namespace swept::detail

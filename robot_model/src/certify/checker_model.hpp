@@ -9,7 +9,10 @@
 
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
+#include "lanes/lane_model.hpp"
+#include "lanes/lane_scratch.hpp"
 #include "swept/core/separation.hpp"
+#include "swept/core/sphere_cover.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept::detail {
@@ -23,6 +26,7 @@ struct RobotGeometry {
   Eigen::Vector3d center;  ///< m, of a ball that contains it, body frame
   double radius = 0.0;     ///< m
   LeverArms levers;
+  std::shared_ptr<const SphereCover> cover;
 };
 
 /// A piece of the world, with the box that contains it.
@@ -64,6 +68,7 @@ struct CheckerModel {
   std::vector<WorldGeometry> worldGeometry;
   std::vector<TravelSlot> travels;
   std::vector<GeometryPair> pairs;
+  LaneModel lanes;
   std::vector<Checker::Pair> checkedPairs;
   std::vector<Checker::Pair> skippedPairs;
   std::vector<Checker::Pair> standingContacts;
@@ -72,10 +77,12 @@ struct CheckerModel {
   std::string nameOfB(const GeometryPair& pair) const;
 };
 
+/// `like`: null, or the model of a checker that differs in nothing but its world.
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,
-                                                   const CheckerOptions& options);
+                                                   const CheckerOptions& options,
+                                                   const CheckerModel* like = nullptr);
 
 /// A part of a motion with the pairs not yet proven apart on it (a range of an arena of pair
 /// indices).
@@ -90,7 +97,9 @@ struct WorkspaceData {
   explicit WorkspaceData(const CheckerModel& model);
 
   std::vector<JointMotion> motion;
+  /// At the current t; computed when first asked for.
   std::vector<BodyState> states;
+  std::vector<std::int64_t> stateStamps;
   /// Per robot geometry at the current t; computed when first asked for.
   struct Placed {
     std::int64_t stamp = -1;
@@ -100,11 +109,20 @@ struct WorkspaceData {
   };
   std::vector<Placed> placed;
   std::int64_t stamp = 0;
+  /// Of the current motion; computed when first asked for.
   std::vector<TravelBound> travels;
+  std::vector<std::int64_t> travelStamps;
+  std::int64_t motionStamp = 0;
+  double t = 0.0;
   double wander = 0.0;                 ///< m, of all planar and floating joints together
   std::vector<Eigen::Vector3d> hints;  ///< per pair, within one motion: last direction found
+  std::vector<std::int64_t> hintStamps;
   std::vector<std::uint32_t> arena, nextArena, failed;
   std::vector<PendingInterval> generation, nextGeneration;
+  LaneScratch lanes;
+  /// What the lane tier left open, in order of time.
+  std::vector<PendingInterval> pending;
+  std::vector<std::uint32_t> pendingArena;
 };
 
 }  // namespace swept::detail

@@ -5,6 +5,10 @@
 #include <numeric>
 #include <optional>
 
+#include "certify/lane_witness.hpp"
+#include "lanes/lane_motion.hpp"
+#include "lanes/lane_search.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -22,6 +26,7 @@ class MotionProver {
 
   MotionCertificate run(std::span<const double> from, std::span<const double> to,
                         MotionQuery wanted) {
+    if (settleInLanes(from, to, wanted)) return certificate_;
     if (!query_.start(from, to)) return certificate_;
     searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
@@ -46,6 +51,77 @@ class MotionProver {
   }
 
  private:
+  /// Looks at what the lane tier takes for contacts, on exact geometry.
+  class Judge final : public LaneJudge {
+   public:
+    Judge(MotionProver& prover, std::span<const double> from, std::span<const double> to)
+        : prover_(prover), from_(from), to_(to) {}
+
+    bool isContact(const LaneContact& contact, double t) override {
+      prover_.certificate_.witness = laneWitness(prover_.model_, contact, t);
+      return prover_.certificate_.witness.has_value();
+    }
+
+    bool isContact(const LaneSuspect& suspect, double t) override {
+      if (!started_ && !prover_.query_.start(from_, to_)) return false;
+      started_ = true;
+      prover_.query_.moveTo(t);
+      const PairAnswer answer = prover_.query_.prove(suspect.pair, 0.0);
+      Effort& effort = prover_.certificate_.effort;
+      ++effort.intervals;
+      ++(answer.culled ? effort.culled : effort.distances);
+      if (answer.status != Separation::Contact) return false;
+      prover_.certificate_.witness = prover_.query_.witness(suspect.pair, t, answer);
+      return true;
+    }
+
+   private:
+    MotionProver& prover_;
+    std::span<const double> from_, to_;
+    bool started_ = false;
+  };
+
+  /// The lane tier: proves most motions, refutes most others, and leaves the rest in
+  /// workspace.pending. True: it is decided.
+  bool settleInLanes(std::span<const double> from, std::span<const double> to, MotionQuery wanted) {
+    workspace_.pending.clear();
+    const bool fits =
+        model_.lanes.usable && model_.options.maxIntervals >= kLanes &&
+        compileLaneMotion(model_.lanes, model_.kinematics, from, to, workspace_.lanes);
+    if (!fits) {
+      workspace_.pendingArena.resize(model_.pairs.size());
+      std::iota(workspace_.pendingArena.begin(), workspace_.pendingArena.end(), 0U);
+      if (!model_.pairs.empty()) workspace_.pending.push_back({0.0, 1.0, 0, model_.pairs.size()});
+      return false;
+    }
+    Judge judge(*this, from, to);
+    const LaneAnswer answer = searchMotion(
+        model_.lanes, wanted == MotionQuery::VerdictOnly ? &judge : nullptr, workspace_.lanes);
+    certificate_.effort.lanes = answer.intervals;
+    if (answer.kind == LaneAnswer::Kind::Contact) {
+      certificate_.verdict = Verdict::Collision;
+      return true;
+    }
+    if (answer.kind == LaneAnswer::Kind::Free) {
+      certificate_.verdict = Verdict::Free;
+      certificate_.freeUntil = 1.0;
+      return true;
+    }
+    takeOver();
+    return false;
+  }
+
+  /// Intervals of the lane tier are dyadic: exact in either precision.
+  void takeOver() {
+    std::swap(workspace_.pendingArena, workspace_.lanes.restArena);
+    for (const LaneScratch::Item& item : workspace_.lanes.rest) {
+      const double time = static_cast<double>(item.time);
+      const double half = static_cast<double>(item.half);
+      workspace_.pending.push_back({time - half, time + half, item.first, item.count});
+    }
+    std::ranges::sort(workspace_.pending, {}, &PendingInterval::begin);
+  }
+
   /// What examining one interval found out. Pairs still open are in workspace.failed.
   struct Outcome {
     bool contact = false;  ///< at the middle; the witness is recorded
@@ -89,20 +165,35 @@ class MotionProver {
     return outcome;
   }
 
-  static PendingInterval whole(std::vector<std::uint32_t>& arena, std::size_t pairs) {
-    arena.resize(pairs);
-    std::iota(arena.begin(), arena.end(), 0U);
-    return {0.0, 1.0, 0, pairs};
+  /// Each pair's neighbouring intervals as one: bounds here are tighter than those that left them.
+  void joinPending() {
+    auto& now = workspace_.generation;
+    auto& arena = workspace_.arena;
+    now.clear();
+    arena.clear();
+    for (const PendingInterval& interval : workspace_.pending) {
+      for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
+        const std::uint32_t pair = workspace_.pendingArena[i];
+        const auto before = std::ranges::find_if(now, [&](const PendingInterval& other) {
+          return arena[other.first] == pair && other.end == interval.begin;
+        });
+        if (before != now.end()) {
+          before->end = interval.end;
+          continue;
+        }
+        now.push_back({interval.begin, interval.end, arena.size(), 1});
+        arena.push_back(pair);
+      }
+    }
   }
 
-  /// All of [0, 1], a level of the bisection at a time, so that contacts show early wherever they
-  /// are. Ends at the first contact, or with the level in which some interval turned out
+  /// All that is pending, a level of the bisection at a time, so that contacts show early wherever
+  /// they are. Ends at the first contact, or with the level in which some interval turned out
   /// undecidable.
   void searchWhole() {
     auto& now = workspace_.generation;
     auto& next = workspace_.nextGeneration;
-    now.assign(1, whole(workspace_.arena, model_.pairs.size()));
-    if (model_.pairs.empty()) return;
+    joinPending();
     while (!now.empty()) {
       next.clear();
       workspace_.nextArena.clear();
@@ -130,12 +221,42 @@ class MotionProver {
     if (!undecidedAt_ || begin < *undecidedAt_) undecidedAt_ = begin;
   }
 
+  /// Intervals in order of time, the first on top. Those left open at different lengths overlap;
+  /// what contains others takes over their pairs, so that whatever lies before an interval's begin
+  /// is settled once it is on top.
+  void stackPending() {
+    auto& stack = workspace_.generation;
+    auto& arena = workspace_.arena;
+    auto& pending = workspace_.pending;
+    stack.clear();
+    arena.clear();
+    std::ranges::sort(pending, [](const PendingInterval& a, const PendingInterval& b) {
+      return a.begin != b.begin ? a.begin > b.begin : a.end > b.end;
+    });
+    for (std::size_t i = 0; i < pending.size();) {
+      PendingInterval whole{pending[i].begin, pending[i].end, arena.size(), 0};
+      // From the last to the first in time: each next one begins before.
+      for (; i < pending.size() && pending[i].end > whole.begin; ++i) {
+        whole.begin = std::min(whole.begin, pending[i].begin);
+        whole.end = std::max(whole.end, pending[i].end);
+        const auto first =
+            workspace_.pendingArena.begin() + static_cast<std::ptrdiff_t>(pending[i].first);
+        arena.insert(arena.end(), first, first + static_cast<std::ptrdiff_t>(pending[i].count));
+      }
+      const auto own = arena.begin() + static_cast<std::ptrdiff_t>(whole.first);
+      std::sort(own, arena.end());
+      arena.erase(std::unique(own, arena.end()), arena.end());
+      whole.count = arena.size() - whole.first;
+      stack.push_back(whole);
+    }
+  }
+
   /// From the left: the largest t up to which everything is proven, to within the tolerance.
   /// Contacts on the way move the witness forward in time, and nothing behind it matters any more.
   void provePrefix() {
     auto& stack = workspace_.generation;
     auto& arena = workspace_.arena;
-    stack.assign(1, whole(arena, model_.pairs.size()));
+    stackPending();
     while (!stack.empty()) {
       const PendingInterval interval = stack.back();
       stack.pop_back();

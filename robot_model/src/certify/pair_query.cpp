@@ -23,28 +23,51 @@ constexpr double kQueryShare = 1.0 / 16.0;
 
 bool PairQuery::start(std::span<const double> from, std::span<const double> to) {
   if (!compileMotion(model_.kinematics, from, to, workspace_.motion)) return false;
-  for (std::size_t i = 0; i < model_.travels.size(); ++i) {
-    const TravelSlot& slot = model_.travels[i];
-    workspace_.travels[i] =
-        travelBound(model_.kinematics, model_.robotGeometry[slot.geometry].levers, slot.firstJoint,
-                    workspace_.motion);
-  }
+  ++workspace_.motionStamp;
   workspace_.wander = 0.0;
   for (const JointMotion& joint : workspace_.motion) workspace_.wander += joint.wander;
-  std::fill(workspace_.hints.begin(), workspace_.hints.end(), Vector3d::Zero());
   return true;
 }
 
 void PairQuery::moveTo(double t) {
-  evaluateMotion(model_.kinematics, workspace_.motion, t, workspace_.states);
+  workspace_.t = t;
   ++workspace_.stamp;
+  workspace_.stateStamps[0] = workspace_.stamp;
+}
+
+const BodyState& PairQuery::state(int body) {
+  if (workspace_.stateStamps[body] != workspace_.stamp) {
+    state(model_.kinematics.bodies[body].parent);
+    evaluateBody(model_.kinematics, workspace_.motion, workspace_.t, body, workspace_.states);
+    workspace_.stateStamps[body] = workspace_.stamp;
+  }
+  return workspace_.states[body];
+}
+
+const TravelBound& PairQuery::bound(int travel) {
+  if (workspace_.travelStamps[travel] != workspace_.motionStamp) {
+    const TravelSlot& slot = model_.travels[travel];
+    workspace_.travels[travel] =
+        travelBound(model_.kinematics, model_.robotGeometry[slot.geometry].levers, slot.firstJoint,
+                    workspace_.motion);
+    workspace_.travelStamps[travel] = workspace_.motionStamp;
+  }
+  return workspace_.travels[travel];
+}
+
+Vector3d& PairQuery::hint(std::uint32_t pair) {
+  if (workspace_.hintStamps[pair] != workspace_.motionStamp) {
+    workspace_.hints[pair].setZero();
+    workspace_.hintStamps[pair] = workspace_.motionStamp;
+  }
+  return workspace_.hints[pair];
 }
 
 const Vector3d& PairQuery::center(int geometry) {
   WorkspaceData::Placed& placed = workspace_.placed[geometry];
   if (placed.stamp != workspace_.stamp) {
     const RobotGeometry& robot = model_.robotGeometry[geometry];
-    placed.center = workspace_.states[robot.body].world_from_body * robot.center;
+    placed.center = state(robot.body).world_from_body * robot.center;
     placed.stamp = workspace_.stamp;
     placed.posed = false;
   }
@@ -56,7 +79,7 @@ const Isometry3d& PairQuery::pose(int geometry) {
   WorkspaceData::Placed& placed = workspace_.placed[geometry];
   if (!placed.posed) {
     const RobotGeometry& robot = model_.robotGeometry[geometry];
-    placed.world_from_shape = workspace_.states[robot.body].world_from_body * robot.body_from_shape;
+    placed.world_from_shape = state(robot.body).world_from_body * robot.body_from_shape;
     placed.posed = true;
   }
   return placed.world_from_shape;
@@ -68,19 +91,18 @@ double PairQuery::rounding(const GeometryPair& pair) const {
   return pair.rounding + tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander;
 }
 
-double PairQuery::travel(const GeometryPair& pair, double half) const {
-  double speed = workspace_.travels[pair.travelA].speed;
-  if (pair.travelB >= 0) speed += workspace_.travels[pair.travelB].speed;
+double PairQuery::travel(const GeometryPair& pair, double half) {
+  double speed = bound(pair.travelA).speed;
+  if (pair.travelB >= 0) speed += bound(pair.travelB).speed;
   return half * speed * (1.0 + kVelocityRounding);
 }
 
 Vector3d PairQuery::relativeVelocity(const GeometryPair& pair) {
-  const auto& states = workspace_.states;
-  const BodyState& reference = states[pair.reference];
+  const BodyState& reference = state(pair.reference);
   const auto relative = [&](int geometry) -> Vector3d {
-    const BodyState& state = states[model_.robotGeometry[geometry].body];
-    return state.linear - reference.linear +
-           (state.angular - reference.angular).cross(center(geometry));
+    const BodyState& own = state(model_.robotGeometry[geometry].body);
+    return own.linear - reference.linear +
+           (own.angular - reference.angular).cross(center(geometry));
   };
   Vector3d velocity = -relative(pair.a);
   if (pair.self) velocity += relative(pair.b);
@@ -141,15 +163,14 @@ PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const Appro
 void PairQuery::relativeMotion(const GeometryPair& pair, double half,
                                const Eigen::Matrix3d& world_from_a, const Vector3d& velocity,
                                ApproachBound& bound) {
-  const auto& states = workspace_.states;
-  const Vector3d& reference = states[pair.reference].angular;
+  const Vector3d& reference = state(pair.reference).angular;
   const RobotGeometry& a = model_.robotGeometry[pair.a];
   bound.linear = world_from_a.transpose() * velocity;
-  bound.spinA = world_from_a.transpose() * (half * (states[a.body].angular - reference));
+  bound.spinA = world_from_a.transpose() * (half * (state(a.body).angular - reference));
   bound.radiusA = a.radius;
   if (!pair.self) return;
   const RobotGeometry& b = model_.robotGeometry[pair.b];
-  bound.spinB = world_from_a.transpose() * (half * (states[b.body].angular - reference));
+  bound.spinB = world_from_a.transpose() * (half * (state(b.body).angular - reference));
   bound.radiusB = b.radius;
 }
 
@@ -158,8 +179,8 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   PairAnswer answer;
   ApproachBound bound;
   bound.travel = travel(pair, half);
-  double acceleration = workspace_.travels[pair.travelA].acceleration;
-  if (pair.travelB >= 0) acceleration += workspace_.travels[pair.travelB].acceleration;
+  double acceleration = this->bound(pair.travelA).acceleration;
+  if (pair.travelB >= 0) acceleration += this->bound(pair.travelB).acceleration;
   bound.curvature = 0.5 * half * half * acceleration * (1.0 + kVelocityRounding);
   bound.required = model_.options.margin + rounding(pair) + kVelocityRounding * bound.travel;
   const Vector3d velocity = half * relativeVelocity(pair);
@@ -179,11 +200,11 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   query.approach = bound;
   query.contact = model_.options.margin;
   query.tolerance = kQueryShare * model_.options.tolerance;
-  query.guess = workspace_.hints[index];
+  query.guess = hint(index);
   query.thorough = answer.travel <= model_.options.tolerance;
   const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
                                            world_from_a.inverse() * world_from_b, query);
-  workspace_.hints[index] = result.normal;
+  hint(index) = result.normal;
   answer.status = result.status;
   answer.pointA = world_from_a * result.pointA;
   answer.pointB = world_from_a * result.pointB;

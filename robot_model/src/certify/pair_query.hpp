@@ -29,9 +29,9 @@ class PairQuery {
   PairQuery(const CheckerModel& model, WorkspaceData& workspace)
       : model_(model), workspace_(workspace) {}
 
-  /// Compiles the motion and bounds every ball's travel. False: nothing can be said about it.
+  /// Compiles the motion. False: nothing can be said about it.
   bool start(std::span<const double> from, std::span<const double> to);
-  /// Moves to t: kinematics of all bodies.
+  /// Moves to t.
   void moveTo(double t);
 
   /// Whether the pair stays apart by more than the margin on [t - half, t + half], or is within the
@@ -40,13 +40,16 @@ class PairQuery {
   /// Distance at t. Stops early when it is proven to exceed `enough` (m).
   PairDistance measure(std::uint32_t pair, double enough, double accuracy);
   /// m. Bound on the pair's approach during `half`.
-  double travel(const GeometryPair& pair, double half) const;
+  double travel(const GeometryPair& pair, double half);
   /// m. Lower bound from bounding volumes alone, kinematic rounding included.
   double coarseDistance(const GeometryPair& pair);
 
   Witness witness(std::uint32_t pair, double t, const PairAnswer& answer) const;
 
  private:
+  const BodyState& state(int body);
+  const TravelBound& bound(int travel);
+  Eigen::Vector3d& hint(std::uint32_t pair);
   const Eigen::Vector3d& center(int geometry);
   const Eigen::Isometry3d& pose(int geometry);
   double rounding(const GeometryPair& pair) const;

@@ -2,23 +2,85 @@
 #include "certify/state_check.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
+#include "certify/lane_witness.hpp"
+#include "lanes/lane_motion.hpp"
+#include "lanes/lane_search.hpp"
+
 namespace swept::detail {
 
-Verdict checkState(const CheckerModel& model, std::span<const double> q, WorkspaceData& workspace) {
+namespace {
+
+/// Of these pairs, by exact geometry.
+Verdict checkPairs(const CheckerModel& model, std::span<const double> q,
+                   std::span<const std::uint32_t> pairs, WorkspaceData& workspace) {
   PairQuery query(model, workspace);
   if (!query.start(q, q)) return Verdict::Undecided;
   query.moveTo(0.0);
   bool proven = true;
-  for (std::uint32_t i = 0; i < model.pairs.size(); ++i) {
-    const PairAnswer answer = query.prove(i, 0.0);
+  for (const std::uint32_t pair : pairs) {
+    const PairAnswer answer = query.prove(pair, 0.0);
     if (answer.status == Separation::Contact) return Verdict::Collision;
     proven = proven && answer.status == Separation::Separated;
   }
   return proven ? Verdict::Free : Verdict::Undecided;
+}
+
+Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
+                      WorkspaceData& workspace) {
+  workspace.arena.resize(model.pairs.size());
+  std::iota(workspace.arena.begin(), workspace.arena.end(), 0U);
+  return checkPairs(model, q, workspace.arena, workspace);
+}
+
+/// What the lane tier found out in one lane, and exact geometry about the rest.
+Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane,
+                  WorkspaceData& workspace) {
+  const LaneBlock& block = workspace.lanes.block;
+  if ((block.contactLanes >> lane & 1U) != 0) {
+    if (commonPoint(model, block.contacts[lane])) return Verdict::Collision;
+    return checkAllPairs(model, q, workspace);
+  }
+  takeOpen(lane, workspace.lanes);
+  auto& pairs = workspace.lanes.restArena;
+  if (pairs.empty()) return Verdict::Free;
+  // The one most likely to be in contact first.
+  const auto suspect = std::ranges::find(pairs, block.suspect.pair);
+  if (suspect != pairs.end()) std::iter_swap(pairs.begin(), suspect);
+  return checkPairs(model, q, workspace.lanes.restArena, workspace);
+}
+
+}  // namespace
+
+Verdict checkState(const CheckerModel& model, std::span<const double> q, WorkspaceData& workspace) {
+  const bool fits =
+      model.lanes.usable && compileLaneState(model.lanes, model.kinematics, q, workspace.lanes);
+  if (!fits) return checkAllPairs(model, q, workspace);
+  searchStates(model.lanes, LaneMode::State, true, workspace.lanes);
+  const std::uint32_t contacts = workspace.lanes.block.contactLanes;
+  return verdictOf(model, q, contacts == 0 ? 0 : std::countr_zero(contacts), workspace);
+}
+
+void checkStates(const CheckerModel& model, std::span<const double> states,
+                 std::span<Verdict> verdicts, WorkspaceData& workspace) {
+  const auto dimension = static_cast<std::size_t>(model.kinematics.dimension);
+  for (std::size_t first = 0; first < verdicts.size(); first += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, verdicts.size() - first);
+    const std::span<const double> some = states.subspan(first * dimension, count * dimension);
+    const bool fits = count > 1 && dimension > 0 && model.lanes.usable &&
+                      compileLaneStates(model.lanes, model.kinematics, some, workspace.lanes);
+    if (fits) searchStates(model.lanes, LaneMode::States, true, workspace.lanes);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::span<const double> q = some.subspan(lane * dimension, dimension);
+      verdicts[first + lane] = fits ? verdictOf(model, q, static_cast<int>(lane), workspace)
+                                    : checkState(model, q, workspace);
+    }
+  }
 }
 
 namespace {

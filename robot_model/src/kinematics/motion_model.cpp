@@ -17,13 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 
-/// The way a cyclic value goes: the given difference when it is at most half a turn, else the
-/// shorter.
-double cyclicDifference(double from, double to) {
-  const double difference = to - from;
-  return std::abs(difference) <= kPi ? difference : std::remainder(difference, 2.0 * kPi);
-}
-
 /// Shorter arc between two orientations; with opposite ones (dot = 0) the sign as given decides.
 Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to) {
   Quaterniond relative = to * from.conjugate();
@@ -118,6 +111,11 @@ bool moves(const Robot& robot, const Joint& joint, const Group& group) {
 
 }  // namespace
 
+double cyclicDifference(double from, double to) {
+  const double difference = to - from;
+  return std::abs(difference) <= kPi ? difference : std::remainder(difference, 2.0 * kPi);
+}
+
 KinematicModel compileKinematics(const Robot& robot, const Group& group,
                                  const Eigen::VectorXd& reference) {
   KinematicModel model;
@@ -170,6 +168,8 @@ bool compileFloating(const double* from, const double* to, JointMotion& motion) 
   return true;
 }
 
+}  // namespace
+
 bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span<const double> from,
                   std::span<const double> to, JointMotion& motion) {
   motion = JointMotion{};
@@ -215,8 +215,6 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
   return true;
 }
 
-}  // namespace
-
 bool compileMotion(const KinematicModel& model, std::span<const double> from,
                    std::span<const double> to, std::span<JointMotion> motion) {
   const auto finite = [](double value) { return std::isfinite(value); };
@@ -228,21 +226,19 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
   return true;
 }
 
-void evaluateMotion(const KinematicModel& model, std::span<const JointMotion> motion, double t,
-                    std::span<BodyState> states) {
-  states[0] = BodyState{};
-  for (std::size_t i = 1; i < model.bodies.size(); ++i) {
-    const MovingBody& body = model.bodies[i];
-    const BodyState& parent = states[body.parent];
-    const Isometry3d world_from_joint = parent.world_from_body * body.parent_from_joint;
-    BodyState& state = states[i];
-    state.world_from_body = world_from_joint * jointTransform(body, motion[i], t);
-    const Vector3d spin = world_from_joint.linear() * motion[i].spin;
-    state.angular = parent.angular + spin;
-    // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
-    state.linear = parent.linear + world_from_joint.linear() * motion[i].rate -
-                   spin.cross(state.world_from_body.translation());
-  }
+void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
+                  int body, std::span<BodyState> states) {
+  const MovingBody& moving = model.bodies[body];
+  const JointMotion& joint = motion[body];
+  const BodyState& parent = states[moving.parent];
+  const Isometry3d world_from_joint = parent.world_from_body * moving.parent_from_joint;
+  BodyState& state = states[body];
+  state.world_from_body = world_from_joint * jointTransform(moving, joint, t);
+  const Vector3d spin = world_from_joint.linear() * joint.spin;
+  state.angular = parent.angular + spin;
+  // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
+  state.linear = parent.linear + world_from_joint.linear() * joint.rate -
+                 spin.cross(state.world_from_body.translation());
 }
 
 void interpolateMotion(const KinematicModel& model, std::span<const double> from,

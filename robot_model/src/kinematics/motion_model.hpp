@@ -61,14 +61,22 @@ struct BodyState {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
 
+/// The way a cyclic value goes: the given difference when it is at most half a turn, else the
+/// shorter.
+double cyclicDifference(double from, double to);
+
+/// One joint's share of a motion whose values are finite. False as below.
+bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span<const double> from,
+                  std::span<const double> to, JointMotion& motion);
+
 /// False when a value is not finite, a quaternion has no direction, or a prismatic value is outside
 /// its limits (the lever arms do not hold there).
 bool compileMotion(const KinematicModel& model, std::span<const double> from,
                    std::span<const double> to, std::span<JointMotion> motion);
 
-/// Frames and velocities of all bodies at t.
-void evaluateMotion(const KinematicModel& model, std::span<const JointMotion> motion, double t,
-                    std::span<BodyState> states);
+/// Frame and velocity of a body at t, from its parent's.
+void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
+                  int body, std::span<BodyState> states);
 
 /// Configuration at t on the motion.
 void interpolateMotion(const KinematicModel& model, std::span<const double> from,

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "certify/checker_model.hpp"
+
+namespace swept::detail {
+
+/// m, model frame: a point of both bodies of a contact that the lane tier found, checked on the
+/// exact obstacle in double precision. Empty if the check does not confirm it.
+std::optional<Eigen::Vector3d> commonPoint(const CheckerModel& model, const LaneContact& contact);
+
+/// The same as a witness.
+std::optional<Witness> laneWitness(const CheckerModel& model, const LaneContact& contact, double t);
+
+}  // namespace swept::detail

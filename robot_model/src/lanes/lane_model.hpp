@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "lanes/joint_table.hpp"
+#include "lanes/obstacles.hpp"
+#include "lanes/row.hpp"
+
+namespace swept::detail {
+
+struct CheckerModel;
+
+/// How a body moves in its parent's frame. Frames of the lane tier are turned so that a joint turns
+/// about z.
+enum class LaneJointKind : std::uint8_t {
+  Turn,      ///< revolute and continuous
+  Slide,     ///< prismatic
+  Planar,    ///< slides, then turns
+  Floating,  ///< slides, then turns about an axis that the motion chooses
+};
+
+/// One moving body. Single precision: what that costs is part of LaneModel::rounding.
+struct LaneBody {
+  int parent = 0;
+  LaneJointKind kind = LaneJointKind::Turn;
+  float rotation[9] = {};     ///< parent's frame from the joint's, row by row
+  float translation[3] = {};  ///< m, parent's frame
+  /// Of the angle between this joint's axis and its parent's, absolute, rounded up; negative where
+  /// not both turn about an axis that is fixed in the parent.
+  float cosine = -1.0F;
+};
+
+/// A ball of a link's cover, in the frame of its body. The first node of a body that has several
+/// pieces of geometry holds all of them.
+struct LaneNode {
+  float center[3] = {};  ///< m
+  float radius = 0.0F;   ///< m
+  float inside = -1.0F;  ///< m, the ball of this radius is in the link's solid; negative: none
+  float beyond = 0.0F;   ///< m, how far the ball reaches beyond the link
+  std::int32_t firstChild = 0;
+  std::int32_t childCount = 0;
+  std::int32_t geometry = -1;  ///< index into CheckerModel::robotGeometry; -1: several
+};
+
+/// Bounds on how the bodies that move relative to a reference body do so.
+///
+/// Rows go over the moving bodies, padded; `arms[step][body]` bounds the distance of each ball
+/// centre of the body from the axis of the step's joint, 0 where that does not carry the body.
+struct LaneReference {
+  struct Step {
+    int body = 0;
+    int parent = -1;          ///< step; -1: the reference itself
+    int grandparent = -1;     ///< step; meaningful when `turnsAfter`
+    bool turnsAfter = false;  ///< both this joint and its parent's turn, relative to the reference
+  };
+  int body = 0;
+  std::vector<Step> steps;   ///< parents first
+  int rows = 0;              ///< per step
+  std::vector<Row> arms;     ///< m, [step * rows + row]
+  std::vector<Row> carried;  ///< 1 or 0, likewise
+  std::vector<int> slot;     ///< per body: where it is in the rows; -1: not moved
+};
+
+/// Two bodies with pairs of their geometry to check.
+struct LaneBodyPair {
+  int bodyA = 0;
+  int bodyB = 0;
+  int reference = 0;                        ///< index into LaneModel::references
+  std::shared_ptr<const JointTable> table;  ///< null: none
+};
+
+/// What a pair of the model is here.
+struct LanePairSource {
+  int geometry = 0;
+  std::int32_t obstacle = -1;  ///< -1: a pair of two links
+  int other = 0;               ///< of two links: the second one's geometry,
+  int bodyPair = 0;            ///< and of which of LaneModel::bodyPairs it is one
+};
+
+/// Robot x world for the vector kernels: single precision, eight lanes.
+struct LaneModel {
+  bool usable = false;
+  std::vector<LaneBody> bodies;  ///< [0] is the model frame
+  /// Per body: its parent's frame as it is here, from the parent's frame in KinematicModel.
+  std::vector<Eigen::Matrix3d> parentLaneFromParent;
+  std::vector<Eigen::Matrix3d> bodyFromLane;  ///< per body, KinematicModel's frame from this one
+  std::vector<LaneNode> nodes;
+  std::vector<std::int32_t> rootOfBody;      ///< -1: no geometry
+  std::vector<std::int32_t> rootOfGeometry;  ///< -1: none
+  /// Per geometry: balls inside it, as nodes without children.
+  struct InnerBalls {
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+  };
+  std::vector<InnerBalls> innerBalls;
+  std::vector<int> geometryBody;
+  std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
+  std::vector<LaneReference> references;  ///< [0]: the model frame
+  std::vector<LaneBodyPair> bodyPairs;
+  LaneObstacles obstacles;
+  /// Index of the pair of a geometry and a world geometry: [geometry * obstacles + obstacle]; -1:
+  /// not checked.
+  std::vector<std::int32_t> pairOf;
+  std::vector<std::int32_t> pairOfGeometries;  ///< of two links, likewise: [a * geometries + b]
+  std::vector<LanePairSource> sources;         ///< per pair of the model
+  std::vector<int> allBodies;                  ///< that move, parents first
+  std::vector<std::vector<int>> ancestors;     ///< per body, itself included, root first
+  bool slides = false;                         ///< some joint does not only turn
+  bool floats = false;                         ///< some joint is floating
+  float margin = 0.0F;                         ///< m
+  float rounding = 0.0F;                       ///< relative, of positions; see lane_motion.cpp
+  float reach = 0.0F;  ///< m, no point is farther from the origin but for what slides freely
+};
+
+/// `like`: null, or the lanes of a checker that differs in nothing but its world; its tables are
+/// shared.
+LaneModel compileLanes(const CheckerModel& model, const LaneModel* like = nullptr);
+
+}  // namespace swept::detail

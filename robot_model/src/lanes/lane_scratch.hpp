@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lanes/row.hpp"
+
+namespace swept::detail {
+
+struct LaneModel;
+
+/// One joint's share of a motion, t in [0, 1].
+struct LaneJointMotion {
+  float angle = 0.0F;       ///< rad, at t = 0
+  float angleRate = 0.0F;   ///< rad per unit t
+  float slide[3] = {};      ///< m, parent's frame, at t = 0
+  float slideRate[3] = {};  ///< m per unit t
+  float rotation[9] = {};   ///< Floating: in place of LaneBody::rotation
+  float after[9] = {};      ///< Floating: applied to the body before it turns
+  float spin = 0.0F;        ///< rad per unit t, not below |angleRate|
+  float speed = 0.0F;       ///< m per unit t, not below |slideRate|
+};
+
+/// Frame and velocity field of one body in all lanes: p has velocity linear + angular x p.
+struct LaneBodyState {
+  Row rotation[9];
+  Row origin[3];   ///< m
+  Row angular[3];  ///< rad per unit t
+  Row linear[3];   ///< m per unit t
+};
+
+/// The ball around all of a body's geometry: the points at + s by, |s| <= 1, of its centre.
+struct LaneRoot {
+  Row at[3];  ///< m
+  Row by[3];  ///< m, half the way in the sub-interval; zero at rest
+};
+
+/// An obstacle or a pair with the lanes in which it is open.
+struct LaneHit {
+  std::int32_t index = 0;
+  std::uint32_t lanes = 0;
+};
+
+/// Two balls that are proven to be inside two bodies meet, or a ball and an obstacle.
+struct LaneContact {
+  std::uint32_t pair = 0;
+  float point[3] = {};  ///< m, in the link's solid by more than rounding
+  float inside = 0.0F;  ///< m, by how much
+};
+
+/// The pair and the lane in which the two covers overlap most at the middle, of those left open.
+struct LaneSuspect {
+  std::uint32_t pair = 0;
+  int lane = -1;
+  float depth = 0.0F;  ///< m, by more than half of what the covers reach beyond the links
+};
+
+enum class LaneMode : std::uint8_t {
+  Motion,  ///< eight sub-intervals
+  State,   ///< the motion's begin in all lanes, at rest
+  States,  ///< eight states, whose angles and slides are given
+};
+
+/// Eight sub-intervals of a motion, or states, and what is found out about them.
+struct LaneBlock {
+  Row time;                           ///< of the middles
+  Row half;                           ///< half widths, in units of t
+  std::vector<Row> angle;             ///< rad, per body
+  std::vector<Row> slide;             ///< m, 3 per body
+  std::vector<LaneBodyState> states;  ///< per body
+  std::vector<LaneRoot> roots;        ///< per body; of those that have geometry
+  /// Pairs that are open, with their lanes in openLanes.
+  std::vector<std::uint32_t> open;
+  std::vector<std::uint8_t> openLanes;  ///< per pair of the model
+  /// Those in which not the motion but the covers are too coarse.
+  std::vector<std::uint8_t> finalLanes;
+  LaneMode mode = LaneMode::Motion;
+  bool stopAtContact = true;
+  std::uint32_t contactLanes = 0;  ///< those with a contact; these are not looked at any more
+  LaneContact contacts[kLanes];
+  LaneSuspect suspect;
+};
+
+/// Bounds on the motion of every ball centre relative to a reference.
+struct LaneBounds {
+  std::vector<Row> acceleration;  ///< m per unit t squared; lanes: bodies
+};
+
+struct LaneScratch {
+  explicit LaneScratch(const LaneModel& model);
+  void restBase(const LaneModel& model);
+  std::vector<LaneJointMotion> motion;
+  std::vector<LaneBounds> bounds;  ///< per reference
+  std::vector<float> together;     ///< rad per unit t, per body: it and its parent turning
+  std::vector<float> turning;      ///< rad per unit t, per step of a reference
+  std::vector<float> turned;       ///< its factor of the arms
+  std::vector<float> slid;
+  LaneBlock block;
+  std::vector<LaneHit> hits;  ///< a stack
+  float rounding = 0.0F;      ///< m, of this motion
+  bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
+  /// Sub-intervals with the pairs still open on them: now, and of the next halving.
+  struct Item {
+    float time = 0.5F;
+    float half = 0.5F;
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+  std::vector<Item> now, next, rest;
+  std::vector<std::uint32_t> arena, nextArena, restArena;
+  std::vector<std::uint32_t> wanted;      ///< pairs of the block
+  std::vector<std::uint8_t> wantedLanes;  ///< per pair of the model
+  std::vector<LaneHit> asked;
+  std::vector<char> bodyWanted;
+  std::vector<int> bodies;
+};
+
+}  // namespace swept::detail

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/lane_search.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "lanes/lane_kinematics.hpp"
+#include "lanes/self_walk.hpp"
+#include "lanes/world_walk.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// m. Intervals whose inflation is below this gain nothing from halving that the exact tier does
+/// not do better.
+constexpr float kFinestInflation = 1e-3F;
+/// Halvings after the first block, and sub-intervals in one generation, at most.
+constexpr int kMostGenerations = 6;
+constexpr std::size_t kMostItems = 256;
+
+void forgetOpen(LaneBlock& block) {
+  for (const std::uint32_t pair : block.open) block.openLanes[pair] = block.finalLanes[pair] = 0;
+  block.open.clear();
+}
+
+/// Suspects of one motion that the judge is asked about, at most: each costs more than a block.
+constexpr int kMostSuspects = 4;
+
+class MotionSearch {
+ public:
+  MotionSearch(const LaneModel& model, LaneJudge* judge, LaneScratch& scratch)
+      : model_(model), judge_(judge), scratch_(scratch) {
+    for (const Row& row : scratch.bounds[0].acceleration)
+      for (const float value : row.lane) acceleration_ = std::max(acceleration_, value);
+  }
+
+  LaneAnswer run() {
+    LaneBlock& block = scratch_.block;
+    block.mode = LaneMode::Motion;
+    block.stopAtContact = judge_ != nullptr;
+    for (auto* items : {&scratch_.next, &scratch_.rest}) items->clear();
+    for (auto* pairs : {&scratch_.nextArena, &scratch_.restArena}) pairs->clear();
+    forgetOpen(block);
+    if (first()) return contact();
+    collect();
+    for (int generation = 0; !scratch_.next.empty(); ++generation) {
+      std::swap(scratch_.now, scratch_.next);
+      std::swap(scratch_.arena, scratch_.nextArena);
+      scratch_.next.clear();
+      scratch_.nextArena.clear();
+      last_ = generation + 1 >= kMostGenerations || scratch_.now.size() > kMostItems / 2;
+      for (std::size_t i = 0; i < scratch_.now.size(); i += kLanes) {
+        if (examine(i)) return contact();
+        collect();
+      }
+    }
+    answer_.kind = scratch_.rest.empty() ? LaneAnswer::Kind::Free : LaneAnswer::Kind::Open;
+    return answer_;
+  }
+
+ private:
+  LaneAnswer contact() {
+    answer_.kind = LaneAnswer::Kind::Contact;
+    return answer_;
+  }
+
+  double timeOf(int lane) const { return static_cast<double>(scratch_.block.time.lane[lane]); }
+
+  /// Walks until it is through or the judge has confirmed a contact. A claim that is not confirmed
+  /// is not made a second time: the walk is repeated without looking for contacts.
+  template <typename Walk>
+  bool walk(const Walk& walkAll) {
+    LaneBlock& block = scratch_.block;
+    block.suspect = {};
+    block.contactLanes = 0;
+    if (walkAll()) {
+      const int lane = std::countr_zero(block.contactLanes);
+      if (judge_->isContact(block.contacts[lane], timeOf(lane))) return true;
+      judge_ = nullptr;
+      block.contactLanes = 0;
+      block.stopAtContact = false;
+      walkAll();
+    }
+    if (judge_ == nullptr || block.suspect.lane < 0 || suspects_ == kMostSuspects) return false;
+    ++suspects_;
+    return judge_->isContact(block.suspect, timeOf(block.suspect.lane));
+  }
+
+  /// All pairs on eight sub-intervals.
+  bool first() {
+    LaneBlock& block = scratch_.block;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      block.time.lane[lane] = (2.0F * static_cast<float>(lane) + 1.0F) / (2.0F * kLanes);
+      block.half.lane[lane] = 1.0F / (2.0F * kLanes);
+    }
+    answer_.intervals += kLanes;
+    placeBodies(model_, scratch_.motion, model_.allBodies, block);
+    return walk([&] { return walkWorld(model_, scratch_) || walkSelf(model_, scratch_); });
+  }
+
+  /// Divides what the block left open, and hands on what dividing does not help.
+  void collect() {
+    LaneBlock& block = scratch_.block;
+    if (block.open.empty()) return;
+    std::uint32_t failed = 0;
+    for (const std::uint32_t pair : block.open) failed |= block.openLanes[pair];
+    const int parts = 2 * std::popcount(failed) <= kLanes / 2 ? 4 : 2;
+    for (std::uint32_t left = failed; left != 0; left &= left - 1)
+      collectLane(std::countr_zero(left), parts);
+    forgetOpen(block);
+  }
+
+  void collectLane(int lane, int parts) {
+    const LaneBlock& block = scratch_.block;
+    const float time = block.time.lane[lane];
+    const float half = block.half.lane[lane];
+    const bool fine = last_ || 0.5F * half * half * acceleration_ < kFinestInflation;
+    const std::size_t rest = scratch_.restArena.size();
+    const std::size_t next = scratch_.nextArena.size();
+    for (const std::uint32_t pair : block.open) {
+      if ((block.openLanes[pair] >> lane & 1U) == 0) continue;
+      const bool final = fine || (block.finalLanes[pair] >> lane & 1U) != 0;
+      (final ? scratch_.restArena : scratch_.nextArena).push_back(pair);
+    }
+    if (scratch_.restArena.size() > rest)
+      scratch_.rest.push_back({time, half, rest, scratch_.restArena.size() - rest});
+    const std::size_t count = scratch_.nextArena.size() - next;
+    if (count == 0) return;
+    const float part = half / static_cast<float>(parts);
+    for (int i = 0; i < parts; ++i)
+      scratch_.next.push_back(
+          {time - half + part * static_cast<float>(2 * i + 1), part, next, count});
+  }
+
+  /// Up to eight of the current sub-intervals, each with its own pairs.
+  bool examine(std::size_t from) {
+    LaneBlock& block = scratch_.block;
+    const std::size_t count = std::min<std::size_t>(kLanes, scratch_.now.size() - from);
+    scratch_.wanted.clear();
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      // Lanes not in use repeat the first, and nothing is asked of them.
+      const LaneScratch::Item& item = scratch_.now[from + (lane < count ? lane : 0)];
+      block.time.lane[lane] = item.time;
+      block.half.lane[lane] = item.half;
+      if (lane >= count) continue;
+      for (std::size_t i = item.first; i < item.first + item.count; ++i) {
+        const std::uint32_t pair = scratch_.arena[i];
+        if (scratch_.wantedLanes[pair] == 0) scratch_.wanted.push_back(pair);
+        scratch_.wantedLanes[pair] |= static_cast<std::uint8_t>(1U << lane);
+      }
+    }
+    answer_.intervals += static_cast<int>(count);
+    std::ranges::sort(scratch_.wanted);
+    place();
+    const bool contact = walk([&] { return askAll(); });
+    for (const std::uint32_t pair : scratch_.wanted) scratch_.wantedLanes[pair] = 0;
+    return contact;
+  }
+
+  bool askAll() {
+    for (std::size_t i = 0; i < scratch_.wanted.size();)
+      if (askAt(i)) return true;
+    return false;
+  }
+
+  /// The pair at `i`, and those after it that are of the same geometry with the world.
+  bool askAt(std::size_t& i) {
+    const std::uint32_t pair = scratch_.wanted[i];
+    const LanePairSource& source = model_.sources[pair];
+    if (source.obstacle < 0) {
+      ++i;
+      return walkPair(model_, pair, scratch_.wantedLanes[pair], scratch_);
+    }
+    scratch_.asked.clear();
+    for (; i < scratch_.wanted.size(); ++i) {
+      const LanePairSource& next = model_.sources[scratch_.wanted[i]];
+      if (next.obstacle < 0 || next.geometry != source.geometry) break;
+      scratch_.asked.push_back({next.obstacle, scratch_.wantedLanes[scratch_.wanted[i]]});
+    }
+    return walkPairs(model_, source.geometry, scratch_.asked, scratch_);
+  }
+
+  /// Only the bodies that the wanted pairs hang on.
+  void place() {
+    scratch_.bodyWanted.assign(model_.bodies.size(), 0);
+    const auto want = [&](int body) {
+      for (const int ancestor : model_.ancestors[body]) scratch_.bodyWanted[ancestor] = 1;
+    };
+    for (const std::uint32_t pair : scratch_.wanted) {
+      const LanePairSource& source = model_.sources[pair];
+      want(model_.geometryBody[source.geometry]);
+      if (source.obstacle < 0) want(model_.geometryBody[source.other]);
+    }
+    scratch_.bodies.clear();
+    for (const int body : model_.allBodies)
+      if (scratch_.bodyWanted[body] != 0) scratch_.bodies.push_back(body);
+    placeBodies(model_, scratch_.motion, scratch_.bodies, scratch_.block);
+  }
+
+  const LaneModel& model_;
+  LaneJudge* judge_;
+  LaneScratch& scratch_;
+  LaneAnswer answer_;
+  float acceleration_ = 0.0F;  ///< m per unit t squared
+  int suspects_ = 0;
+  bool last_ = false;
+};
+
+}  // namespace
+
+LaneScratch::LaneScratch(const LaneModel& model) {
+  if (!model.usable) return;
+  motion.resize(model.bodies.size());
+  bounds.resize(model.references.size());
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    bounds[i].acceleration.resize(model.references[i].rows, Row{});
+  for (auto* perStep : {&together, &turning, &turned, &slid})
+    perStep->resize(model.bodies.size(), 0.0F);
+  block.angle.resize(model.bodies.size(), Row{});
+  block.slide.resize(3 * model.bodies.size(), Row{});
+  block.states.resize(model.bodies.size());
+  block.roots.resize(model.bodies.size());
+  restBase(model);
+  block.openLanes.resize(model.sources.size());
+  block.finalLanes.resize(model.sources.size());
+  wantedLanes.resize(model.sources.size());
+}
+
+/// The model frame never moves.
+void LaneScratch::restBase(const LaneModel& model) {
+  LaneBodyState& base = block.states[0];
+  base = LaneBodyState{};
+  for (const int diagonal : {0, 4, 8})
+    for (float& value : base.rotation[diagonal].lane) value = 1.0F;
+  if (model.rootOfBody[0] < 0) return;
+  for (int i = 0; i < 3; ++i)
+    for (float& value : block.roots[0].at[i].lane)
+      value = model.nodes[model.rootOfBody[0]].center[i];
+}
+
+LaneAnswer searchMotion(const LaneModel& model, LaneJudge* judge, LaneScratch& scratch) {
+  return MotionSearch(model, judge, scratch).run();
+}
+
+void searchStates(const LaneModel& model, LaneMode mode, bool contacts, LaneScratch& scratch) {
+  LaneBlock& block = scratch.block;
+  forgetOpen(block);
+  block.mode = mode;
+  block.stopAtContact = contacts;
+  block.contactLanes = 0;
+  block.suspect = {};
+  block.time = Row{};
+  block.half = Row{};
+  placeBodies(model, scratch.motion, model.allBodies, block);
+  if (!walkWorld(model, scratch)) walkSelf(model, scratch);
+}
+
+void takeOpen(int lane, LaneScratch& scratch) {
+  const LaneBlock& block = scratch.block;
+  scratch.restArena.clear();
+  for (const std::uint32_t pair : block.open)
+    if ((block.openLanes[pair] >> lane & 1U) != 0) scratch.restArena.push_back(pair);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "lanes/clearance_field.hpp"
+#include "lanes/row.hpp"
+#include "swept/core/shapes.hpp"
+
+namespace swept::detail {
+
+struct WorldGeometry;
+
+/// What bounds a world geometry from outside, one kernel each.
+enum class ObstacleKind : std::uint8_t {
+  Box,
+  Ball,
+  Capsule,
+  Cylinder,
+  Cone,
+  Ellipsoid,
+  Planes,
+  Slab,
+  Field
+};
+
+/// What a bound on the distance from an obstacle says of being near it.
+enum class NearProof : std::uint8_t {
+  None,
+  Inside,    ///< where it is zero the point is in the obstacle, but for rounding
+  Distance,  ///< it is the distance of points, but for rounding
+  Query,     ///< None, but there is a query for it
+};
+
+/// { x : |axes[i] . x + offset[i]| <= half[i] }
+struct LaneBox {
+  float axes[3][3];  ///< unit
+  float offset[3];   ///< m
+  float half[3];     ///< m
+};
+
+/// Sphere, capsule, cylinder or cone about the z axis of a frame.
+struct LaneRound {
+  float center[3];   ///< m
+  float axis[3];     ///< unit; cone: towards the apex
+  float halfLength;  ///< m
+  float radius;      ///< m
+  /// Cone: of the side's outward normal, across and along the axis, and its offset: the side is
+  /// across * |radial| + along * axial = offset.
+  float across = 0.0F;
+  float along = 0.0F;
+  float offset = 0.0F;  ///< m
+};
+
+/// { x : sum of ((axes[i] . x + offset[i]) / semiAxes[i])^2 <= 1 }
+struct LaneEllipsoid {
+  float axes[3][3];   ///< unit
+  float offset[3];    ///< m
+  float semiAxes[3];  ///< m
+  float inverse[3];   ///< 1/m, of the semi-axes; near to them is enough
+};
+
+/// A ClearanceField in lanes, and the shape it bounds the distance from.
+struct LaneField {
+  float axes[3][3];  ///< unit, of the grid
+  float offset[3];   ///< m; the grid's frame begins in its corner
+  float lower[3];    ///< m
+  float upper[3];    ///< m
+  float cell;        ///< m
+  float inverse;     ///< 1/m, of the cell
+  float step;        ///< m, of cells
+  float fineStep;    ///< m, of voxels
+  float slack;       ///< m, to be taken off: rounding
+  std::int32_t blocks[3];
+  const std::uint32_t* cells;
+  const std::int32_t* bricks;
+  const std::uint32_t* voxels;
+  std::shared_ptr<const ClearanceField> field;
+  Shape shape;
+  Eigen::Isometry3d shape_from_world;
+};
+
+/// { x : normal . x <= offset + slack for all of a range of planes }, or { x : |normal . x -
+/// offset|
+/// <= slack }
+struct LanePlane {
+  float normal[3];  ///< unit
+  float offset;     ///< m
+  float slack;      ///< m
+};
+
+/// Each set is larger than the obstacle by at least what single precision does to a distance from
+/// it, for points within the robot's reach.
+struct LaneObstacle {
+  ObstacleKind kind = ObstacleKind::Box;
+  NearProof near = NearProof::None;
+  std::int32_t first = 0;  ///< into the array of its kind
+  std::int32_t count = 1;  ///< planes
+};
+
+/// Eight boxes along the axes of the model frame.
+struct LaneWorldNode {
+  Row lower[3];                ///< m
+  Row upper[3];                ///< m
+  std::int32_t child[kLanes];  ///< a node's index, or ~index of an obstacle
+};
+
+/// The world in lanes; indices of obstacles are those of CheckerModel::worldGeometry.
+struct LaneObstacles {
+  std::vector<LaneObstacle> obstacles;
+  std::vector<LaneBox> boxes;
+  std::vector<LaneRound> rounds;
+  std::vector<LanePlane> planes;
+  std::vector<LaneEllipsoid> ellipsoids;
+  std::vector<LaneField> fields;
+  std::vector<LaneWorldNode> nodes;  ///< [0] is the root; empty: no obstacles
+};
+
+/// `reach`: m, no point of the robot is farther from the model frame's origin, but for what slides
+/// freely; `bounded`: nothing does.
+LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded);
+
+/// A ball of a cover at one time, and half the way of its centre: x +- g (m, model frame).
+struct MovingPoint {
+  float x[3];
+  float g[3];
+};
+
+/// Proves in double precision that no point of the segment is within `radius` (m) of the shape.
+bool isApart(const LaneField& field, const MovingPoint& point, float radius);
+/// Whether the shape is proven to reach within `radius` (m) of the middle.
+bool reaches(const LaneField& field, const MovingPoint& point, float radius);
+
+}  // namespace swept::detail

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Balls of covers in all lanes. Included once per instruction set.
+#if defined(SWEPT_LANES_PLACED_BALL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWEPT_LANES_PLACED_BALL
+#undef SWEPT_LANES_PLACED_BALL
+#else
+#define SWEPT_LANES_PLACED_BALL
+#endif
+
+#include <bit>
+
+#include "lanes/f8.hpp"
+#include "lanes/lane_model.hpp"
+#include "lanes/lane_scratch.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+
+/// Points x + s g, |s| <= 1.
+struct Segment {
+  V3 x;
+  V3 g;
+};
+
+/// Square of the least |y + s h|, |s| <= 1. Lemma: s is off by at most ds = 8 kSingle |y| / |h|,
+/// and |y + s h|^2 by |h|^2 ds^2 more than the least, so the distance by less than 8 kSingle |y|.
+HWY_INLINE F8 nearestSquared(const V3& y, const V3& h) {
+  const F8 length = larger(dot(h, h), set(1e-30F));
+  const F8 s = smaller(larger(-(dot(y, h) / length), set(-1.0F)), set(1.0F));
+  const V3 p = along(y, s, h);
+  return dot(p, p);
+}
+
+/// m per unit t squared, of every ball centre of a body relative to the reference.
+HWY_INLINE float accelerationOf(const LaneReference& reference, const LaneBounds& bounds,
+                                int body) {
+  const int slot = reference.slot[body];
+  return slot < 0 ? 0.0F : bounds.acceleration[slot / kLanes].lane[slot % kLanes];
+}
+
+/// m; half^2 / 2 of an acceleration, outward by more than the roundings.
+HWY_INLINE F8 inflation(const F8& half, float acceleration) {
+  return half * half * set(acceleration * (0.5F + 1e-6F));
+}
+
+HWY_INLINE V3 place(const LaneNode& node, const LaneBodyState& state) {
+  return addRotated(load3(state.origin), state.rotation, set3(node.center));
+}
+
+/// Notes contacts at these points. True: the walk is over.
+HWY_INLINE bool claim(LaneBlock& block, std::uint32_t pair, Lanes lanes, const V3& points,
+                      float inside) {
+  Row row[3];
+  store3(points, row);
+  block.contactLanes |= lanes;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    block.contacts[lane] = {
+        pair, {row[0].lane[lane], row[1].lane[lane], row[2].lane[lane]}, inside};
+  }
+  return block.mode != LaneMode::States || block.contactLanes == kAllLanes;
+}
+
+/// Leaves a pair open in these lanes; `final`: shorter intervals would not help. `depths`: m, a
+/// guess of how deep the two are in each other.
+HWY_INLINE void leaveOpen(LaneBlock& block, std::uint32_t pair, Lanes lanes, bool final,
+                          const F8& depths) {
+  if (block.openLanes[pair] == 0) block.open.push_back(pair);
+  block.openLanes[pair] |= static_cast<std::uint8_t>(lanes);
+  if (final) block.finalLanes[pair] |= static_cast<std::uint8_t>(lanes);
+  if (!block.stopAtContact || (lanes & above(depths, set(block.suspect.depth))) == 0) return;
+  Row row;
+  store(depths, row);
+  for (int lane = 0; lane < kLanes; ++lane)
+    if ((lanes >> lane & 1U) != 0 && row.lane[lane] > block.suspect.depth)
+      block.suspect = {pair, lane, row.lane[lane]};
+}
+
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

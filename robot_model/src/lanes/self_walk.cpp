@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/self_walk.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lanes/self_walk.cpp"  // compiled once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "lanes/f8.hpp"
+#include "lanes/placed_ball.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+namespace {
+
+/// Pairs of balls that are split per pair of links: two links so close that this does not prove
+/// them apart are cheaper to compare exactly.
+constexpr int kMostLooks = 16;
+
+/// m. As good a guess as any for a contact in a cell of a table.
+constexpr float kLikelyDepth = 0.01F;
+
+class SelfWalk {
+ public:
+  SelfWalk(const LaneModel& model, LaneScratch& scratch)
+      : model_(model),
+        scratch_(scratch),
+        block_(scratch.block),
+        half_(load(scratch.block.half)),
+        moving_(scratch.block.mode == LaneMode::Motion) {}
+
+  bool all() {
+    for (const LaneBodyPair& bodies : model_.bodyPairs) {
+      Lanes lanes = kAllLanes;
+      if (bodies.table != nullptr && scratch_.withinLimits) {
+        const JointTable& table = *bodies.table;
+        lanes ^= provenBefore(table);
+        if (lanes == 0) continue;
+        start(bodies);
+        if (meets(table, lanes)) return true;
+        lanes &= ~block_.contactLanes;
+        // Where the table knows of no proof, covers have none either.
+        lanes = openByTable(table, lanes);
+        if (lanes == 0) continue;
+      }
+      start(bodies);
+      if (visit(model_.nodes[model_.rootOfBody[bodies.bodyA]], root(bodies.bodyA),
+                model_.nodes[model_.rootOfBody[bodies.bodyB]], root(bodies.bodyB), lanes))
+        return true;
+    }
+    return false;
+  }
+
+  bool one(std::uint32_t pair, Lanes lanes) {
+    const LanePairSource& source = model_.sources[pair];
+    start(model_.bodyPairs[source.bodyPair]);
+    const LaneNode& a = model_.nodes[model_.rootOfGeometry[source.geometry]];
+    const LaneNode& b = model_.nodes[model_.rootOfGeometry[source.other]];
+    return visit(a, placed(a, *stateA_), b, placed(b, *stateB_), lanes);
+  }
+
+ private:
+  /// Lanes whose joint values are in cells in which the bodies are apart.
+  Lanes provenBefore(const JointTable& table) const {
+    JointTable::Values lower;
+    JointTable::Values upper;
+    boxOf(table, 0, kLanes, lower, upper);
+    // A motion's first lanes are in order of time, and its angles do not turn back.
+    if (block_.mode != LaneMode::States && table.free(lower, upper)) return kAllLanes;
+    Lanes lanes = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      boxOf(table, lane, lane + 1, lower, upper);
+      if (table.free(lower, upper)) lanes |= 1U << lane;
+    }
+    return lanes;
+  }
+
+  /// Of the joint values in the first and the last of these lanes.
+  void boxOf(const JointTable& table, int first, int last, JointTable::Values& lower,
+             JointTable::Values& upper) const {
+    lower.fill(0.0F);
+    upper.fill(0.0F);
+    for (int k = 0; k < table.joints; ++k) {
+      const int body = table.axes[k].body;
+      const Row& angle = block_.angle[body];
+      const float spin = moving_ ? scratch_.motion[body].spin : 0.0F;
+      lower[k] = std::min(angle.lane[first] - block_.half.lane[first] * spin,
+                          angle.lane[last - 1] - block_.half.lane[last - 1] * spin);
+      upper[k] = std::max(angle.lane[first] + block_.half.lane[first] * spin,
+                          angle.lane[last - 1] + block_.half.lane[last - 1] * spin);
+    }
+  }
+
+  const JointTable::Cell* cellOf(const JointTable& table, int lane) const {
+    JointTable::Values values{};
+    for (int k = 0; k < table.joints; ++k) values[k] = block_.angle[table.axes[k].body].lane[lane];
+    return table.cellAt(values);
+  }
+
+  /// Looks where the table suggests a contact.
+  bool meets(const JointTable& table, Lanes lanes) {
+    if (!block_.stopAtContact) return false;
+    const JointTable::Cell* last = nullptr;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const JointTable::Cell* cell = cellOf(table, std::countr_zero(lanes));
+      if (cell == nullptr || cell->nodeA < 0) continue;
+      const bool again =
+          last != nullptr && last->nodeA == cell->nodeA && last->nodeB == cell->nodeB;
+      if (again) continue;
+      last = cell;
+      const LaneNode& a = model_.nodes[cell->nodeA];
+      const LaneNode& b = model_.nodes[cell->nodeB];
+      pair_ = pairOf(a.geometry, b.geometry);
+      if (touches(a, {place(a, *stateA_), {}}, b, {place(b, *stateB_), {}}, lanes)) return true;
+    }
+    return false;
+  }
+
+  std::uint32_t pairOf(int a, int b) const {
+    return static_cast<std::uint32_t>(model_.pairOfGeometries[a * model_.geometryBody.size() + b]);
+  }
+
+  /// Leaves open what the table does; returns the lanes that are outside of it.
+  Lanes openByTable(const JointTable& table, Lanes lanes) {
+    Lanes outside = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      JointTable::Values lower;
+      JointTable::Values upper;
+      boxOf(table, lane, lane + 1, lower, upper);
+      const JointTable::Cell* cell = cellOf(table, lane);
+      if (cell == nullptr) {
+        outside |= 1U << lane;
+        continue;
+      }
+      const std::uint8_t bits = table.openPairs(lower, upper);
+      for (std::size_t k = 0; k < table.pairs.size(); ++k) {
+        const std::size_t bit = std::min(k, JointTable::kPairBits - 1);
+        if ((bits >> bit & 1U) == 0) continue;
+        // A contact seen in the cell is likely here, and the deeper the farther from where it ends.
+        const bool likely = cell->touching && (cell->openPairs >> bit & 1U) != 0;
+        leaveOpen(block_, pairOf(table.pairs[k].a, table.pairs[k].b), 1U << lane, true,
+                  set(likely ? kLikelyDepth : 0.0F));
+      }
+    }
+    return outside;
+  }
+
+  void start(const LaneBodyPair& bodies) {
+    const LaneReference& reference = model_.references[bodies.reference];
+    const LaneBounds& bounds = scratch_.bounds[bodies.reference];
+    looks_ = kMostLooks;
+    stateA_ = &block_.states[bodies.bodyA];
+    stateB_ = &block_.states[bodies.bodyB];
+    turning_ = moving_ && reference.body != 0;
+    if (turning_) angular_ = half_ * load3(block_.states[reference.body].angular);
+    // Both balls' positions are rounded.
+    extra_ = set(2.0F * scratch_.rounding + model_.margin);
+    if (moving_)
+      extra_ = extra_ + inflation(half_, accelerationOf(reference, bounds, bodies.bodyA) +
+                                             accelerationOf(reference, bounds, bodies.bodyB));
+  }
+
+  Segment root(int body) const {
+    const LaneRoot& ball = block_.roots[body];
+    if (!moving_ || body == 0) return {load3(ball.at), set3({0.0F, 0.0F, 0.0F})};
+    return {load3(ball.at), load3(ball.by)};
+  }
+
+  HWY_INLINE Segment placed(const LaneNode& node, const LaneBodyState& state) const {
+    const V3 x = place(node, state);
+    if (!moving_) return {x, set3({0.0F, 0.0F, 0.0F})};
+    return {x, half_ * addCross(load3(state.linear), load3(state.angular), x)};
+  }
+
+  HWY_INLINE Lanes notApart(const LaneNode& a, const Segment& atA, const LaneNode& b,
+                            const Segment& atB) const {
+    const V3 between = atB.x - atA.x;
+    V3 by = atB.g - atA.g;
+    if (turning_) by = addCross(by, between, angular_);  // - angular x between
+    const F8 radius = (set(a.radius + b.radius) + extra_) * set(1.0F + 4e-6F);
+    return ~above(nearestSquared(between, by), radius * radius) & kAllLanes;
+  }
+
+  bool visit(const LaneNode& a, const Segment& atA, const LaneNode& b, const Segment& atB,
+             Lanes lanes) {
+    lanes &= notApart(a, atA, b, atB) & ~block_.contactLanes;
+    if (lanes == 0) return false;
+    const bool known = a.geometry >= 0 && b.geometry >= 0;
+    if (known) {
+      const std::int32_t pair =
+          model_.pairOfGeometries[a.geometry * model_.geometryBody.size() + b.geometry];
+      if (pair < 0) return false;
+      if (pair_ != static_cast<std::uint32_t>(pair)) looks_ = kMostLooks;
+      pair_ = static_cast<std::uint32_t>(pair);
+      lanes &= ~static_cast<Lanes>(block_.openLanes[pair_]);
+      if (lanes == 0) return false;
+      if (a.inside > 0.0F && b.inside > 0.0F && touches(a, atA, b, atB, lanes)) return true;
+      lanes &= ~block_.contactLanes;
+      if (lanes == 0) return false;
+    }
+    const bool splitA = a.geometry < 0 || (b.geometry >= 0 && a.childCount > 0 &&
+                                           (b.childCount == 0 || a.radius >= b.radius));
+    const LaneNode& parent = splitA ? a : b;
+    const bool coarse = a.beyond + b.beyond > 0.5F * largestLane(extra_);
+    if (known && (!coarse || parent.childCount == 0 || --looks_ < 0)) {
+      const V3 between = atB.x - atA.x;
+      const float reach = a.radius + b.radius - 0.5F * (a.beyond + b.beyond);
+      leaveOpen(block_, pair_, lanes, coarse,
+                set(reach) - HWY_NAMESPACE::root(dot(between, between)));
+      return false;
+    }
+    for (int i = 0; i < parent.childCount; ++i) {
+      const LaneNode& child = model_.nodes[parent.firstChild + i];
+      const bool contact = splitA ? visit(child, placed(child, *stateA_), b, atB, lanes)
+                                  : visit(a, atA, child, placed(child, *stateB_), lanes);
+      if (contact) return true;
+    }
+    return false;
+  }
+
+  /// At a middle, two balls inside the links meet.
+  bool touches(const LaneNode& a, const Segment& atA, const LaneNode& b, const Segment& atB,
+               Lanes lanes) {
+    if (!block_.stopAtContact) return false;
+    const float within = a.inside + b.inside - 4.0F * scratch_.rounding;
+    if (!(within > 0.0F)) return false;
+    const V3 between = atB.x - atA.x;
+    lanes &= below(dot(between, between), set(0.9F * within * within));
+    // A point of the line between the centres that is in both balls, by the same share.
+    const F8 share = set(a.inside / (a.inside + b.inside));
+    return lanes != 0 && claim(block_, pair_, lanes, along(atA.x, share, between), 0.0F);
+  }
+
+  const LaneModel& model_;
+  LaneScratch& scratch_;
+  LaneBlock& block_;
+  const F8 half_;
+  const bool moving_;
+  const LaneBodyState* stateA_ = nullptr;
+  const LaneBodyState* stateB_ = nullptr;
+  bool turning_ = false;
+  V3 angular_;  ///< of the reference, times the half width
+  F8 extra_;
+  std::uint32_t pair_ = 0;
+  int looks_ = 0;
+};
+
+bool All(const LaneModel& model, LaneScratch& scratch) {
+  return SelfWalk(model, scratch).all();
+}
+
+bool One(const LaneModel& model, std::uint32_t pair, std::uint32_t lanes, LaneScratch& scratch) {
+  return SelfWalk(model, scratch).one(pair, lanes);
+}
+
+}  // namespace
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swept::detail {
+
+HWY_EXPORT(All);
+HWY_EXPORT(One);
+
+bool walkSelf(const LaneModel& model, LaneScratch& scratch) {
+  return HWY_DYNAMIC_DISPATCH(All)(model, scratch);
+}
+
+bool walkPair(const LaneModel& model, std::uint32_t pair, std::uint32_t lanes,
+              LaneScratch& scratch) {
+  return HWY_DYNAMIC_DISPATCH(One)(model, pair, lanes, scratch);
+}
+
+}  // namespace swept::detail
+#endif

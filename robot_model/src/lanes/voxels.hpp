@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/triangle_mesh.hpp"
+
+namespace swept::detail {
+
+/// What triangles and points meet, as voxels, in blocks of 4 x 4 x 4. A cell is an eighth of a
+/// block: 2 x 2 x 2 voxels.
+class Voxels {
+ public:
+  /// Bit x + 4 y + 16 z of a block.
+  using Mask = std::uint64_t;
+  static constexpr Mask kFull = ~Mask{0};
+
+  /// `reach`: m, no coordinate of what is marked is larger.
+  Voxels(const Eigen::Vector3d& origin, double side, const std::array<int, 3>& blocks,
+         double reach);
+
+  /// Lemma: every point of the triangle within the grid is in a marked voxel, and so is what is
+  /// within rounding of it.
+  void mark(const std::array<Eigen::Vector3d, 3>& corners);
+  void mark(const Eigen::Vector3d& center, double radius);
+
+  /// Marks what closed components enclose, and perhaps small pockets between triangles.
+  void fill(const TriangleMesh& mesh);
+
+  double side() const { return side_; }                      ///< m, of a voxel
+  const Eigen::Vector3d& origin() const { return origin_; }  ///< m
+  const std::array<int, 3>& blocks() const { return blocks_; }
+  /// Whether the whole block is unmarked.
+  bool empty(int x, int y, int z) const { return known_[blockIndex(x, y, z)] == kEmpty; }
+  Mask block(int x, int y, int z) const { return maskAt(blockIndex(x, y, z)); }
+  /// Whether a voxel of the cell is marked.
+  bool cell(int x, int y, int z) const {
+    return (block(x / 2, y / 2, z / 2) & cellMask(x % 2, y % 2, z % 2)) != 0;
+  }
+  std::size_t blockIndex(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * blocks_[1] + y) * blocks_[0] + x;
+  }
+
+ private:
+  static constexpr std::int32_t kEmpty = -1;
+  static constexpr std::int32_t kSolid = -2;
+
+  static constexpr Mask cellMask(int x, int y, int z) {
+    return Mask{0x330033} << (2 * x + 8 * y + 32 * z);
+  }
+  Mask maskAt(std::size_t block) const {
+    const std::int32_t known = known_[block];
+    return known >= 0 ? masks_[known] : known == kSolid ? kFull : 0;
+  }
+  bool voxelsOf(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, Eigen::Array3i& first,
+                Eigen::Array3i& last) const;
+  void markVoxels(const Eigen::Array3i& first, const Eigen::Array3i& last,
+                  const Eigen::Vector3d& normal, const Eigen::Vector3d& point);
+  void set(int x, int y, int z);
+  Eigen::Vector3d middle(int x, int y, int z) const {
+    return origin_ + side_ * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+  }
+  void fillCells(const TriangleMesh& mesh, std::vector<std::uint8_t>& cells);
+  void fillBlocks(const std::vector<std::uint8_t>& cells);
+  Mask reached(std::size_t block, const std::vector<Mask>& outside) const;
+
+  Eigen::Vector3d origin_;
+  double side_;   ///< m
+  double slack_;  ///< m
+  std::array<int, 3> blocks_;
+  std::vector<std::int32_t> known_;  ///< per block: of masks_, or kEmpty, or kSolid
+  std::vector<Mask> masks_;
+  std::vector<std::size_t> blockOf_;  ///< per mask
+};
+
+}  // namespace swept::detail

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "lane_robots.hpp"
+#include "lane_targets.hpp"
+#include "lanes/lane_kinematics.hpp"
+#include "lanes/lane_motion.hpp"
+
+namespace swept::lane_test {
+namespace {
+
+using detail::kLanes;
+using detail::LaneReference;
+using enum JointType;
+
+/// A random robot whose pairs of bodies ask for bounds relative to all kinds of ancestors, and a
+/// motion of it.
+class MovingRobot {
+ public:
+  MovingRobot(Random& random, int round) {
+    ChainOptions options;
+    options.types = typesOf(random, round);
+    options.link = random.scale(1e-3, 1e2);
+    options.branches = random.chance(0.5) ? 0.4 : 0.0;
+    model = robotOf(random, options);
+    addPairs();
+    lanes = detail::compileLanes(model);
+    EXPECT_TRUE(lanes.usable);
+    scratch.emplace(lanes);
+    const double turn = random.scale(0.01, 20.0);
+    from = configuration(random, model.kinematics, turn, 3.0 * options.link);
+    to = configuration(random, model.kinematics, turn, 3.0 * options.link);
+    moves = detail::compileLaneMotion(lanes, model.kinematics, from, to, *scratch);
+    for (const auto& motion : scratch->motion) {
+      spins += static_cast<Real>(motion.spin);
+      speeds += static_cast<Real>(motion.speed);
+    }
+  }
+
+  Vector at(Real t, int body, int reference, const Vector& point) const {
+    return exactPoint(model.kinematics, from, to, t, body, reference, point);
+  }
+  Vector velocity(Real t, int body, int reference, const Vector& point) const {
+    const Real step = 1e-5L / spins;
+    return (at(t + step, body, reference, point) - at(t - step, body, reference, point)) /
+           (2 * step);
+  }
+  Vector acceleration(Real t, int body, int reference, const Vector& point) const {
+    const Real step = 1e-4L / spins;
+    return (at(t + step, body, reference, point) - 2 * at(t, body, reference, point) +
+            at(t - step, body, reference, point)) /
+           (step * step);
+  }
+  /// m per unit t squared; what the differences may be off by.
+  Real noise() const { return 1e-7L * spins * (spins * static_cast<Real>(lanes.reach) + speeds); }
+  Real bound(std::size_t reference, int body) const {
+    const int slot = lanes.references[reference].slot[body];
+    if (slot < 0) return 0;
+    const auto& row = scratch->bounds[reference].acceleration[slot / kLanes];
+    return static_cast<Real>(row.lane[slot % kLanes]);
+  }
+  /// Ball centres of a body, in its frame.
+  std::vector<Vector> centers(int body) const {
+    const detail::LaneNode& root = lanes.nodes[lanes.rootOfBody[body]];
+    std::vector<Vector> found{centerOf(lanes, body, root)};
+    for (int i = 0; i < root.childCount; ++i)
+      found.push_back(centerOf(lanes, body, lanes.nodes[root.firstChild + i]));
+    return found;
+  }
+  /// A centre of a body in the lanes: where it is, and half the way that it moves.
+  static Vector valueOf(const detail::Row (&rows)[3], int lane) {
+    return {static_cast<Real>(rows[0].lane[lane]), static_cast<Real>(rows[1].lane[lane]),
+            static_cast<Real>(rows[2].lane[lane])};
+  }
+
+  detail::CheckerModel model;
+  detail::LaneModel lanes;
+  std::optional<detail::LaneScratch> scratch;
+  std::vector<double> from, to;
+  bool moves = false;
+  Real spins = 1;   ///< rad per unit t
+  Real speeds = 0;  ///< m per unit t
+
+ private:
+  static std::vector<JointType> typesOf(Random& random, int round) {
+    if (round % 6 == 0) return {Floating, Revolute, Prismatic, Revolute};
+    if (round % 6 == 1) return {Planar, Prismatic, Revolute, Continuous};
+    if (round % 6 == 2) return std::vector(7, Revolute);
+    std::vector<JointType> types(1 + random.below(12));
+    for (JointType& type : types) type = std::array{Revolute, Revolute, Prismatic}[random.below(3)];
+    return types;
+  }
+
+  void addPairs() {
+    const int count = static_cast<int>(model.robotGeometry.size());
+    for (int a = 0; a < count; ++a) {
+      for (int b = a + 1; b < count; ++b) {
+        const int bodyA = model.robotGeometry[a].body;
+        const int bodyB = model.robotGeometry[b].body;
+        if (bodyA == bodyB) continue;
+        detail::GeometryPair pair;
+        pair.a = a;
+        pair.b = b;
+        pair.self = true;
+        pair.reference = commonAncestor(model.kinematics, bodyA, bodyB);
+        model.pairs.push_back(pair);
+      }
+    }
+  }
+};
+
+TEST(LaneBounds, NoBallCentreAcceleratesMore) {
+  Random random(21);
+  Real tightest = 0;
+  int compared = 0;
+  int relative = 0;
+  int attained = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const MovingRobot robot(random, round);
+    if (!robot.moves) continue;
+    for (std::size_t k = 0; k < robot.lanes.references.size(); ++k) {
+      const LaneReference& reference = robot.lanes.references[k];
+      for (const LaneReference::Step& step : reference.steps) {
+        const Real bound = robot.bound(k, step.body);
+        const auto centers = robot.centers(step.body);
+        const Vector& center = centers[random.below(static_cast<int>(centers.size()))];
+        const Real t = random.uniform(0.0, 1.0);
+        const Real seen = robot.acceleration(t, step.body, reference.body, center).norm();
+        ASSERT_LE(seen, bound * (1 + 1e-7L) + robot.noise())
+            << "round " << round << ", body " << step.body << " from " << reference.body;
+        ++compared;
+        relative += reference.body != 0 ? 1 : 0;
+        if (!(bound > 1e3L * robot.noise())) continue;
+        tightest = std::max(tightest, seen / bound);
+        attained += seen > 0.5L * bound ? 1 : 0;
+      }
+    }
+  }
+  RecordProperty("tightest", std::to_string(static_cast<double>(tightest)));
+  EXPECT_GT(tightest, 0.98L) << "the bound is idle";
+  EXPECT_GT(attained, compared / 50);
+  EXPECT_GT(compared, 30000);
+  EXPECT_GT(relative, compared / 4);
+}
+
+/// Least distance of the origin from the points y + s h, |s| <= 1.
+Real nearest(const Vector& y, const Vector& h) {
+  const Real length = h.squaredNorm();
+  const Real s = length > 0 ? std::clamp<Real>(-y.dot(h) / length, -1, 1) : 0;
+  return (y + s * h).norm();
+}
+
+struct Interval {
+  int lane;
+  Real middle, half;
+};
+
+void fillIntervals(Random& random, MovingRobot& robot) {
+  auto& block = robot.scratch->block;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double half = random.scale(1e-3, 0.5);
+    block.half.lane[lane] = static_cast<float>(half);
+    block.time.lane[lane] = static_cast<float>(random.uniform(half, 1.0 - half));
+  }
+  block.mode = detail::LaneMode::Motion;
+  detail::placeBodies(robot.lanes, robot.scratch->motion, robot.lanes.allBodies, block);
+}
+
+Interval intervalOf(const MovingRobot& robot, int lane) {
+  return {lane, static_cast<Real>(robot.scratch->block.time.lane[lane]),
+          static_cast<Real>(robot.scratch->block.half.lane[lane])};
+}
+
+/// All of a sub-interval, the ends more often than not: there the segment is farthest off.
+Real sampleOf(Random& random, const Interval& interval) {
+  const Real share = random.chance(0.3) ? (random.chance(0.5) ? 1 : -1)
+                                        : static_cast<Real>(random.uniform(-1.0, 1.0));
+  return interval.middle + share * interval.half;
+}
+
+/// Taylor's capsule, with the segment as the lanes have it: where it is and where it ends.
+TEST(LaneBounds, CentresStayWithinTheInflationOfTheirSegments) {
+  for (const std::int64_t target : laneTargets()) {
+    const OnTarget on(target);
+    Random random(22);
+    Real tightest = 0;
+    int compared = 0;
+    for (int round = 0; round < 500; ++round) {
+      MovingRobot robot(random, round);
+      if (!robot.moves) continue;
+      fillIntervals(random, robot);
+      for (const int body : robot.lanes.allBodies) {
+        const Vector center = robot.centers(body).front();
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const Interval interval = intervalOf(robot, lane);
+          const auto& root = robot.scratch->block.roots[body];
+          const Vector x = MovingRobot::valueOf(root.at, lane);
+          const Vector g = MovingRobot::valueOf(root.by, lane);
+          const Real inflation = interval.half * interval.half * robot.bound(0, body) / 2;
+          const Real rounding = static_cast<Real>(robot.scratch->rounding);
+          for (int sample = 0; sample < 4; ++sample) {
+            const Vector p = robot.at(sampleOf(random, interval), body, 0, center);
+            const Real off = nearest(x - p, g);
+            ASSERT_LE(off, inflation * (1 + 1e-6L) + rounding)
+                << "round " << round << ", body " << body << ", lane " << lane;
+            ++compared;
+            if (inflation > 1e3L * rounding) tightest = std::max(tightest, off / inflation);
+          }
+        }
+      }
+    }
+    EXPECT_GT(tightest, 0.5L) << "the inflation is idle";
+    EXPECT_GT(compared, 50000);
+  }
+}
+
+/// The lemma of self_walk.hpp, with what the lanes compute: two centres are never nearer to each
+/// other than the relative segment comes to the origin, less inflation and rounding.
+TEST(LaneBounds, RelativeSegmentsBoundTheDistanceOfTwoCentres) {
+  Random random(23);
+  Real tightest = 0;
+  int compared = 0;
+  int turning = 0;
+  for (int round = 0; round < 1500; ++round) {
+    MovingRobot robot(random, round);
+    if (!robot.moves) continue;
+    fillIntervals(random, robot);
+    const auto& block = robot.scratch->block;
+    for (const detail::LaneBodyPair& pair : robot.lanes.bodyPairs) {
+      const int lane = random.below(kLanes);
+      const Interval interval = intervalOf(robot, lane);
+      const int base = robot.lanes.references[pair.reference].body;
+      const auto& a = block.roots[pair.bodyA];
+      const auto& b = block.roots[pair.bodyB];
+      const Vector between = MovingRobot::valueOf(b.at, lane) - MovingRobot::valueOf(a.at, lane);
+      const Vector angular = MovingRobot::valueOf(block.states[base].angular, lane);
+      const Vector by = MovingRobot::valueOf(b.by, lane) - MovingRobot::valueOf(a.by, lane) -
+                        interval.half * angular.cross(between);
+      const Real bound =
+          robot.bound(pair.reference, pair.bodyA) + robot.bound(pair.reference, pair.bodyB);
+      const Real inflation = interval.half * interval.half * bound / 2;
+      const Real rounding = 2 * static_cast<Real>(robot.scratch->rounding);
+      const Real least = nearest(between, by);
+      for (int sample = 0; sample < 6; ++sample) {
+        const Real t = sampleOf(random, interval);
+        const Vector pA = robot.at(t, pair.bodyA, base, robot.centers(pair.bodyA).front());
+        const Vector pB = robot.at(t, pair.bodyB, base, robot.centers(pair.bodyB).front());
+        const Real apart = (pB - pA).norm();
+        ASSERT_GE(apart, least - inflation * (1 + 1e-6L) - rounding)
+            << "round " << round << ", bodies " << pair.bodyA << ", " << pair.bodyB;
+        ++compared;
+        turning += base != 0 && angular.norm() > 1e-3L ? 1 : 0;
+        if (inflation > 1e3L * rounding) tightest = std::max(tightest, (least - apart) / inflation);
+      }
+    }
+  }
+  EXPECT_GT(tightest, 0.1L) << "the inflation is idle";
+  EXPECT_GT(compared, 50000);
+  EXPECT_GT(turning, compared / 10);
+}
+
+}  // namespace
+}  // namespace swept::lane_test
