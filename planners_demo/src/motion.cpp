@@ -46,9 +46,9 @@ std::string segmentText(const Segment& segment) {
     text += "  undecided   t = " + shortNumber(certificate.undecidedAt) + "\n";
   if (segment.clearance) text += "  clearance   " + clearanceText(*segment.clearance) + "\n";
   const Effort& effort = certificate.effort;
-  return text + "  effort      intervals " + std::to_string(effort.intervals) + ", distances " +
-         std::to_string(effort.distances) + ", settled by bounding volumes " +
-         std::to_string(effort.culled) + "\n";
+  return text + "  effort      intervals in lanes " + std::to_string(effort.lanes) + ", exactly " +
+         std::to_string(effort.intervals) + "; distances " + std::to_string(effort.distances) +
+         ", settled by bounding volumes " + std::to_string(effort.culled) + "\n";
 }
 
 Json segmentJson(const Segment& segment) {
@@ -67,6 +67,7 @@ Json segmentJson(const Segment& segment) {
   else
     json["clearance"] = nullptr;
   json["effort"] = {{"intervals", certificate.effort.intervals},
+                    {"lanes", certificate.effort.lanes},
                     {"distances", certificate.effort.distances},
                     {"culled", certificate.effort.culled}};
   return json;

@@ -35,8 +35,8 @@ std::vector<Entry> listProblems(const ProblemFile& file, const Arguments& args) 
   return entries;
 }
 
-PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Arguments& args,
-                         const Model& model, const Group& group, const PlanRequest& request,
+PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Model& model,
+                         const Group& group, const Checker& like, const PlanRequest& request,
                          Warnings& warnings) {
   const PlanningProblem problem = file.problem(entry.set, entry.index);
   ProblemStates ends;
@@ -51,8 +51,8 @@ PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Argu
   }
   std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
   for (const std::vector<double>& goal : ends.goals) states.push_back({.label = "goal", .q = goal});
-  return plan(makeChecker(args, model, group, std::make_shared<World>(problem.world), warnings),
-              states, request);
+  return plan(makeChecker(like, std::make_shared<const World>(problem.world), warnings), states,
+              request);
 }
 
 /// Threads take the next problem when they are done with one. The first exception ends the run.
@@ -182,10 +182,11 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   const Group& group = chooseGroup(*model.robot, args.group);
   const ProblemFile file = ProblemFile::load(args.problems);
   std::vector<Entry> entries = listProblems(file, args);
+  const auto like = makeChecker(args, model, group, std::make_shared<const World>(), warnings);
   {
     Progress progress("planning " + std::to_string(entries.size()) + " problems", args.quiet);
     runAll(entries, args.jobs, progress, [&](const Entry& entry) {
-      return solveProblem(file, entry, args, model, group, request, warnings);
+      return solveProblem(file, entry, model, group, *like, request, warnings);
     });
   }
   ExitCode code = ExitCode::Free;

@@ -103,8 +103,7 @@ struct Facts {
             {"hull_points", mesh.hull().vertices().size()}};
   }
   Json operator()(const PointCloud& cloud) const {
-    return {
-        {"kind", "point cloud"}, {"points", cloud.points().size()}, {"radius", cloud.radius()}};
+    return {{"kind", "point cloud"}, {"points", cloud.points().size()}, {"radius", cloud.radius()}};
   }
 };
 

@@ -121,6 +121,13 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
   return checker;
 }
 
+std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
+                                           Warnings& warnings) {
+  auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
+  if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
+  return checker;
+}
+
 double clearanceAccuracy(const Checker& checker) {
   return 0.1 * checker.options().tolerance;
 }

@@ -47,6 +47,9 @@ const Group& chooseGroup(const Robot& robot, const std::string& name);
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings);
+/// The same in another world.
+std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
+                                           Warnings& warnings);
 
 /// m. How narrow the interval around a least clearance is: a tenth of the tolerance that decides.
 double clearanceAccuracy(const Checker& checker);
