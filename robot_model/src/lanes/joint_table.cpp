@@ -18,12 +18,18 @@ using Eigen::Vector3d;
 
 /// Along each joint, of a table for one and for two.
 constexpr std::array<int, 3> kCells{1, 1024, 192};
-/// Distances evaluated per pair of geometries; cells not reached stay open.
+/// Distances of balls evaluated for one table; one that would take more is not built. Some 10 ns
+/// each.
 constexpr int kMostWork = 4'000'000;
 /// m. Cells in which points travel more than this are not compared exactly; one such comparison
-/// counts as many of balls.
+/// counts as many of balls, and each of its steps too.
 constexpr double kExactTravel = 0.02;
-constexpr int kExactWork = 200;
+constexpr int kExactWork = 50;
+constexpr int kStepWork = 8;
+/// A table is not worth its time for bodies that are not apart, or only just, in so large a share
+/// of their range: a contact, where nothing else is.
+constexpr double kMostOpen = 0.7;
+constexpr int kProbes = 6;
 /// rad; values are known this well.
 constexpr double kValueRounding = 1e-5;
 
@@ -36,7 +42,8 @@ class TableBuilder {
   TableBuilder(const CheckerModel& model, const LaneModel& lanes, const LaneBodyPair& bodies)
       : model_(model), lanes_(lanes), bodies_(bodies) {}
 
-  std::shared_ptr<const JointTable> build() {
+  /// Null if there is none. Takes what it costs from the budget.
+  std::shared_ptr<const JointTable> build(int& budget) {
     const int reference = lanes_.references[bodies_.reference].body;
     collect(bodies_.bodyA, reference, pathA_);
     collect(bodies_.bodyB, reference, pathB_);
@@ -45,20 +52,17 @@ class TableBuilder {
     if (path_.empty() || path_.size() > JointTable::kMostJoints || !setAxes()) return nullptr;
     table_.cells.resize(static_cast<std::size_t>(table_.axes[0].cells * table_.axes[1].cells));
     slack_ = model_.options.margin + 1e-5 * static_cast<double>(lanes_.reach);
-    for (std::size_t i = 0; i < lanes_.sources.size(); ++i) {
-      const LanePairSource& pair = lanes_.sources[i];
-      const bool ours = pair.obstacle < 0 && &lanes_.bodyPairs[pair.bodyPair] == &bodies_;
-      if (!ours) continue;
-      bit_ =
-          static_cast<std::uint8_t>(1U << std::min(table_.pairs.size(), JointTable::kPairBits - 1));
-      table_.pairs.push_back({pair.geometry, pair.other});
-      work_ = kMostWork;
-      stopped_ = {-1, -1};
-      geometryA_ = pair.geometry;
-      geometryB_ = pair.other;
-      prove({{0, 0}, {table_.axes[0].cells, table_.axes[1].cells}},
-            {lanes_.rootOfGeometry[pair.geometry], lanes_.rootOfGeometry[pair.other]});
+    collectPairs();
+    work_ = std::min(kMostWork, budget);
+    const int given = work_;
+    bool built = !isMostlyOpen();
+    for (std::size_t i = 0; i < table_.pairs.size() && built; ++i) {
+      choose(i);
+      prove({{0, 0}, {table_.axes[0].cells, table_.axes[1].cells}}, roots());
+      built = work_ > 0;
     }
+    budget -= given - std::max(0, work_);
+    if (!built) return nullptr;
     sum();
     return std::make_shared<const JointTable>(std::move(table_));
   }
@@ -72,6 +76,45 @@ class TableBuilder {
     std::int32_t a;
     std::int32_t b;
   };
+
+  void collectPairs() {
+    for (const LanePairSource& pair : lanes_.sources)
+      if (pair.obstacle < 0 && &lanes_.bodyPairs[pair.bodyPair] == &bodies_)
+        table_.pairs.push_back({pair.geometry, pair.other});
+  }
+
+  /// The pair that is looked at from now on.
+  void choose(std::size_t pair) {
+    bit_ = static_cast<std::uint8_t>(1U << std::min(pair, JointTable::kPairBits - 1));
+    geometryA_ = table_.pairs[pair].a;
+    geometryB_ = table_.pairs[pair].b;
+    stopped_ = {-1, -1};
+  }
+
+  Balls roots() const {
+    return {lanes_.rootOfGeometry[geometryA_], lanes_.rootOfGeometry[geometryB_]};
+  }
+
+  /// By single cells, evenly over the range.
+  bool isMostlyOpen() {
+    int open = 0;
+    int probes = 0;
+    for (int i = 0; i < kProbes; ++i) {
+      for (int j = 0; j < (table_.joints == 2 ? kProbes : 1); ++j) {
+        const int row = (2 * i + 1) * table_.axes[0].cells / (2 * kProbes);
+        const int column = (2 * j + 1) * table_.axes[1].cells / (2 * kProbes);
+        const Place place = placeOf({{row, column}, {row + 1, column + 1}});
+        ++probes;
+        for (std::size_t pair = 0; pair < table_.pairs.size(); ++pair) {
+          choose(pair);
+          if (apart(place, travel(place), roots())) continue;
+          ++open;
+          break;
+        }
+      }
+    }
+    return open > kMostOpen * probes;
+  }
 
   void collect(int body, int reference, std::vector<int>& path) const {
     for (; body != reference && body > 0; body = model_.kinematics.bodies[body].parent)
@@ -221,7 +264,6 @@ class TableBuilder {
     const double most = travelOfPoints(place) * (1.0 + 1e-9) + slack_;
     touching_ = false;
     if (most > kExactTravel) return false;
-    work_ -= kExactWork;
     const RobotGeometry& a = model_.robotGeometry[geometryA_];
     const RobotGeometry& b = model_.robotGeometry[geometryB_];
     DistanceOptions options;
@@ -231,6 +273,7 @@ class TableBuilder {
     options.tolerance = 0.1 * most;
     const DistanceResult found = distance(
         a.shape, b.shape, a.body_from_shape.inverse() * place.bodies * b.body_from_shape, options);
+    work_ -= kExactWork + kStepWork * found.iterations;
     touching_ = single && found.upper <= model_.options.margin;
     return found.lower > most;
   }
@@ -360,8 +403,8 @@ std::uint8_t JointTable::openPairs(const Values& lower, const Values& upper) con
 }
 
 std::shared_ptr<const JointTable> buildJointTable(const CheckerModel& model, const LaneModel& lanes,
-                                                  const LaneBodyPair& bodies) {
-  return TableBuilder(model, lanes, bodies).build();
+                                                  const LaneBodyPair& bodies, int& budget) {
+  return TableBuilder(model, lanes, bodies).build(budget);
 }
 
 }  // namespace swept::detail

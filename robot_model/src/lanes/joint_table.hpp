@@ -66,8 +66,9 @@ struct JointTable {
   bool find(const Values& lower, const Values& upper, Range& range) const;
 };
 
-/// Of two bodies of the model; null if they cannot have one.
+/// Of two bodies of the model; null if they cannot have one, or none that is worth building. The
+/// work it takes goes off the budget.
 std::shared_ptr<const JointTable> buildJointTable(const CheckerModel& model, const LaneModel& lanes,
-                                                  const LaneBodyPair& bodies);
+                                                  const LaneBodyPair& bodies, int& budget);
 
 }  // namespace swept::detail

@@ -33,6 +33,9 @@ LaneJointKind kindOf(JointType type) {
   }
 }
 
+/// Distances of balls evaluated for all tables of a robot, some 10 ns each.
+constexpr int kMostTableWork = 10'000'000;
+
 class LaneCompiler {
  public:
   LaneCompiler(const CheckerModel& model, const LaneModel* like) : model_(model), like_(like) {}
@@ -337,12 +340,13 @@ class LaneCompiler {
   }
 
   void addTables() {
+    int budget = kMostTableWork;
     for (LaneBodyPair& bodies : lanes_.bodyPairs) {
       const auto same = [&](const LaneBodyPair& other) {
         return other.bodyA == bodies.bodyA && other.bodyB == bodies.bodyB;
       };
       bodies.table = like_ != nullptr ? std::ranges::find_if(like_->bodyPairs, same)->table
-                                      : buildJointTable(model_, lanes_, bodies);
+                                      : buildJointTable(model_, lanes_, bodies, budget);
     }
   }
 
