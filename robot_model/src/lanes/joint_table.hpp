@@ -35,7 +35,8 @@ struct JointTable {
   using Values = std::array<float, kMostJoints>;
 
   struct Cell {
-    /// Bit k: not proven is the k-th of `pairs`; the last bit stands for all from there on.
+    /// Bit k: not proven is the k-th of `pairs`; with more than kPairBits of them, the last bit
+    /// stands for all from there on.
     std::uint8_t openPairs = 0;
     bool touching = false;  ///< some pair is in contact in the middle
     /// Two balls inside the bodies that meet in the middle: where a contact is certain, or likely.

@@ -124,8 +124,10 @@ class SelfWalk {
     return static_cast<std::uint32_t>(model_.pairOfGeometries[a * model_.geometryBody.size() + b]);
   }
 
-  /// Leaves open what the table does; returns the lanes that are outside of it.
+  /// Leaves open what the table does; returns the lanes that it knows nothing of.
   Lanes openByTable(const JointTable& table, Lanes lanes) {
+    // A bit for many pairs would open them all.
+    if (table.pairs.size() > JointTable::kPairBits) return lanes;
     Lanes outside = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = std::countr_zero(lanes);
@@ -139,10 +141,9 @@ class SelfWalk {
       }
       const std::uint8_t bits = table.openPairs(lower, upper);
       for (std::size_t k = 0; k < table.pairs.size(); ++k) {
-        const std::size_t bit = std::min(k, JointTable::kPairBits - 1);
-        if ((bits >> bit & 1U) == 0) continue;
+        if ((bits >> k & 1U) == 0) continue;
         // A contact seen in the cell is likely here, and the deeper the farther from where it ends.
-        const bool likely = cell->touching && (cell->openPairs >> bit & 1U) != 0;
+        const bool likely = cell->touching && (cell->openPairs >> k & 1U) != 0;
         leaveOpen(block_, pairOf(table.pairs[k].a, table.pairs[k].b), 1U << lane, true,
                   set(likely ? kLikelyDepth : 0.0F));
       }
