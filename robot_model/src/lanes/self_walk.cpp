@@ -48,8 +48,8 @@ class SelfWalk {
         if (lanes == 0) continue;
       }
       start(bodies);
-      if (visit(model_.nodes[model_.rootOfBody[bodies.bodyA]], root(bodies.bodyA),
-                model_.nodes[model_.rootOfBody[bodies.bodyB]], root(bodies.bodyB), lanes))
+      if (visit(model_.nodes[model_.rootOfBody[bodies.bodyA]], rootOf(bodies.bodyA),
+                model_.nodes[model_.rootOfBody[bodies.bodyB]], rootOf(bodies.bodyB), lanes))
         return true;
     }
     return false;
@@ -166,7 +166,7 @@ class SelfWalk {
                                              accelerationOf(reference, bounds, bodies.bodyB));
   }
 
-  Segment root(int body) const {
+  Segment rootOf(int body) const {
     const LaneRoot& ball = block_.roots[body];
     if (!moving_ || body == 0) return {load3(ball.at), set3({0.0F, 0.0F, 0.0F})};
     return {load3(ball.at), load3(ball.by)};
@@ -211,8 +211,7 @@ class SelfWalk {
     if (known && (!coarse || parent.childCount == 0 || --looks_ < 0)) {
       const V3 between = atB.x - atA.x;
       const float reach = a.radius + b.radius - 0.5F * (a.beyond + b.beyond);
-      leaveOpen(block_, pair_, lanes, coarse,
-                set(reach) - HWY_NAMESPACE::root(dot(between, between)));
+      leaveOpen(block_, pair_, lanes, coarse, set(reach) - root(dot(between, between)));
       return false;
     }
     for (int i = 0; i < parent.childCount; ++i) {
@@ -228,12 +227,14 @@ class SelfWalk {
   bool touches(const LaneNode& a, const Segment& atA, const LaneNode& b, const Segment& atB,
                Lanes lanes) {
     if (!block_.stopAtContact) return false;
-    const float within = a.inside + b.inside - 4.0F * scratch_.rounding;
-    if (!(within > 0.0F)) return false;
+    // Either ball less what its position, and that of the point, may be off.
+    const float ofA = a.inside - 2.0F * scratch_.rounding;
+    const float ofB = b.inside - 2.0F * scratch_.rounding;
+    if (!(ofA > 0.0F && ofB > 0.0F)) return false;
     const V3 between = atB.x - atA.x;
-    lanes &= below(dot(between, between), set(0.9F * within * within));
+    lanes &= below(dot(between, between), set(0.9F * (ofA + ofB) * (ofA + ofB)));
     // A point of the line between the centres that is in both balls, by the same share.
-    const F8 share = set(a.inside / (a.inside + b.inside));
+    const F8 share = set(ofA / (ofA + ofB));
     return lanes != 0 && claim(block_, pair_, lanes, along(atA.x, share, between), 0.0F);
   }
 
