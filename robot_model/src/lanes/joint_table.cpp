@@ -30,6 +30,8 @@ constexpr int kStepWork = 8;
 /// of their range: a contact, where nothing else is.
 constexpr double kMostOpen = 0.7;
 constexpr int kProbes = 6;
+/// rad. Single precision tells cells apart on ranges up to this.
+constexpr double kWidest = 32.0;
 /// rad; values are known this well.
 constexpr double kValueRounding = 1e-5;
 
@@ -132,7 +134,7 @@ class TableBuilder {
         upper = std::numbers::pi;
         lower = -upper;
       }
-      const bool fits = turns(body.type) && std::isfinite(upper - lower) && upper > lower;
+      const bool fits = turns(body.type) && lower >= -kWidest && upper <= kWidest && upper > lower;
       if (!fits) return false;
       JointTable::Axis& axis = table_.axes[k];
       axis.body = path_[k];

@@ -191,7 +191,9 @@ void Bound(const LaneModel& model, LaneScratch& scratch) {
       if (model.slides)
         for (std::size_t i = 0; i < steps; ++i)
           sum = multiplyAdd(set(scratch.slid[i]), load(reference.carried[i * rows + r]), sum);
-      store(sum * set(kOutward), scratch.bounds[k].acceleration[r]);
+      // One rounding for each step, and what the last product rounds.
+      const float outward = kOutward + 0x1p-22F * static_cast<float>(steps);
+      store(sum * set(outward), scratch.bounds[k].acceleration[r]);
     }
   }
 }

@@ -42,7 +42,11 @@ struct Extent {
   double wander = 0.0;        ///< m
 };
 
+/// rad. Beyond, the rounding of 2 pi shows in what is left of an angle when turns are taken off.
+constexpr double kLargestAngle = 1e6;
+
 bool addTurn(double angle, double rate, double spin, LaneJointMotion& lane, Extent& extent) {
+  if (!(std::abs(angle) <= kLargestAngle)) return false;
   if (std::abs(angle) > 4.0) angle = std::remainder(angle, 2.0 * std::numbers::pi);
   lane.angle = static_cast<float>(angle);
   lane.angleRate = static_cast<float>(rate);

@@ -58,7 +58,7 @@ struct StateReport {
 };
 
 struct Effort {
-  int intervals = 0;           ///< sub-intervals (or states) whose kinematics were computed
+  int intervals = 0;           ///< sub-intervals (or states) at which exact geometry was asked
   std::int64_t distances = 0;  ///< exact pair queries
   std::int64_t culled = 0;     ///< pairs settled by bounding volumes alone
   std::int64_t lanes = 0;      ///< sub-intervals examined in single precision
