@@ -340,10 +340,10 @@ void CoverBuilder::findInsides(SphereCover& cover) const {
   }
 }
 
-/// The deepest, each at least three quarters of a radius from the centres of those before.
+/// The deepest, each reaching beyond those before by at least half its radius.
 std::vector<CoverBall> CoverBuilder::innerBalls() const {
-  constexpr double kApart = 0.75;
-  constexpr double kSmallest = 0.1;  // of the largest
+  constexpr float kBeyond = 0.5F;     // of the radius
+  constexpr double kSmallest = 0.05;  // of the largest
   std::vector<int> order(seen_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   std::stable_sort(order.begin(), order.end(),
@@ -357,7 +357,7 @@ std::vector<CoverBall> CoverBuilder::innerBalls() const {
     const float radius = roundedDown(place.depth + solid_.inflation() - solid_.pad() - moved);
     if (!(radius > 0.0F) || (!balls.empty() && radius < kSmallest * balls.front().radius)) break;
     const bool apart = std::all_of(balls.begin(), balls.end(), [&](const CoverBall& ball) {
-      return (ball.center - center).norm() >= kApart * ball.radius;
+      return (ball.center - center).norm() + radius >= ball.radius + kBeyond * radius;
     });
     if (apart) balls.push_back({center, radius});
   }

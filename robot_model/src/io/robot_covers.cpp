@@ -82,8 +82,9 @@ void build(Task& task) {
   const auto start = std::chrono::steady_clock::now();
   try {
     task.cover = std::make_shared<const SphereCover>(
-        sphereCover(task.of.front()->shape,
-                    {.finestOverhang = kCoverOverhang, .finestRelative = kCoverRelative}));
+        sphereCover(task.of.front()->shape, {.finestOverhang = kCoverOverhang,
+                                             .finestRelative = kCoverRelative,
+                                             .mostInnerBalls = kMostInnerBalls}));
   } catch (...) {
     task.failure = std::current_exception();
   }

@@ -265,7 +265,8 @@ class TableBuilder {
   bool apartExactly(const Place& place, bool single) {
     const double most = travelOfPoints(place) * (1.0 + 1e-9) + slack_;
     touching_ = false;
-    if (most > kExactTravel) return false;
+    compared_ = most <= kExactTravel;
+    if (!compared_) return false;
     const RobotGeometry& a = model_.robotGeometry[geometryA_];
     const RobotGeometry& b = model_.robotGeometry[geometryB_];
     DistanceOptions options;
@@ -294,7 +295,8 @@ class TableBuilder {
     const bool single = cells.end[0] - cells.begin[0] == 1 && cells.end[1] - cells.begin[1] == 1;
     if (apartExactly(place, single)) return;
     if (single || work_ <= 0) {
-      findMeeting(place);
+      // Where the middle is known to be free of contact no balls meet.
+      if (touching_ || !compared_) findMeeting(place);
       return leaveOpen(cells);
     }
     const int widest = cells.end[0] - cells.begin[0] >= cells.end[1] - cells.begin[1] ? 0 : 1;
@@ -351,7 +353,8 @@ class TableBuilder {
   std::array<double, 2> step_{1.0, 1.0};
   std::uint8_t bit_ = 0;  ///< of the pair
   bool touching_ = false;
-  double slack_ = 0.0;  ///< m
+  bool compared_ = false;  ///< exactly
+  double slack_ = 0.0;     ///< m
   int geometryA_ = 0;
   int geometryB_ = 0;
   Balls stopped_{-1, -1};

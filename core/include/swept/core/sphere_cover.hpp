@@ -55,7 +55,9 @@ struct SphereCover {
 
   std::vector<Node> nodes;  ///< parents before children; node 0 is the root
   std::vector<Level> levels;
-  std::vector<CoverBall> inner;  ///< wholly inside the solid, largest first; none for surfaces
+  /// Wholly inside the solid, largest first, each reaching beyond those before by half its radius;
+  /// none for surfaces.
+  std::vector<CoverBall> inner;
 
   /// Indices of the nodes that cover the shape at a level: the last node of each path whose level
   /// is not above `level`.
