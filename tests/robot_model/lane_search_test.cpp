@@ -15,6 +15,14 @@ using detail::LaneAnswer;
 using detail::RobotGeometry;
 using enum JointType;
 
+/// Knows nothing.
+class Silent final : public detail::LaneJudge {
+ public:
+  bool isContact(const detail::LaneContact&, double) override { return false; }
+  bool isInside(std::uint32_t, std::int32_t, double) override { return false; }
+  detail::LaneLook look(std::uint32_t, double, double) override { return {}; }
+};
+
 /// A random robot, a motion, and two balls of which the nearest approach is known: of two bodies,
 /// or of one and the world. The radii are chosen after it.
 class Approach {
@@ -51,7 +59,8 @@ class Approach {
     detail::LaneScratch scratch(lanes);
     if (!detail::compileLaneMotion(lanes, model_.kinematics, from_, to_, scratch))
       return std::nullopt;
-    return detail::searchMotion(lanes, nullptr, scratch).kind;
+    Silent silent;
+    return detail::searchMotion(lanes, silent, false, scratch).kind;
   }
 
  private:

@@ -93,6 +93,13 @@ struct PendingInterval {
   std::size_t count = 0;
 };
 
+/// One pair of it.
+struct PendingPart {
+  std::uint32_t pair = 0;
+  double begin = 0.0;
+  double end = 1.0;
+};
+
 struct WorkspaceData {
   explicit WorkspaceData(const CheckerModel& model);
 
@@ -123,6 +130,7 @@ struct WorkspaceData {
   /// What the lane tier left open, in order of time.
   std::vector<PendingInterval> pending;
   std::vector<std::uint32_t> pendingArena;
+  std::vector<PendingPart> parts;
 };
 
 }  // namespace swept::detail

@@ -21,6 +21,26 @@ std::optional<Eigen::Vector3d> commonPoint(const CheckerModel& model, const Lane
   return Eigen::Vector3d(point + found.pointB);
 }
 
+std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t index,
+                                    const Eigen::Vector3d& point, double t) {
+  const GeometryPair& pair = model.pairs[index];
+  const WorldGeometry& world = model.worldGeometry[pair.b];
+  const Eigen::Isometry3d point_from_world(Eigen::Translation3d(-point));
+  DistanceOptions options;
+  options.contact = model.options.margin;
+  const DistanceResult found =
+      distance(Sphere{0.0}, world.shape, point_from_world * world.world_from_shape, options);
+  if (!(found.upper <= model.options.margin)) return std::nullopt;
+  Witness witness;
+  witness.t = t;
+  witness.bodyA = model.nameOfA(pair);
+  witness.bodyB = model.nameOfB(pair);
+  witness.pointA = point;
+  witness.pointB = point + found.pointB;
+  witness.distance = found.upper;
+  return witness;
+}
+
 std::optional<Witness> laneWitness(const CheckerModel& model, const LaneContact& contact,
                                    double t) {
   const std::optional<Eigen::Vector3d> point = commonPoint(model, contact);

@@ -14,4 +14,9 @@ std::optional<Eigen::Vector3d> commonPoint(const CheckerModel& model, const Lane
 /// The same as a witness.
 std::optional<Witness> laneWitness(const CheckerModel& model, const LaneContact& contact, double t);
 
+/// Of a point (m, model frame) of the pair's link, in the world geometry or within the margin of
+/// it; null: it is not.
+std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t pair,
+                                    const Eigen::Vector3d& point, double t);
+
 }  // namespace swept::detail

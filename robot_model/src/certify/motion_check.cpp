@@ -27,7 +27,7 @@ class MotionProver {
   MotionCertificate run(std::span<const double> from, std::span<const double> to,
                         MotionQuery wanted) {
     if (settleInLanes(from, to, wanted)) return certificate_;
-    if (!query_.start(from, to)) return certificate_;
+    if (!start(from, to)) return certificate_;
     searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
     // second attempt in another order settles some of what the first left open.
@@ -54,32 +54,53 @@ class MotionProver {
   /// Looks at what the lane tier takes for contacts, on exact geometry.
   class Judge final : public LaneJudge {
    public:
-    Judge(MotionProver& prover, std::span<const double> from, std::span<const double> to)
-        : prover_(prover), from_(from), to_(to) {}
+    Judge(MotionProver& prover, std::span<const double> from, std::span<const double> to,
+          bool contacts)
+        : prover_(prover), from_(from), to_(to), contacts_(contacts) {}
 
     bool isContact(const LaneContact& contact, double t) override {
       prover_.certificate_.witness = laneWitness(prover_.model_, contact, t);
       return prover_.certificate_.witness.has_value();
     }
 
-    bool isContact(const LaneSuspect& suspect, double t) override {
-      if (!started_ && !prover_.query_.start(from_, to_)) return false;
-      started_ = true;
+    bool isInside(std::uint32_t pair, std::int32_t point, double t) override {
+      if (!prover_.start(from_, to_)) return false;
       prover_.query_.moveTo(t);
-      const PairAnswer answer = prover_.query_.prove(suspect.pair, 0.0);
+      const Eigen::Vector3d at = prover_.query_.placed(
+          pair, prover_.model_.lanes.hulls.inBody[static_cast<std::size_t>(point)]);
+      prover_.certificate_.witness = pointWitness(prover_.model_, pair, at, t);
+      return prover_.certificate_.witness.has_value();
+    }
+
+    LaneLook look(std::uint32_t pair, double t, double half) override {
+      LaneLook look;
+      if (!prover_.budgetLeft() || !prover_.start(from_, to_)) return look;
+      prover_.query_.moveTo(t);
+      const PairAnswer answer = prover_.query_.prove(pair, half);
       Effort& effort = prover_.certificate_.effort;
       ++effort.intervals;
       ++(answer.culled ? effort.culled : effort.distances);
-      if (answer.status != Separation::Contact) return false;
-      prover_.certificate_.witness = prover_.query_.witness(suspect.pair, t, answer);
-      return true;
+      if (answer.status == Separation::Contact && contacts_) {
+        prover_.certificate_.witness = prover_.query_.witness(pair, t, answer);
+        look.kind = LaneLook::Kind::Contact;
+      }
+      if (answer.status == Separation::Separated) look.kind = LaneLook::Kind::Apart;
+      look.directed = !answer.normal.isZero();
+      for (int i = 0; i < 3; ++i) look.towards[i] = static_cast<float>(answer.normal[i]);
+      return look;
     }
 
    private:
     MotionProver& prover_;
     std::span<const double> from_, to_;
-    bool started_ = false;
+    bool contacts_;
   };
+
+  /// Once per motion.
+  bool start(std::span<const double> from, std::span<const double> to) {
+    if (!started_) started_ = query_.start(from, to);
+    return started_;
+  }
 
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
@@ -94,9 +115,9 @@ class MotionProver {
       if (!model_.pairs.empty()) workspace_.pending.push_back({0.0, 1.0, 0, model_.pairs.size()});
       return false;
     }
-    Judge judge(*this, from, to);
-    const LaneAnswer answer = searchMotion(
-        model_.lanes, wanted == MotionQuery::VerdictOnly ? &judge : nullptr, workspace_.lanes);
+    const bool contacts = wanted == MotionQuery::VerdictOnly;
+    Judge judge(*this, from, to, contacts);
+    const LaneAnswer answer = searchMotion(model_.lanes, judge, contacts, workspace_.lanes);
     certificate_.effort.lanes = answer.intervals;
     if (answer.kind == LaneAnswer::Kind::Contact) {
       certificate_.verdict = Verdict::Collision;
@@ -165,25 +186,26 @@ class MotionProver {
     return outcome;
   }
 
-  /// Each pair's neighbouring intervals as one: bounds here are tighter than those that left them.
-  void joinPending() {
+  /// Pairs with the same interval share its kinematics.
+  void groupPending() {
+    auto& parts = workspace_.parts;
+    parts.clear();
+    for (const PendingInterval& interval : workspace_.pending)
+      for (std::size_t i = interval.first; i < interval.first + interval.count; ++i)
+        parts.push_back({workspace_.pendingArena[i], interval.begin, interval.end});
+    std::ranges::sort(parts, [](const PendingPart& a, const PendingPart& b) {
+      if (a.begin != b.begin) return a.begin < b.begin;
+      return a.end != b.end ? a.end < b.end : a.pair < b.pair;
+    });
     auto& now = workspace_.generation;
     auto& arena = workspace_.arena;
     now.clear();
     arena.clear();
-    for (const PendingInterval& interval : workspace_.pending) {
-      for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
-        const std::uint32_t pair = workspace_.pendingArena[i];
-        const auto before = std::ranges::find_if(now, [&](const PendingInterval& other) {
-          return arena[other.first] == pair && other.end == interval.begin;
-        });
-        if (before != now.end()) {
-          before->end = interval.end;
-          continue;
-        }
-        now.push_back({interval.begin, interval.end, arena.size(), 1});
-        arena.push_back(pair);
-      }
+    for (const PendingPart& part : parts) {
+      if (now.empty() || now.back().begin != part.begin || now.back().end != part.end)
+        now.push_back({part.begin, part.end, arena.size(), 0});
+      arena.push_back(part.pair);
+      ++now.back().count;
     }
   }
 
@@ -193,7 +215,7 @@ class MotionProver {
   void searchWhole() {
     auto& now = workspace_.generation;
     auto& next = workspace_.nextGeneration;
-    joinPending();
+    groupPending();
     while (!now.empty()) {
       next.clear();
       workspace_.nextArena.clear();
@@ -292,6 +314,7 @@ class MotionProver {
   const CheckerModel& model_;
   WorkspaceData& workspace_;
   PairQuery query_;
+  bool started_ = false;
   MotionCertificate certificate_;
   std::optional<double> undecidedAt_;
 };

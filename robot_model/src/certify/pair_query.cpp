@@ -132,7 +132,7 @@ double PairQuery::coarseDistance(const GeometryPair& pair) {
 /// The containing balls (and the world geometry's box) alone, along the direction between them. A
 /// ball's own spin does not bring it closer.
 PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const ApproachBound& bound,
-                                           const Vector3d& velocity) {
+                                           const Vector3d& velocity, Vector3d& towards) {
   Vector3d direction;
   double gap = -model_.robotGeometry[pair.a].radius;
   if (pair.self) {
@@ -143,13 +143,14 @@ PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const Appro
     const Vector3d local = world.box_from_world * center(pair.a);
     const Vector3d outside = (local.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
     direction =
-        world.box_from_world.linear().transpose() * Vector3d(std::copysign(outside.x(), local.x()),
-                                                             std::copysign(outside.y(), local.y()),
-                                                             std::copysign(outside.z(), local.z()));
+        -(world.box_from_world.linear().transpose() *
+          Vector3d(std::copysign(outside.x(), local.x()), std::copysign(outside.y(), local.y()),
+                   std::copysign(outside.z(), local.z())));
   }
   const double norm = direction.norm();
   gap += norm;
   if (!(norm > 0.0) || !(gap > bound.required)) return Coarse::Open;
+  towards = direction / norm;
   const double directed = std::abs(direction.dot(velocity)) / norm + bound.curvature;
   const double approach = std::min(bound.travel, directed);
   if (gap > bound.required + approach) return Coarse::Apart;
@@ -185,7 +186,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   bound.required = model_.options.margin + rounding(pair) + kVelocityRounding * bound.travel;
   const Vector3d velocity = half * relativeVelocity(pair);
   answer.travel = bound.travel;
-  const Coarse coarse = compareBounds(pair, bound, velocity);
+  const Coarse coarse = compareBounds(pair, bound, velocity, answer.normal);
   if (coarse != Coarse::Open) {
     answer.status = coarse == Coarse::Apart ? Separation::Separated : Separation::Unproven;
     answer.culled = true;
@@ -206,6 +207,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
                                            world_from_a.inverse() * world_from_b, query);
   hint(index) = result.normal;
   answer.status = result.status;
+  answer.normal = world_from_a.linear() * result.normal;
   answer.pointA = world_from_a * result.pointA;
   answer.pointB = world_from_a * result.pointB;
   return answer;

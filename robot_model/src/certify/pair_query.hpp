@@ -11,6 +11,8 @@ struct PairAnswer {
   bool culled = false;  ///< bounding volumes were enough
   double travel =
       0.0;  ///< m, bound on the approach within the interval, without margin and rounding
+  /// Model frame, from a to b: the best direction found; zero: none.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame; under Contact
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame; under Contact
 };
@@ -39,6 +41,10 @@ class PairQuery {
   PairAnswer prove(std::uint32_t pair, double half);
   /// Distance at t. Stops early when it is proven to exceed `enough` (m).
   PairDistance measure(std::uint32_t pair, double enough, double accuracy);
+  /// m, model frame: of a point in the frame of the first one's body.
+  Eigen::Vector3d placed(std::uint32_t pair, const Eigen::Vector3d& point) {
+    return state(model_.robotGeometry[model_.pairs[pair].a].body).world_from_body * point;
+  }
   /// m. Bound on the pair's approach during `half`.
   double travel(const GeometryPair& pair, double half);
   /// m. Lower bound from bounding volumes alone, kinematic rounding included.
@@ -55,8 +61,10 @@ class PairQuery {
   double rounding(const GeometryPair& pair) const;
   /// What the containing balls and boxes say.
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };
+  /// `towards` becomes the unit direction from the first to the second that they were compared
+  /// along.
   Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
-                       const Eigen::Vector3d& relativeVelocity);
+                       const Eigen::Vector3d& relativeVelocity, Eigen::Vector3d& towards);
   Eigen::Vector3d relativeVelocity(const GeometryPair& pair);
   void relativeMotion(const GeometryPair& pair, double half, const Eigen::Matrix3d& world_from_a,
                       const Eigen::Vector3d& velocity, ApproachBound& bound);

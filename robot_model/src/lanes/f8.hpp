@@ -143,6 +143,10 @@ HWY_INLINE V3 addCross(const V3& a, const V3& b, const V3& c) {
           multiplyAdd(b.z, c.x, subtractProduct(a.y, b.x, c.z)),
           multiplyAdd(b.x, c.y, subtractProduct(a.z, b.y, c.x))};
 }
+HWY_INLINE V3 cross(const V3& a, const V3& b) {
+  return {subtractProduct(a.y * b.z, a.z, b.y), subtractProduct(a.z * b.x, a.x, b.z),
+          subtractProduct(a.x * b.y, a.y, b.x)};
+}
 /// Row-major matrix times vector, plus a.
 HWY_INLINE V3 addRotated(const V3& a, const Row (&m)[9], const V3& v) {
   return {
@@ -150,6 +154,13 @@ HWY_INLINE V3 addRotated(const V3& a, const Row (&m)[9], const V3& v) {
       multiplyAdd(load(m[3]), v.x, multiplyAdd(load(m[4]), v.y, multiplyAdd(load(m[5]), v.z, a.y))),
       multiplyAdd(load(m[6]), v.x,
                   multiplyAdd(load(m[7]), v.y, multiplyAdd(load(m[8]), v.z, a.z)))};
+}
+
+/// Transpose of a row-major matrix times a vector.
+HWY_INLINE V3 turnedBack(const Row (&m)[9], const V3& v) {
+  return {multiplyAdd(load(m[0]), v.x, multiplyAdd(load(m[3]), v.y, load(m[6]) * v.z)),
+          multiplyAdd(load(m[1]), v.x, multiplyAdd(load(m[4]), v.y, load(m[7]) * v.z)),
+          multiplyAdd(load(m[2]), v.x, multiplyAdd(load(m[5]), v.y, load(m[8]) * v.z))};
 }
 
 }  // namespace swept::detail::HWY_NAMESPACE

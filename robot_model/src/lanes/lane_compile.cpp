@@ -120,8 +120,11 @@ class LaneCompiler {
     lanes_.rootOfGeometry.assign(model_.robotGeometry.size(), -1);
     lanes_.rootOfBody.assign(bodies, -1);
     for (std::size_t body = 0; body < bodies; ++body) addBodyCover(body, geometriesOf[body]);
-    for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i)
+    for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       addInnerBalls(static_cast<int>(i));
+      addProbes(static_cast<int>(i));
+      addHull(model_.robotGeometry[i]);
+    }
   }
 
   void addBodyCover(std::size_t body, const std::vector<int>& geometries) {
@@ -211,6 +214,27 @@ class LaneCompiler {
       lanes_.nodes.push_back(node);
       ++lanes_.innerBalls.back().count;
     }
+  }
+
+  void addProbes(int index) {
+    const LaneModel::InnerBalls& balls = lanes_.innerBalls[index];
+    lanes_.probesOf.push_back({static_cast<std::int32_t>(lanes_.probes.size()), 0});
+    for (std::int32_t i = 0; i < balls.count; i += kLanes) {
+      LaneModel::Probes& eight = lanes_.probes.emplace_back();
+      for (std::int32_t lane = 0; lane < kLanes; ++lane) {
+        const LaneNode& node = lanes_.nodes[balls.first + std::min(i + lane, balls.count - 1)];
+        eight.x.lane[lane] = node.center[0];
+        eight.y.lane[lane] = node.center[1];
+        eight.z.lane[lane] = node.center[2];
+        eight.inside.lane[lane] = node.inside;
+      }
+      ++lanes_.probesOf.back().count;
+    }
+  }
+
+  void addHull(const RobotGeometry& geometry) {
+    lanes_.hulls.add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
+                     geometry.levers.arms);
   }
 
   void setCenter(LaneNode& node, const RobotGeometry& geometry,

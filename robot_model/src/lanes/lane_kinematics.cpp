@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "lanes/f8.hpp"
+#include "lanes/lane_bounds.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -47,9 +48,6 @@ HWY_INLINE void sineCosine(const F8& angle, F8& sine, F8& cosine) {
     cosine.part[i] = hn::Xor(hn::IfThenElse(swap, s.part[i], c.part[i]), signC);
   }
 }
-
-/// More than what the few roundings of a bound can take away.
-constexpr float kOutward = 1.0F + 4e-6F;
 
 struct M3 {
   F8 entry[9];  ///< row by row
@@ -148,25 +146,6 @@ void Place(const LaneModel& model, const LaneJointMotion* motion, const std::vec
     if (body.kind == LaneJointKind::Floating) turnAfter(joint.after, state);
     if (model.rootOfBody[b] >= 0)
       placeRoot(model.nodes[model.rootOfBody[b]], moving, half, state, block.roots[b]);
-  }
-}
-
-/// Bounds on the angular velocity of each step's body relative to the reference, and what comes of
-/// it for the arms.
-HWY_INLINE void boundSteps(const LaneReference& reference, LaneScratch& scratch) {
-  float* turning = scratch.turning.data();
-  for (std::size_t i = 0; i < reference.steps.size(); ++i) {
-    const LaneReference::Step& step = reference.steps[i];
-    const LaneJointMotion& joint = scratch.motion[step.body];
-    const float before = step.parent < 0 ? 0.0F : turning[step.parent];
-    float next = before + joint.spin;
-    if (step.turnsAfter) {
-      const float start = step.grandparent < 0 ? 0.0F : turning[step.grandparent];
-      next = std::min(next, start + scratch.together[step.body]);
-    }
-    turning[i] = next * kOutward;
-    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
-    scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lanes/joint_table.hpp"
+#include "lanes/lane_hulls.hpp"
 #include "lanes/obstacles.hpp"
 #include "lanes/row.hpp"
 
@@ -97,6 +98,14 @@ struct LaneModel {
     std::int32_t count = 0;
   };
   std::vector<InnerBalls> innerBalls;
+  /// Eight balls inside a geometry; the last ones of a geometry are repeated to fill it up.
+  struct Probes {
+    Row x, y, z;  ///< m, in the body's frame
+    Row inside;   ///< m
+  };
+  std::vector<Probes> probes;
+  std::vector<InnerBalls> probesOf;  ///< per geometry, into `probes`
+  LaneHulls hulls;                   ///< per geometry
   std::vector<int> geometryBody;
   std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
   std::vector<LaneReference> references;  ///< [0]: the model frame

@@ -98,6 +98,21 @@ struct LaneScratch {
   std::vector<float> slid;
   LaneBlock block;
   std::vector<LaneHit> hits;  ///< a stack
+  /// A cover that the walk is going to look at more closely, and the hits it is not apart from.
+  struct WorldVisit {
+    int body = 0;
+    std::int32_t node = 0;
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+  std::vector<WorldVisit> worldVisits;
+  struct SelfVisit {
+    int bodyPair = 0;
+    std::int32_t nodeA = 0;
+    std::int32_t nodeB = 0;
+    std::uint32_t lanes = 0;
+  };
+  std::vector<SelfVisit> selfVisits;
   float rounding = 0.0F;      ///< m, of this motion
   bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
   /// Sub-intervals with the pairs still open on them: now, and of the next halving.
@@ -108,6 +123,13 @@ struct LaneScratch {
     std::size_t count = 0;
   };
   std::vector<Item> now, next, rest;
+  /// One pair on one sub-interval.
+  struct Part {
+    std::uint32_t pair = 0;
+    float time = 0.5F;
+    float half = 0.5F;
+  };
+  std::vector<Part> parts, waiting;
   std::vector<std::uint32_t> arena, nextArena, restArena;
   std::vector<std::uint32_t> wanted;      ///< pairs of the block
   std::vector<std::uint8_t> wantedLanes;  ///< per pair of the model

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "lanes/lane_division.hpp"
 #include "lanes/lane_kinematics.hpp"
 #include "lanes/self_walk.hpp"
 #include "lanes/world_walk.hpp"
@@ -26,19 +27,22 @@ void forgetOpen(LaneBlock& block) {
 
 /// Suspects of one motion that the judge is asked about, at most: each costs more than a block.
 constexpr int kMostSuspects = 4;
+/// Points of a link that exact geometry is asked about, of those that seem to be in an obstacle.
+constexpr std::int32_t kMostPoints = 2;
 
 class MotionSearch {
  public:
-  MotionSearch(const LaneModel& model, LaneJudge* judge, LaneScratch& scratch)
-      : model_(model), judge_(judge), scratch_(scratch) {
+  MotionSearch(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch)
+      : model_(model), judge_(judge), contacts_(contacts), scratch_(scratch) {
     for (const Row& row : scratch.bounds[0].acceleration)
-      for (const float value : row.lane) acceleration_ = std::max(acceleration_, value);
+      for (const float value : row.lane)
+        answer_.acceleration = std::max(answer_.acceleration, value);
   }
 
   LaneAnswer run() {
     LaneBlock& block = scratch_.block;
     block.mode = LaneMode::Motion;
-    block.stopAtContact = judge_ != nullptr;
+    block.stopAtContact = contacts_;
     for (auto* items : {&scratch_.next, &scratch_.rest}) items->clear();
     for (auto* pairs : {&scratch_.nextArena, &scratch_.restArena}) pairs->clear();
     forgetOpen(block);
@@ -55,6 +59,8 @@ class MotionSearch {
         collect();
       }
     }
+    if (!scratch_.rest.empty() && dividePairs(model_, judge_, contacts_, scratch_, answer_))
+      return contact();
     answer_.kind = scratch_.rest.empty() ? LaneAnswer::Kind::Free : LaneAnswer::Kind::Open;
     return answer_;
   }
@@ -76,15 +82,26 @@ class MotionSearch {
     block.contactLanes = 0;
     if (walkAll()) {
       const int lane = std::countr_zero(block.contactLanes);
-      if (judge_->isContact(block.contacts[lane], timeOf(lane))) return true;
-      judge_ = nullptr;
+      if (judge_.isContact(block.contacts[lane], timeOf(lane))) return true;
+      contacts_ = false;
       block.contactLanes = 0;
       block.stopAtContact = false;
       walkAll();
     }
-    if (judge_ == nullptr || block.suspect.lane < 0 || suspects_ == kMostSuspects) return false;
+    if (!contacts_ || block.suspect.lane < 0 || suspects_ == kMostSuspects) return false;
     ++suspects_;
-    return judge_->isContact(block.suspect, timeOf(block.suspect.lane));
+    if (isInside(block.suspect)) return true;
+    return judge_.look(block.suspect.pair, timeOf(block.suspect.lane), 0.0).kind ==
+           LaneLook::Kind::Contact;
+  }
+
+  /// Some point of the link's surface in an obstacle.
+  bool isInside(const LaneSuspect& suspect) {
+    if (model_.sources[suspect.pair].obstacle < 0) return false;
+    const PointsInside points = pointsInside(model_, suspect, scratch_);
+    for (std::int32_t i = 0; i < std::min(points.count, kMostPoints); ++i)
+      if (judge_.isInside(suspect.pair, points.index[i], timeOf(suspect.lane))) return true;
+    return false;
   }
 
   /// All pairs on eight sub-intervals.
@@ -115,7 +132,7 @@ class MotionSearch {
     const LaneBlock& block = scratch_.block;
     const float time = block.time.lane[lane];
     const float half = block.half.lane[lane];
-    const bool fine = last_ || 0.5F * half * half * acceleration_ < kFinestInflation;
+    const bool fine = last_ || 0.5F * half * half * answer_.acceleration < kFinestInflation;
     const std::size_t rest = scratch_.restArena.size();
     const std::size_t next = scratch_.nextArena.size();
     for (const std::uint32_t pair : block.open) {
@@ -199,10 +216,10 @@ class MotionSearch {
   }
 
   const LaneModel& model_;
-  LaneJudge* judge_;
+  LaneJudge& judge_;
+  bool contacts_;
   LaneScratch& scratch_;
   LaneAnswer answer_;
-  float acceleration_ = 0.0F;  ///< m per unit t squared
   int suspects_ = 0;
   bool last_ = false;
 };
@@ -239,8 +256,9 @@ void LaneScratch::restBase(const LaneModel& model) {
       value = model.nodes[model.rootOfBody[0]].center[i];
 }
 
-LaneAnswer searchMotion(const LaneModel& model, LaneJudge* judge, LaneScratch& scratch) {
-  return MotionSearch(model, judge, scratch).run();
+LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, bool contacts,
+                        LaneScratch& scratch) {
+  return MotionSearch(model, judge, contacts, scratch).run();
 }
 
 void searchStates(const LaneModel& model, LaneMode mode, bool contacts, LaneScratch& scratch) {

@@ -15,21 +15,38 @@ struct LaneAnswer {
     Open,     ///< scratch.rest is what is left
   };
   Kind kind = Kind::Open;
-  int intervals = 0;  ///< sub-intervals examined
+  int intervals = 0;          ///< sub-intervals examined
+  float acceleration = 0.0F;  ///< m per unit t squared, bounds that of all ball centres
 };
 
-/// Tells whether what the lanes point at is a contact.
+/// What exact geometry says of a pair at one time.
+struct LaneLook {
+  enum class Kind : std::uint8_t {
+    Open,
+    Contact,  ///< at t; the motion is decided
+    Apart,    ///< on all of [t - half, t + half]
+  };
+  Kind kind = Kind::Open;
+  bool directed = false;  ///< `towards` is known
+  float towards[3] = {};  ///< unit, model frame: from the first body to the second
+};
+
+/// Exact geometry, asked by the lane tier.
 class LaneJudge {
  public:
+  /// Whether what the lanes point at is a contact.
   virtual bool isContact(const LaneContact& contact, double t) = 0;
-  virtual bool isContact(const LaneSuspect& suspect, double t) = 0;
+  /// Whether a point of LaneHulls::inBody lies in the obstacle of the pair.
+  virtual bool isInside(std::uint32_t pair, std::int32_t point, double t) = 0;
+  virtual LaneLook look(std::uint32_t pair, double t, double half) = 0;
 
  protected:
   ~LaneJudge() = default;
 };
 
-/// Of the motion in the scratch. With a judge, stops at a contact.
-LaneAnswer searchMotion(const LaneModel& model, LaneJudge* judge, LaneScratch& scratch);
+/// Of the motion in the scratch. `contacts`: stops at a contact.
+LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, bool contacts,
+                        LaneScratch& scratch);
 /// Of states: of the motion's begin in all lanes (LaneMode::State), or of eight (States). What is
 /// found is in scratch.block: a lane is free if it is neither in `contactLanes` nor has open pairs.
 /// Under LaneMode::State the search ends with the first contact.

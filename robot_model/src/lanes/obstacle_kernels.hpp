@@ -238,8 +238,7 @@ HWY_INLINE FieldAnswer askField(const LaneField& field, const Segment& segment, 
   FieldAnswer answer;
   answer.apart = above(room, length);
   const F8 cell = set(field.cell);
-  answer.worthQuery =
-      above(room, -cell) & below(length, set(0.5F) * cell) & ~answer.apart;
+  answer.worthQuery = above(room, -cell) & below(length, set(0.5F) * cell) & ~answer.apart;
   const Lanes open = wanted & above(room, set(0.0F)) & ~answer.apart;
   if (open == 0) return answer;
   const V3 g = inFrame(field, segment.g, false);

@@ -47,6 +47,33 @@ HWY_INLINE V3 place(const LaneNode& node, const LaneBodyState& state) {
   return addRotated(load3(state.origin), state.rotation, set3(node.center));
 }
 
+/// Eight points of a link as they are in one lane.
+template <typename Eight>
+HWY_INLINE V3 placedAt(const LaneBodyState& state, int lane, const Eight& eight) {
+  const auto entry = [lane](const Row& row) { return set(row.lane[lane]); };
+  const V3 local = {load(eight.x), load(eight.y), load(eight.z)};
+  const auto& r = state.rotation;
+  const auto line = [&](int i) {
+    return multiplyAdd(
+        entry(r[3 * i]), local.x,
+        multiplyAdd(entry(r[3 * i + 1]), local.y,
+                    multiplyAdd(entry(r[3 * i + 2]), local.z, entry(state.origin[i]))));
+  };
+  return {line(0), line(1), line(2)};
+}
+
+/// Of the given lanes.
+HWY_INLINE int lowestLane(const F8& values, Lanes lanes) {
+  Row row;
+  store(values, row);
+  int lowest = std::countr_zero(lanes);
+  for (Lanes left = lanes & (lanes - 1); left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    if (row.lane[lane] < row.lane[lowest]) lowest = lane;
+  }
+  return lowest;
+}
+
 /// Notes contacts at these points. True: the walk is over.
 HWY_INLINE bool claim(LaneBlock& block, std::uint32_t pair, Lanes lanes, const V3& points,
                       float inside) {

@@ -21,6 +21,11 @@ namespace {
 /// them apart are cheaper to compare exactly.
 constexpr int kMostLooks = 16;
 
+/// Rows of eight balls inside either link that are looked at.
+constexpr std::int32_t kProbeRows = 2;
+/// Of the sum of the radii around two links: balls inside farther apart hardly meet.
+constexpr float kProbeShare = 0.75F;
+
 /// m. As good a guess as any for a contact in a cell of a table.
 constexpr float kLikelyDepth = 0.01F;
 
@@ -33,8 +38,13 @@ class SelfWalk {
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == LaneMode::Motion) {}
 
+  /// The first balls of all pairs, and balls inside the links, before any more of their covers.
   bool all() {
-    for (const LaneBodyPair& bodies : model_.bodyPairs) {
+    scratch_.selfVisits.clear();
+    first_ = true;
+    for (std::size_t i = 0; i < model_.bodyPairs.size(); ++i) {
+      const LaneBodyPair& bodies = model_.bodyPairs[i];
+      bodyPair_ = static_cast<int>(i);
       Lanes lanes = kAllLanes;
       if (bodies.table != nullptr && scratch_.withinLimits) {
         const JointTable& table = *bodies.table;
@@ -51,6 +61,14 @@ class SelfWalk {
       if (visit(model_.nodes[model_.rootOfBody[bodies.bodyA]], rootOf(bodies.bodyA),
                 model_.nodes[model_.rootOfBody[bodies.bodyB]], rootOf(bodies.bodyB), lanes))
         return true;
+    }
+    first_ = false;
+    for (const LaneScratch::SelfVisit& later : scratch_.selfVisits) {
+      const LaneBodyPair& bodies = model_.bodyPairs[later.bodyPair];
+      start(bodies);
+      const LaneNode& a = model_.nodes[later.nodeA];
+      const LaneNode& b = model_.nodes[later.nodeB];
+      if (visit(a, placed(a, *stateA_), b, placed(b, *stateB_), later.lanes)) return true;
     }
     return false;
   }
@@ -200,6 +218,11 @@ class SelfWalk {
       pair_ = static_cast<std::uint32_t>(pair);
       lanes &= ~static_cast<Lanes>(block_.openLanes[pair_]);
       if (lanes == 0) return false;
+      if (first_) {
+        if (block_.stopAtContact && probe(a, atA, b, atB, lanes)) return true;
+        scratch_.selfVisits.push_back({bodyPair_, indexOf(a), indexOf(b), lanes});
+        return false;
+      }
       if (a.inside > 0.0F && b.inside > 0.0F && touches(a, atA, b, atB, lanes)) return true;
       lanes &= ~block_.contactLanes;
       if (lanes == 0) return false;
@@ -219,6 +242,49 @@ class SelfWalk {
       const bool contact = splitA ? visit(child, placed(child, *stateA_), b, atB, lanes)
                                   : visit(a, atA, child, placed(child, *stateB_), lanes);
       if (contact) return true;
+    }
+    return false;
+  }
+
+  std::int32_t indexOf(const LaneNode& node) const {
+    return static_cast<std::int32_t>(&node - model_.nodes.data());
+  }
+
+  /// Looks at the largest balls inside two links, in the lane in which they are nearest.
+  bool probe(const LaneNode& a, const Segment& atA, const LaneNode& b, const Segment& atB,
+             Lanes lanes) {
+    const LaneModel::InnerBalls& ofA = model_.probesOf[a.geometry];
+    const LaneModel::InnerBalls& ofB = model_.probesOf[b.geometry];
+    if (ofA.count == 0 || ofB.count == 0) return false;
+    const V3 between = atB.x - atA.x;
+    const F8 squared = dot(between, between);
+    const float near = kProbeShare * (a.radius + b.radius);
+    lanes &= below(squared, set(near * near));
+    if (lanes == 0) return false;
+    const int lane = lowestLane(squared, lanes);
+    for (std::int32_t j = 0; j < std::min(ofB.count, kProbeRows); ++j) {
+      Row centers[3];
+      const LaneModel::Probes& eightB = model_.probes[ofB.first + j];
+      store3(placedAt(*stateB_, lane, eightB), centers);
+      for (std::int32_t i = 0; i < std::min(ofA.count, kProbeRows); ++i) {
+        const LaneModel::Probes& eightA = model_.probes[ofA.first + i];
+        const V3 x = placedAt(*stateA_, lane, eightA);
+        for (int k = 0; k < kLanes; ++k) {
+          const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - x;
+          const float inB = eightB.inside.lane[k] - 2.0F * scratch_.rounding;
+          const F8 reach = load(eightA.inside) + set(inB - 2.0F * scratch_.rounding);
+          const Lanes found = below(dot(to, to), set(0.9F) * reach * reach);
+          if (found == 0) continue;
+          const int which = std::countr_zero(found);
+          const float inA = eightA.inside.lane[which] - 2.0F * scratch_.rounding;
+          if (!(inA > 0.0F && inB > 0.0F)) continue;
+          Row point[3];
+          store3(along(x, set(inA / (inA + inB)), to), point);
+          return claim(block_, pair_, 1U << lane,
+                       set3({point[0].lane[which], point[1].lane[which], point[2].lane[which]}),
+                       0.0F);
+        }
+      }
     }
     return false;
   }
@@ -248,6 +314,8 @@ class SelfWalk {
   bool turning_ = false;
   V3 angular_;  ///< of the reference, times the half width
   F8 extra_;
+  bool first_ = false;  ///< only the first balls of two links
+  int bodyPair_ = 0;
   std::uint32_t pair_ = 0;
   int looks_ = 0;
 };

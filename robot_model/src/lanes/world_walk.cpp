@@ -16,6 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
 
+/// Of the radius around a link: obstacles farther from its centre hardly reach the balls inside.
+constexpr float kProbeShare = 0.6F;
+
 class WorldWalk {
  public:
   WorldWalk(const LaneModel& model, LaneScratch& scratch)
@@ -25,16 +28,16 @@ class WorldWalk {
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == LaneMode::Motion) {}
 
+  /// The first balls of all links, and balls inside these, before any more of their covers: most
+  /// contacts show there.
   bool bodies() {
-    for (const int body : model_.worldBodies) {
-      start(body);
-      const LaneNode& root = model_.nodes[model_.rootOfBody[body]];
-      const LaneRoot& ball = block_.roots[body];
-      const Segment segment = {load3(ball.at), moving_ ? load3(ball.by) : set3({0.0F, 0.0F, 0.0F})};
-      scratch_.hits.clear();
-      cull(segment, inflated(root));
-      if (scratch_.hits.empty()) continue;
-      if (visit(root, segment, 0)) return true;
+    scratch_.hits.clear();
+    scratch_.worldVisits.clear();
+    for (const int body : model_.worldBodies)
+      if (first(body)) return true;
+    for (const LaneScratch::WorldVisit& visit : scratch_.worldVisits) {
+      start(visit.body);
+      if (descend(model_.nodes[visit.node], visit.first, visit.last)) return true;
     }
     return false;
   }
@@ -43,10 +46,40 @@ class WorldWalk {
     start(model_.geometryBody[geometry]);
     const LaneNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
     scratch_.hits.assign(obstacles.begin(), obstacles.end());
-    return visit(root, placed(root), 0);
+    return visit(root, placed(root), 0, scratch_.hits.size());
   }
 
  private:
+  bool first(int body) {
+    start(body);
+    const std::int32_t index = model_.rootOfBody[body];
+    const LaneNode& root = model_.nodes[index];
+    const LaneRoot& ball = block_.roots[body];
+    const Segment segment = {load3(ball.at), moving_ ? load3(ball.by) : set3({0.0F, 0.0F, 0.0F})};
+    const std::size_t begin = scratch_.hits.size();
+    cull(segment, inflated(root));
+    const std::size_t culled = scratch_.hits.size();
+    if (culled == begin) return false;
+    if (sift(root, segment, begin, culled)) return true;
+    const std::size_t sifted = scratch_.hits.size();
+    if (root.geometry >= 0) {
+      later(body, index, culled);
+      return false;
+    }
+    for (int i = 0; i < root.childCount && sifted > culled; ++i) {
+      const LaneNode& child = model_.nodes[root.firstChild + i];
+      const std::size_t own = scratch_.hits.size();
+      if (sift(child, placed(child), culled, sifted)) return true;
+      later(body, root.firstChild + i, own);
+    }
+    return false;
+  }
+
+  void later(int body, std::int32_t node, std::size_t first) {
+    if (scratch_.hits.size() > first)
+      scratch_.worldVisits.push_back({body, node, first, scratch_.hits.size()});
+  }
+
   void start(int body) {
     state_ = &block_.states[body];
     extra_ = set(scratch_.rounding + model_.margin);
@@ -98,12 +131,31 @@ class WorldWalk {
     }
   }
 
-  /// The hits from `first` on are what the node's parent is not proven apart from.
-  bool visit(const LaneNode& node, const Segment& segment, std::size_t first) {
+  /// The hits from `first` to `last` are what the node's parent is not proven apart from.
+  bool visit(const LaneNode& node, const Segment& segment, std::size_t first, std::size_t last) {
+    const std::size_t own = scratch_.hits.size();
+    if (sift(node, segment, first, last)) return true;
+    const bool contact = descend(node, own, scratch_.hits.size());
+    scratch_.hits.resize(own);
+    return contact;
+  }
+
+  bool descend(const LaneNode& node, std::size_t first, std::size_t last) {
+    if (first == last) return false;
+    for (int i = 0; i < node.childCount; ++i) {
+      const LaneNode& child = model_.nodes[node.firstChild + i];
+      if (visit(child, placed(child), first, last)) return true;
+    }
+    return false;
+  }
+
+  /// Adds those of the hits that the node's children have to look at. True: the walk is over.
+  bool sift(const LaneNode& node, const Segment& segment, std::size_t first, std::size_t last) {
     const F8 radius = inflated(node);
     const F8 squared = radius * radius;
-    const std::size_t last = scratch_.hits.size();
-    const bool descend = node.childCount > 0 && (node.geometry < 0 || node.beyond > enough_);
+    const bool isRoot =
+        node.geometry >= 0 && &node == &model_.nodes[model_.rootOfGeometry[node.geometry]];
+    const bool divides = node.childCount > 0 && (node.geometry < 0 || node.beyond > enough_);
     for (std::size_t i = first; i < last; ++i) {
       LaneHit hit = scratch_.hits[i];
       hit.lanes &= ~block_.contactLanes;
@@ -120,16 +172,19 @@ class WorldWalk {
         const FieldAnswer answer = askField(field, segment, radius, hit.lanes);
         hit.lanes &= ~answer.apart;
         const Lanes query = hit.lanes & answer.worthQuery;
-        if (!descend && query != 0) hit.lanes &= ~provenApart(field, segment, radius, query);
+        if (!divides && query != 0) hit.lanes &= ~provenApart(field, segment, radius, query);
       } else {
         hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
       }
       if (hit.lanes == 0) continue;
+      if (isRoot && block_.stopAtContact && obstacle.kind != ObstacleKind::Field &&
+          probe(node, segment, hit, static_cast<std::uint32_t>(pair)))
+        return true;
       if (node.inside > 0.0F && touches(node, segment, hit, static_cast<std::uint32_t>(pair)))
         return true;
       hit.lanes &= ~block_.contactLanes;
       if (hit.lanes == 0) continue;
-      if (descend) {
+      if (divides) {
         scratch_.hits.push_back(hit);
       } else {
         const F8 away = distanceAtMiddle(obstacle, segment.x, node.radius, hit.lanes);
@@ -137,15 +192,7 @@ class WorldWalk {
                   set(node.radius - 0.5F * node.beyond) - away);
       }
     }
-    bool contact = false;
-    if (scratch_.hits.size() > last) {
-      for (int i = 0; i < node.childCount && !contact; ++i) {
-        const LaneNode& child = model_.nodes[node.firstChild + i];
-        contact = visit(child, placed(child), last);
-      }
-    }
-    scratch_.hits.resize(last);
-    return contact;
+    return false;
   }
 
   /// m; a guess.
@@ -155,6 +202,38 @@ class WorldWalk {
     // A field tells up to about a cell less than there is.
     const LaneField& field = model_.obstacles.fields[obstacle.first];
     return clearance(field, inFrame(field, x, true), set(enough), lanes) + set(field.cell);
+  }
+
+  /// Looks at balls inside the link, in the lane in which it is deepest in the obstacle.
+  bool probe(const LaneNode& node, const Segment& segment, const LaneHit& hit, std::uint32_t pair) {
+    const LaneObstacle& obstacle = model_.obstacles.obstacles[hit.index];
+    if (obstacle.near != NearProof::Inside && obstacle.near != NearProof::Distance) return false;
+    const V3 still = set3({0.0F, 0.0F, 0.0F});
+    const F8 squared = squaredDistance(model_.obstacles, obstacle, {segment.x, still});
+    const float near = kProbeShare * node.radius;
+    const Lanes lanes = hit.lanes & below(squared, set(near * near));
+    if (lanes == 0) return false;
+    const int best = lowestLane(squared, lanes);
+    const LaneModel::InnerBalls& probes = model_.probesOf[node.geometry];
+    for (std::int32_t i = probes.first; i < probes.first + probes.count; ++i) {
+      const LaneModel::Probes& eight = model_.probes[i];
+      const V3 x = placedAt(*state_, best, eight);
+      const F8 inside = load(eight.inside) - set(scratch_.rounding);
+      const F8 away = squaredDistance(model_.obstacles, obstacle, {x, still});
+      const Lanes found = obstacle.near == NearProof::Inside
+                              ? below(away, set(1e-30F))
+                              : below(away, set(0.9F) * inside * inside);
+      if (found == 0) continue;
+      const int which = std::countr_zero(found);
+      Row at[3];
+      Row radii;
+      store3(x, at);
+      store(inside, radii);
+      const float point[3] = {at[0].lane[which], at[1].lane[which], at[2].lane[which]};
+      if (!(radii.lane[which] > 0.0F)) continue;
+      return claim(block_, pair, 1U << best, set3(point), radii.lane[which]);
+    }
+    return false;
   }
 
   /// At a middle, the centre is so near that the obstacle reaches into the link.
@@ -235,6 +314,26 @@ class WorldWalk {
   float enough_ = 0.0F;
 };
 
+PointsInside Points(const LaneModel& model, const LaneSuspect& suspect, LaneScratch& scratch) {
+  PointsInside inside;
+  const LanePairSource& source = model.sources[suspect.pair];
+  const LaneObstacle& obstacle = model.obstacles.obstacles[source.obstacle];
+  const LaneHull& hull = model.hulls.of[source.geometry];
+  const bool sure = obstacle.near == NearProof::Inside || obstacle.near == NearProof::Distance;
+  if (!sure || !hull.ofGeometry) return inside;
+  const LaneBodyState& state = scratch.block.states[model.geometryBody[source.geometry]];
+  for (std::int32_t i = hull.first; 8 * (i - hull.first) < hull.count; ++i) {
+    const V3 x = placedAt(state, suspect.lane, model.hulls.points[i]);
+    const F8 away = squaredDistance(model.obstacles, obstacle, {x, set3({0.0F, 0.0F, 0.0F})});
+    const Lanes found = below(away, set(1e-30F));
+    if (found == 0) continue;
+    for (Lanes left = found; left != 0; left &= left - 1)
+      inside.index[inside.count++] = kLanes * i + std::countr_zero(left);
+    return inside;
+  }
+  return inside;
+}
+
 bool Bodies(const LaneModel& model, LaneScratch& scratch) {
   return WorldWalk(model, scratch).bodies();
 }
@@ -252,10 +351,16 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 HWY_EXPORT(Bodies);
+HWY_EXPORT(Points);
 HWY_EXPORT(Pairs);
 
 bool walkWorld(const LaneModel& model, LaneScratch& scratch) {
   return HWY_DYNAMIC_DISPATCH(Bodies)(model, scratch);
+}
+
+PointsInside pointsInside(const LaneModel& model, const LaneSuspect& suspect,
+                          LaneScratch& scratch) {
+  return HWY_DYNAMIC_DISPATCH(Points)(model, suspect, scratch);
 }
 
 bool walkPairs(const LaneModel& model, int geometry, std::span<const LaneHit> obstacles,

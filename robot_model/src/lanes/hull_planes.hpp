@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "lanes/lane_model.hpp"
+#include "lanes/lane_scratch.hpp"
+
+namespace swept::detail {
+
+/// Unit vector in the model frame, from a pair's first body to its second, as it is at the middle
+/// of a lane.
+struct LaneDirection {
+  float towards[3] = {};
+  int lane = 0;
+};
+
+/// Of the given lanes, those in which a plane across the direction is proven to lie between the two
+/// bodies of the pair for the whole sub-interval; their frames have to be placed. None for bodies
+/// without a hull and for obstacles other than balls, capsules, cylinders and boxes.
+std::uint32_t lanesDivided(const LaneModel& model, std::uint32_t pair,
+                           const LaneDirection& direction, std::uint32_t lanes,
+                           LaneScratch& scratch);
+
+}  // namespace swept::detail

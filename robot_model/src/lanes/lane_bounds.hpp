@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "lanes/lane_model.hpp"
+#include "lanes/lane_scratch.hpp"
+
+namespace swept::detail {
+
+/// More than what the few roundings of a bound can take away.
+inline constexpr float kOutward = 1.0F + 4e-6F;
+
+/// Bounds on the angular velocity of each step's body relative to the reference, and what comes of
+/// it for the arms: `turning`, `turned` and `slid` of the scratch. The lemma is boundMotion's.
+inline void boundSteps(const LaneReference& reference, LaneScratch& scratch) {
+  float* turning = scratch.turning.data();
+  for (std::size_t i = 0; i < reference.steps.size(); ++i) {
+    const LaneReference::Step& step = reference.steps[i];
+    const LaneJointMotion& joint = scratch.motion[step.body];
+    const float before = step.parent < 0 ? 0.0F : turning[step.parent];
+    float next = before + joint.spin;
+    if (step.turnsAfter) {
+      const float start = step.grandparent < 0 ? 0.0F : turning[step.grandparent];
+      next = std::min(next, start + scratch.together[step.body]);
+    }
+    turning[i] = next * kOutward;
+    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
+    scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
+  }
+}
+
+/// m per unit t squared; bounds the acceleration of every point of the geometry relative to the
+/// reference.
+float accelerationOfPoints(const LaneModel& model, int reference, int geometry,
+                           LaneScratch& scratch);
+
+}  // namespace swept::detail

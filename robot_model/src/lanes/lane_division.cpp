@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/lane_division.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "lanes/hull_planes.hpp"
+#include "lanes/lane_kinematics.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// Sub-intervals of one pair at most, and times at which exact geometry is asked about it.
+constexpr std::size_t kMostParts = 64;
+constexpr int kMostLooks = 6;
+/// m per half-interval. Shorter ones the exact tier does as well.
+constexpr float kFinestInflation = 2e-4F;
+
+class Division {
+ public:
+  Division(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch,
+           LaneAnswer& answer)
+      : model_(model), judge_(judge), scratch_(scratch), answer_(answer), contacts_(contacts) {}
+
+  bool run() {
+    sortByPair();
+    auto& parts = scratch_.parts;
+    std::size_t first = 0;
+    while (first < parts.size()) {
+      std::size_t last = first;
+      while (last < parts.size() && parts[last].pair == parts[first].pair) ++last;
+      scratch_.waiting.assign(parts.begin() + static_cast<std::ptrdiff_t>(first),
+                              parts.begin() + static_cast<std::ptrdiff_t>(last));
+      first = last;
+      if (dividePair()) return true;
+    }
+    return false;
+  }
+
+ private:
+  using Part = LaneScratch::Part;
+
+  void sortByPair() {
+    auto& parts = scratch_.parts;
+    parts.clear();
+    for (const LaneScratch::Item& item : scratch_.rest)
+      for (std::size_t i = item.first; i < item.first + item.count; ++i)
+        parts.push_back({scratch_.restArena[i], item.time, item.half});
+    std::ranges::sort(parts, [](const Part& a, const Part& b) {
+      return a.pair != b.pair ? a.pair < b.pair : a.time < b.time;
+    });
+    scratch_.rest.clear();
+    scratch_.restArena.clear();
+  }
+
+  bool dividePair() {
+    looks_ = 0;
+    beginSeen_ = endSeen_ = false;
+    auto& waiting = scratch_.waiting;
+    std::size_t done = 0;
+    while (done < waiting.size()) {
+      fillLanes(done);
+      const std::size_t count = std::min<std::size_t>(kLanes, waiting.size() - done);
+      place(done, count);
+      std::uint32_t open = (1U << count) - 1;
+      if (examine(waiting[done].pair, open)) return true;
+      for (; open != 0; open &= open - 1)
+        handOn(waiting[done + static_cast<std::size_t>(std::countr_zero(open))]);
+      done += count;
+    }
+    return false;
+  }
+
+  /// Halves those from `first` on until they fill the lanes: a look costs more than they do.
+  void fillLanes(std::size_t first) {
+    auto& waiting = scratch_.waiting;
+    while (2 * (waiting.size() - first) <= kLanes && !isFine(waiting[first])) {
+      const std::size_t last = waiting.size();
+      for (std::size_t i = first; i < last; ++i) {
+        const Part whole = waiting[i];
+        waiting.push_back(half(whole, 1.0F));
+        waiting[i] = half(whole, -1.0F);
+      }
+      std::ranges::sort(waiting.begin() + static_cast<std::ptrdiff_t>(first), waiting.end(), {},
+                        &Part::time);
+    }
+  }
+
+  static Part half(const Part& whole, float side) {
+    const float half = 0.5F * whole.half;
+    return {whole.pair, whole.time + side * half, half};
+  }
+
+  bool isFine(const Part& part) const {
+    return 0.5F * part.half * part.half * answer_.acceleration < kFinestInflation;
+  }
+
+  void place(std::size_t first, std::size_t count) {
+    LaneBlock& block = scratch_.block;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Part& part = scratch_.waiting[first + std::min(lane, count - 1)];
+      block.time.lane[lane] = part.time;
+      block.half.lane[lane] = part.half;
+    }
+    answer_.intervals += static_cast<int>(count);
+    const LanePairSource& source = model_.sources[scratch_.waiting[first].pair];
+    placePair(source);
+  }
+
+  void placePair(const LanePairSource& source) {
+    scratch_.bodies = model_.ancestors[model_.geometryBody[source.geometry]];
+    if (source.obstacle < 0) {
+      for (const int body : model_.ancestors[model_.geometryBody[source.other]])
+        if (std::ranges::find(scratch_.bodies, body) == scratch_.bodies.end())
+          scratch_.bodies.push_back(body);
+    }
+    placeBodies(model_, scratch_.motion, scratch_.bodies, scratch_.block);
+  }
+
+  /// True: a contact. Leaves in `open` what is not proven.
+  bool examine(std::uint32_t pair, std::uint32_t& open) {
+    while (open != 0 && looks_ < kMostLooks) {
+      if (looks_ > 0 && meetsAtEnd(pair, open)) return true;
+      const int lane = middleOf(open);
+      ++looks_;
+      const LaneLook look = judge_.look(pair, timeOf(lane), halfOf(lane));
+      if (look.kind == LaneLook::Kind::Contact) return true;
+      std::uint32_t apart = look.kind == LaneLook::Kind::Apart ? 1U << lane : 0U;
+      if (look.directed)
+        apart |=
+            lanesDivided(model_, pair, {{look.towards[0], look.towards[1], look.towards[2]}, lane},
+                         open, scratch_);
+      open &= ~apart;
+      if (apart == 0) return false;
+    }
+    return false;
+  }
+
+  /// Contacts that begin or end beyond the motion are deepest at its ends.
+  bool meetsAtEnd(std::uint32_t pair, std::uint32_t open) {
+    if (!contacts_) return false;
+    const int first = std::countr_zero(open);
+    const int last = std::bit_width(open) - 1;
+    if (!beginSeen_ && timeOf(first) - halfOf(first) <= 0.0) {
+      beginSeen_ = true;
+      if (judge_.look(pair, 0.0, 0.0).kind == LaneLook::Kind::Contact) return true;
+    }
+    if (endSeen_ || timeOf(last) + halfOf(last) < 1.0) return false;
+    endSeen_ = true;
+    return judge_.look(pair, 1.0, 0.0).kind == LaneLook::Kind::Contact;
+  }
+
+  static int middleOf(std::uint32_t lanes) {
+    for (int skip = std::popcount(lanes) / 2; skip > 0; --skip) lanes &= lanes - 1;
+    return std::countr_zero(lanes);
+  }
+
+  double timeOf(int lane) const { return static_cast<double>(scratch_.block.time.lane[lane]); }
+  double halfOf(int lane) const { return static_cast<double>(scratch_.block.half.lane[lane]); }
+
+  /// In halves, or to the exact tier.
+  void handOn(Part part) {
+    if (scratch_.waiting.size() >= kMostParts || looks_ >= kMostLooks || isFine(part)) {
+      scratch_.rest.push_back({part.time, part.half, scratch_.restArena.size(), 1});
+      scratch_.restArena.push_back(part.pair);
+      return;
+    }
+    scratch_.waiting.push_back(half(part, -1.0F));
+    scratch_.waiting.push_back(half(part, 1.0F));
+  }
+
+  const LaneModel& model_;
+  LaneJudge& judge_;
+  LaneScratch& scratch_;
+  LaneAnswer& answer_;
+  bool contacts_;
+  int looks_ = 0;
+  bool beginSeen_ = false;  ///< of the pair
+  bool endSeen_ = false;
+};
+
+}  // namespace
+
+bool dividePairs(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch,
+                 LaneAnswer& answer) {
+  return Division(model, judge, contacts, scratch, answer).run();
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "lanes/lane_model.hpp"
+#include "lanes/lane_scratch.hpp"
+#include "lanes/lane_search.hpp"
+
+namespace swept::detail {
+
+/// Takes from scratch.rest what planes between the hulls of two bodies prove. Their directions come
+/// from exact geometry at one time; each serves for all sub-intervals around it. True: the judge
+/// found a contact on the way.
+bool dividePairs(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch,
+                 LaneAnswer& answer);
+
+}  // namespace swept::detail

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/lane_hulls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "swept/core/distance.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// More take longer than exact geometry does; of more, as many are chosen.
+constexpr std::size_t kMostPoints = 320;
+constexpr int kChosen = 192;
+constexpr int kSides = 24;
+
+struct Grown {
+  std::vector<Vector3d> points;
+  double radius = 0.0;
+  bool ofGeometry = false;
+};
+
+/// Corners of a polygon around a circle across z.
+void addCircle(double radius, double z, std::vector<Vector3d>& points) {
+  const double outer = radius / std::cos(std::numbers::pi / kSides) * (1.0 + 1e-12);
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kSides;
+    points.emplace_back(outer * std::cos(angle), outer * std::sin(angle), z);
+  }
+}
+
+struct GrownHull {
+  Grown operator()(const Sphere& sphere) const { return {{Vector3d::Zero()}, sphere.radius}; }
+  Grown operator()(const Box& box) const {
+    Grown result;
+    result.ofGeometry = true;
+    for (int i = 0; i < 8; ++i)
+      result.points.push_back(box.halfExtents.cwiseProduct(Vector3d(
+          (i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0)));
+    return result;
+  }
+  Grown operator()(const Cylinder& cylinder) const {
+    Grown result;
+    addCircle(cylinder.radius, cylinder.halfLength, result.points);
+    addCircle(cylinder.radius, -cylinder.halfLength, result.points);
+    return result;
+  }
+  Grown operator()(const Capsule& capsule) const {
+    return {{Vector3d(0.0, 0.0, capsule.halfLength), Vector3d(0.0, 0.0, -capsule.halfLength)},
+            capsule.radius};
+  }
+  Grown operator()(const Cone& cone) const {
+    Grown result;
+    addCircle(cone.radius, -cone.halfLength, result.points);
+    result.points.emplace_back(0.0, 0.0, cone.halfLength);
+    return result;
+  }
+  Grown operator()(const Triangle& triangle) const {
+    return {{triangle.corners.begin(), triangle.corners.end()}, 0.0, true};
+  }
+  Grown operator()(const ConvexHull& hull) const { return {hull.vertices(), hull.error(), true}; }
+  Grown operator()(const TriangleMesh& mesh) const { return (*this)(mesh.hull()); }
+  template <typename Other>
+  Grown operator()(const Other&) const {
+    return {};
+  }
+};
+
+/// Those farthest along directions that are spread evenly (a Fibonacci lattice), grown by the
+/// farthest that any other is from their hull.
+Grown simplified(const Grown& full) {
+  Grown result{{}, full.radius, full.ofGeometry};
+  std::vector<char> chosen(full.points.size(), 0);
+  for (int i = 0; i < kChosen; ++i) {
+    const double z = (2.0 * i + 1.0) / kChosen - 1.0;
+    const double across = std::sqrt(1.0 - z * z);
+    const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const Vector3d direction(across * std::cos(angle), across * std::sin(angle), z);
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < full.points.size(); ++k)
+      if (direction.dot(full.points[k]) > direction.dot(full.points[best])) best = k;
+    if (chosen[best] == 0) result.points.push_back(full.points[best]);
+    chosen[best] = 1;
+  }
+  const ConvexHull hull = ConvexHull::of(result.points);
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < full.points.size(); ++k) {
+    if (chosen[k] != 0) continue;
+    const Eigen::Isometry3d at(Eigen::Translation3d(-full.points[k]));
+    farthest = std::max(farthest, distance(Sphere{0.0}, hull, at).upper);
+  }
+  result.radius += farthest * (1.0 + 1e-9);
+  return result;
+}
+
+}  // namespace
+
+void LaneHulls::add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
+                    const Eigen::Matrix3d& bodyFromLane, const std::vector<double>& armsOfPath) {
+  Grown grown = std::visit(GrownHull(), shape);
+  if (grown.points.size() > kMostPoints) grown = simplified(grown);
+  LaneHull hull;
+  hull.first = static_cast<std::int32_t>(points.size());
+  hull.firstArm = static_cast<std::int32_t>(arms.size());
+  for (const double arm : armsOfPath) arms.push_back(static_cast<float>(arm * (1.0 + 1e-6)));
+  hull.count = static_cast<std::int32_t>(grown.points.size());
+  hull.radius = std::nextafter(static_cast<float>(grown.radius), 1e30F);
+  hull.ofGeometry = grown.ofGeometry;
+  for (std::size_t i = 0; i < grown.points.size(); i += kLanes) {
+    Points& eight = points.emplace_back();
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t at = std::min(i + lane, grown.points.size() - 1);
+      inBody.push_back(body_from_shape * grown.points[at]);
+      const Vector3d moved = bodyFromLane.transpose() * inBody.back();
+      eight.x.lane[lane] = static_cast<float>(moved.x());
+      eight.y.lane[lane] = static_cast<float>(moved.y());
+      eight.z.lane[lane] = static_cast<float>(moved.z());
+    }
+  }
+  of.push_back(hull);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "lanes/row.hpp"
+#include "swept/core/shapes.hpp"
+
+namespace swept::detail {
+
+/// Points whose hull, grown by a radius, contains a piece of a link's geometry.
+struct LaneHull {
+  std::int32_t first = 0;  ///< into LaneHulls::points
+  std::int32_t count = 0;  ///< of points; 0: none is known
+  float radius = 0.0F;     ///< m
+  /// The points are of the geometry themselves, not only around it.
+  bool ofGeometry = false;
+  std::int32_t firstArm = 0;  ///< into LaneHulls::arms; one for each of LaneModel::ancestors
+};
+
+/// Of all geometries, in the frames of their bodies.
+struct LaneHulls {
+  std::vector<LaneHull> of;  ///< per geometry
+  /// Eight points each; the last ones of a hull are repeated to fill it up.
+  struct Points {
+    Row x, y, z;  ///< m
+  };
+  std::vector<Points> points;
+  /// The same in double precision, in the frames of the kinematics: [8 * row + lane].
+  std::vector<Eigen::Vector3d> inBody;
+  /// m, rounded up: no point of the geometry is farther from the joint's axis.
+  std::vector<float> arms;
+
+  /// `bodyFromLane`: the kinematics' frame of the body from the lanes'.
+  void add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
+           const Eigen::Matrix3d& bodyFromLane, const std::vector<double>& armsOfPath);
+};
+
+}  // namespace swept::detail
