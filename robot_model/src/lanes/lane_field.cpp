@@ -7,7 +7,7 @@
 #include "certify/checker_model.hpp"
 #include "lanes/row.hpp"
 #include "lanes/single.hpp"
-#include "swept/core/distance.hpp"
+#include "swept/core/segment_query.hpp"
 
 namespace swept::detail {
 
@@ -91,36 +91,25 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, LaneFie
   return true;
 }
 
-bool isApart(const LaneField& field, const MovingPoint& point, float radius) {
-  const Vector3d x(point.x[0], point.x[1], point.x[2]);
-  const Vector3d g(point.g[0], point.g[1], point.g[2]);
-  const double length = g.norm();
-  DistanceOptions options;
-  options.enough = static_cast<double>(radius);
-  options.contact = options.enough;
-  Eigen::Isometry3d world_from_segment(Eigen::Translation3d{x});
-  Shape segment = Sphere{0.0};
-  if (length > 0.05 * options.enough) {
-    segment = Capsule{0.0, length};
-    world_from_segment.linear() =
-        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), g).toRotationMatrix();
-  } else {
-    options.enough += length;
-  }
-  const Eigen::Isometry3d segment_from_shape =
-      (field.shape_from_world * world_from_segment).inverse();
-  // More than what the poses and the length are rounded by.
-  options.enough += static_cast<double>(field.slack);
-  return distance(segment, field.shape, segment_from_shape, options).lower >= options.enough;
+bool isApart(const LaneField& field, const MovingPoint& point, float radius, bool outside) {
+  const LineSegment segment = {
+      field.shape_from_world * Vector3d(point.x[0], point.x[1], point.x[2]),
+      field.shape_from_world.linear() * Vector3d(point.g[0], point.g[1], point.g[2])};
+  // The slack is more than what the pose is rounded by.
+  const double within = static_cast<double>(radius) + static_cast<double>(field.slack);
+  if (const auto* cloud = std::get_if<PointCloud>(&field.shape))
+    return isFarther(*cloud, segment, within);
+  const auto& mesh = std::get<TriangleMesh>(field.shape);
+  return isFarther(mesh, segment, within) && (outside || !mesh.encloses(segment.center));
 }
 
-bool reaches(const LaneField& field, const MovingPoint& point, float radius) {
-  const Vector3d x(point.x[0], point.x[1], point.x[2]);
-  DistanceOptions options;
-  options.contact = static_cast<double>(radius);
-  options.enough = options.contact;
-  const Eigen::Isometry3d point_from_shape(Eigen::Translation3d(-(field.shape_from_world * x)));
-  return distance(Sphere{0.0}, field.shape, point_from_shape, options).upper <= options.contact;
+bool reaches(const LaneField& field, const MovingPoint& point, float radius, bool outside) {
+  const Vector3d middle = field.shape_from_world * Vector3d(point.x[0], point.x[1], point.x[2]);
+  const auto within = static_cast<double>(radius);
+  if (const auto* cloud = std::get_if<PointCloud>(&field.shape))
+    return pointWithin(*cloud, middle, within).has_value();
+  const auto& mesh = std::get<TriangleMesh>(field.shape);
+  return pointWithin(mesh, middle, within) || (!outside && mesh.encloses(middle));
 }
 
 }  // namespace swept::detail

@@ -65,8 +65,9 @@ struct MovingPoint {
 };
 
 /// Proves in double precision that no point of the segment is within `radius` (m) of the shape.
-bool isApart(const LaneField& field, const MovingPoint& point, float radius);
+/// `outside`: known that the shape does not enclose the middle.
+bool isApart(const LaneField& field, const MovingPoint& point, float radius, bool outside);
 /// Whether the shape is proven to reach within `radius` (m) of the middle.
-bool reaches(const LaneField& field, const MovingPoint& point, float radius);
+bool reaches(const LaneField& field, const MovingPoint& point, float radius, bool outside);
 
 }  // namespace swept::detail

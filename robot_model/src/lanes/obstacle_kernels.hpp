@@ -226,6 +226,7 @@ HWY_INLINE V3 inFrame(const LaneField& field, const V3& x, bool moved) {
 struct FieldAnswer {
   Lanes apart = 0;       ///< the obstacle is farther than the radius from the whole segment
   Lanes worthQuery = 0;  ///< of the others: the field may be what is too coarse
+  Lanes outside = 0;     ///< the obstacle does not contain the segment's middle
 };
 
 /// Lemma: the ball around the middle x with x's clearance less the radius covers a part of the
@@ -237,9 +238,8 @@ HWY_INLINE FieldAnswer askField(const LaneField& field, const Segment& segment, 
   const F8 room = clearance(field, x, radius + length, wanted) - radius;
   FieldAnswer answer;
   answer.apart = above(room, length);
-  const F8 cell = set(field.cell);
-  answer.worthQuery =
-      above(room, -cell) & below(length, set(0.5F) * cell) & ~answer.apart;
+  answer.worthQuery = above(room, set(-field.cell)) & ~answer.apart;
+  answer.outside = above(room + radius, set(0.0F));
   const Lanes open = wanted & above(room, set(0.0F)) & ~answer.apart;
   if (open == 0) return answer;
   const V3 g = inFrame(field, segment.g, false);

@@ -120,7 +120,8 @@ class WorldWalk {
         const FieldAnswer answer = askField(field, segment, radius, hit.lanes);
         hit.lanes &= ~answer.apart;
         const Lanes query = hit.lanes & answer.worthQuery;
-        if (!descend && query != 0) hit.lanes &= ~provenApart(field, segment, radius, query);
+        if (!descend && query != 0)
+          hit.lanes &= ~provenApart(field, segment, radius, query, answer.outside);
       } else {
         hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
       }
@@ -188,22 +189,25 @@ class WorldWalk {
     // Sure enough not to ask often in vain.
     const F8 sure = set(within - 0.5F * field.cell);
     const F8 least = clearance(field, inFrame(field, segment.x, true), sure, lanes);
+    const Lanes outside = above(least, set(0.0F));
     for (Lanes left = lanes & below(least, sure); left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
-      if (reaches(field, pointOf(middle, lane), within)) return 1U << lane;
+      if (reaches(field, pointOf(middle, lane), within, (outside >> lane & 1U) != 0))
+        return 1U << lane;
     }
     return 0;
   }
 
   static Lanes provenApart(const LaneField& field, const Segment& segment, const F8& radius,
-                           Lanes lanes) {
+                           Lanes lanes, Lanes outside) {
     Row radii;
     store(radius, radii);
     Lanes apart = 0;
     for (Lanes left = lanes; left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
       // One that stays open leaves the pair open: the others are not worth the time.
-      if (!isApart(field, pointOf(segment, lane), radii.lane[lane])) break;
+      if (!isApart(field, pointOf(segment, lane), radii.lane[lane], (outside >> lane & 1U) != 0))
+        break;
       apart |= 1U << lane;
     }
     return apart;
