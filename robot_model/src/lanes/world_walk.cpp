@@ -26,6 +26,7 @@ class WorldWalk {
         moving_(scratch.block.mode == LaneMode::Motion) {}
 
   bool bodies() {
+    scratch_.queries.clear();
     for (const int body : model_.worldBodies) {
       start(body);
       const LaneNode& root = model_.nodes[model_.rootOfBody[body]];
@@ -36,14 +37,18 @@ class WorldWalk {
       if (scratch_.hits.empty()) continue;
       if (visit(root, segment, 0)) return true;
     }
+    settleQueries();
     return false;
   }
 
   bool pairs(int geometry, std::span<const LaneHit> obstacles) {
+    scratch_.queries.clear();
     start(model_.geometryBody[geometry]);
     const LaneNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
     scratch_.hits.assign(obstacles.begin(), obstacles.end());
-    return visit(root, placed(root), 0);
+    if (visit(root, placed(root), 0)) return true;
+    settleQueries();
+    return false;
   }
 
  private:
@@ -116,15 +121,11 @@ class WorldWalk {
       if (hit.lanes == 0) continue;
       const LaneObstacle& obstacle = model_.obstacles.obstacles[hit.index];
       if (obstacle.kind == ObstacleKind::Field) {
-        const LaneField& field = model_.obstacles.fields[obstacle.first];
-        const FieldAnswer answer = askField(field, segment, radius, hit.lanes);
-        hit.lanes &= ~answer.apart;
-        const Lanes query = hit.lanes & answer.worthQuery;
-        if (!descend && query != 0)
-          hit.lanes &= ~provenApart(field, segment, radius, query, answer.outside);
-      } else {
-        hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
+        if (visitField(node, segment, radius, hit, static_cast<std::uint32_t>(pair), descend))
+          return true;
+        continue;
       }
+      hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
       if (hit.lanes == 0) continue;
       if (node.inside > 0.0F && touches(node, segment, hit, static_cast<std::uint32_t>(pair)))
         return true;
@@ -133,7 +134,8 @@ class WorldWalk {
       if (descend) {
         scratch_.hits.push_back(hit);
       } else {
-        const F8 away = distanceAtMiddle(obstacle, segment.x, node.radius, hit.lanes);
+        const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
+        const F8 away = root(squaredDistance(model_.obstacles, obstacle, middle));
         leaveOpen(block_, static_cast<std::uint32_t>(pair), hit.lanes, node.beyond > enough_,
                   set(node.radius - 0.5F * node.beyond) - away);
       }
@@ -149,13 +151,57 @@ class WorldWalk {
     return contact;
   }
 
-  /// m; a guess.
-  F8 distanceAtMiddle(const LaneObstacle& obstacle, const V3& x, float enough, Lanes lanes) const {
-    if (obstacle.kind != ObstacleKind::Field)
-      return root(squaredDistance(model_.obstacles, obstacle, {x, set3({0.0F, 0.0F, 0.0F})}));
+  /// The same of a field. Leaves that only a query can settle are put off: where something else is
+  /// in contact, nobody needs to know.
+  bool visitField(const LaneNode& node, const Segment& segment, const F8& radius, LaneHit hit,
+                  std::uint32_t pair, bool descend) {
+    const std::int32_t index = model_.obstacles.obstacles[hit.index].first;
+    const LaneField& field = model_.obstacles.fields[index];
+    const FieldAnswer answer = askField(field, segment, radius, hit.lanes);
+    hit.lanes &= ~answer.apart;
+    if (hit.lanes == 0) return false;
+    if (node.inside > 0.0F && touchesField(node, segment, field, answer.middle, hit.lanes, pair))
+      return true;
+    hit.lanes &= ~block_.contactLanes;
+    if (hit.lanes == 0) return false;
+    if (descend) {
+      scratch_.hits.push_back(hit);
+      return false;
+    }
     // A field tells up to about a cell less than there is.
-    const LaneField& field = model_.obstacles.fields[obstacle.first];
-    return clearance(field, inFrame(field, x, true), set(enough), lanes) + set(field.cell);
+    const F8 depths = set(node.radius - 0.5F * node.beyond - field.cell) - answer.middle;
+    const bool final = node.beyond > enough_;
+    if (scratch_.queries.size() < kMostQueries && (hit.lanes & ~answer.worthQuery) != hit.lanes) {
+      LaneQuery& query = scratch_.queries.emplace_back();
+      query.field = index;
+      query.pair = pair;
+      query.lanes = hit.lanes & answer.worthQuery;
+      query.outside = above(answer.middle, set(0.0F));
+      query.final = final;
+      store3(segment.x, query.x);
+      store3(segment.g, query.g);
+      store(radius, query.radius);
+      store(depths, query.depth);
+      hit.lanes &= ~query.lanes;
+    }
+    if (hit.lanes != 0) leaveOpen(block_, pair, hit.lanes, final, depths);
+    return false;
+  }
+
+  void settleQueries() {
+    for (const LaneQuery& query : scratch_.queries) {
+      Lanes left = query.lanes & ~block_.contactLanes;
+      left &= ~static_cast<Lanes>(block_.openLanes[query.pair]);
+      const LaneField& field = model_.obstacles.fields[query.field];
+      // One that stays open leaves the pair open: the others are not worth the time.
+      for (; left != 0; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        const bool outside = (query.outside >> lane & 1U) != 0;
+        if (!isApart(field, pointOf(query.x, query.g, lane), query.radius.lane[lane], outside))
+          break;
+      }
+      if (left != 0) leaveOpen(block_, query.pair, left, query.final, load(query.depth));
+    }
   }
 
   /// At a middle, the centre is so near that the obstacle reaches into the link.
@@ -169,55 +215,37 @@ class WorldWalk {
     return lanes != 0 && claim(block_, pair, lanes, segment.x, within);
   }
 
-  /// Lanes in which the obstacle is known to reach within that distance of the middle; at least the
-  /// first one.
+  /// Lanes in which the obstacle is known to reach within that distance of the middle.
   Lanes lanesNear(const LaneObstacle& obstacle, const Segment& segment, float within,
                   Lanes lanes) const {
     const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
-    switch (obstacle.near) {
-      case NearProof::None:
-        return 0;
-      case NearProof::Inside:
-        return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(1e-30F));
-      case NearProof::Distance:
-        return lanes & below(squaredDistance(model_.obstacles, obstacle, middle),
-                             set(0.9F * within * within));
-      case NearProof::Query:
-        break;
-    }
-    const LaneField& field = model_.obstacles.fields[obstacle.first];
+    const float most = obstacle.near == NearProof::Distance ? 0.9F * within * within : 1e-30F;
+    if (obstacle.near == NearProof::None) return 0;
+    return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(most));
+  }
+
+  /// The same of a field: the first lane that a query confirms. `bounds`: m, on the distance.
+  bool touchesField(const LaneNode& node, const Segment& segment, const LaneField& field,
+                    const F8& bounds, Lanes lanes, std::uint32_t pair) {
+    if (!block_.stopAtContact) return false;
+    const float within = node.inside - scratch_.rounding;
+    if (!(within > 0.0F)) return false;
+    const Lanes outside = above(bounds, set(0.0F));
     // Sure enough not to ask often in vain.
-    const F8 sure = set(within - 0.5F * field.cell);
-    const F8 least = clearance(field, inFrame(field, segment.x, true), sure, lanes);
-    const Lanes outside = above(least, set(0.0F));
-    for (Lanes left = lanes & below(least, sure); left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      if (reaches(field, pointOf(middle, lane), within, (outside >> lane & 1U) != 0))
-        return 1U << lane;
-    }
-    return 0;
-  }
-
-  static Lanes provenApart(const LaneField& field, const Segment& segment, const F8& radius,
-                           Lanes lanes, Lanes outside) {
-    Row radii;
-    store(radius, radii);
-    Lanes apart = 0;
-    for (Lanes left = lanes; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      // One that stays open leaves the pair open: the others are not worth the time.
-      if (!isApart(field, pointOf(segment, lane), radii.lane[lane], (outside >> lane & 1U) != 0))
-        break;
-      apart |= 1U << lane;
-    }
-    return apart;
-  }
-
-  static MovingPoint pointOf(const Segment& segment, int lane) {
+    Lanes left = lanes & below(bounds, set(within - 0.5F * field.cell));
+    if (left == 0) return false;
     Row x[3];
-    Row g[3];
     store3(segment.x, x);
-    store3(segment.g, g);
+    const Row still[3] = {};
+    for (; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if (reaches(field, pointOf(x, still, lane), within, (outside >> lane & 1U) != 0))
+        return claim(block_, pair, 1U << lane, segment.x, within);
+    }
+    return false;
+  }
+
+  static MovingPoint pointOf(const Row (&x)[3], const Row (&g)[3], int lane) {
     MovingPoint point;
     for (int i = 0; i < 3; ++i) {
       point.x[i] = x[i].lane[lane];
@@ -226,6 +254,8 @@ class WorldWalk {
     return point;
   }
 
+  /// Put off at most: the time of a query is that of several nodes.
+  static constexpr std::size_t kMostQueries = 128;
   /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings behind.
   static constexpr int kMostPending = 64;
 
