@@ -30,6 +30,19 @@ void lowerRow(Squared* __restrict to, const Squared* __restrict from, Squared ga
   for (int i = 0; i < count; ++i) to[i] = std::min(to[i], static_cast<Squared>(from[i] + gap));
 }
 
+/// The same of few, all of which are read before any is written: what the compiler makes vectors
+/// of without asking whether the two overlap.
+template <int kCount>
+void lowerRow(Squared* to, const Squared* from, Squared gap) {
+  std::array<Squared, kCount> least;
+  for (int i = 0; i < kCount; ++i) {
+    const auto found = static_cast<Squared>(from[i] + gap);
+    const Squared known = to[i];
+    least[i] = found < known ? found : known;
+  }
+  std::copy_n(least.data(), kCount, to);
+}
+
 /// Steps that are not above the root of a squared gap, by more than roundings.
 class Steps {
  public:
@@ -61,11 +74,11 @@ class CellDistances {
       cutAfter_[i] = std::isinf(field.upper[i]);
     }
     squared_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2], kUnknown);
-    std::size_t i = 0;
-    for (int z = 0; z < count_[2]; ++z)
-      for (int y = 0; y < count_[1]; ++y)
-        for (int x = 0; x < count_[0]; ++x, ++i)
-          if (voxels.cell(x, y, z)) squared_[i] = 0;
+    const auto [nx, ny, nz] = voxels.blocks();
+    for (int z = 0; z < nz; ++z)
+      for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x)
+          if (!voxels.empty(x, y, z)) markBlock(voxels, x, y, z);
     spreadAlongX();
     spreadAlong(1);
     spreadAlong(2);
@@ -83,6 +96,13 @@ class CellDistances {
  private:
   std::size_t indexOf(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * count_[1] + y) * count_[0] + x;
+  }
+
+  void markBlock(const Voxels& voxels, int x, int y, int z) {
+    for (int i = 0; i < 8; ++i) {
+      const int cell[3] = {2 * x + (i & 1), 2 * y + (i >> 1 & 1), 2 * z + (i >> 2)};
+      if (voxels.cell(cell[0], cell[1], cell[2])) squared_[indexOf(cell[0], cell[1], cell[2])] = 0;
+    }
   }
 
   /// Gaps to what is marked, and to where the window cut the shape.
@@ -116,7 +136,8 @@ class CellDistances {
         const int before = cutBefore_[axis] ? i + 1 : kFarthest;
         const int after = cutAfter_[axis] ? count - i : kFarthest;
         lowerRow(to, gapSquared(std::min({before, after, kFarthest})), nx);
-        for (int k = 1; k < kFarthest; ++k) {
+        const Squared most = *std::max_element(to, to + nx);
+        for (int k = 1; k < kFarthest && gapSquared(k) < most; ++k) {
           if (i >= k) lowerRow(to, source - k * stride, gapSquared(k), nx);
           if (i + k < count) lowerRow(to, source + k * stride, gapSquared(k), nx);
         }
@@ -137,6 +158,7 @@ class BrickDistances {
   BrickDistances(const Voxels& voxels, ClearanceField& field)
       : voxels_(voxels), field_(field), steps_(static_cast<double>(field.voxel), kMost) {
     field.fineStep = steps_.step();
+    for (int i = 0; i < 64; ++i) toBorder_[i] = toBorder(i % 4, i / 16, i / 4 % 4);
     for (int row = 0; row < (1 << kWindow); ++row) {
       for (int x = 0; x < 4; ++x) {
         Squared least = kUnknown;
@@ -149,14 +171,16 @@ class BrickDistances {
 
   void store() {
     const auto [nx, ny, nz] = field_.blocks;
-    field_.bricks.assign(static_cast<std::size_t>(nx) * ny * nz, 0);
+    const std::vector<std::uint8_t> near = findNear();
+    field_.bricks.assign(near.size(), 0);
     field_.voxels.assign(16, 0);
+    std::size_t i = 0;
     for (int z = 0; z < nz; ++z) {
       for (int y = 0; y < ny; ++y) {
-        for (int x = 0; x < nx; ++x) {
-          if (voxels_.block(x, y, z) == Voxels::kFull || !look(x, y, z)) continue;
-          field_.bricks[voxels_.blockIndex(x, y, z)] =
-              static_cast<std::int32_t>(field_.voxels.size() / 16);
+        for (int x = 0; x < nx; ++x, ++i) {
+          if (near[i] == 0 || voxels_.block(x, y, z) == Voxels::kFull) continue;
+          look(x, y, z);
+          field_.bricks[i] = static_cast<std::int32_t>(field_.voxels.size() / 16);
           spread();
         }
       }
@@ -167,14 +191,33 @@ class BrickDistances {
   static constexpr int kWindow = 12;  ///< voxels: three blocks
   static constexpr double kMost = 5.5;
 
-  /// The blocks around; false: they are empty.
-  bool look(int x, int y, int z) {
-    bool any = false;
-    for (int i = 0; i < 27; ++i) {
-      around_[i] = maskAt(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
-      any = any || around_[i] != 0;
+  /// Blocks that are not empty, those around them, and those where the window cut the shape.
+  std::vector<std::uint8_t> findNear() const {
+    const auto [nx, ny, nz] = field_.blocks;
+    std::vector<std::uint8_t> near(static_cast<std::size_t>(nx) * ny * nz, 0);
+    const auto isCut = [&](int axis, int at) {
+      return (at == 0 && std::isinf(field_.lower[axis])) ||
+             (at + 1 == field_.blocks[axis] && std::isinf(field_.upper[axis]));
+    };
+    for (int z = 0; z < nz; ++z) {
+      for (int y = 0; y < ny; ++y) {
+        for (int x = 0; x < nx; ++x) {
+          if (isCut(0, x) || isCut(1, y) || isCut(2, z)) near[voxels_.blockIndex(x, y, z)] = 1;
+          if (voxels_.empty(x, y, z)) continue;
+          for (int k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k)
+            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)
+              for (int i = std::max(x - 1, 0); i <= std::min(x + 1, nx - 1); ++i)
+                near[voxels_.blockIndex(i, j, k)] = 1;
+        }
+      }
     }
-    return any;
+    return near;
+  }
+
+  /// At the blocks around.
+  void look(int x, int y, int z) {
+    for (int i = 0; i < 27; ++i)
+      around_[i] = maskAt(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
   }
 
   Mask maskAt(int x, int y, int z) const {
@@ -188,30 +231,46 @@ class BrickDistances {
 
   void spread() {
     std::array<Squared, kWindow * kWindow * 4> rows;
-    for (int z = 0; z < kWindow; ++z) {
-      for (int y = 0; y < kWindow; ++y) {
-        const Mask* blocks = &around_[3 * (y / 4) + 9 * (z / 4)];
-        const int shift = 4 * (y % 4) + 16 * (z % 4);
-        const auto bits = (blocks[0] >> shift & 15U) | (blocks[1] >> shift & 15U) << 4 |
-                          (blocks[2] >> shift & 15U) << 8;
-        std::ranges::copy(ofRow_[bits], &rows[4 * (kWindow * z + y)]);
+    rows.fill(kUnknown);
+    std::array<unsigned, kWindow> ofY{};  // bits of all rows at a y, and at a z: most are empty
+    std::array<unsigned, kWindow> ofZ{};
+    for (int i = 0; i < 9; ++i) {
+      const Mask* blocks = &around_[3 * i];
+      if ((blocks[0] | blocks[1] | blocks[2]) == 0) continue;
+      for (int j = 0; j < 16; ++j) {
+        const int shift = 4 * j;
+        const auto bits =
+            static_cast<unsigned>((blocks[0] >> shift & 15U) | (blocks[1] >> shift & 15U) << 4 |
+                                  (blocks[2] >> shift & 15U) << 8);
+        const int y = 4 * (i % 3) + j % 4;
+        const int z = 4 * (i / 3) + j / 4;
+        ofY[y] |= bits;
+        ofZ[z] |= bits;
+        std::copy_n(ofRow_[bits].data(), 4, &rows[4 * (kWindow * z + y)]);
       }
     }
     std::array<Squared, 4 * kWindow * 4> columns;
     columns.fill(kUnknown);
-    for (int z = 0; z < 4; ++z)
+    for (int from = 0; from < kWindow; ++from) {
+      if (ofZ[from] == 0) continue;
+      for (int z = 0; z < 4; ++z)
+        lowerRow<4 * kWindow>(&columns[4 * kWindow * z], &rows[4 * kWindow * from],
+                              gapSquared(std::abs(from - 4 - z)));
+    }
+    // With z before y, so that the next step, too, goes through long rows.
+    std::array<Squared, kWindow * 16> turned;
+    for (int y = 0; y < kWindow; ++y)
+      for (int z = 0; z < 4; ++z)
+        std::copy_n(&columns[4 * (kWindow * z + y)], 4, &turned[16 * y + 4 * z]);
+    std::array<Squared, 64> least = toBorder_;
+    for (int y = 0; y < 4; ++y)
       for (int from = 0; from < kWindow; ++from)
-        lowerRow(&columns[4 * kWindow * z], &rows[4 * kWindow * from],
-                 gapSquared(std::abs(from - 4 - z)), 4 * kWindow);
+        if (ofY[from] != 0)
+          lowerRow<16>(&least[16 * y], &turned[16 * from], gapSquared(std::abs(from - 4 - y)));
     for (int z = 0; z < 4; ++z) {
       for (int y = 0; y < 4; ++y) {
-        std::array<Squared, 4> least;
-        for (int x = 0; x < 4; ++x) least[x] = toBorder(x, y, z);
-        for (int from = 0; from < kWindow; ++from)
-          lowerRow(least.data(), &columns[4 * (kWindow * z + from)],
-                   gapSquared(std::abs(from - 4 - y)), 4);
         std::uint32_t word = 0;
-        for (int x = 0; x < 4; ++x) word |= steps_(least[x]) << (8 * x);
+        for (int x = 0; x < 4; ++x) word |= steps_(least[16 * y + 4 * z + x]) << (8 * x);
         field_.voxels.push_back(word);
       }
     }
@@ -228,6 +287,7 @@ class BrickDistances {
   ClearanceField& field_;
   Steps steps_;
   std::array<std::array<Squared, 4>, 1 << kWindow> ofRow_;
+  std::array<Squared, 64> toBorder_;  ///< x, then z, then y
   std::array<Mask, 27> around_{};
 };
 

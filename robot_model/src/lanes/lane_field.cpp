@@ -21,7 +21,7 @@ bool wantsField(const WorldGeometry& geometry) {
 }
 
 /// Cells of one field and of all of a world.
-constexpr std::size_t kMostFieldCells = std::size_t{1} << 20;
+constexpr std::size_t kMostFieldCells = std::size_t{1} << 19;
 constexpr std::size_t kLeastFieldCells = std::size_t{1} << 12;
 constexpr std::size_t kMostCells = std::size_t{1} << 22;
 
