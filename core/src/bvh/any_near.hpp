@@ -8,7 +8,6 @@
 #include <cstdint>
 
 #include "bvh/wide_bvh.hpp"
-#include "cover/rounded.hpp"
 #include "simd/segment_boxes.hpp"
 #include "swept/core/segment_query.hpp"
 
@@ -41,10 +40,13 @@ bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, cons
       near.half[i] = static_cast<float>(segment.half[i]);
       size += std::abs(center) + std::abs(segment.half[i]);
     }
-    const double reach = radius + 48.0 * 0x1p-24 * size;
+    // Lemma: see segmentBoxes. The square, rounded to single precision, is off by less than one
+    // more 2^-24 of the size: no bound is larger than that, so where the square is nothing is left
+    // out.
+    const double reach = radius + 50.0 * 0x1p-24 * size;
     alignas(32) std::array<float, WideNode::kLanes> squared;
     const int first = pending;
-    for (std::uint32_t open = segmentBoxes(node, near, roundedUp(reach * reach), squared);
+    for (std::uint32_t open = segmentBoxes(node, near, static_cast<float>(reach * reach), squared);
          open != 0; open &= open - 1) {
       const int lane = std::countr_zero(open);
       int at = pending++;  // the nearest on top
