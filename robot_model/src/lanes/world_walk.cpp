@@ -231,8 +231,8 @@ class WorldWalk {
     const float within = node.inside - scratch_.rounding;
     if (!(within > 0.0F)) return false;
     const Lanes outside = above(bounds, set(0.0F));
-    // Sure enough not to ask often in vain.
-    Lanes left = lanes & below(bounds, set(within - 0.5F * field.cell));
+    // Not sure, but a query costs less than what is left open.
+    Lanes left = lanes & below(bounds, set(within - 0.25F * field.cell));
     if (left == 0) return false;
     Row x[3];
     store3(segment.x, x);
@@ -255,7 +255,7 @@ class WorldWalk {
   }
 
   /// Put off at most: the time of a query is that of several nodes.
-  static constexpr std::size_t kMostQueries = 128;
+  static constexpr std::size_t kMostQueries = 256;
   /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings behind.
   static constexpr int kMostPending = 64;
 
