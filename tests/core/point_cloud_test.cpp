@@ -111,6 +111,37 @@ TEST(PointCloud, DistanceIsThatOfItsNearestBall) {
   EXPECT_LT(touching, total * 9 / 10);
 }
 
+/// The surface is nowhere near; only that one point is inside tells of the contact.
+TEST(PointCloud, OneBallInsideAMeshIsAContact) {
+  std::mt19937 random(13);
+  const test::Soup soup = test::boxSoup({-0.2, -0.3, -0.5}, {0.2, 0.3, 0.5});
+  const TriangleMesh solid = TriangleMesh::build(soup.vertices, soup.triangles);
+  const TriangleMesh surface =
+      TriangleMesh::build(soup.vertices, soup.triangles, MeshInterior::Surface);
+  for (int i = 0; i < 60; ++i) {
+    const Isometry3d mesh_from_cloud = test::randomPose(random, 1.0);
+    std::vector<Vector3d> points;
+    while (points.size() < 300) {
+      const Vector3d at = test::uniformPoint(random, 1.0);
+      const Vector3d beyond = at.cwiseAbs() - Vector3d(0.2, 0.3, 0.5);
+      if (beyond.maxCoeff() > 0.02) points.push_back(mesh_from_cloud.inverse() * at);
+    }
+    const bool contact = i % 2 == 0;
+    const Vector3d inside = 0.15 * test::unitVector(random);
+    if (contact) points[random() % 300] = mesh_from_cloud.inverse() * inside;
+    const PointCloud cloud = PointCloud::build(points, 0.01);
+    const DistanceResult found = distance(solid, cloud, mesh_from_cloud);
+    const DistanceResult swapped = distance(cloud, solid, mesh_from_cloud.inverse());
+    EXPECT_EQ(found.upper == 0.0, contact);
+    EXPECT_EQ(swapped.upper == 0.0, contact);
+    if (contact) {
+      EXPECT_LT((found.pointA - inside).norm(), 1e-12);
+      EXPECT_LT((mesh_from_cloud * swapped.pointA - inside).norm(), 1e-12);
+    }
+    EXPECT_GT(distance(surface, cloud, mesh_from_cloud).upper, 0.0);
+  }
+}
+
 TEST(PointCloud, AgreesWithTheOtherBackend) {
   std::mt19937 random(4);
   const PointCloud cloud = PointCloud::build(randomPoints(random, 15), 0.02);

@@ -268,13 +268,13 @@ TEST(ClearanceField, ProvesOnlySegmentsThatAreApart) {
         point.x[k] = static_cast<float>(p[k]);
         point.g[k] = static_cast<float>(g[k]);
       }
-      const bool apart = isApart(field, point, radius);
+      const bool apart = isApart(field, point, radius, false);
       if (answer.apart != 0 || apart) {
         ASSERT_GT(least, static_cast<double>(radius)) << i;
       }
       proven += answer.apart != 0;
       queried += apart && answer.apart == 0;
-      const bool near = reaches(field, point, radius);
+      const bool near = reaches(field, point, radius, false);
       const DistanceResult middle = exactly(scene.shape, scene.world_from_shape, p);
       if (near) {
         ASSERT_LE(middle.lower, static_cast<double>(radius));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "narrowphase/cloud_enclosure.hpp"
 #include "narrowphase/convex_pair.hpp"
 
 namespace swept::detail {
@@ -267,6 +268,16 @@ class Search {
   /// side of the mesh's surface then, and so does each connected component of a mesh and each ball
   /// of a cloud: one point of each tells.
   void lookForEnclosure() {
+    if (a_.mesh != nullptr && b_.cloud != nullptr) {
+      const auto point = enclosedPoint(*a_.mesh, *b_.cloud, a_from_b_);
+      if (point) contactAt(a_from_b_ * *point);
+      return;
+    }
+    if (a_.cloud != nullptr && b_.mesh != nullptr) {
+      const auto point = enclosedPoint(*b_.mesh, *a_.cloud, a_from_b_.inverse());
+      if (point) contactAt(*point);
+      return;
+    }
     if (a_.mesh != nullptr) {
       for (const Vector3d& point : representatives(b_)) {
         const Vector3d inA = a_from_b_ * point;
@@ -283,7 +294,6 @@ class Search {
 
   std::span<const Vector3d> representatives(const Side& side) {
     if (side.mesh != nullptr) return side.mesh->componentPoints();
-    if (side.cloud != nullptr) return side.cloud->points();
     ownPoint_ = side.convex.support(Vector3d::UnitX());
     return {&ownPoint_, 1};
   }

@@ -67,7 +67,7 @@ class MotionProver {
       if (!prover_.start(from_, to_)) return false;
       prover_.query_.moveTo(t);
       const Eigen::Vector3d at = prover_.query_.placed(
-          pair, prover_.model_.lanes.hulls.inBody[static_cast<std::size_t>(point)]);
+          pair, prover_.model_.lanes.hulls->inBody[static_cast<std::size_t>(point)]);
       prover_.certificate_.witness = pointWitness(prover_.model_, pair, at, t);
       return prover_.certificate_.witness.has_value();
     }

@@ -5,238 +5,17 @@
 #include <cmath>
 #include <limits>
 
-#include "lanes/voxels.hpp"
+#include "lanes/field_distances.hpp"
 
 namespace swept::detail {
 
 namespace {
 
 using Eigen::Vector3d;
-using Mask = Voxels::Mask;
 
 /// m. Finer voxels than this are not worth their memory.
 constexpr double kFinestVoxel = 0.003;
-/// Cells, as far as their values reach.
-constexpr int kFarthest = 20;
-/// Twice a gap in cells, squared: gaps are whole or half cells, so sums of these are exact.
-using Squared = std::int16_t;
-constexpr Squared kUnknown = (2 * kFarthest) * (2 * kFarthest);
-static_assert(3 * kUnknown <= std::numeric_limits<Squared>::max());
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// The gap between the middle of a cell and the `k`-th cell from it, along one axis.
-constexpr Squared gapSquared(int k) {
-  return k == 0 ? Squared{0} : static_cast<Squared>((2 * k - 1) * (2 * k - 1));
-}
-
-void lowerRow(Squared* to, Squared most, int count) {
-  for (int i = 0; i < count; ++i) to[i] = std::min(to[i], most);
-}
-void lowerRow(Squared* __restrict to, const Squared* __restrict from, Squared gap, int count) {
-  for (int i = 0; i < count; ++i) to[i] = std::min(to[i], static_cast<Squared>(from[i] + gap));
-}
-
-/// Steps that are not above the root of a squared gap, by more than roundings.
-class Steps {
- public:
-  /// `side`: m, of cells or voxels; `most`: of those, a gap.
-  Steps(double side, double most) : units_(kUnknown + 1) {
-    step_ = static_cast<float>(side * most / 255.0);
-    for (int value = 0; value <= kUnknown; ++value) {
-      const double gap = 0.5 * std::sqrt(static_cast<double>(value)) * side * (1.0 - 1e-6);
-      const double units = std::floor(gap / static_cast<double>(step_));
-      units_[value] = static_cast<std::uint32_t>(std::min(units, 255.0));
-    }
-  }
-  std::uint32_t operator()(Squared value) const { return units_[value]; }
-  float step() const { return step_; }
-
- private:
-  std::vector<std::uint32_t> units_;
-  float step_;
-};
-
-/// Distances of all cells from the marked ones, exact for whole cells: the least over an axis of
-/// the least over another (Saito, Toriwaki 1994).
-class CellDistances {
- public:
-  CellDistances(const Voxels& voxels, const ClearanceField& field) {
-    for (int i = 0; i < 3; ++i) {
-      count_[i] = 2 * voxels.blocks()[i];
-      cutBefore_[i] = std::isinf(field.lower[i]);
-      cutAfter_[i] = std::isinf(field.upper[i]);
-    }
-    squared_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2], kUnknown);
-    std::size_t i = 0;
-    for (int z = 0; z < count_[2]; ++z)
-      for (int y = 0; y < count_[1]; ++y)
-        for (int x = 0; x < count_[0]; ++x, ++i)
-          if (voxels.cell(x, y, z)) squared_[i] = 0;
-    spreadAlongX();
-    spreadAlong(1);
-    spreadAlong(2);
-  }
-
-  void store(ClearanceField& field) const {
-    // What no value says of is at least this far.
-    const Steps steps(2.0 * static_cast<double>(field.voxel), kFarthest - 0.5);
-    field.step = steps.step();
-    field.cells.assign(squared_.size() / 4 + 1, 0);
-    for (std::size_t i = 0; i < squared_.size(); ++i)
-      field.cells[i / 4] |= steps(squared_[i]) << (8 * (i % 4));
-  }
-
- private:
-  std::size_t indexOf(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * count_[1] + y) * count_[0] + x;
-  }
-
-  /// Gaps to what is marked, and to where the window cut the shape.
-  void spreadAlongX() {
-    const int count = count_[0];
-    for (std::size_t row = 0; row < squared_.size(); row += count) {
-      int gap = cutBefore_[0] ? 0 : kFarthest;
-      const auto pass = [&](Squared& value) {
-        gap = value == 0 ? 0 : std::min(gap + 1, kFarthest);
-        if (gap < kFarthest) value = std::min(value, gapSquared(gap));
-      };
-      for (int i = 0; i < count; ++i) pass(squared_[row + i]);
-      gap = cutAfter_[0] ? 0 : kFarthest;
-      for (int i = count; i-- > 0;) pass(squared_[row + i]);
-    }
-  }
-
-  /// The least of what the cells of each line along an axis have, plus the square of the gap to
-  /// them. Lines that are neighbours along x are done together.
-  void spreadAlong(int axis) {
-    const int nx = count_[0];
-    const int count = count_[axis];
-    const int others = axis == 1 ? count_[2] : count_[1];
-    const std::ptrdiff_t stride = axis == 1 ? nx : std::ptrdiff_t{nx} * count_[1];
-    const std::vector<Squared> from = squared_;
-    for (int other = 0; other < others; ++other) {
-      const std::size_t begin = axis == 1 ? indexOf(0, 0, other) : indexOf(0, other, 0);
-      for (int i = 0; i < count; ++i) {
-        Squared* const to = &squared_[begin + i * stride];
-        const Squared* const source = &from[begin + i * stride];
-        const int before = cutBefore_[axis] ? i + 1 : kFarthest;
-        const int after = cutAfter_[axis] ? count - i : kFarthest;
-        lowerRow(to, gapSquared(std::min({before, after, kFarthest})), nx);
-        for (int k = 1; k < kFarthest; ++k) {
-          if (i >= k) lowerRow(to, source - k * stride, gapSquared(k), nx);
-          if (i + k < count) lowerRow(to, source + k * stride, gapSquared(k), nx);
-        }
-      }
-    }
-  }
-
-  std::array<int, 3> count_;
-  std::array<bool, 3> cutBefore_;
-  std::array<bool, 3> cutAfter_;
-  std::vector<Squared> squared_;
-};
-
-/// Distances of the voxels of blocks from the marked ones of the blocks around. Beyond these
-/// anything may be, so no distance is larger than that to their border.
-class BrickDistances {
- public:
-  BrickDistances(const Voxels& voxels, ClearanceField& field)
-      : voxels_(voxels), field_(field), steps_(static_cast<double>(field.voxel), kMost) {
-    field.fineStep = steps_.step();
-    for (int row = 0; row < (1 << kWindow); ++row) {
-      for (int x = 0; x < 4; ++x) {
-        Squared least = kUnknown;
-        for (int k = 0; k < kWindow; ++k)
-          if ((row >> k & 1) != 0) least = std::min(least, gapSquared(std::abs(k - 4 - x)));
-        ofRow_[row][x] = least;
-      }
-    }
-  }
-
-  void store() {
-    const auto [nx, ny, nz] = field_.blocks;
-    field_.bricks.assign(static_cast<std::size_t>(nx) * ny * nz, 0);
-    field_.voxels.assign(16, 0);
-    for (int z = 0; z < nz; ++z) {
-      for (int y = 0; y < ny; ++y) {
-        for (int x = 0; x < nx; ++x) {
-          if (voxels_.block(x, y, z) == Voxels::kFull || !look(x, y, z)) continue;
-          field_.bricks[voxels_.blockIndex(x, y, z)] =
-              static_cast<std::int32_t>(field_.voxels.size() / 16);
-          spread();
-        }
-      }
-    }
-  }
-
- private:
-  static constexpr int kWindow = 12;  ///< voxels: three blocks
-  static constexpr double kMost = 5.5;
-
-  /// The blocks around; false: they are empty.
-  bool look(int x, int y, int z) {
-    bool any = false;
-    for (int i = 0; i < 27; ++i) {
-      around_[i] = maskAt(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
-      any = any || around_[i] != 0;
-    }
-    return any;
-  }
-
-  Mask maskAt(int x, int y, int z) const {
-    const std::array<int, 3> at = {x, y, z};
-    for (int i = 0; i < 3; ++i) {
-      if (at[i] < 0) return std::isinf(field_.lower[i]) ? Voxels::kFull : 0;
-      if (at[i] >= field_.blocks[i]) return std::isinf(field_.upper[i]) ? Voxels::kFull : 0;
-    }
-    return voxels_.block(x, y, z);
-  }
-
-  void spread() {
-    std::array<Squared, kWindow * kWindow * 4> rows;
-    for (int z = 0; z < kWindow; ++z) {
-      for (int y = 0; y < kWindow; ++y) {
-        const Mask* blocks = &around_[3 * (y / 4) + 9 * (z / 4)];
-        const int shift = 4 * (y % 4) + 16 * (z % 4);
-        const auto bits = (blocks[0] >> shift & 15U) | (blocks[1] >> shift & 15U) << 4 |
-                          (blocks[2] >> shift & 15U) << 8;
-        std::ranges::copy(ofRow_[bits], &rows[4 * (kWindow * z + y)]);
-      }
-    }
-    std::array<Squared, 4 * kWindow * 4> columns;
-    columns.fill(kUnknown);
-    for (int z = 0; z < 4; ++z)
-      for (int from = 0; from < kWindow; ++from)
-        lowerRow(&columns[4 * kWindow * z], &rows[4 * kWindow * from],
-                 gapSquared(std::abs(from - 4 - z)), 4 * kWindow);
-    for (int z = 0; z < 4; ++z) {
-      for (int y = 0; y < 4; ++y) {
-        std::array<Squared, 4> least;
-        for (int x = 0; x < 4; ++x) least[x] = toBorder(x, y, z);
-        for (int from = 0; from < kWindow; ++from)
-          lowerRow(least.data(), &columns[4 * (kWindow * z + from)],
-                   gapSquared(std::abs(from - 4 - y)), 4);
-        std::uint32_t word = 0;
-        for (int x = 0; x < 4; ++x) word |= steps_(least[x]) << (8 * x);
-        field_.voxels.push_back(word);
-      }
-    }
-  }
-
-  /// Of the window, from the middle of a voxel.
-  static Squared toBorder(int x, int y, int z) {
-    const auto along = [](int i) { return 2 * std::min(4 + i, 7 - i) + 1; };
-    const int least = std::min({along(x), along(y), along(z)});
-    return static_cast<Squared>(least * least);
-  }
-
-  const Voxels& voxels_;
-  ClearanceField& field_;
-  Steps steps_;
-  std::array<std::array<Squared, 4>, 1 << kWindow> ofRow_;
-  std::array<Mask, 27> around_{};
-};
-
 /// m, side of voxels such that not too many are to be marked.
 double sideFor(const TriangleMesh& mesh, const Aabb& window) {
   constexpr double kMostMarks = 8e6;
@@ -290,8 +69,7 @@ Voxels layOut(const Aabb& box, const Aabb& window, double least, std::size_t cel
 }
 
 std::shared_ptr<const ClearanceField> measured(const Voxels& voxels, ClearanceField& field) {
-  CellDistances(voxels, field).store(field);
-  BrickDistances(voxels, field).store();
+  measureDistances(voxels, field);
   return std::make_shared<const ClearanceField>(std::move(field));
 }
 

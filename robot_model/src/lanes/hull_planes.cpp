@@ -117,8 +117,8 @@ class DividedPair {
   }
 
   bool canDivide() const {
-    if (model_.hulls.of[source_.geometry].count == 0) return false;
-    if (self_) return model_.hulls.of[source_.other].count > 0;
+    if (model_.hulls->of[source_.geometry].count == 0) return false;
+    if (self_) return model_.hulls->of[source_.other].count > 0;
     return hasReach(model_.obstacles.obstacles[source_.obstacle].kind);
   }
 
@@ -153,14 +153,14 @@ class DividedPair {
   /// for s = -1 and s = 1, so between them too: the largest over a body is convex in s.
   F8 gap(const V3& direction) const {
     const V3 n = (set(1.0F) / root(larger(dot(direction, direction), set(1e-20F)))) * direction;
-    const Reach ofA = reachOf(model_.hulls, model_.hulls.of[source_.geometry], n,
+    const Reach ofA = reachOf(*model_.hulls, model_.hulls->of[source_.geometry], n,
                               block_.states[bodyA_], motionOf(bodyA_));
     const V3 back = {-n.x, -n.y, -n.z};
     if (!self_) {
       const LaneObstacle& obstacle = model_.obstacles.obstacles[source_.obstacle];
       return -(larger(ofA.before, ofA.after) + reachOf(model_.obstacles, obstacle, back));
     }
-    const Reach ofB = reachOf(model_.hulls, model_.hulls.of[source_.other], back,
+    const Reach ofB = reachOf(*model_.hulls, model_.hulls->of[source_.other], back,
                               block_.states[bodyB_], motionOf(bodyB_));
     return -larger(ofA.before + ofB.before, ofA.after + ofB.after);
   }

@@ -7,7 +7,7 @@ float accelerationOfPoints(const LaneModel& model, int index, int geometry, Lane
   const LaneReference& reference = model.references[index];
   boundSteps(reference, scratch);
   const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
-  const float* arms = model.hulls.arms.data() + model.hulls.of[geometry].firstArm;
+  const float* arms = model.hulls->arms.data() + model.hulls->of[geometry].firstArm;
   float sum = 0.0F;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const int step = reference.slot[path[i]];

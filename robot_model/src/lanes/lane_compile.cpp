@@ -123,8 +123,8 @@ class LaneCompiler {
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       addInnerBalls(static_cast<int>(i));
       addProbes(static_cast<int>(i));
-      addHull(model_.robotGeometry[i]);
     }
+    addHulls();
   }
 
   void addBodyCover(std::size_t body, const std::vector<int>& geometries) {
@@ -232,9 +232,16 @@ class LaneCompiler {
     }
   }
 
-  void addHull(const RobotGeometry& geometry) {
-    lanes_.hulls.add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
-                     geometry.levers.arms);
+  void addHulls() {
+    if (like_ != nullptr) {
+      lanes_.hulls = like_->hulls;
+      return;
+    }
+    auto hulls = std::make_shared<LaneHulls>();
+    for (const RobotGeometry& geometry : model_.robotGeometry)
+      hulls->add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
+                 geometry.levers.arms);
+    lanes_.hulls = std::move(hulls);
   }
 
   void setCenter(LaneNode& node, const RobotGeometry& geometry,

@@ -104,8 +104,8 @@ struct LaneModel {
     Row inside;   ///< m
   };
   std::vector<Probes> probes;
-  std::vector<InnerBalls> probesOf;  ///< per geometry, into `probes`
-  LaneHulls hulls;                   ///< per geometry
+  std::vector<InnerBalls> probesOf;        ///< per geometry, into `probes`
+  std::shared_ptr<const LaneHulls> hulls;  ///< those of a checker for another world are shared
   std::vector<int> geometryBody;
   std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
   std::vector<LaneReference> references;  ///< [0]: the model frame

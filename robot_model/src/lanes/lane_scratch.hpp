@@ -87,6 +87,20 @@ struct LaneBounds {
   std::vector<Row> acceleration;  ///< m per unit t squared; lanes: bodies
 };
 
+/// A leaf that the field of an obstacle is too coarse for: exactly, is the obstacle farther than
+/// the radius from the segments x +- g?
+struct LaneQuery {
+  Row x[3];    ///< m
+  Row g[3];    ///< m
+  Row radius;  ///< m
+  Row depth;   ///< m; as for leaveOpen
+  std::int32_t field;
+  std::uint32_t pair;
+  std::uint32_t lanes;
+  std::uint32_t outside;  ///< lanes in which the obstacle does not contain x
+  bool final;             ///< shorter intervals would not help
+};
+
 struct LaneScratch {
   explicit LaneScratch(const LaneModel& model);
   void restBase(const LaneModel& model);
@@ -113,6 +127,7 @@ struct LaneScratch {
     std::uint32_t lanes = 0;
   };
   std::vector<SelfVisit> selfVisits;
+  std::vector<LaneQuery> queries;
   float rounding = 0.0F;      ///< m, of this motion
   bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
   /// Sub-intervals with the pairs still open on them: now, and of the next halving.

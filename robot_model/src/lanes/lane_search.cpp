@@ -6,6 +6,7 @@
 
 #include "lanes/lane_division.hpp"
 #include "lanes/lane_kinematics.hpp"
+#include "lanes/link_points.hpp"
 #include "lanes/self_walk.hpp"
 #include "lanes/world_walk.hpp"
 

@@ -226,6 +226,7 @@ HWY_INLINE V3 inFrame(const LaneField& field, const V3& x, bool moved) {
 struct FieldAnswer {
   Lanes apart = 0;       ///< the obstacle is farther than the radius from the whole segment
   Lanes worthQuery = 0;  ///< of the others: the field may be what is too coarse
+  F8 middle;             ///< m; a bound for the segment's middle
 };
 
 /// Lemma: the ball around the middle x with x's clearance less the radius covers a part of the
@@ -234,11 +235,11 @@ HWY_INLINE FieldAnswer askField(const LaneField& field, const Segment& segment, 
                                 Lanes wanted) {
   const V3 x = inFrame(field, segment.x, true);
   const F8 length = root(dot(segment.g, segment.g)) * set(1.0F + 1e-6F);
-  const F8 room = clearance(field, x, radius + length, wanted) - radius;
   FieldAnswer answer;
+  answer.middle = clearance(field, x, radius + length, wanted);
+  const F8 room = answer.middle - radius;
   answer.apart = above(room, length);
-  const F8 cell = set(field.cell);
-  answer.worthQuery = above(room, -cell) & below(length, set(0.5F) * cell) & ~answer.apart;
+  answer.worthQuery = above(room, set(-field.cell)) & ~answer.apart;
   const Lanes open = wanted & above(room, set(0.0F)) & ~answer.apart;
   if (open == 0) return answer;
   const V3 g = inFrame(field, segment.g, false);

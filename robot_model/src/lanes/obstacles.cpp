@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <span>
 #include <type_traits>
 
 #include "certify/checker_model.hpp"
-#include "swept/core/distance.hpp"
+#include "lanes/obstacle_tree.hpp"
+#include "lanes/single.hpp"
 
 namespace swept::detail {
 
@@ -17,47 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-float roundedUp(double value) {
-  const auto single = static_cast<float>(value);
-  return static_cast<double>(single) < value ? std::nextafter(single, kInfinity) : single;
-}
-
-float roundedDown(double value) {
-  return -roundedUp(-value);
-}
-
-void assign(const Vector3d& from, float (&to)[3]) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
-}
-
-template <typename Compiled>
-void assignFrame(const Eigen::Isometry3d& frame_from_world, Compiled& to) {
-  for (int i = 0; i < 3; ++i) {
-    assign(frame_from_world.linear().row(i), to.axes[i]);
-    to.offset[i] = static_cast<float>(frame_from_world.translation()[i]);
-  }
-}
-
-bool wantsField(const WorldGeometry& geometry) {
-  return std::holds_alternative<TriangleMesh>(geometry.shape) ||
-         std::holds_alternative<PointCloud>(geometry.shape);
-}
-
-/// Cells of one field and of all of a world.
-constexpr std::size_t kMostFieldCells = std::size_t{1} << 20;
-constexpr std::size_t kLeastFieldCells = std::size_t{1} << 12;
-constexpr std::size_t kMostCells = std::size_t{1} << 22;
-
 class ObstacleCompiler {
  public:
   ObstacleCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded)
-      : reach_(reach), bounded_(bounded) {
-    const auto fields = static_cast<std::size_t>(std::ranges::count_if(world, wantsField));
-    fieldCells_ = std::clamp(kMostCells / std::max<std::size_t>(fields, 1), kLeastFieldCells,
-                             kMostFieldCells);
-  }
+      : reach_(reach), fields_(world, reach, bounded) {}
 
   void add(const WorldGeometry& geometry) {
     geometry_ = &geometry;
@@ -140,8 +103,12 @@ class ObstacleCompiler {
     result_.ellipsoids.push_back(ellipsoid);
   }
 
-  void addField();
-  std::shared_ptr<const ClearanceField> fieldFor(const Aabb& window);
+  void addField() {
+    LaneField field;
+    if (!fields_.compile(*geometry_, slack_, field)) return addBox();
+    addObstacle(ObstacleKind::Field, result_.fields.size(), NearProof::Query);
+    result_.fields.push_back(std::move(field));
+  }
 
   LaneRound& addRound(ObstacleKind kind, double radius, double halfLength) {
     addObstacle(kind, result_.rounds.size(),
@@ -181,16 +148,8 @@ class ObstacleCompiler {
 
   void addHull(const ConvexHull& hull);
 
-  struct KnownField {
-    const void* data;  ///< of the mesh or cloud
-    Aabb window;       ///< m
-    std::shared_ptr<const ClearanceField> field;
-  };
-
   double reach_;
-  bool bounded_;
-  std::size_t fieldCells_ = 0;
-  std::vector<KnownField> known_;
+  FieldCompiler fields_;
   double slack_ = 0.0;
   const WorldGeometry* geometry_ = nullptr;
   LaneObstacles result_;
@@ -261,174 +220,6 @@ void ObstacleCompiler::addTriangle(const Triangle& triangle) {
          NearProof::None);
 }
 
-std::shared_ptr<const ClearanceField> ObstacleCompiler::fieldFor(const Aabb& window) {
-  const auto* mesh = std::get_if<TriangleMesh>(&geometry_->shape);
-  const void* data = mesh != nullptr ? static_cast<const void*>(&mesh->bvh())
-                                     : &std::get<PointCloud>(geometry_->shape).bvh();
-  for (const KnownField& known : known_) {
-    if (known.data == data && known.window.lower == window.lower &&
-        known.window.upper == window.upper)
-      return known.field;
-  }
-  known_.push_back({data, window, buildClearanceField(geometry_->shape, window, fieldCells_)});
-  return known_.back().field;
-}
-
-void ObstacleCompiler::addField() {
-  const Eigen::Isometry3d shape_from_world = geometry_->world_from_shape.inverse();
-  const Aabb box = boundingBox(geometry_->shape);
-  const Vector3d unlimited = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Aabb window{-unlimited, unlimited};
-  if (bounded_) {
-    // Room for balls around the farthest points too. Where it cuts nothing off, whatever the pose,
-    // the field can be shared.
-    const Vector3d room = Vector3d::Constant(1.3 * reach_ + 0.1);
-    const Vector3d origin = shape_from_world.translation();
-    for (int i = 0; i < 3; ++i) {
-      if (origin[i] - room[i] > box.lower[i]) window.lower[i] = origin[i] - room[i];
-      if (origin[i] + room[i] < box.upper[i]) window.upper[i] = origin[i] + room[i];
-    }
-  }
-  const std::shared_ptr<const ClearanceField> field = fieldFor(window);
-  if (!field) return addBox();
-  addObstacle(ObstacleKind::Field, result_.fields.size(), NearProof::Query);
-  Eigen::Isometry3d grid_from_world = shape_from_world;
-  grid_from_world.translation() -= field->origin;
-  LaneField lane;
-  assignFrame(grid_from_world, lane);
-  for (int i = 0; i < 3; ++i) {
-    constexpr double kFar = 1e30;
-    lane.lower[i] = roundedDown(std::max(field->lower[i], -kFar));
-    lane.upper[i] = roundedUp(std::min(field->upper[i], kFar));
-    lane.blocks[i] = field->blocks[i];
-  }
-  lane.cell = 2.0F * field->voxel;
-  lane.inverse = 1.0F / lane.cell;
-  lane.step = field->step;
-  lane.fineStep = field->fineStep;
-  // Lemma: beside the coordinates, the middle of a cell, its distance and that to W are rounded, of
-  // numbers below the reach and the size of all. And a larger W is as good.
-  const double size = reach_ + geometry_->magnitude + 255.0 * static_cast<double>(field->step);
-  lane.slack = roundedUp(2.0 * slack_ + 64.0 * kSingle * size);
-  lane.cells = field->cells.data();
-  lane.bricks = field->bricks.data();
-  lane.voxels = field->voxels.data();
-  lane.field = field;
-  lane.shape = geometry_->shape;
-  lane.shape_from_world = shape_from_world;
-  result_.fields.push_back(std::move(lane));
-}
-
-/// Eight-wide tree of boxes along the model frame's axes.
-class BoxTree {
- public:
-  BoxTree(const std::vector<WorldGeometry>& world, double reach) {
-    std::vector<Entry> bounded;
-    std::vector<Entry> unbounded;
-    for (std::size_t i = 0; i < world.size(); ++i) {
-      const Entry entry = entryOf(world[i], reach, ~static_cast<std::int32_t>(i));
-      (entry.half.allFinite() ? bounded : unbounded).push_back(entry);
-    }
-    if (world.empty()) return;
-    nodes_.emplace_back();
-    // Unbounded boxes would spoil the ones around them.
-    std::vector<Entry> root;
-    while (unbounded.size() >= kLanes) {
-      std::vector<Entry> some(unbounded.end() - (kLanes - 1), unbounded.end());
-      unbounded.resize(unbounded.size() - (kLanes - 1));
-      unbounded.push_back(pack(some));
-    }
-    root = unbounded;
-    if (bounded.size() + root.size() <= kLanes) {
-      root.insert(root.end(), bounded.begin(), bounded.end());
-    } else {
-      root.push_back(pack(bounded));
-    }
-    fill(0, root);
-  }
-
-  std::vector<LaneWorldNode> take() { return std::move(nodes_); }
-
- private:
-  struct Entry {
-    Vector3d center;  ///< m
-    Vector3d half;    ///< m
-    std::int32_t child;
-  };
-
-  static Entry entryOf(const WorldGeometry& geometry, double reach, std::int32_t child) {
-    const Eigen::Isometry3d world_from_box = geometry.box_from_world.inverse();
-    const double slack = 32.0 * kSingle * (reach + geometry.magnitude);
-    Entry entry;
-    entry.child = child;
-    entry.center = world_from_box.translation();
-    entry.half = Vector3d::Constant(std::numeric_limits<double>::infinity());
-    if (geometry.halfExtents.allFinite())
-      entry.half = (world_from_box.linear().cwiseAbs() * geometry.halfExtents).array() + slack;
-    return entry;
-  }
-
-  static Entry bound(std::span<const Entry> entries) {
-    Vector3d lower = Vector3d::Constant(std::numeric_limits<double>::infinity());
-    Vector3d upper = -lower;
-    for (const Entry& entry : entries) {
-      lower = lower.cwiseMin(entry.center - entry.half);
-      upper = upper.cwiseMax(entry.center + entry.half);
-    }
-    return {0.5 * (lower + upper), 0.5 * (upper - lower), 0};
-  }
-
-  void fill(std::size_t node, std::span<const Entry> entries) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const bool used = lane < static_cast<int>(entries.size());
-      for (int i = 0; i < 3; ++i) {
-        // Nothing meets an empty box.
-        nodes_[node].lower[i].lane[lane] =
-            used ? roundedDown(entries[lane].center[i] - entries[lane].half[i]) : kInfinity;
-        nodes_[node].upper[i].lane[lane] =
-            used ? roundedUp(entries[lane].center[i] + entries[lane].half[i]) : -kInfinity;
-      }
-      nodes_[node].child[lane] = used ? entries[lane].child : 0;
-    }
-  }
-
-  /// Halves along the longest side until there are eight groups.
-  static void split(std::span<Entry> entries, int halvings, std::vector<std::span<Entry>>& groups) {
-    if (halvings == 0 || entries.size() <= 1) {
-      if (!entries.empty()) groups.push_back(entries);
-      return;
-    }
-    Eigen::Index axis = 0;
-    bound(entries).half.maxCoeff(&axis);
-    const auto middle = entries.begin() + static_cast<std::ptrdiff_t>(entries.size() / 2);
-    std::nth_element(entries.begin(), middle, entries.end(), [&](const Entry& a, const Entry& b) {
-      return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.child < b.child;
-    });
-    split({entries.begin(), middle}, halvings - 1, groups);
-    split({middle, entries.end()}, halvings - 1, groups);
-  }
-
-  Entry pack(std::span<Entry> entries) {
-    Entry result = bound(entries);
-    const std::size_t node = nodes_.size();
-    result.child = static_cast<std::int32_t>(node);
-    nodes_.emplace_back();
-    if (entries.size() <= kLanes) {
-      fill(node, entries);
-      return result;
-    }
-    std::vector<std::span<Entry>> groups;
-    split(entries, 3, groups);
-    std::vector<Entry> children;
-    for (const std::span<Entry> group : groups)
-      children.push_back(group.size() == 1 ? group.front() : pack(group));
-    fill(node, children);
-    return result;
-  }
-
-  std::vector<LaneWorldNode> nodes_;
-};
-
 }  // namespace
 
 LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach,
@@ -436,40 +227,8 @@ LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double r
   ObstacleCompiler compiler(world, reach, bounded);
   for (const WorldGeometry& geometry : world) compiler.add(geometry);
   LaneObstacles result = compiler.take();
-  result.nodes = BoxTree(world, reach).take();
+  result.nodes = buildObstacleTree(world, reach);
   return result;
-}
-
-bool isApart(const LaneField& field, const MovingPoint& point, float radius) {
-  const Vector3d x(point.x[0], point.x[1], point.x[2]);
-  const Vector3d g(point.g[0], point.g[1], point.g[2]);
-  const double length = g.norm();
-  DistanceOptions options;
-  options.enough = static_cast<double>(radius);
-  options.contact = options.enough;
-  Eigen::Isometry3d world_from_segment(Eigen::Translation3d{x});
-  Shape segment = Sphere{0.0};
-  if (length > 0.05 * options.enough) {
-    segment = Capsule{0.0, length};
-    world_from_segment.linear() =
-        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), g).toRotationMatrix();
-  } else {
-    options.enough += length;
-  }
-  const Eigen::Isometry3d segment_from_shape =
-      (field.shape_from_world * world_from_segment).inverse();
-  // More than what the poses and the length are rounded by.
-  options.enough += static_cast<double>(field.slack);
-  return distance(segment, field.shape, segment_from_shape, options).lower >= options.enough;
-}
-
-bool reaches(const LaneField& field, const MovingPoint& point, float radius) {
-  const Vector3d x(point.x[0], point.x[1], point.x[2]);
-  DistanceOptions options;
-  options.contact = static_cast<double>(radius);
-  options.enough = options.contact;
-  const Eigen::Isometry3d point_from_shape(Eigen::Translation3d(-(field.shape_from_world * x)));
-  return distance(Sphere{0.0}, field.shape, point_from_shape, options).upper <= options.contact;
 }
 
 }  // namespace swept::detail

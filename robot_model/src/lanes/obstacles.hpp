@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "lanes/clearance_field.hpp"
+#include "lanes/lane_field.hpp"
 #include "lanes/row.hpp"
-#include "swept/core/shapes.hpp"
 
 namespace swept::detail {
-
-struct WorldGeometry;
 
 /// What bounds a world geometry from outside, one kernel each.
 enum class ObstacleKind : std::uint8_t {
@@ -63,26 +58,6 @@ struct LaneEllipsoid {
   float inverse[3];   ///< 1/m, of the semi-axes; near to them is enough
 };
 
-/// A ClearanceField in lanes, and the shape it bounds the distance from.
-struct LaneField {
-  float axes[3][3];  ///< unit, of the grid
-  float offset[3];   ///< m; the grid's frame begins in its corner
-  float lower[3];    ///< m
-  float upper[3];    ///< m
-  float cell;        ///< m
-  float inverse;     ///< 1/m, of the cell
-  float step;        ///< m, of cells
-  float fineStep;    ///< m, of voxels
-  float slack;       ///< m, to be taken off: rounding
-  std::int32_t blocks[3];
-  const std::uint32_t* cells;
-  const std::int32_t* bricks;
-  const std::uint32_t* voxels;
-  std::shared_ptr<const ClearanceField> field;
-  Shape shape;
-  Eigen::Isometry3d shape_from_world;
-};
-
 /// { x : normal . x <= offset + slack for all of a range of planes }, or { x : |normal . x -
 /// offset|
 /// <= slack }
@@ -122,16 +97,5 @@ struct LaneObstacles {
 /// `reach`: m, no point of the robot is farther from the model frame's origin, but for what slides
 /// freely; `bounded`: nothing does.
 LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded);
-
-/// A ball of a cover at one time, and half the way of its centre: x +- g (m, model frame).
-struct MovingPoint {
-  float x[3];
-  float g[3];
-};
-
-/// Proves in double precision that no point of the segment is within `radius` (m) of the shape.
-bool isApart(const LaneField& field, const MovingPoint& point, float radius);
-/// Whether the shape is proven to reach within `radius` (m) of the middle.
-bool reaches(const LaneField& field, const MovingPoint& point, float radius);
 
 }  // namespace swept::detail

@@ -28,9 +28,58 @@ Mask grown(Mask mask) {
 
 }  // namespace
 
+/// The cells of a grid, x first, with a layer of others around them: whatever a cell, its
+/// neighbours are there.
+class CellGrid {
+ public:
+  explicit CellGrid(const std::array<int, 3>& blocks) {
+    for (int i = 0; i < 3; ++i) {
+      blocks_[i] = static_cast<std::size_t>(blocks[i]);
+      count_[i] = 2 * blocks_[i] + 2;
+    }
+    steps_ = {1, count_[0], count_[0] * count_[1]};
+  }
+
+  std::size_t size() const { return steps_[2] * count_[2]; }
+  const std::array<std::size_t, 3>& steps() const { return steps_; }
+
+  /// Bits 0, 1, 2 of `which`: its place in the block along x, y, z.
+  std::size_t cellOf(std::size_t block, int which) const {
+    const std::size_t x = 2 * (block % blocks_[0]) + 1 + (which & 1);
+    const std::size_t y = 2 * (block / blocks_[0] % blocks_[1]) + 1 + (which >> 1 & 1);
+    const std::size_t z = 2 * (block / (blocks_[0] * blocks_[1])) + 1 + (which >> 2);
+    return x + y * steps_[1] + z * steps_[2];
+  }
+
+  /// In cells.
+  Vector3d middleOf(std::size_t cell) const {
+    return Vector3d(static_cast<double>(cell % count_[0]),
+                    static_cast<double>(cell / count_[0] % count_[1]),
+                    static_cast<double>(cell / steps_[2])) -
+           Vector3d::Constant(0.5);
+  }
+
+  void markBorder(std::vector<std::uint8_t>& cells) const {
+    for (std::size_t z = 0; z < count_[2]; ++z) {
+      for (std::size_t y = 0; y < count_[1]; ++y) {
+        const std::size_t row = y * steps_[1] + z * steps_[2];
+        const bool whole = z == 0 || z + 1 == count_[2] || y == 0 || y + 1 == count_[1];
+        std::fill_n(&cells[row], whole ? count_[0] : 1, std::uint8_t{kMarked});
+        cells[row + count_[0] - 1] = kMarked;
+      }
+    }
+  }
+
+ private:
+  std::array<std::size_t, 3> blocks_;
+  std::array<std::size_t, 3> count_;
+  std::array<std::size_t, 3> steps_;
+};
+
 Voxels::Voxels(const Vector3d& origin, double side, const std::array<int, 3>& blocks, double reach)
     : origin_(origin),
       side_(side),
+      inverse_(1.0 / side),
       // Above all rounding of points computed between corners, and of encloses().
       slack_(1e-12 * (reach + origin.lpNorm<1>()) + 1e-9 * side),
       blocks_(blocks) {
@@ -41,8 +90,8 @@ Voxels::Voxels(const Vector3d& origin, double side, const std::array<int, 3>& bl
 bool Voxels::voxelsOf(const Vector3d& lower, const Vector3d& upper, Eigen::Array3i& first,
                       Eigen::Array3i& last) const {
   for (int i = 0; i < 3; ++i) {
-    const double from = std::floor((lower[i] - slack_ - origin_[i]) / side_);
-    const double to = std::floor((upper[i] + slack_ - origin_[i]) / side_);
+    const double from = (lower[i] - slack_ - origin_[i]) * inverse_;
+    const double to = (upper[i] + slack_ - origin_[i]) * inverse_;
     const int count = 4 * blocks_[i];
     if (!(to >= 0.0) || !(from < count)) return false;
     first[i] = static_cast<int>(std::max(from, 0.0));
@@ -61,14 +110,28 @@ void Voxels::set(int x, int y, int z) {
   masks_[known_[block]] |= Mask{1} << (x % 4 + 4 * (y % 4) + 16 * (z % 4));
 }
 
-/// Those that the plane through `point` meets; all where the normal is zero.
+/// Lemma: a voxel that meets the triangle is not wholly on one side of its plane, nor wholly
+/// outside one of its sides. All voxels where the normal is zero.
 void Voxels::markVoxels(const Eigen::Array3i& first, const Eigen::Array3i& last,
-                        const Vector3d& normal, const Vector3d& point) {
-  const double reach = (0.5 * side_ + slack_) * normal.lpNorm<1>();
+                        const Vector3d& normal, const std::array<Vector3d, 3>& corners) {
+  const double half = 0.5 * side_ + slack_;
+  const double thickness = half * normal.lpNorm<1>();
+  Vector3d inward[3];
+  double beyond[3];
+  for (int i = 0; i < 3; ++i) {
+    inward[i] = normal.cross(corners[(i + 1) % 3] - corners[i]);
+    // Of the voxel's middle, from the corner.
+    beyond[i] = inward[i].dot(corners[i]) - half * inward[i].lpNorm<1>();
+  }
   for (int z = first[2]; z <= last[2]; ++z) {
     for (int y = first[1]; y <= last[1]; ++y) {
       for (int x = first[0]; x <= last[0]; ++x) {
-        if (!(std::abs(normal.dot(middle(x, y, z) - point)) > reach)) set(x, y, z);
+        const Vector3d at = middle(x, y, z);
+        if (std::abs(normal.dot(at - corners[0])) > thickness) continue;
+        if (inward[0].dot(at) < beyond[0] || inward[1].dot(at) < beyond[1] ||
+            inward[2].dot(at) < beyond[2])
+          continue;
+        set(x, y, z);
       }
     }
   }
@@ -91,7 +154,7 @@ void Voxels::mark(const Vector3d& center, double radius) {
   }
 }
 
-/// Halved until a piece spans two voxels each way, which its plane tells apart.
+/// Halved until a piece spans few voxels, or where it has no plane to tell them apart two each way.
 void Voxels::mark(const std::array<Vector3d, 3>& corners) {
   const Vector3d sides[3] = {corners[1] - corners[0], corners[2] - corners[1],
                              corners[0] - corners[2]};
@@ -105,6 +168,8 @@ void Voxels::mark(const std::array<Vector3d, 3>& corners) {
     int depth;
   };
   constexpr int kDeepest = 60;
+  constexpr int kMostSpan = 8;
+  constexpr int kMostVoxels = 48;
   std::array<Piece, kDeepest + 2> stack;
   int pending = 0;
   stack[pending++] = {corners, 0};
@@ -114,8 +179,10 @@ void Voxels::mark(const std::array<Vector3d, 3>& corners) {
     Eigen::Array3i first;
     Eigen::Array3i last;
     if (!voxelsOf(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), first, last)) continue;
-    if (((last - first) <= 1).all() || piece.depth == kDeepest) {
-      markVoxels(first, last, normal, corners[0]);
+    const Eigen::Array3i span = last - first + 1;
+    const bool few = !normal.isZero() && (span <= kMostSpan).all() && span.prod() <= kMostVoxels;
+    if (few || (span <= 2).all() || piece.depth == kDeepest) {
+      markVoxels(first, last, normal, piece.corners);
       continue;
     }
     const double lengths[3] = {(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()};
@@ -133,58 +200,47 @@ void Voxels::mark(const std::array<Vector3d, 3>& corners) {
 /// of every closed component. So one point tells for a whole region of cells, and a voxel that
 /// touches such a region belongs to it. What is not reached this way counts as inside.
 void Voxels::fill(const TriangleMesh& mesh) {
-  const int nx = 2 * blocks_[0];
-  const int ny = 2 * blocks_[1];
-  const int nz = 2 * blocks_[2];
-  std::vector<std::uint8_t> cells(static_cast<std::size_t>(nx) * ny * nz);
-  std::size_t i = 0;
-  for (int z = 0; z < nz; ++z)
-    for (int y = 0; y < ny; ++y)
-      for (int x = 0; x < nx; ++x) cells[i++] = cell(x, y, z) ? kMarked : kUnseen;
-  fillCells(mesh, cells);
-  fillBlocks(cells);
+  const CellGrid grid(blocks_);
+  std::vector<std::uint8_t> cells(grid.size(), kUnseen);
+  grid.markBorder(cells);
+  for (const std::size_t block : blockOf_) {
+    const Mask mask = maskAt(block);
+    for (int i = 0; i < 8; ++i)
+      if ((mask & cellMask(i & 1, i >> 1 & 1, i >> 2)) != 0) cells[grid.cellOf(block, i)] = kMarked;
+  }
+  fillCells(mesh, grid, cells);
+  fillBlocks(grid, cells);
 }
 
-void Voxels::fillCells(const TriangleMesh& mesh, std::vector<std::uint8_t>& cells) {
+void Voxels::fillCells(const TriangleMesh& mesh, const CellGrid& grid,
+                       std::vector<std::uint8_t>& cells) {
   constexpr std::size_t kSmallest = 4;  // worth asking about
   constexpr int kMostQuestions = 1000;
-  const std::size_t nx = 2 * blocks_[0];
-  const std::size_t ny = 2 * blocks_[1];
-  const std::size_t nz = 2 * blocks_[2];
-  const std::size_t layer = nx * ny;
-  std::vector<std::size_t> region;
+  std::vector<std::uint32_t> region;
   const auto visit = [&](std::size_t cell) {
     if (cells[cell] != kUnseen) return;
     cells[cell] = kOutside;
-    region.push_back(cell);
+    region.push_back(static_cast<std::uint32_t>(cell));
   };
   int questions = 0;
   for (std::size_t from = 0; from < cells.size(); ++from) {
+    if (cells[from] != kUnseen) continue;
     region.clear();
     visit(from);
     for (std::size_t i = 0; i < region.size(); ++i) {
       const std::size_t at = region[i];
-      const std::size_t x = at % nx;
-      const std::size_t y = at / nx % ny;
-      const std::size_t z = at / layer;
-      if (x > 0) visit(at - 1);
-      if (x + 1 < nx) visit(at + 1);
-      if (y > 0) visit(at - nx);
-      if (y + 1 < ny) visit(at + nx);
-      if (z > 0) visit(at - layer);
-      if (z + 1 < nz) visit(at + layer);
+      for (const std::size_t step : grid.steps()) {
+        visit(at - step);
+        visit(at + step);
+      }
     }
-    if (region.empty()) continue;
     bool inside = region.size() < kSmallest || questions == kMostQuestions;
     if (!inside) {
       ++questions;
-      const Eigen::Array3d index(static_cast<double>(from % nx),
-                                 static_cast<double>(from / nx % ny),
-                                 static_cast<double>(from / layer));
-      inside = mesh.encloses(origin_ + (2.0 * side_ * (index + 0.5)).matrix());
+      inside = mesh.encloses(origin_ + 2.0 * side_ * grid.middleOf(from));
     }
     if (!inside) continue;
-    for (const std::size_t of : region) cells[of] = kInside;
+    for (const std::uint32_t of : region) cells[of] = kInside;
   }
 }
 
@@ -210,19 +266,17 @@ Mask Voxels::reached(std::size_t block, const std::vector<Mask>& outside) const 
   return reached;
 }
 
-void Voxels::fillBlocks(const std::vector<std::uint8_t>& cells) {
-  const std::size_t nx = blocks_[0];
-  const std::size_t layer = nx * blocks_[1];
+void Voxels::fillBlocks(const CellGrid& grid, const std::vector<std::uint8_t>& cells) {
   std::vector<Mask> outside(known_.size(), 0);
   for (std::size_t block = 0; block < known_.size(); ++block) {
-    const std::size_t cx = 2 * (block % nx);
-    const std::size_t cy = 2 * (block / nx % blocks_[1]);
-    const std::size_t cz = 2 * (block / layer);
-    for (int i = 0; i < 8; ++i) {
-      const std::size_t at =
-          ((cz + (i >> 2)) * 2 * blocks_[1] + cy + (i >> 1 & 1)) * 2 * nx + cx + (i & 1);
-      if (cells[at] == kOutside) outside[block] |= cellMask(i & 1, i >> 1 & 1, i >> 2);
+    // The cells of an empty one are on the same side.
+    if (known_[block] == kEmpty) {
+      if (cells[grid.cellOf(block, 0)] == kOutside) outside[block] = kFull;
+      continue;
     }
+    for (int i = 0; i < 8; ++i)
+      if (cells[grid.cellOf(block, i)] == kOutside)
+        outside[block] |= cellMask(i & 1, i >> 1 & 1, i >> 2);
   }
   // Winding passages may take more rounds than they are worth.
   constexpr int kMostRounds = 64;

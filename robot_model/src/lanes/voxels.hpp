@@ -12,6 +12,8 @@
 
 namespace swept::detail {
 
+class CellGrid;
+
 /// What triangles and points meet, as voxels, in blocks of 4 x 4 x 4. A cell is an eighth of a
 /// block: 2 x 2 x 2 voxels.
 class Voxels {
@@ -60,18 +62,19 @@ class Voxels {
   bool voxelsOf(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, Eigen::Array3i& first,
                 Eigen::Array3i& last) const;
   void markVoxels(const Eigen::Array3i& first, const Eigen::Array3i& last,
-                  const Eigen::Vector3d& normal, const Eigen::Vector3d& point);
+                  const Eigen::Vector3d& normal, const std::array<Eigen::Vector3d, 3>& corners);
   void set(int x, int y, int z);
   Eigen::Vector3d middle(int x, int y, int z) const {
     return origin_ + side_ * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
   }
-  void fillCells(const TriangleMesh& mesh, std::vector<std::uint8_t>& cells);
-  void fillBlocks(const std::vector<std::uint8_t>& cells);
+  void fillCells(const TriangleMesh& mesh, const CellGrid& grid, std::vector<std::uint8_t>& cells);
+  void fillBlocks(const CellGrid& grid, const std::vector<std::uint8_t>& cells);
   Mask reached(std::size_t block, const std::vector<Mask>& outside) const;
 
   Eigen::Vector3d origin_;
-  double side_;   ///< m
-  double slack_;  ///< m
+  double side_;     ///< m
+  double inverse_;  ///< 1/m
+  double slack_;    ///< m
   std::array<int, 3> blocks_;
   std::vector<std::int32_t> known_;  ///< per block: of masks_, or kEmpty, or kSolid
   std::vector<Mask> masks_;

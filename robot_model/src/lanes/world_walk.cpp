@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "lanes/f8.hpp"
+#include "lanes/field_walk.hpp"
 #include "lanes/obstacle_kernels.hpp"
 #include "lanes/placed_ball.hpp"
 
@@ -25,12 +26,14 @@ class WorldWalk {
       : model_(model),
         scratch_(scratch),
         block_(scratch.block),
+        fields_(model, scratch),
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == LaneMode::Motion) {}
 
   /// The first balls of all links, and balls inside these, before any more of their covers: most
   /// contacts show there.
   bool bodies() {
+    fields_.clear();
     scratch_.hits.clear();
     scratch_.worldVisits.clear();
     for (const int body : model_.worldBodies)
@@ -39,14 +42,18 @@ class WorldWalk {
       start(visit.body);
       if (descend(model_.nodes[visit.node], visit.first, visit.last)) return true;
     }
+    fields_.settle();
     return false;
   }
 
   bool pairs(int geometry, std::span<const LaneHit> obstacles) {
+    fields_.clear();
     start(model_.geometryBody[geometry]);
     const LaneNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
     scratch_.hits.assign(obstacles.begin(), obstacles.end());
-    return visit(root, placed(root), 0, scratch_.hits.size());
+    if (visit(root, placed(root), 0, scratch_.hits.size())) return true;
+    fields_.settle();
+    return false;
   }
 
  private:
@@ -168,16 +175,14 @@ class WorldWalk {
       if (hit.lanes == 0) continue;
       const LaneObstacle& obstacle = model_.obstacles.obstacles[hit.index];
       if (obstacle.kind == ObstacleKind::Field) {
-        const LaneField& field = model_.obstacles.fields[obstacle.first];
-        const FieldAnswer answer = askField(field, segment, radius, hit.lanes);
-        hit.lanes &= ~answer.apart;
-        const Lanes query = hit.lanes & answer.worthQuery;
-        if (!divides && query != 0) hit.lanes &= ~provenApart(field, segment, radius, query);
-      } else {
-        hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
+        if (fields_.visit(node, segment, radius, hit, static_cast<std::uint32_t>(pair), divides,
+                          node.beyond > enough_))
+          return true;
+        continue;
       }
+      hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
       if (hit.lanes == 0) continue;
-      if (isRoot && block_.stopAtContact && obstacle.kind != ObstacleKind::Field &&
+      if (isRoot && block_.stopAtContact &&
           probe(node, segment, hit, static_cast<std::uint32_t>(pair)))
         return true;
       if (node.inside > 0.0F && touches(node, segment, hit, static_cast<std::uint32_t>(pair)))
@@ -187,21 +192,13 @@ class WorldWalk {
       if (divides) {
         scratch_.hits.push_back(hit);
       } else {
-        const F8 away = distanceAtMiddle(obstacle, segment.x, node.radius, hit.lanes);
+        const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
+        const F8 away = root(squaredDistance(model_.obstacles, obstacle, middle));
         leaveOpen(block_, static_cast<std::uint32_t>(pair), hit.lanes, node.beyond > enough_,
                   set(node.radius - 0.5F * node.beyond) - away);
       }
     }
     return false;
-  }
-
-  /// m; a guess.
-  F8 distanceAtMiddle(const LaneObstacle& obstacle, const V3& x, float enough, Lanes lanes) const {
-    if (obstacle.kind != ObstacleKind::Field)
-      return root(squaredDistance(model_.obstacles, obstacle, {x, set3({0.0F, 0.0F, 0.0F})}));
-    // A field tells up to about a cell less than there is.
-    const LaneField& field = model_.obstacles.fields[obstacle.first];
-    return clearance(field, inFrame(field, x, true), set(enough), lanes) + set(field.cell);
   }
 
   /// Looks at balls inside the link, in the lane in which it is deepest in the obstacle.
@@ -247,58 +244,13 @@ class WorldWalk {
     return lanes != 0 && claim(block_, pair, lanes, segment.x, within);
   }
 
-  /// Lanes in which the obstacle is known to reach within that distance of the middle; at least the
-  /// first one.
+  /// Lanes in which the obstacle is known to reach within that distance of the middle.
   Lanes lanesNear(const LaneObstacle& obstacle, const Segment& segment, float within,
                   Lanes lanes) const {
     const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
-    switch (obstacle.near) {
-      case NearProof::None:
-        return 0;
-      case NearProof::Inside:
-        return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(1e-30F));
-      case NearProof::Distance:
-        return lanes & below(squaredDistance(model_.obstacles, obstacle, middle),
-                             set(0.9F * within * within));
-      case NearProof::Query:
-        break;
-    }
-    const LaneField& field = model_.obstacles.fields[obstacle.first];
-    // Sure enough not to ask often in vain.
-    const F8 sure = set(within - 0.5F * field.cell);
-    const F8 least = clearance(field, inFrame(field, segment.x, true), sure, lanes);
-    for (Lanes left = lanes & below(least, sure); left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      if (reaches(field, pointOf(middle, lane), within)) return 1U << lane;
-    }
-    return 0;
-  }
-
-  static Lanes provenApart(const LaneField& field, const Segment& segment, const F8& radius,
-                           Lanes lanes) {
-    Row radii;
-    store(radius, radii);
-    Lanes apart = 0;
-    for (Lanes left = lanes; left != 0; left &= left - 1) {
-      const int lane = std::countr_zero(left);
-      // One that stays open leaves the pair open: the others are not worth the time.
-      if (!isApart(field, pointOf(segment, lane), radii.lane[lane])) break;
-      apart |= 1U << lane;
-    }
-    return apart;
-  }
-
-  static MovingPoint pointOf(const Segment& segment, int lane) {
-    Row x[3];
-    Row g[3];
-    store3(segment.x, x);
-    store3(segment.g, g);
-    MovingPoint point;
-    for (int i = 0; i < 3; ++i) {
-      point.x[i] = x[i].lane[lane];
-      point.g[i] = g[i].lane[lane];
-    }
-    return point;
+    const float most = obstacle.near == NearProof::Distance ? 0.9F * within * within : 1e-30F;
+    if (obstacle.near == NearProof::None) return 0;
+    return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(most));
   }
 
   /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings behind.
@@ -307,32 +259,13 @@ class WorldWalk {
   const LaneModel& model_;
   LaneScratch& scratch_;
   LaneBlock& block_;
+  FieldWalk fields_;
   const F8 half_;
   const bool moving_;
   const LaneBodyState* state_ = nullptr;
   F8 extra_;
   float enough_ = 0.0F;
 };
-
-PointsInside Points(const LaneModel& model, const LaneSuspect& suspect, LaneScratch& scratch) {
-  PointsInside inside;
-  const LanePairSource& source = model.sources[suspect.pair];
-  const LaneObstacle& obstacle = model.obstacles.obstacles[source.obstacle];
-  const LaneHull& hull = model.hulls.of[source.geometry];
-  const bool sure = obstacle.near == NearProof::Inside || obstacle.near == NearProof::Distance;
-  if (!sure || !hull.ofGeometry) return inside;
-  const LaneBodyState& state = scratch.block.states[model.geometryBody[source.geometry]];
-  for (std::int32_t i = hull.first; 8 * (i - hull.first) < hull.count; ++i) {
-    const V3 x = placedAt(state, suspect.lane, model.hulls.points[i]);
-    const F8 away = squaredDistance(model.obstacles, obstacle, {x, set3({0.0F, 0.0F, 0.0F})});
-    const Lanes found = below(away, set(1e-30F));
-    if (found == 0) continue;
-    for (Lanes left = found; left != 0; left &= left - 1)
-      inside.index[inside.count++] = kLanes * i + std::countr_zero(left);
-    return inside;
-  }
-  return inside;
-}
 
 bool Bodies(const LaneModel& model, LaneScratch& scratch) {
   return WorldWalk(model, scratch).bodies();
@@ -351,16 +284,10 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 HWY_EXPORT(Bodies);
-HWY_EXPORT(Points);
 HWY_EXPORT(Pairs);
 
 bool walkWorld(const LaneModel& model, LaneScratch& scratch) {
   return HWY_DYNAMIC_DISPATCH(Bodies)(model, scratch);
-}
-
-PointsInside pointsInside(const LaneModel& model, const LaneSuspect& suspect,
-                          LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(Points)(model, suspect, scratch);
 }
 
 bool walkPairs(const LaneModel& model, int geometry, std::span<const LaneHit> obstacles,

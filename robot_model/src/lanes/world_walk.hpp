@@ -22,12 +22,4 @@ bool walkWorld(const LaneModel& model, LaneScratch& scratch);
 bool walkPairs(const LaneModel& model, int geometry, std::span<const LaneHit> obstacles,
                LaneScratch& scratch);
 
-/// Points of the link that seem to lie in the obstacle in that lane, at its middle: indices of
-/// LaneHulls::inBody. At most eight; none for obstacles that have no sure inside here.
-struct PointsInside {
-  std::int32_t count = 0;
-  std::int32_t index[kLanes] = {};
-};
-PointsInside pointsInside(const LaneModel& model, const LaneSuspect& suspect, LaneScratch& scratch);
-
 }  // namespace swept::detail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "bvh/wide_bvh.hpp"
+#include "simd/segment_boxes.hpp"
+#include "swept/core/segment_query.hpp"
+
+namespace swept::detail {
+
+/// Visits the primitives whose boxes are not proven to be farther than `radius` from the segment,
+/// about the nearest first, until `stop` is true of one. Returns whether it was.
+template <typename Stop>
+bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, const Stop& stop) {
+  struct Pending {
+    float squared;
+    std::int32_t child;
+  };
+  // Each level leaves at most seven siblings behind.
+  std::array<Pending, (WideNode::kLanes - 1) * WideBvh::kMaxDepth + 1> stack;
+  int pending = 0;
+  stack[pending++] = {0.0F, 0};
+  while (pending > 0) {
+    const std::int32_t top = stack[--pending].child;
+    if (top < 0) {
+      if (stop(~top)) return true;
+      continue;
+    }
+    const WideNode& node = bvh.nodes()[static_cast<std::size_t>(top)];
+    NearSegment near;
+    double size = static_cast<double>(node.reach);
+    for (int i = 0; i < 3; ++i) {
+      const double center = segment.center[i] - node.origin[i];
+      near.center[i] = static_cast<float>(center);
+      near.half[i] = static_cast<float>(segment.half[i]);
+      size += std::abs(center) + std::abs(segment.half[i]);
+    }
+    // Lemma: see segmentBoxes. The square, rounded to single precision, is off by less than one
+    // more 2^-24 of the size: no bound is larger than that, so where the square is nothing is left
+    // out.
+    const double reach = radius + 50.0 * 0x1p-24 * size;
+    alignas(32) std::array<float, WideNode::kLanes> squared;
+    const int first = pending;
+    for (std::uint32_t open = segmentBoxes(node, near, static_cast<float>(reach * reach), squared);
+         open != 0; open &= open - 1) {
+      const int lane = std::countr_zero(open);
+      int at = pending++;  // the nearest on top
+      for (; at > first && stack[at - 1].squared < squared[lane]; --at) stack[at] = stack[at - 1];
+      stack[at] = {squared[lane], node.child[lane]};
+    }
+  }
+  return false;
+}
+
+}  // namespace swept::detail

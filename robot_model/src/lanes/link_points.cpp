@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/link_points.hpp"
+
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lanes/link_points.cpp"  // compiled once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "lanes/f8.hpp"
+#include "lanes/obstacle_kernels.hpp"
+#include "lanes/placed_ball.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+namespace {
+
+PointsInside Points(const LaneModel& model, const LaneSuspect& suspect, LaneScratch& scratch) {
+  PointsInside inside;
+  const LanePairSource& source = model.sources[suspect.pair];
+  const LaneObstacle& obstacle = model.obstacles.obstacles[source.obstacle];
+  const LaneHull& hull = model.hulls->of[source.geometry];
+  const bool sure = obstacle.near == NearProof::Inside || obstacle.near == NearProof::Distance;
+  if (!sure || !hull.ofGeometry) return inside;
+  const LaneBodyState& state = scratch.block.states[model.geometryBody[source.geometry]];
+  for (std::int32_t i = hull.first; kLanes * (i - hull.first) < hull.count; ++i) {
+    const V3 x = placedAt(state, suspect.lane, model.hulls->points[i]);
+    const F8 away = squaredDistance(model.obstacles, obstacle, {x, set3({0.0F, 0.0F, 0.0F})});
+    const Lanes found = below(away, set(1e-30F));
+    if (found == 0) continue;
+    for (Lanes left = found; left != 0; left &= left - 1)
+      inside.index[inside.count++] = kLanes * i + std::countr_zero(left);
+    return inside;
+  }
+  return inside;
+}
+
+}  // namespace
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swept::detail {
+
+HWY_EXPORT(Points);
+
+PointsInside pointsInside(const LaneModel& model, const LaneSuspect& suspect,
+                          LaneScratch& scratch) {
+  return HWY_DYNAMIC_DISPATCH(Points)(model, suspect, scratch);
+}
+
+}  // namespace swept::detail
+#endif

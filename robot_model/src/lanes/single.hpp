@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+namespace swept::detail {
+
+/// Single precision, never below `value`.
+inline float roundedUp(double value) {
+  const auto single = static_cast<float>(value);
+  if (static_cast<double>(single) >= value) return single;
+  return std::nextafter(single, std::numeric_limits<float>::infinity());
+}
+
+/// Never above `value`.
+inline float roundedDown(double value) {
+  return -roundedUp(-value);
+}
+
+inline void assign(const Eigen::Vector3d& from, float (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
+/// The axes and the offset of coordinates in a frame: axes[i] . x + offset[i].
+template <typename Compiled>
+void assignFrame(const Eigen::Isometry3d& frame_from_world, Compiled& to) {
+  for (int i = 0; i < 3; ++i) {
+    assign(frame_from_world.linear().row(i), to.axes[i]);
+    to.offset[i] = static_cast<float>(frame_from_world.translation()[i]);
+  }
+}
+
+}  // namespace swept::detail

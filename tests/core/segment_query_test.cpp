@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/segment_query.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cover_samples.hpp"
+
+namespace swept {
+namespace {
+
+using Eigen::Vector3d;
+using test::uniform;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Least of a convex function on [-1, 1], or a little more.
+template <typename Function>
+double leastOn(const Function& function) {
+  double low = -1.0;
+  double high = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    const double a = low + (high - low) / 3.0;
+    const double b = high - (high - low) / 3.0;
+    (function(a) < function(b) ? high : low) = function(a) < function(b) ? b : a;
+  }
+  return std::min({function(-1.0), function(1.0), function(0.5 * (low + high))});
+}
+
+double bruteForce(const TriangleMesh& mesh, const LineSegment& segment) {
+  double nearest = kInfinity;
+  for (const TriangleMesh::Triangle& t : mesh.triangles()) {
+    nearest = std::min(nearest, leastOn([&](double s) {
+                         return test::distanceToTriangle(
+                             segment.center + s * segment.half, mesh.vertices()[t[0]],
+                             mesh.vertices()[t[1]], mesh.vertices()[t[2]]);
+                       }));
+  }
+  return nearest;
+}
+
+double bruteForce(const PointCloud& cloud, const LineSegment& segment) {
+  double nearest = kInfinity;
+  for (const Vector3d& point : cloud.points()) {
+    nearest = std::min(nearest, leastOn([&](double s) {
+                         return (segment.center + s * segment.half - point).norm();
+                       }));
+  }
+  return std::max(nearest - cloud.radius(), 0.0);
+}
+
+/// Random triangles, a part of them slivers of all widths.
+TriangleMesh triangles(std::mt19937& random, const Vector3d& offset) {
+  test::Soup soup;
+  for (int i = 0; i < 60; ++i) {
+    const Vector3d a = offset + test::uniformPoint(random, 1.0);
+    const Vector3d along = test::uniformPoint(random, 0.5);
+    const double width = i % 2 == 0 ? 0.5 : std::pow(10.0, -uniform(random, 1.0, 16.0));
+    const auto first = static_cast<int>(soup.vertices.size());
+    soup.vertices.insert(soup.vertices.end(),
+                         {a, a + along, a + 0.4 * along + width * test::unitVector(random)});
+    soup.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return TriangleMesh::build(soup.vertices, soup.triangles);
+}
+
+PointCloud points(std::mt19937& random, const Vector3d& offset, double radius) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 60; ++i) points.push_back(offset + test::uniformPoint(random, 1.0));
+  return PointCloud::build(points, radius);
+}
+
+/// How far below the truth `radius` may have to be for a proof: a little more than what the boxes
+/// in single precision need.
+constexpr double kMargin = 1e-5;
+
+struct Counts {
+  int proven = 0;
+  int refuted = 0;
+  int missed = 0;  ///< proofs, of radii that are clearly small enough
+  int touching = 0;
+};
+
+template <typename Set>
+void check(const Set& set, const Vector3d& offset, std::mt19937& random, Counts& counts) {
+  for (int i = 0; i < 150; ++i) {
+    LineSegment segment{offset + test::uniformPoint(random, 1.5)};
+    if (i % 3 != 0)
+      segment.half = std::pow(10.0, -uniform(random, 0.0, 4.0)) * test::unitVector(random);
+    if constexpr (std::is_same_v<Set, PointCloud>) {
+      if (i % 5 == 0)
+        segment.center = set.points()[random() % set.points().size()] + 1.3 * segment.half;
+    }
+    const double truth = bruteForce(set, segment);
+    if (truth == 0.0) ++counts.touching;
+    for (const double radius : {0.0, 0.5 * truth, truth - kMargin, truth - 1e-9, truth,
+                                truth + 1e-9, truth + kMargin, 2.0 * truth}) {
+      if (!(radius >= 0.0)) continue;
+      const bool farther = isFarther(set, segment, radius);
+      // The oracle's own rounding.
+      if (farther) {
+        ASSERT_GT(truth + 1e-14, radius);
+      }
+      farther ? ++counts.proven : ++counts.refuted;
+      if (radius <= truth - kMargin) counts.missed += !farther;
+    }
+    const double atCenter = bruteForce(set, {segment.center});
+    for (const double radius : {0.5 * atCenter, atCenter - kMargin, atCenter + kMargin, 1.0}) {
+      if (!(radius >= 0.0)) continue;
+      const auto found = pointWithin(set, segment.center, radius);
+      ASSERT_EQ(found.has_value(), radius >= atCenter) << radius << " " << atCenter;
+      if (!found) continue;
+      ASSERT_LE((*found - segment.center).norm(), radius + 1e-14);
+      // It is one of the set.
+      ASSERT_LE(bruteForce(set, {*found}), 1e-14 * (1.0 + offset.norm()));
+    }
+  }
+}
+
+TEST(SegmentQuery, ProvesWhatIsTrueAboutTriangles) {
+  std::mt19937 random(21);
+  Counts counts;
+  for (int i = 0; i < 12; ++i) {
+    const Vector3d offset = Vector3d::Constant(i % 3 == 0 ? 10.0 : 0.0);
+    check(triangles(random, offset), offset, random, counts);
+  }
+  EXPECT_GT(counts.proven, 3000);
+  EXPECT_GT(counts.refuted, 3000);
+  EXPECT_EQ(counts.missed, 0);
+}
+
+TEST(SegmentQuery, ProvesWhatIsTrueAboutPoints) {
+  std::mt19937 random(22);
+  Counts counts;
+  for (int i = 0; i < 12; ++i) {
+    const Vector3d offset = Vector3d::Constant(i % 3 == 0 ? 10.0 : 0.0);
+    check(points(random, offset, i % 2 == 0 ? 0.05 : 0.0), offset, random, counts);
+  }
+  EXPECT_GT(counts.proven, 3000);
+  EXPECT_GT(counts.refuted, 3000);
+  EXPECT_GT(counts.touching, 50);
+  EXPECT_EQ(counts.missed, 0);
+}
+
+/// Segments that pass through triangles, and what a mesh encloses.
+TEST(SegmentQuery, CountsSurfacesOnly) {
+  std::mt19937 random(23);
+  const test::Soup soup = test::boxSoup(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
+  const TriangleMesh mesh = TriangleMesh::build(soup.vertices, soup.triangles);
+  EXPECT_TRUE(isFarther(mesh, {Vector3d::Zero()}, 0.999));
+  EXPECT_FALSE(isFarther(mesh, {Vector3d::Zero()}, 1.001));
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d inside = test::uniformPoint(random, 0.99);
+    const Vector3d half = 4.0 * test::unitVector(random);
+    EXPECT_FALSE(isFarther(mesh, {inside, half}, 0.0));
+    EXPECT_FALSE(isFarther(mesh, {inside + half, half}, 0.0));
+    EXPECT_TRUE(isFarther(mesh, {inside + 2.0 * half, 0.4 * half}, 0.0));
+  }
+}
+
+TEST(SegmentQuery, NoNumberProvesNothing) {
+  std::mt19937 random(24);
+  const TriangleMesh mesh = triangles(random, Vector3d::Zero());
+  const PointCloud cloud = points(random, Vector3d::Zero(), 0.1);
+  for (const double bad : {std::nan(""), kInfinity, -kInfinity}) {
+    for (int i = 0; i < 7; ++i) {
+      LineSegment segment{Vector3d::Constant(9.0), Vector3d::Constant(0.1)};
+      double radius = 0.1;
+      if (i == 6) {
+        radius = bad;
+      } else {
+        (i < 3 ? segment.center : segment.half)[i % 3] = bad;
+      }
+      EXPECT_FALSE(isFarther(mesh, segment, radius));
+      EXPECT_FALSE(isFarther(cloud, segment, radius));
+      if (i >= 3 && i < 6) continue;
+      EXPECT_FALSE(pointWithin(mesh, segment.center, radius));
+      EXPECT_FALSE(pointWithin(cloud, segment.center, radius));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swept
