@@ -16,7 +16,7 @@ namespace {
 /// See PairProof::work: for the cells of all tables of a robot, and for their parts; some
 /// 30 ns each.
 constexpr int kMostWork = 12'000'000;
-constexpr int kMostPartWork = 2'000'000;
+constexpr int kMostPartWork = 600'000;
 /// What some tables leave of their share goes to the others, so often.
 constexpr int kRounds = 4;
 constexpr int kLeastShare = 10'000;
