@@ -3,110 +3,21 @@
 
 #include <limits>
 
-#include "lane_robots.hpp"
-#include "lanes/joint_table.hpp"
+#include "lanes/table_motion.hpp"
 #include "swept/core/distance.hpp"
-#include "swept/robot_model/robot.hpp"
+#include "table_robots.hpp"
 
 namespace swept::lane_test {
 namespace {
 
-using detail::CheckerModel;
-using detail::JointTable;
 using detail::LaneBodyPair;
 using Values = std::array<float, JointTable::kMostJoints>;
-
-std::string triple(Random& random, double size) {
-  const Eigen::Vector3d v = random.vector(size);
-  return std::to_string(v.x()) + " " + std::to_string(v.y()) + " " + std::to_string(v.z());
-}
-
-/// A forearm, a wrist of two joints that turn about any axes, and a hand with a finger.
-std::string randomWrist(Random& random) {
-  return R"(<robot name="wrist">
-  <link name="fore"><collision><origin xyz="0 0 -0.12"/>
-    <geometry><box size="0.08 0.06 0.2"/></geometry></collision></link>
-  <link name="bend"><collision><origin xyz="0 0.05 0.03"/>
-    <geometry><cylinder radius="0.02" length="0.12"/></geometry></collision></link>
-  <link name="hand"><collision><origin xyz="0.07 0 0" rpy="0.1 0.2 0.3"/>
-    <geometry><box size="0.14 0.05 0.04"/></geometry></collision>
-    <collision><origin xyz="0.16 0.03 0"/><geometry><sphere radius="0.03"/></geometry></collision></link>
-  <link name="finger"><collision><origin xyz="0.05 0 0"/>
-    <geometry><box size="0.08 0.01 0.01"/></geometry></collision></link>
-  <joint name="swing" type="revolute"><parent link="fore"/><child link="bend"/>
-    <origin xyz="0 0 0.02" rpy=")" +
-         triple(random, 0.5) + R"("/><axis xyz=")" + triple(random, 1.0) + R"("/>
-    <limit lower="-2.2" upper="2.6" effort="1" velocity="1"/></joint>
-  <joint name="twist" type="continuous"><parent link="bend"/><child link="hand"/>
-    <origin xyz=")" +
-         triple(random, 0.06) + R"("/><axis xyz=")" + triple(random, 1.0) + R"("/></joint>
-  <joint name="pinch" type="revolute"><parent link="hand"/><child link="finger"/>
-    <origin xyz="0.12 -0.02 0.01"/><axis xyz=")" +
-         triple(random, 1.0) + R"("/>
-    <limit lower="-4" upper="6" effort="1" velocity="1"/></joint>
-</robot>)";
-}
-
-struct Named {
-  std::string name;
-  std::shared_ptr<const CheckerModel> model;
-};
-
-std::vector<Named> robotsWithTables() {
-  const auto compile = [](std::shared_ptr<const Robot> robot, const char* group) {
-    const Group& known = *robot->findGroup(group);
-    return detail::compileChecker(robot, known, std::make_shared<World>(), {});
-  };
-  const std::string folder = std::string(SWEPT_MODELS_DIR) + "/robots/";
-  const auto load = [&](const std::string& name) {
-    return Robot::load(folder + name + "/" + name + ".urdf", folder + name + "/" + name + ".srdf");
-  };
-  Random random(40);
-  const auto wrist = [&] {
-    return compile(Robot::parse(randomWrist(random), "wrist.urdf"), "all");
-  };
-  return {{"wrist", wrist()},
-          {"second_wrist", wrist()},
-          {"third_wrist", wrist()},
-          {"rook6", compile(load("rook6"), "arm_with_tool")},
-          {"rook7", compile(load("rook7"), "arm_with_gripper")},
-          {"rook6_cart", compile(load("rook6_cart"), "whole_body")}};
-}
-
-/// Poses of both bodies at these values of the table's joints, all others at rest.
-class Poses {
- public:
-  Poses(const CheckerModel& model, const JointTable& table) : model_(model), table_(table) {}
-
-  Eigen::Isometry3d between(int bodyA, int bodyB, const std::array<double, 2>& values) const {
-    const Pose pose = world(bodyA, values).inverse() * world(bodyB, values);
-    Eigen::Isometry3d result(pose.matrix().cast<double>());
-    return result;
-  }
-
- private:
-  Pose world(int body, const std::array<double, 2>& values) const {
-    Pose pose = Pose::Identity();
-    for (int b = body; b > 0; b = model_.kinematics.bodies[b].parent) {
-      const detail::MovingBody& moving = model_.kinematics.bodies[b];
-      Pose joint(moving.parent_from_joint.cast<Real>());
-      for (int k = 0; k < table_.joints; ++k)
-        if (table_.axes[k].body == b)
-          joint.rotate(Eigen::AngleAxis<Real>(values[k], moving.axis.cast<Real>()));
-      pose = joint * pose;
-    }
-    return pose;
-  }
-
-  const CheckerModel& model_;
-  const JointTable& table_;
-};
 
 /// Whether every checked pair of geometry of the two bodies is apart in exact geometry.
 bool apart(const CheckerModel& model, const LaneBodyPair& bodies,
            const std::array<double, 2>& values) {
-  const Eigen::Isometry3d a_from_b =
-      Poses(model, *bodies.table).between(bodies.bodyA, bodies.bodyB, values);
+  const Eigen::Isometry3d a_from_b = Poses(model, bodies.table->axes, bodies.table->joints)
+                                         .between(bodies.bodyA, bodies.bodyB, values);
   for (const detail::GeometryPair& pair : model.pairs) {
     if (!pair.self) continue;
     const detail::RobotGeometry& a = model.robotGeometry[pair.a];
@@ -138,7 +49,7 @@ void growWhileFree(const JointTable& table, Values& lower, Values& upper) {
     Values high = upper;
     for (int k = 0; k < table.joints; ++k) {
       const JointTable::Axis& axis = table.axes[k];
-      const float cell = 0.25F / axis.cellsPerUnit;
+      const float cell = 2.0F / axis.partsPerUnit;
       low[k] = std::max(axis.lower, low[k] - cell);
       high[k] = std::min(axis.upper, high[k] + cell);
     }
@@ -200,6 +111,95 @@ TEST(LaneTable, NothingMeetsInCellsThatAreFree) {
   EXPECT_GT(twofold, 4);
   // Neighbours along an arm are not checked, so few tables are of one joint.
   EXPECT_GE(single, 1);
+}
+
+/// A box within a single part of a cell, up to its borders.
+bool randomFreePart(Random& random, const JointTable& table, Values& lower, Values& upper) {
+  for (int k = 0; k < table.joints; ++k) {
+    const JointTable::Axis& axis = table.axes[k];
+    const double part = 1.0 / static_cast<double>(axis.partsPerUnit);
+    const int index = random.below(axis.cells * JointTable::kParts);
+    const double low = static_cast<double>(axis.lower) + part * index;
+    lower[k] = std::max(axis.lower, static_cast<float>(low + 1e-3 * part));
+    upper[k] = std::min(axis.upper, static_cast<float>(low + (1.0 - 1e-3) * part));
+    if (!(lower[k] < upper[k])) return false;
+  }
+  const JointTable::Cell* cell = table.cellAt(lower);
+  return cell != nullptr && cell->openPairs != 0 && table.free(lower, upper);
+}
+
+/// In cells that are not proven as a whole.
+TEST(LaneTable, NothingMeetsInPartsThatAreFree) {
+  Random random(44);
+  int tables = 0;
+  int parts = 0;
+  for (const Named& robot : robotsWithTables()) {
+    SCOPED_TRACE(robot.name);
+    for (const LaneBodyPair& bodies : robot.model->lanes.bodyPairs) {
+      if (bodies.table == nullptr || bodies.table->openParts.empty()) continue;
+      const JointTable& table = *bodies.table;
+      const int before = parts;
+      for (int i = 0; i < 100'000 && parts < before + 60; ++i) {
+        Values lower{};
+        Values upper{};
+        if (!randomFreePart(random, table, lower, upper)) continue;
+        ++parts;
+        EXPECT_EQ(table.openPairs(lower, upper), 0);
+        for (int sample = 0; sample < 5; ++sample) {
+          std::array<double, 2> values{};
+          for (int k = 0; k < table.joints; ++k)
+            values[k] = static_cast<double>(random.chance(0.5) ? lower[k] : upper[k]);
+          ASSERT_TRUE(apart(*robot.model, bodies, values))
+              << "bodies " << bodies.bodyA << ", " << bodies.bodyB << " at " << values[0] << ", "
+              << values[1];
+        }
+      }
+      tables += parts > before ? 1 : 0;
+    }
+  }
+  EXPECT_GT(tables, 6);
+  EXPECT_GT(parts, 300);
+}
+
+/// What a box is said to be does not depend on whether cells are looked up as one or one by one.
+TEST(LaneTable, ABoxIsFreeWhereNoPairIsOpen) {
+  Random random(45);
+  int free = 0;
+  int open = 0;
+  for (const Named& robot : robotsWithTables()) {
+    for (const LaneBodyPair& bodies : robot.model->lanes.bodyPairs) {
+      if (bodies.table == nullptr) continue;
+      for (int i = 0; i < 2000; ++i) {
+        Values lower{};
+        Values upper{};
+        randomBox(random, *bodies.table, lower, upper);
+        for (int k = 0; k < bodies.table->joints; ++k)
+          upper[k] = std::min(upper[k], lower[k] + 20.0F / bodies.table->axes[k].partsPerUnit);
+        const bool isFree = bodies.table->free(lower, upper);
+        ++(isFree ? free : open);
+        EXPECT_EQ(isFree, bodies.table->openPairs(lower, upper) == 0);
+      }
+    }
+  }
+  EXPECT_GT(free, 1000);
+  EXPECT_GT(open, 1000);
+}
+
+/// Of arms like this all such pairs have a table, and with it most motions are settled.
+TEST(LaneTable, PairsThatAreCloseInMostOfTheirRangeHaveOne) {
+  for (const Named& robot : robotsWithTables()) {
+    if (robot.name != "universal") continue;
+    int tables = 0;
+    for (const LaneBodyPair& bodies : robot.model->lanes.bodyPairs) {
+      const auto motion = detail::TableMotion::between(*robot.model, robot.model->lanes, bodies);
+      if (!motion) continue;
+      SCOPED_TRACE(std::to_string(bodies.bodyA) + ", " + std::to_string(bodies.bodyB));
+      ASSERT_NE(bodies.table, nullptr);
+      ++tables;
+      for (const JointTable::Cell& cell : bodies.table->cells) ASSERT_FALSE(cell.coarse);
+    }
+    EXPECT_EQ(tables, 5);
+  }
 }
 
 /// Where bodies do meet, the table says so.

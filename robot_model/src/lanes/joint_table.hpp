@@ -3,14 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace swept::detail {
-
-struct CheckerModel;
-struct LaneBodyPair;
-struct LaneModel;
 
 /// For two bodies whose relative pose depends on one or two joints that turn: the cells of joint
 /// values in which all pairs of their geometry are proven apart.
@@ -19,11 +14,13 @@ struct LaneModel;
 /// and little else in it changes; proving that once is worth more than proving it in each motion.
 struct JointTable {
   static constexpr int kMostJoints = 2;
+  /// Parts of a cell along each joint: what is known where some of a cell is proven.
+  static constexpr int kParts = 8;
   struct Axis {
     int body = 0;        ///< whose joint it is
     float lower = 0.0F;  ///< rad
     float upper = 0.0F;
-    float cellsPerUnit = 0.0F;
+    float partsPerUnit = 0.0F;
     int cells = 1;
   };
   std::array<Axis, kMostJoints> axes;
@@ -38,38 +35,44 @@ struct JointTable {
     /// Bit k: not proven is the k-th of `pairs`; with more than kPairBits of them, the last bit
     /// stands for all from there on.
     std::uint8_t openPairs = 0;
-    bool touching = false;  ///< some pair is in contact in the middle
+    bool touching = false;    ///< some pair is in contact in the middle
+    bool coarse = false;      ///< work ran out: what is not proven was not tried as finely as this
+    std::int32_t parts = -1;  ///< of an open cell: index into openParts; -1: all of them are open
     /// Two balls inside the bodies that meet in the middle: where a contact is certain, or likely.
     std::int32_t nodeA = -1;  ///< of LaneModel::nodes; -1: none is known
     std::int32_t nodeB = -1;
   };
   static constexpr std::size_t kPairBits = 8;
   std::vector<Cell> cells;  ///< [i * axes[1].cells + j]
+  /// Bit (i * kParts + j): not proven is part i along the first joint, j along the second.
+  std::vector<std::uint64_t> openParts;
   struct Geometries {
     int a = 0;  ///< index into CheckerModel::robotGeometry
     int b = 0;
   };
   std::vector<Geometries> pairs;
 
-  /// The cell with these values; null outside.
+  /// The cell with these values; null outside and where it is coarse.
   const Cell* cellAt(const Values& values) const;
-  /// Whether all cells that meet the box are proven. False outside of the table and for NaN.
+  /// Whether all cells, or parts of them, that meet the box are proven. False outside of the table
+  /// and for NaN.
   bool free(const Values& lower, const Values& upper) const;
-  /// The open pairs of all cells that meet the box, which has to be inside of the table.
+  /// The open pairs of all cells with open parts that meet the box, which has to be inside of the
+  /// table.
   std::uint8_t openPairs(const Values& lower, const Values& upper) const;
 
-  /// Indices of the cells that meet a box: from begin, up to but without end.
+ private:
+  /// Indices of the parts that meet a box: from begin, up to but without end.
   struct Range {
     std::array<int, kMostJoints> begin{0, 0};
     std::array<int, kMostJoints> end{1, 1};
   };
   /// False outside of the table and for NaN.
   bool find(const Values& lower, const Values& upper, Range& range) const;
+  /// None is open in the rectangle of cells.
+  bool allProven(const Range& parts) const;
+  /// Pairs of an open cell if one of its open parts is among these.
+  std::uint8_t openAmong(const Range& parts, int i, int j) const;
 };
-
-/// Of two bodies of the model; null if they cannot have one, or none that is worth building. The
-/// work it takes goes off the budget.
-std::shared_ptr<const JointTable> buildJointTable(const CheckerModel& model, const LaneModel& lanes,
-                                                  const LaneBodyPair& bodies, int& budget);
 
 }  // namespace swept::detail

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "certify/checker_model.hpp"
+#include "lanes/joint_tables.hpp"
 #include "lanes/lane_model.hpp"
 #include "swept/core/sphere_cover.hpp"
 
@@ -32,9 +33,6 @@ LaneJointKind kindOf(JointType type) {
       return LaneJointKind::Turn;
   }
 }
-
-/// Distances of balls evaluated for all tables of a robot, some 10 ns each.
-constexpr int kMostTableWork = 10'000'000;
 
 class LaneCompiler {
  public:
@@ -371,13 +369,16 @@ class LaneCompiler {
   }
 
   void addTables() {
-    int budget = kMostTableWork;
+    if (like_ == nullptr) {
+      const auto tables = buildJointTables(model_, lanes_);
+      for (std::size_t i = 0; i < tables.size(); ++i) lanes_.bodyPairs[i].table = tables[i];
+      return;
+    }
     for (LaneBodyPair& bodies : lanes_.bodyPairs) {
       const auto same = [&](const LaneBodyPair& other) {
         return other.bodyA == bodies.bodyA && other.bodyB == bodies.bodyB;
       };
-      bodies.table = like_ != nullptr ? std::ranges::find_if(like_->bodyPairs, same)->table
-                                      : buildJointTable(model_, lanes_, bodies, budget);
+      bodies.table = std::ranges::find_if(like_->bodyPairs, same)->table;
     }
   }
 

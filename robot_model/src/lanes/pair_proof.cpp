@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/pair_proof.hpp"
+
+#include <algorithm>
+
+#include "certify/checker_model.hpp"
+#include "swept/core/distance.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// m. Regions in which points travel more than this are not compared exactly; one such comparison
+/// counts as many distances of balls, and each of its steps too.
+constexpr double kExactTravel = 0.02;
+constexpr int kExactWork = 50;
+constexpr int kStepWork = 8;
+/// Of what points travel where balls are not proven apart, as much may others do.
+constexpr double kMoreTravel = 1.25;
+/// Of what points travel, as well are distances known.
+constexpr double kTolerance = 0.25;
+/// Pairs of balls split in search of the points that are close.
+constexpr int kMostLooks = 24;
+
+Vector3d centerOf(const LaneNode& node) {
+  return {node.center[0], node.center[1], node.center[2]};
+}
+
+}  // namespace
+
+PairProof::PairProof(const CheckerModel& model, const LaneModel& lanes, const LaneBodyPair& bodies,
+                     const TableMotion& motion)
+    : model_(model), lanes_(lanes), motion_(motion) {
+  slack_ = model_.options.margin + 1e-5 * static_cast<double>(lanes_.reach);
+  whole_ = motion_.combine(widest(lanes_.rootOfBody[bodies.bodyA], true),
+                           widest(lanes_.rootOfBody[bodies.bodyB], false));
+}
+
+/// m; of the centres of the balls of a tree from the axis next to their body.
+double PairProof::widest(std::int32_t node, bool ofA) const {
+  const LaneNode& ball = lanes_.nodes[node];
+  double most = ofA ? motion_.leverOfA(centerOf(ball)) : motion_.leverOfB(centerOf(ball));
+  for (std::int32_t i = 0; i < ball.childCount; ++i)
+    most = std::max(most, widest(ball.firstChild + i, ofA));
+  return most;
+}
+
+void PairProof::choose(const JointTable::Geometries& pair) {
+  if (pair.a == geometryA_ && pair.b == geometryB_) return;
+  geometryA_ = pair.a;
+  geometryB_ = pair.b;
+  stopped_ = {-1, -1};
+  meetingBalls_ = {-1, -1};
+  guess_.setZero();
+}
+
+PairProof::Balls PairProof::roots() const {
+  return {lanes_.rootOfGeometry[geometryA_], lanes_.rootOfGeometry[geometryB_]};
+}
+
+bool PairProof::apartByBalls(const Place& place) {
+  meeting_ = 0.0;
+  certain_ = false;
+  // Where the last region was stopped is where this one is likely to be.
+  const Balls last = stopped_;
+  return (last.a < 0 || apart(place, last)) && apart(place, roots());
+}
+
+/// False as soon as two balls that are fine against the travel are not proven apart; `stopped_`
+/// are these. `gap_`, less than the distance of the geometries in the middle by the slack, proves
+/// those whose points travel less.
+bool PairProof::apart(const Place& place, const Balls& balls) {
+  --work;
+  const LaneNode& a = lanes_.nodes[balls.a];
+  const LaneNode& b = lanes_.nodes[balls.b];
+  const Vector3d atA = centerOf(a);
+  const Vector3d inB = centerOf(b);
+  const Vector3d atB = place.a_from_b * inB;
+  const double between = (atB - atA).norm();
+  const double gap =
+      between - static_cast<double>(a.radius) - static_cast<double>(b.radius) - slack_;
+  if (gap > TableMotion::travel(place, whole_)) return true;
+  const Levers levers = motion_.levers(atA, inB);
+  const double travel = motion_.approach(place, atA, atB, between, levers);
+  if (gap > travel || staysWithinGap(place, atA, inB, a.radius, b.radius)) return true;
+  const bool solid = a.inside > 0.0F && b.inside > 0.0F;
+  if (solid && noteMeeting(place, balls, between, levers)) {
+    stopped_ = balls;
+    return false;
+  }
+  const bool splitA = a.childCount > 0 && (b.childCount == 0 || a.radius >= b.radius);
+  const LaneNode& parent = splitA ? a : b;
+  const bool fine = static_cast<double>(a.beyond + b.beyond) < 0.5 * travel;
+  if (parent.childCount == 0 || fine || work <= 0) {
+    stopped_ = balls;
+    return false;
+  }
+  for (std::int32_t i = 0; i < parent.childCount; ++i) {
+    const Balls child =
+        splitA ? Balls{parent.firstChild + i, balls.b} : Balls{balls.a, parent.firstChild + i};
+    if (!apart(place, child)) return false;
+  }
+  return true;
+}
+
+bool PairProof::staysWithinGap(const Place& place, const Vector3d& a, const Vector3d& b,
+                               float radiusA, float radiusB) const {
+  if (!(gap_ > 0.0)) return false;
+  const Levers levers =
+      motion_.levers(a, b, static_cast<double>(radiusA), static_cast<double>(radiusB));
+  return TableMotion::travel(place, levers) < gap_;
+}
+
+/// Of balls inside the links; whether they meet for all values in the region.
+bool PairProof::noteMeeting(const Place& place, const Balls& balls, double between,
+                            const Levers& levers) {
+  const LaneNode& a = lanes_.nodes[balls.a];
+  const LaneNode& b = lanes_.nodes[balls.b];
+  const double overlap = static_cast<double>(a.inside + b.inside) - between - slack_;
+  if (overlap > meeting_) {
+    meeting_ = overlap;
+    meetingBalls_ = balls;
+  }
+  const bool always = overlap > TableMotion::travel(place, levers);
+  certain_ = certain_ || always;
+  return always;
+}
+
+/// Where those that met in the last region do so in this one, more need not be known.
+void PairProof::noteLastMeeting(const Place& place) {
+  if (meetingBalls_.a < 0 || meeting_ > 0.0) return;
+  const Vector3d a = centerOf(lanes_.nodes[meetingBalls_.a]);
+  const Vector3d b = centerOf(lanes_.nodes[meetingBalls_.b]);
+  noteMeeting(place, meetingBalls_, (place.a_from_b * b - a).norm(), motion_.levers(a, b));
+}
+
+void PairProof::findMeeting(const Place& place) {
+  const LaneModel::InnerBalls& ofA = lanes_.innerBalls[geometryA_];
+  const LaneModel::InnerBalls& ofB = lanes_.innerBalls[geometryB_];
+  for (std::int32_t b = ofB.first; b < ofB.first + ofB.count; ++b) {
+    const Vector3d at = place.a_from_b * centerOf(lanes_.nodes[b]);
+    for (std::int32_t a = ofA.first; a < ofA.first + ofA.count; ++a) {
+      const double reach = static_cast<double>(lanes_.nodes[a].inside + lanes_.nodes[b].inside);
+      const double overlap = reach - (at - centerOf(lanes_.nodes[a])).norm() - slack_;
+      if (overlap <= meeting_) continue;
+      meeting_ = overlap;
+      meetingBalls_ = {a, b};
+    }
+  }
+}
+
+TableMotion::Levers PairProof::closeLevers(const Place& place) {
+  close_ = {0.0, 0.0};
+  looks_ = kMostLooks;
+  findLevers(place, roots());
+  return close_;
+}
+
+void PairProof::findLevers(const Place& place, const Balls& balls) {
+  --work;
+  const LaneNode& a = lanes_.nodes[balls.a];
+  const LaneNode& b = lanes_.nodes[balls.b];
+  const Vector3d atA = centerOf(a);
+  const Vector3d inB = centerOf(b);
+  const Vector3d atB = place.a_from_b * inB;
+  const double between = (atB - atA).norm();
+  const double radiusA = static_cast<double>(a.radius);
+  const double radiusB = static_cast<double>(b.radius);
+  const Levers levers = motion_.levers(atA, inB);
+  if (between - radiusA - radiusB - slack_ > motion_.approach(place, atA, atB, between, levers))
+    return;
+  Levers all = motion_.levers(atA, inB, radiusA, radiusB);
+  for (int k = 0; k < 2; ++k) all[k] = std::max(close_[k], all[k]);
+  if (all == close_) return;
+  const bool splitA = a.childCount > 0 && (b.childCount == 0 || a.radius >= b.radius);
+  const LaneNode& parent = splitA ? a : b;
+  if (parent.childCount == 0 || --looks_ < 0) {
+    close_ = all;
+    return;
+  }
+  for (std::int32_t i = 0; i < parent.childCount; ++i)
+    findLevers(place, splitA ? Balls{parent.firstChild + i, balls.b}
+                             : Balls{balls.a, parent.firstChild + i});
+}
+
+PairProof::Compared PairProof::compare(const Place& place, double contact, double travel) {
+  const RobotGeometry& a = model_.robotGeometry[geometryA_];
+  const RobotGeometry& b = model_.robotGeometry[geometryB_];
+  DistanceOptions options;
+  options.enough = travel + slack_;
+  options.contact = contact;
+  options.tolerance = kTolerance * (travel + slack_);
+  options.guess = guess_;
+  const DistanceResult found = distance(
+      a.shape, b.shape, a.body_from_shape.inverse() * place.bodies * b.body_from_shape, options);
+  work -= kExactWork + kStepWork * found.iterations;
+  guess_ = found.normal;
+  return {true, found.upper <= model_.options.margin, found.lower - slack_};
+}
+
+PairProof::Compared PairProof::compareWhereStopped(const Place& place, bool single) {
+  noteLastMeeting(place);
+  if (meeting_ > 0.0) return {true, true, 0.0};
+  const LaneNode& a = lanes_.nodes[stopped_.a];
+  const LaneNode& b = lanes_.nodes[stopped_.b];
+  const Levers levers = motion_.levers(centerOf(a), centerOf(b), static_cast<double>(a.radius),
+                                       static_cast<double>(b.radius));
+  const double travel = TableMotion::travel(place, levers);
+  if (!(travel <= kExactTravel)) return {};
+  // Whether there is contact is of interest only where it is kept.
+  const double contact = single ? model_.options.margin : travel + slack_;
+  return compare(place, contact, kMoreTravel * travel);
+}
+
+bool PairProof::apartWithin(const Place& place, double gap) {
+  if (!(gap > 0.0)) return false;
+  gap_ = gap;
+  const Balls last = stopped_;
+  const bool proven = apart(place, last) && apart(place, roots());
+  gap_ = 0.0;
+  return proven;
+}
+
+}  // namespace swept::detail

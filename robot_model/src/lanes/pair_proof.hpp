@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "lanes/joint_table.hpp"
+#include "lanes/table_motion.hpp"
+
+namespace swept::detail {
+
+/// Whether two pieces of geometry are apart for all values of the joints around a middle.
+///
+/// Each pair of their points is in some pair of balls of their covers. It is apart if these balls
+/// are by more than their centres approach each other, or if the geometries are, in the middle, by
+/// more than points of these balls travel; see TableMotion.
+class PairProof {
+ public:
+  using Place = TableMotion::Place;
+  using Levers = TableMotion::Levers;
+  struct Balls {
+    std::int32_t a;  ///< of LaneModel::nodes
+    std::int32_t b;
+  };
+  /// What exact geometry says of the middle.
+  struct Compared {
+    bool tried = false;
+    bool touching = false;
+    double gap = 0.0;  ///< m, proven, less the slack
+  };
+
+  PairProof(const CheckerModel& model, const LaneModel& lanes, const LaneBodyPair& bodies,
+            const TableMotion& motion);
+
+  /// The pair that is looked at from now on.
+  void choose(const JointTable::Geometries& pair);
+  bool apartByBalls(const Place& place);
+  /// By the exact geometry as well, which is worth its time only where the covers fail by little:
+  /// where they stopped last. `single`: a contact is of interest too.
+  Compared compareWhereStopped(const Place& place, bool single);
+  /// The distance of the exact geometry, between what is no more than contact and what is enough
+  /// for points that travel so far (m).
+  Compared compare(const Place& place, double contact, double travel);
+  bool apartWithin(const Place& place, double gap);
+  /// Of points of the geometries that balls do not prove apart: all others are, and these come no
+  /// nearer to each other than the geometries are in the middle, less their travel.
+  Levers closeLevers(const Place& place);
+
+  /// Balls inside the two links that meet in the middle, as far as that is known.
+  bool meet() const { return meeting_ > 0.0; }
+  /// For all values of the joints.
+  bool alwaysMeet() const { return certain_; }
+  const Balls& meetingBalls() const { return meetingBalls_; }
+  /// The ones that overlap most.
+  void findMeeting(const Place& place);
+
+  double slack() const { return slack_; }  ///< m, for the margin and for roundings
+  /// Distances of balls evaluated, or what takes as long, are taken off it; some 30 ns each.
+  int work = 0;
+
+ private:
+  Balls roots() const;
+  double widest(std::int32_t node, bool ofA) const;
+  bool apart(const Place& place, const Balls& balls);
+  bool staysWithinGap(const Place& place, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      float radiusA, float radiusB) const;
+  bool noteMeeting(const Place& place, const Balls& balls, double between, const Levers& levers);
+  void noteLastMeeting(const Place& place);
+  void findLevers(const Place& place, const Balls& balls);
+
+  const CheckerModel& model_;
+  const LaneModel& lanes_;
+  const TableMotion& motion_;
+  double slack_ = 0.0;
+  Levers whole_{};  ///< of all centres of balls of the bodies
+  int geometryA_ = -1;
+  int geometryB_ = -1;
+  Balls stopped_{-1, -1};
+  double gap_ = 0.0;      ///< m, see apart
+  double meeting_ = 0.0;  ///< m, the most that balls inside overlap in the middle
+  bool certain_ = false;
+  Balls meetingBalls_{-1, -1};
+  Levers close_{};
+  int looks_ = 0;
+  Eigen::Vector3d guess_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace swept::detail
