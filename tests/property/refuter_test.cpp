@@ -95,6 +95,30 @@ TEST_P(Refuter, NoticesAMillimetre) {
   EXPECT_GT(says("the witness does not hold"), 0);
 }
 
+/// Motions whose proven prefix once passed over a contact: intervals left open that overlap, of
+/// several pairs.
+TEST(RefutedOnce, ProvenPrefixesEndBeforeTheContact) {
+  const Scenario scenario = clutterScenario(filesOf({"rook6_cart", "whole_body"}), 6);
+  const std::pair<std::vector<double>, std::vector<double>> motions[] = {
+      {{0.071572628301518143, -0.07050639900162764, 1.6001372831577481, 1.1280240908661643,
+        2.1009631679703951, -1.7159288205204637, -2.0429753579562275, -1.8064253704678197,
+        2.500043334365186},
+       {-0.22506925073570314, -0.39110982613954232, 2.6491110697560876, 1.1702870776240399,
+        1.220732883020158, -1.6780934268675325, -2.1376489828629839, 0.44320432954312294,
+        3.4573052702509761}},
+      {{-0.045812709459333467, -0.45669564654043038, -2.2020886120716856, 3.7701081362388433,
+        0.39985232127694781, 0.73313392243067288, -1.3820690088230314, 1.1098771832933079,
+        -1.1327039340002305},
+       {-0.12619623313234651, -0.24314366541165486, -0.55580639232474005, 3.255001283828606,
+        -0.5647687922895539, -0.37480460814126226, -1.8873889032082962, -1.1703018673108641,
+        -0.98061846491246907}}};
+  for (const auto& [from, to] : motions) {
+    const RefuterReport report = refuteMotion(scenario, {}, from, to);
+    EXPECT_EQ(report.collision, 1);
+    for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
+  }
+}
+
 TEST(RefuterOnData, FindsNothingToRefuteOnThePanda) {
   const char* data = std::getenv("SWEPT_DATA");
   if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";

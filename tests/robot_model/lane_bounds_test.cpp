@@ -3,7 +3,7 @@
 
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
-#include "lanes/lane_kinematics.hpp"
+#include "lanes/lane_bounds.hpp"
 #include "lanes/lane_motion.hpp"
 
 namespace swept::lane_test {
@@ -116,7 +116,7 @@ TEST(LaneBounds, NoBallCentreAcceleratesMore) {
   int relative = 0;
   int attained = 0;
   for (int round = 0; round < 2000; ++round) {
-    const MovingRobot robot(random, round);
+    MovingRobot robot(random, round);
     if (!robot.moves) continue;
     for (std::size_t k = 0; k < robot.lanes.references.size(); ++k) {
       const LaneReference& reference = robot.lanes.references[k];
@@ -141,6 +141,42 @@ TEST(LaneBounds, NoBallCentreAcceleratesMore) {
   EXPECT_GT(attained, compared / 50);
   EXPECT_GT(compared, 30000);
   EXPECT_GT(relative, compared / 4);
+}
+
+/// Of all points of a link's geometry, as far from its centre as they are.
+TEST(LaneBounds, NoPointOfAGeometryAcceleratesMore) {
+  Random random(22);
+  Real tightest = 0;
+  int compared = 0;
+  int attained = 0;
+  for (int round = 0; round < 2000; ++round) {
+    MovingRobot robot(random, round);
+    if (!robot.moves) continue;
+    for (std::size_t k = 0; k < robot.lanes.references.size(); ++k) {
+      const LaneReference& reference = robot.lanes.references[k];
+      const int geometry = random.below(static_cast<int>(robot.model.robotGeometry.size()));
+      const detail::RobotGeometry& piece = robot.model.robotGeometry[geometry];
+      if (reference.slot[piece.body] < 0) continue;
+      const auto bound = static_cast<Real>(
+          detail::accelerationOfPoints(robot.lanes, static_cast<int>(k), geometry, *robot.scratch));
+      const Vector point =
+          (piece.center + piece.radius * random.direction() * (1.0 - 1e-9)).cast<Real>();
+      const Real t = random.uniform(0.0, 1.0);
+      const Real seen = robot.acceleration(t, piece.body, reference.body, point).norm();
+      const Real noise = robot.noise() * (1 + static_cast<Real>(piece.radius) /
+                                                  static_cast<Real>(robot.lanes.reach));
+      ASSERT_LE(seen, bound * (1 + 1e-7L) + noise)
+          << "round " << round << ", geometry " << geometry << " from " << reference.body;
+      ++compared;
+      if (!(bound > 1e3L * noise)) continue;
+      tightest = std::max(tightest, seen / bound);
+      attained += seen > 0.5L * bound ? 1 : 0;
+    }
+  }
+  RecordProperty("tightest", std::to_string(static_cast<double>(tightest)));
+  EXPECT_GT(tightest, 0.9L) << "the bound is idle";
+  EXPECT_GT(attained, compared / 100);
+  EXPECT_GT(compared, 5000);
 }
 
 /// Least distance of the origin from the points y + s h, |s| <= 1.

@@ -80,9 +80,10 @@ class MotionProver {
       Effort& effort = prover_.certificate_.effort;
       ++effort.intervals;
       ++(answer.culled ? effort.culled : effort.distances);
-      if (answer.status == Separation::Contact && contacts_) {
-        prover_.certificate_.witness = prover_.query_.witness(pair, t, answer);
+      if (answer.status == Separation::Contact) {
         look.kind = LaneLook::Kind::Contact;
+        if (contacts_) prover_.certificate_.witness = prover_.query_.witness(pair, t, answer);
+        return look;
       }
       if (answer.status == Separation::Separated) look.kind = LaneLook::Kind::Apart;
       look.directed = !answer.normal.isZero();
@@ -243,28 +244,26 @@ class MotionProver {
     if (!undecidedAt_ || begin < *undecidedAt_) undecidedAt_ = begin;
   }
 
-  /// Intervals in order of time, the first on top. Those left open at different lengths overlap;
-  /// what contains others takes over their pairs, so that whatever lies before an interval's begin
-  /// is settled once it is on top.
+  /// Intervals in order of time, the first on top. Those that overlap become one with the pairs of
+  /// all, so that whatever lies before an interval's begin is settled once it is on top.
   void stackPending() {
     auto& stack = workspace_.generation;
     auto& arena = workspace_.arena;
     auto& pending = workspace_.pending;
     stack.clear();
     arena.clear();
-    std::ranges::sort(pending, [](const PendingInterval& a, const PendingInterval& b) {
-      return a.begin != b.begin ? a.begin > b.begin : a.end > b.end;
-    });
-    for (std::size_t i = 0; i < pending.size();) {
-      PendingInterval whole{pending[i].begin, pending[i].end, arena.size(), 0};
-      // From the last to the first in time: each next one begins before.
-      for (; i < pending.size() && pending[i].end > whole.begin; ++i) {
-        whole.begin = std::min(whole.begin, pending[i].begin);
-        whole.end = std::max(whole.end, pending[i].end);
+    std::ranges::sort(pending, {}, &PendingInterval::begin);
+    for (std::size_t i = 1; i < pending.size(); ++i)
+      pending[i].end = std::max(pending[i].end, pending[i - 1].end);
+    for (std::size_t i = pending.size(); i > 0;) {
+      PendingInterval whole{0.0, pending[i - 1].end, arena.size(), 0};
+      do {
+        --i;
+        whole.begin = pending[i].begin;
         const auto first =
             workspace_.pendingArena.begin() + static_cast<std::ptrdiff_t>(pending[i].first);
         arena.insert(arena.end(), first, first + static_cast<std::ptrdiff_t>(pending[i].count));
-      }
+      } while (i > 0 && pending[i - 1].end > whole.begin);
       const auto own = arena.begin() + static_cast<std::ptrdiff_t>(whole.first);
       std::sort(own, arena.end());
       arena.erase(std::unique(own, arena.end()), arena.end());

@@ -56,7 +56,7 @@ class Division {
 
   bool dividePair() {
     looks_ = 0;
-    beginSeen_ = endSeen_ = false;
+    beginSeen_ = endSeen_ = inContact_ = false;
     auto& waiting = scratch_.waiting;
     std::size_t done = 0;
     while (done < waiting.size()) {
@@ -64,7 +64,7 @@ class Division {
       const std::size_t count = std::min<std::size_t>(kLanes, waiting.size() - done);
       place(done, count);
       std::uint32_t open = (1U << count) - 1;
-      if (examine(waiting[done].pair, open)) return true;
+      if (!inContact_ && examine(waiting[done].pair, open)) return true;
       for (; open != 0; open &= open - 1)
         handOn(waiting[done + static_cast<std::size_t>(std::countr_zero(open))]);
       done += count;
@@ -125,7 +125,11 @@ class Division {
       const int lane = middleOf(open);
       ++looks_;
       const LaneLook look = judge_.look(pair, timeOf(lane), halfOf(lane));
-      if (look.kind == LaneLook::Kind::Contact) return true;
+      if (look.kind == LaneLook::Kind::Contact) {
+        // Where the first contact is wanted, the exact tier looks for it.
+        inContact_ = true;
+        return contacts_;
+      }
       std::uint32_t apart = look.kind == LaneLook::Kind::Apart ? 1U << lane : 0U;
       if (look.directed)
         apart |=
@@ -161,7 +165,8 @@ class Division {
 
   /// In halves, or to the exact tier.
   void handOn(Part part) {
-    if (scratch_.waiting.size() >= kMostParts || looks_ >= kMostLooks || isFine(part)) {
+    const bool enough = scratch_.waiting.size() >= kMostParts || looks_ >= kMostLooks;
+    if (enough || inContact_ || isFine(part)) {
       scratch_.rest.push_back({part.time, part.half, scratch_.restArena.size(), 1});
       scratch_.restArena.push_back(part.pair);
       return;
@@ -178,6 +183,7 @@ class Division {
   int looks_ = 0;
   bool beginSeen_ = false;  ///< of the pair
   bool endSeen_ = false;
+  bool inContact_ = false;
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ struct LaneAnswer {
 struct LaneLook {
   enum class Kind : std::uint8_t {
     Open,
-    Contact,  ///< at t; the motion is decided
+    Contact,  ///< at t
     Apart,    ///< on all of [t - half, t + half]
   };
   Kind kind = Kind::Open;
