@@ -32,10 +32,10 @@ TEST(Info, SaysWhatIsThere) {
                 "link  collision geometry     balls  overhang  inner  built in  file\n"
                 "cube  box 0.2 x 0.2 x 0.2 m    " +
                 balls +
-                "    5.4 mm     16 # ms\n"
+                "    5.4 mm     64 # ms\n"
                 "covers: " +
                 balls +
-                " balls, 16 inner balls, built in # ms\n"
+                " balls, 64 inner balls, built in # ms\n"
                 "\n"
                 "joint  type       lower  upper  unit\n"
                 "slide  prismatic   -0.5    2.5  m\n"
@@ -66,14 +66,14 @@ TEST(Info, JsonHoldsTheSame) {
   ASSERT_EQ(json["links"].size(), 3u);
   EXPECT_EQ(json["links"][2]["collision"][0]["kind"], "box");
   const auto& cover = json["links"][2]["collision"][0]["cover"];
-  EXPECT_EQ(cover["inner_balls"], 16);
+  EXPECT_EQ(cover["inner_balls"], 64);
   EXPECT_GT(cover["balls"], 100);
   EXPECT_GT(cover["overhang"], 0.003);
   EXPECT_LE(cover["overhang"], 0.0055);
   EXPECT_GT(cover["seconds"], 0.0);
   EXPECT_EQ(json["covers"],
             (nlohmann::json{
-                {"balls", cover["balls"]}, {"inner_balls", 16}, {"seconds", cover["seconds"]}}));
+                {"balls", cover["balls"]}, {"inner_balls", 64}, {"seconds", cover["seconds"]}}));
   ASSERT_EQ(json["joints"].size(), 2u);
   EXPECT_EQ(json["joints"][0]["variables"][0]["upper"], 2.5);
   EXPECT_EQ(json["groups"][0]["named_states"]["right"]["slide"], 2.0);

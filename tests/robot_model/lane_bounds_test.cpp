@@ -4,6 +4,7 @@
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
 #include "lanes/lane_bounds.hpp"
+#include "lanes/lane_kinematics.hpp"
 #include "lanes/lane_motion.hpp"
 
 namespace swept::lane_test {

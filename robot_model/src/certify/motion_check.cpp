@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "certify/lane_witness.hpp"
+#include "certify/exact_judge.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
 
@@ -21,18 +21,22 @@ constexpr double kStopShare = 0.45;
 
 class MotionProver {
  public:
-  MotionProver(const CheckerModel& model, WorkspaceData& workspace)
-      : model_(model), workspace_(workspace), query_(model, workspace) {}
+  MotionProver(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
+               MotionQuery wanted, WorkspaceData& workspace)
+      : model_(model),
+        workspace_(workspace),
+        wanted_(wanted),
+        query_(model, workspace),
+        judge_(model, from, to, wanted == MotionQuery::VerdictOnly, query_, certificate_) {}
 
-  MotionCertificate run(std::span<const double> from, std::span<const double> to,
-                        MotionQuery wanted) {
-    if (settleInLanes(from, to, wanted)) return certificate_;
-    if (!start(from, to)) return certificate_;
+  MotionCertificate run(std::span<const double> from, std::span<const double> to) {
+    if (settleInLanes(from, to)) return certificate_;
+    if (!judge_.start()) return certificate_;
     searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
     // second attempt in another order settles some of what the first left open.
     const bool undecided = undecidedAt_ && !certificate_.witness;
-    if (undecided || (certificate_.witness && wanted == MotionQuery::FirstContact)) {
+    if (undecided || (certificate_.witness && wanted_ == MotionQuery::FirstContact)) {
       undecidedAt_.reset();
       provePrefix();
     }
@@ -44,68 +48,16 @@ class MotionProver {
       certificate_.verdict = Verdict::Free;
       certificate_.freeUntil = 1.0;
     }
-    if (wanted == MotionQuery::VerdictOnly && certificate_.verdict != Verdict::Free) {
+    if (wanted_ == MotionQuery::VerdictOnly && certificate_.verdict != Verdict::Free) {
       certificate_.freeUntil = 0.0;
     }
     return certificate_;
   }
 
  private:
-  /// Looks at what the lane tier takes for contacts, on exact geometry.
-  class Judge final : public LaneJudge {
-   public:
-    Judge(MotionProver& prover, std::span<const double> from, std::span<const double> to,
-          bool contacts)
-        : prover_(prover), from_(from), to_(to), contacts_(contacts) {}
-
-    bool isContact(const LaneContact& contact, double t) override {
-      prover_.certificate_.witness = laneWitness(prover_.model_, contact, t);
-      return prover_.certificate_.witness.has_value();
-    }
-
-    bool isInside(std::uint32_t pair, std::int32_t point, double t) override {
-      if (!prover_.start(from_, to_)) return false;
-      prover_.query_.moveTo(t);
-      const Eigen::Vector3d at = prover_.query_.placed(
-          pair, prover_.model_.lanes.hulls->inBody[static_cast<std::size_t>(point)]);
-      prover_.certificate_.witness = pointWitness(prover_.model_, pair, at, t);
-      return prover_.certificate_.witness.has_value();
-    }
-
-    LaneLook look(std::uint32_t pair, double t, double half) override {
-      LaneLook look;
-      if (!prover_.budgetLeft() || !prover_.start(from_, to_)) return look;
-      prover_.query_.moveTo(t);
-      const PairAnswer answer = prover_.query_.prove(pair, half);
-      Effort& effort = prover_.certificate_.effort;
-      ++effort.intervals;
-      ++(answer.culled ? effort.culled : effort.distances);
-      if (answer.status == Separation::Contact) {
-        look.kind = LaneLook::Kind::Contact;
-        if (contacts_) prover_.certificate_.witness = prover_.query_.witness(pair, t, answer);
-        return look;
-      }
-      if (answer.status == Separation::Separated) look.kind = LaneLook::Kind::Apart;
-      look.directed = !answer.normal.isZero();
-      for (int i = 0; i < 3; ++i) look.towards[i] = static_cast<float>(answer.normal[i]);
-      return look;
-    }
-
-   private:
-    MotionProver& prover_;
-    std::span<const double> from_, to_;
-    bool contacts_;
-  };
-
-  /// Once per motion.
-  bool start(std::span<const double> from, std::span<const double> to) {
-    if (!started_) started_ = query_.start(from, to);
-    return started_;
-  }
-
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
-  bool settleInLanes(std::span<const double> from, std::span<const double> to, MotionQuery wanted) {
+  bool settleInLanes(std::span<const double> from, std::span<const double> to) {
     workspace_.pending.clear();
     const bool fits =
         model_.lanes.usable && model_.options.maxIntervals >= kLanes &&
@@ -116,9 +68,8 @@ class MotionProver {
       if (!model_.pairs.empty()) workspace_.pending.push_back({0.0, 1.0, 0, model_.pairs.size()});
       return false;
     }
-    const bool contacts = wanted == MotionQuery::VerdictOnly;
-    Judge judge(*this, from, to, contacts);
-    const LaneAnswer answer = searchMotion(model_.lanes, judge, contacts, workspace_.lanes);
+    const LaneAnswer answer =
+        searchMotion(model_.lanes, judge_, wanted_ == MotionQuery::VerdictOnly, workspace_.lanes);
     certificate_.effort.lanes = answer.intervals;
     if (answer.kind == LaneAnswer::Kind::Contact) {
       certificate_.verdict = Verdict::Collision;
@@ -312,9 +263,10 @@ class MotionProver {
 
   const CheckerModel& model_;
   WorkspaceData& workspace_;
+  const MotionQuery wanted_;
   PairQuery query_;
-  bool started_ = false;
   MotionCertificate certificate_;
+  ExactJudge judge_;
   std::optional<double> undecidedAt_;
 };
 
@@ -323,7 +275,7 @@ class MotionProver {
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, MotionQuery wanted,
                                 WorkspaceData& workspace) {
-  return MotionProver(model, workspace).run(from, to, wanted);
+  return MotionProver(model, from, to, wanted, workspace).run(from, to);
 }
 
 }  // namespace swept::detail

@@ -125,9 +125,9 @@ TravelBound travelBound(const KinematicModel& model, const LeverArms& levers, st
     bound.acceleration += 2.0 * joint.speed * turning;
     bound.acceleration += joint.spinSpeed * arm * (2.0 * turning + joint.spinSpeed);
 
-    const bool turns = body.type == JointType::Revolute || body.type == JointType::Continuous;
     double next = turning + joint.spinSpeed;
-    if (turns && previousTurns) {
+    const bool turnsToo = turns(body.type);
+    if (turnsToo && previousTurns) {
       // Two consecutive axes keep the angle between them: their velocities add as vectors.
       const Vector3d inParentFrame = body.parent_from_joint.linear() * body.axis;
       const double cosine = std::abs(inParentFrame.dot(model.bodies[body.parent].axis));
@@ -139,7 +139,7 @@ TravelBound travelBound(const KinematicModel& model, const LeverArms& levers, st
     turningBefore = turning;
     turning = next;
     previousRate = joint.spinSpeed;
-    previousTurns = turns;
+    previousTurns = turnsToo;
   }
   bound.speed *= kOutward;
   bound.acceleration *= kOutward;

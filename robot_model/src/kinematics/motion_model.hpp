@@ -61,6 +61,11 @@ struct BodyState {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
 
+/// Joints that only turn, about an axis that is fixed in the parent.
+inline bool turns(JointType type) {
+  return type == JointType::Revolute || type == JointType::Continuous;
+}
+
 /// The way a cyclic value goes: the given difference when it is at most half a turn, else the
 /// shorter.
 double cyclicDifference(double from, double to);

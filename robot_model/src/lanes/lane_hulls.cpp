@@ -109,7 +109,7 @@ void LaneHulls::add(const Shape& shape, const Eigen::Isometry3d& body_from_shape
   hull.firstArm = static_cast<std::int32_t>(arms.size());
   for (const double arm : armsOfPath) arms.push_back(static_cast<float>(arm * (1.0 + 1e-6)));
   hull.count = static_cast<std::int32_t>(grown.points.size());
-  hull.radius = std::nextafter(static_cast<float>(grown.radius), 1e30F);
+  if (grown.radius > 0.0) hull.radius = std::nextafter(static_cast<float>(grown.radius), 1e30F);
   hull.ofGeometry = grown.ofGeometry;
   for (std::size_t i = 0; i < grown.points.size(); i += kLanes) {
     Points& eight = points.emplace_back();

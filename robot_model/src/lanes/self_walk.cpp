@@ -12,6 +12,7 @@
 
 #include "lanes/f8.hpp"
 #include "lanes/placed_ball.hpp"
+#include "lanes/table_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -35,6 +36,7 @@ class SelfWalk {
       : model_(model),
         scratch_(scratch),
         block_(scratch.block),
+        tables_(scratch),
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == LaneMode::Motion) {}
 
@@ -48,7 +50,7 @@ class SelfWalk {
       Lanes lanes = kAllLanes;
       if (bodies.table != nullptr && scratch_.withinLimits) {
         const JointTable& table = *bodies.table;
-        lanes ^= provenBefore(table);
+        lanes ^= tables_.proven(table);
         if (lanes == 0) continue;
         start(bodies);
         if (meets(table, lanes)) return true;
@@ -82,49 +84,12 @@ class SelfWalk {
   }
 
  private:
-  /// Lanes whose joint values are in cells in which the bodies are apart.
-  Lanes provenBefore(const JointTable& table) const {
-    JointTable::Values lower;
-    JointTable::Values upper;
-    boxOf(table, 0, kLanes, lower, upper);
-    // A motion's first lanes are in order of time, and its angles do not turn back.
-    if (block_.mode != LaneMode::States && table.free(lower, upper)) return kAllLanes;
-    Lanes lanes = 0;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      boxOf(table, lane, lane + 1, lower, upper);
-      if (table.free(lower, upper)) lanes |= 1U << lane;
-    }
-    return lanes;
-  }
-
-  /// Of the joint values in the first and the last of these lanes.
-  void boxOf(const JointTable& table, int first, int last, JointTable::Values& lower,
-             JointTable::Values& upper) const {
-    lower.fill(0.0F);
-    upper.fill(0.0F);
-    for (int k = 0; k < table.joints; ++k) {
-      const int body = table.axes[k].body;
-      const Row& angle = block_.angle[body];
-      const float spin = moving_ ? scratch_.motion[body].spin : 0.0F;
-      lower[k] = std::min(angle.lane[first] - block_.half.lane[first] * spin,
-                          angle.lane[last - 1] - block_.half.lane[last - 1] * spin);
-      upper[k] = std::max(angle.lane[first] + block_.half.lane[first] * spin,
-                          angle.lane[last - 1] + block_.half.lane[last - 1] * spin);
-    }
-  }
-
-  const JointTable::Cell* cellOf(const JointTable& table, int lane) const {
-    JointTable::Values values{};
-    for (int k = 0; k < table.joints; ++k) values[k] = block_.angle[table.axes[k].body].lane[lane];
-    return table.cellAt(values);
-  }
-
   /// Looks where the table suggests a contact.
   bool meets(const JointTable& table, Lanes lanes) {
     if (!block_.stopAtContact) return false;
     const JointTable::Cell* last = nullptr;
     for (; lanes != 0; lanes &= lanes - 1) {
-      const JointTable::Cell* cell = cellOf(table, std::countr_zero(lanes));
+      const JointTable::Cell* cell = tables_.cellOf(table, std::countr_zero(lanes));
       if (cell == nullptr || cell->nodeA < 0) continue;
       const bool again =
           last != nullptr && last->nodeA == cell->nodeA && last->nodeB == cell->nodeB;
@@ -151,8 +116,8 @@ class SelfWalk {
       const int lane = std::countr_zero(lanes);
       JointTable::Values lower;
       JointTable::Values upper;
-      boxOf(table, lane, lane + 1, lower, upper);
-      const JointTable::Cell* cell = cellOf(table, lane);
+      tables_.boxOf(table, lane, lane + 1, lower, upper);
+      const JointTable::Cell* cell = tables_.cellOf(table, lane);
       if (cell == nullptr) {
         outside |= 1U << lane;
         continue;
@@ -307,6 +272,7 @@ class SelfWalk {
   const LaneModel& model_;
   LaneScratch& scratch_;
   LaneBlock& block_;
+  const TableLanes tables_;
   const F8 half_;
   const bool moving_;
   const LaneBodyState* stateA_ = nullptr;

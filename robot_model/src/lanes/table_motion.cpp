@@ -21,10 +21,6 @@ constexpr double kWidest = 32.0;
 /// rad. A float, with the index of its part, is far less off: on the widest range by 2e-5.
 constexpr double kValueRounding = 4e-5;
 
-bool turns(JointType type) {
-  return type == JointType::Revolute || type == JointType::Continuous;
-}
-
 }  // namespace
 
 std::optional<TableMotion> TableMotion::between(const CheckerModel& model, const LaneModel& lanes,

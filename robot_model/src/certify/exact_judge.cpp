@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certify/exact_judge.hpp"
+
+#include "certify/lane_witness.hpp"
+
+namespace swept::detail {
+
+bool ExactJudge::start() {
+  if (!started_) started_ = query_.start(from_, to_);
+  return started_;
+}
+
+bool ExactJudge::isContact(const LaneContact& contact, double t) {
+  certificate_.witness = laneWitness(model_, contact, t);
+  return certificate_.witness.has_value();
+}
+
+bool ExactJudge::isInside(std::uint32_t pair, std::int32_t point, double t) {
+  if (!start()) return false;
+  query_.moveTo(t);
+  const Eigen::Vector3d at =
+      query_.placed(pair, model_.lanes.hulls->inBody[static_cast<std::size_t>(point)]);
+  certificate_.witness = pointWitness(model_, pair, at, t);
+  return certificate_.witness.has_value();
+}
+
+LaneLook ExactJudge::look(std::uint32_t pair, double t, double half) {
+  LaneLook look;
+  Effort& effort = certificate_.effort;
+  if (effort.intervals >= model_.options.maxIntervals || !start()) return look;
+  query_.moveTo(t);
+  const PairAnswer answer = query_.prove(pair, half);
+  ++effort.intervals;
+  ++(answer.culled ? effort.culled : effort.distances);
+  if (answer.status == Separation::Contact) {
+    look.kind = LaneLook::Kind::Contact;
+    if (contacts_) certificate_.witness = query_.witness(pair, t, answer);
+    return look;
+  }
+  if (answer.status == Separation::Separated) look.kind = LaneLook::Kind::Apart;
+  look.directed = !answer.normal.isZero();
+  for (int i = 0; i < 3; ++i) look.towards[i] = static_cast<float>(answer.normal[i]);
+  return look;
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "certify/pair_query.hpp"
+#include "lanes/lane_search.hpp"
+
+namespace swept::detail {
+
+/// Looks at one motion on exact geometry, where the lane tier asks for it. Effort and witnesses go
+/// to the certificate.
+class ExactJudge final : public LaneJudge {
+ public:
+  /// `contacts`: a contact decides the motion, and its witness is wanted.
+  ExactJudge(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
+             bool contacts, PairQuery& query, MotionCertificate& certificate)
+      : model_(model),
+        from_(from),
+        to_(to),
+        contacts_(contacts),
+        query_(query),
+        certificate_(certificate) {}
+
+  /// Compiles the motion for the query, once. False: nothing can be said about it.
+  bool start();
+
+  bool isContact(const LaneContact& contact, double t) override;
+  bool isInside(std::uint32_t pair, std::int32_t point, double t) override;
+  LaneLook look(std::uint32_t pair, double t, double half) override;
+
+ private:
+  const CheckerModel& model_;
+  std::span<const double> from_, to_;
+  const bool contacts_;
+  PairQuery& query_;
+  MotionCertificate& certificate_;
+  bool started_ = false;
+};
+
+}  // namespace swept::detail

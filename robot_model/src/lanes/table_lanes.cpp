@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lanes/table_lanes.hpp"
+
+#include <algorithm>
+
+namespace swept::detail {
+
+std::uint32_t TableLanes::proven(const JointTable& table) const {
+  const LaneBlock& block = scratch_.block;
+  JointTable::Values lower;
+  JointTable::Values upper;
+  boxOf(table, 0, kLanes, lower, upper);
+  // A motion's first lanes are in order of time, and its angles do not turn back.
+  if (block.mode != LaneMode::States && table.free(lower, upper)) return kAllLanes;
+  std::uint32_t lanes = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    boxOf(table, lane, lane + 1, lower, upper);
+    if (table.free(lower, upper)) lanes |= 1U << lane;
+  }
+  return lanes;
+}
+
+void TableLanes::boxOf(const JointTable& table, int first, int last, JointTable::Values& lower,
+                       JointTable::Values& upper) const {
+  const LaneBlock& block = scratch_.block;
+  const bool moving = block.mode == LaneMode::Motion;
+  lower.fill(0.0F);
+  upper.fill(0.0F);
+  for (int k = 0; k < table.joints; ++k) {
+    const int body = table.axes[k].body;
+    const Row& angle = block.angle[body];
+    const float spin = moving ? scratch_.motion[body].spin : 0.0F;
+    lower[k] = std::min(angle.lane[first] - block.half.lane[first] * spin,
+                        angle.lane[last - 1] - block.half.lane[last - 1] * spin);
+    upper[k] = std::max(angle.lane[first] + block.half.lane[first] * spin,
+                        angle.lane[last - 1] + block.half.lane[last - 1] * spin);
+  }
+}
+
+const JointTable::Cell* TableLanes::cellOf(const JointTable& table, int lane) const {
+  JointTable::Values values{};
+  for (int k = 0; k < table.joints; ++k)
+    values[k] = scratch_.block.angle[table.axes[k].body].lane[lane];
+  return table.cellAt(values);
+}
+
+}  // namespace swept::detail
