@@ -22,16 +22,16 @@ constexpr double kStopShare = 0.45;
 class MotionProver {
  public:
   MotionProver(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
-               MotionQuery wanted, WorkspaceData& workspace)
+               MotionQuery wanted, WorkspaceData& workspace, MotionCertificate& certificate)
       : model_(model),
         workspace_(workspace),
         wanted_(wanted),
         query_(model, workspace),
-        judge_(model, from, to, wanted == MotionQuery::VerdictOnly, query_, certificate_) {}
+        certificate_(certificate),
+        judge_(model, from, to, wanted == MotionQuery::VerdictOnly, query_, certificate) {}
 
-  MotionCertificate run(std::span<const double> from, std::span<const double> to) {
-    if (settleInLanes(from, to)) return certificate_;
-    if (!judge_.start()) return certificate_;
+  void run(std::span<const double> from, std::span<const double> to) {
+    if (settleInLanes(from, to) || !judge_.start()) return;
     searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
     // second attempt in another order settles some of what the first left open.
@@ -51,7 +51,6 @@ class MotionProver {
     if (wanted_ == MotionQuery::VerdictOnly && certificate_.verdict != Verdict::Free) {
       certificate_.freeUntil = 0.0;
     }
-    return certificate_;
   }
 
  private:
@@ -265,7 +264,7 @@ class MotionProver {
   WorkspaceData& workspace_;
   const MotionQuery wanted_;
   PairQuery query_;
-  MotionCertificate certificate_;
+  MotionCertificate& certificate_;
   ExactJudge judge_;
   std::optional<double> undecidedAt_;
 };
@@ -275,7 +274,9 @@ class MotionProver {
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, MotionQuery wanted,
                                 WorkspaceData& workspace) {
-  return MotionProver(model, from, to, wanted, workspace).run(from, to);
+  MotionCertificate certificate;
+  MotionProver(model, from, to, wanted, workspace, certificate).run(from, to);
+  return certificate;
 }
 
 }  // namespace swept::detail
