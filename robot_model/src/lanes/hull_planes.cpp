@@ -87,11 +87,6 @@ F8 reachOf(const LaneRound& round, ObstacleKind kind, const V3& n) {
   return reach + across + set(2e-6F * far);
 }
 
-bool hasReach(ObstacleKind kind) {
-  return kind == ObstacleKind::Box || kind == ObstacleKind::Ball || kind == ObstacleKind::Capsule ||
-         kind == ObstacleKind::Cylinder;
-}
-
 F8 reachOf(const LaneObstacles& obstacles, const LaneObstacle& obstacle, const V3& n) {
   if (obstacle.kind == ObstacleKind::Box) return reachOf(obstacles.boxes[obstacle.first], n);
   return reachOf(obstacles.rounds[obstacle.first], obstacle.kind, n);
@@ -114,12 +109,6 @@ class DividedPair {
     // Two rounded positions, and as much for what is computed of them here.
     required_ = (set(4.0F * scratch.rounding + model.margin) + inflation(half_, acceleration)) *
                 set(1.0F + 4e-6F);
-  }
-
-  bool canDivide() const {
-    if (model_.hulls->of[source_.geometry].count == 0) return false;
-    if (self_) return model_.hulls->of[source_.other].count > 0;
-    return hasReach(model_.obstacles.obstacles[source_.obstacle].kind);
   }
 
   /// By planes across a direction that is fixed in the frame of the first body, then of the other.
@@ -178,8 +167,7 @@ class DividedPair {
 
 std::uint32_t Divide(const LaneModel& model, std::uint32_t pair, const LaneDirection& direction,
                      std::uint32_t lanes, LaneScratch& scratch) {
-  const DividedPair divided(model, pair, scratch);
-  return divided.canDivide() ? divided.divide(direction.towards, direction.lane, lanes) : 0;
+  return DividedPair(model, pair, scratch).divide(direction.towards, direction.lane, lanes);
 }
 
 }  // namespace
@@ -190,6 +178,15 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 HWY_EXPORT(Divide);
+
+bool canDivide(const LaneModel& model, std::uint32_t pair) {
+  const LanePairSource& source = model.sources[pair];
+  if (model.hulls->of[source.geometry].count == 0) return false;
+  if (source.obstacle < 0) return model.hulls->of[source.other].count > 0;
+  const ObstacleKind kind = model.obstacles.obstacles[source.obstacle].kind;
+  return kind == ObstacleKind::Box || kind == ObstacleKind::Ball || kind == ObstacleKind::Capsule ||
+         kind == ObstacleKind::Cylinder;
+}
 
 std::uint32_t lanesDivided(const LaneModel& model, std::uint32_t pair,
                            const LaneDirection& direction, std::uint32_t lanes,

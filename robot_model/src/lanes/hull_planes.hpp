@@ -15,9 +15,12 @@ struct LaneDirection {
   int lane = 0;
 };
 
+/// Whether planes can be found for a pair: both bodies have hulls, or the obstacle is a ball, a
+/// capsule, a cylinder or a box.
+bool canDivide(const LaneModel& model, std::uint32_t pair);
+
 /// Of the given lanes, those in which a plane across the direction is proven to lie between the two
-/// bodies of the pair for the whole sub-interval; their frames have to be placed. None for bodies
-/// without a hull and for obstacles other than balls, capsules, cylinders and boxes.
+/// bodies of a pair that can be divided for the whole sub-interval; their frames have to be placed.
 std::uint32_t lanesDivided(const LaneModel& model, std::uint32_t pair,
                            const LaneDirection& direction, std::uint32_t lanes,
                            LaneScratch& scratch);

@@ -33,7 +33,11 @@ class Division {
       scratch_.waiting.assign(parts.begin() + static_cast<std::ptrdiff_t>(first),
                               parts.begin() + static_cast<std::ptrdiff_t>(last));
       first = last;
-      if (dividePair()) return true;
+      if (!canDivide(model_, scratch_.waiting.front().pair)) {
+        for (const Part& part : scratch_.waiting) leave(part);
+      } else if (dividePair()) {
+        return true;
+      }
     }
     return false;
   }
@@ -167,12 +171,16 @@ class Division {
   void handOn(Part part) {
     const bool enough = scratch_.waiting.size() >= kMostParts || looks_ >= kMostLooks;
     if (enough || inContact_ || isFine(part)) {
-      scratch_.rest.push_back({part.time, part.half, scratch_.restArena.size(), 1});
-      scratch_.restArena.push_back(part.pair);
+      leave(part);
       return;
     }
     scratch_.waiting.push_back(half(part, -1.0F));
     scratch_.waiting.push_back(half(part, 1.0F));
+  }
+
+  void leave(const Part& part) {
+    scratch_.rest.push_back({part.time, part.half, scratch_.restArena.size(), 1});
+    scratch_.restArena.push_back(part.pair);
   }
 
   const LaneModel& model_;

@@ -239,7 +239,9 @@ HWY_INLINE FieldAnswer askField(const LaneField& field, const Segment& segment, 
   answer.middle = clearance(field, x, radius + length, wanted);
   const F8 room = answer.middle - radius;
   answer.apart = above(room, length);
-  answer.worthQuery = above(room, set(-field.cell)) & ~answer.apart;
+  // Long segments hardly pass, and take longest.
+  answer.worthQuery =
+      above(room, set(-field.cell)) & below(length, set(2.0F * field.cell)) & ~answer.apart;
   const Lanes open = wanted & above(room, set(0.0F)) & ~answer.apart;
   if (open == 0) return answer;
   const V3 g = inFrame(field, segment.g, false);
