@@ -58,9 +58,8 @@ struct LaneEllipsoid {
   float inverse[3];   ///< 1/m, of the semi-axes; near to them is enough
 };
 
-/// { x : normal . x <= offset + slack for all of a range of planes }, or { x : |normal . x -
-/// offset|
-/// <= slack }
+/// { x : normal . x <= offset + slack for all of a range of planes }, or, of a slab,
+/// { x : |normal . x - offset| <= slack }
 struct LanePlane {
   float normal[3];  ///< unit
   float offset;     ///< m
