@@ -118,8 +118,10 @@ TEST_P(ConvexPairs, GoalsAreMetAlongTheNormal) {
       approach.linear = 0.05 * Vector3d(1.0, -2.0, 0.5);
       approach.travel = kInfinity;
       approach.required = 1e-3;
+      const PartMotion still;
+      const PartApproach goal(approach, still, still);
       const GjkResult r =
-          convexPair(a, b, p.a_from_b, Vector3d::Zero(), Goal(approach), 0.0, 1e-9, mode);
+          convexPair(a, b, p.a_from_b, Vector3d::Zero(), Goal(goal), 0.0, 1e-9, mode);
       ++cases;
       if (!r.satisfied) continue;
       ++met;

@@ -63,8 +63,8 @@ swept::ApproachBound approachOf(const swept::Shape& a, const Screwing& moveA, co
   bound.linear = a_from_world * (velocity(moveB, ballB.center) - velocity(moveA, ballA.center));
   bound.spinA = a_from_world * moveA.spin;
   bound.spinB = a_from_world * moveB.spin;
-  bound.radiusA = ballA.radius;
-  bound.radiusB = ballB.radius;
+  bound.ballA = ballA;
+  bound.ballB = {moveA.middle.inverse() * (moveB.middle * ballB.center), ballB.radius};
   const double armA = ballA.center.norm() + ballA.radius;
   const double armB = ballB.center.norm() + ballB.radius;
   bound.curvature = 0.5 * (armA * moveA.spin.squaredNorm() + armB * moveB.spin.squaredNorm());

@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 
 #include "narrowphase/convex.hpp"
+#include "narrowphase/part_approach.hpp"
 #include "narrowphase/simplex.hpp"
 #include "swept/core/distance.hpp"
-#include "swept/core/separation.hpp"
 
 namespace swept::detail {
 
@@ -15,13 +15,13 @@ namespace swept::detail {
 class Goal {
  public:
   explicit Goal(double constant) : constant_(constant) {}
-  explicit Goal(const ApproachBound& approach) : approach_(&approach) {}
+  explicit Goal(const PartApproach& approach) : approach_(&approach) {}
   double along(const Eigen::Vector3d& n) const {
     return approach_ ? approach_->along(n) : constant_;
   }
 
  private:
-  const ApproachBound* approach_ = nullptr;
+  const PartApproach* approach_ = nullptr;
   double constant_ = 0.0;
 };
 

@@ -47,6 +47,7 @@ class PiecePair {
 
   Piece rootA() const { return rootOf(a_); }
   Piece rootB() const { return rootOf(b_); }
+  static Piece rootOf(const Side& side);
 
   /// The node whose children are looked at next: that of the larger piece. Not both are leaves.
   struct Split {
@@ -94,7 +95,6 @@ class PiecePair {
   double rounding() const { return rounding_; }
 
  private:
-  static Piece rootOf(const Side& side);
   static Eigen::Vector3d placeOne(const Side& side, const Piece& piece, TriangleCorners& corners,
                                   Convex& body);
   float boundAgainstFlat(const OrientedBox& box, bool ofA) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "narrowphase/cloud_enclosure.hpp"
@@ -46,7 +47,9 @@ class Waiting {
 class Search {
  public:
   Search(const Side& a, const Side& b, const Isometry3d& a_from_b, const PieceGoal& goal)
-      : a_(a), b_(b), a_from_b_(a_from_b), goal_(goal) {}
+      : a_(a), b_(b), a_from_b_(a_from_b), goal_(goal) {
+    if (goal.approach != nullptr) motions_.emplace(*goal.approach, a_from_b);
+  }
 
   PieceResult run(const Vector3d& guess) {
     result_.hint = guess;
@@ -55,14 +58,15 @@ class Search {
       result_.lower = std::numeric_limits<double>::infinity();
       const PiecePair pieces(a_, b_, a_from_b_);
       pieces_ = &pieces;
-      descend(pieces.rootA(), pieces.rootB(), result_.hint);
+      descend(part(true, pieces.rootA()), part(false, pieces.rootB()), result_.hint);
       while (!waiting_.isEmpty() && !inContact()) {
         const Waiting::Pair next = waiting_.pop();
-        if (next.lower > settledBeyond()) {
+        if (next.lower > settledBeyond({})) {
           settle(next.lower);
           break;
         }
-        descend(pieces.piece(true, next.placeA), pieces.piece(false, next.placeB), result_.hint);
+        descend(part(true, pieces.piece(true, next.placeA)),
+                part(false, pieces.piece(false, next.placeB)), result_.hint);
       }
       result_.normal.setZero();
     }
@@ -70,11 +74,28 @@ class Search {
   }
 
  private:
+  /// A piece and how it moves, in the search for a motion bound.
+  struct Part {
+    Piece piece;
+    PartMotion motion;
+  };
+
+  Part part(bool ofA, const Piece& piece) const { return {piece, motionOf(ofA, piece)}; }
+
+  PartMotion motionOf(bool ofA, const Piece& piece) const {
+    if (!motions_ || failed_) return {};
+    const bool flat = piece.isWhole() && (ofA ? a_ : b_).convex.isFlat();
+    return flat ? motions_->ofBall(ofA) : motions_->of(ofA, piece.box);
+  }
+
   /// The convex bodies or hulls themselves. For two convex bodies this is the whole answer.
   bool hullsSuffice(const Vector3d& guess) {
     const bool exact = a_.isConvex() && b_.isConvex();
     if (!exact && !(a_.convexIsCheap && b_.convexIsCheap)) return false;
-    const GjkResult hulls = convexPair(a_.convex, b_.convex, a_from_b_, guess, goal(),
+    const PartMotion motionA = motionOf(true, PiecePair::rootOf(a_));
+    const PartMotion motionB = motionOf(false, PiecePair::rootOf(b_));
+    const Approach approach = approachOf(motionA, motionB);
+    const GjkResult hulls = convexPair(a_.convex, b_.convex, a_from_b_, guess, goal(approach),
                                        goal_.contact, goal_.tolerance, modeOfLeaves());
     result_.iterations += hulls.iterations;
     result_.hint = hulls.normal;
@@ -106,7 +127,11 @@ class Search {
   /// them: the pieces will not do better, and there is no contact.
   bool outOfReach(const GjkResult& hulls) {
     if (goal_.approach == nullptr || goal_.thorough || !(hulls.lower > goal_.contact)) return false;
-    if (hulls.upper + a_.dent + b_.dent > goal_.approach->along(hulls.normal)) return false;
+    // As the points move that are nearest: what the pieces there will need.
+    const PartMotion motionA = motions_->ofPoint(true, hulls.pointA);
+    const PartMotion motionB = motions_->ofPoint(false, hulls.pointB);
+    const double needed = PartApproach(*goal_.approach, motionA, motionB).along(hulls.normal);
+    if (hulls.upper + a_.dent + b_.dent > needed) return false;
     failed_ = true;
     result_.lower = hulls.lower;
     return true;
@@ -125,21 +150,27 @@ class Search {
 
   bool inContact() const { return result_.upper <= goal_.contact; }
 
+  /// None in a distance query.
+  using Approach = std::optional<PartApproach>;
+  Approach approachOf(const PartMotion& a, const PartMotion& b) const {
+    if (goal_.approach == nullptr) return std::nullopt;
+    return PartApproach(*goal_.approach, a, b);
+  }
+
   /// What a pair of pieces has to exceed to be settled. Once some pair has failed a motion bound,
   /// only contact is still of interest; in a distance query, only what is nearer than the best so
   /// far.
-  Goal goal() const {
-    if (goal_.approach != nullptr) {
-      return failed_ ? Goal(goal_.contact) : Goal(*goal_.approach);
-    }
+  Goal goal(const Approach& approach) const {
+    if (approach) return failed_ ? Goal(goal_.contact) : Goal(*approach);
     return Goal(std::min(goal_.enough, std::max(0.0, result_.upper - goal_.tolerance)));
   }
 
   /// Of two leaves by GJK, along the direction that suits the goal.
-  GjkResult measure(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess) {
+  GjkResult measure(const Piece& pieceA, const Piece& pieceB, const Approach& approach,
+                    const Vector3d& guess) {
     PiecePair::Leaves leaves;
     pieces_->place(pieceA, pieceB, leaves);
-    GjkResult measured = convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, goal(),
+    GjkResult measured = convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, goal(approach),
                                     goal_.contact, goal_.tolerance, modeOfLeaves());
     measured.pointA += leaves.centerA;
     measured.pointB += leaves.centerA;
@@ -151,44 +182,46 @@ class Search {
     const double rounding = pieces_->rounding();
     const TriangleDistance found =
         triangleDistance(cornersOf(*a_.mesh, pieceA.primitive),
-                         pieces_->movedCorners(pieceB.primitive), settledBeyond() + rounding);
+                         pieces_->movedCorners(pieceB.primitive), settledBeyond({}) + rounding);
     GjkResult measured;
     measured.iterations = 1;
     measured.lower = std::max(0.0, found.lower - rounding);
     measured.upper = found.upper;
     measured.pointA = found.pointA;
     measured.pointB = found.pointB;
-    measured.satisfied = measured.lower > settledBeyond();
+    measured.satisfied = measured.lower > settledBeyond({});
     return measured;
   }
 
-  void descend(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess) {
-    if (pieceA.isLeaf() && pieceB.isLeaf()) {
-      testLeaves(pieceA, pieceB, guess);
+  void descend(const Part& a, const Part& b, const Vector3d& guess) {
+    const Approach approach = approachOf(a.motion, b.motion);
+    if (a.piece.isLeaf() && b.piece.isLeaf()) {
+      testLeaves(a.piece, b.piece, approach, guess);
       return;
     }
-    const PiecePair::Split split = pieces_->split(pieceA, pieceB);
-    const Piece& other = split.ofA ? pieceB : pieceA;
+    const PiecePair::Split split = pieces_->split(a.piece, b.piece);
+    const Part& other = split.ofA ? b : a;
     PiecePair::Bounds lower;
-    pieces_->boundChildren(split, other, settledBeyond(), lower);
+    pieces_->boundChildren(split, other.piece, settledBeyond(approach), lower);
     ++result_.iterations;
     std::array<int, WideNode::kLanes> order;
-    const int open = sortOpen(*split.node, lower, order);
+    const int open = sortOpen(*split.node, lower, settledBeyond(approach), order);
     for (int i = 0; i < open; ++i) {
       if (inContact()) return;
       const int lane = order[i];
-      if (lower[lane] > settledBeyond()) {
+      if (lower[lane] > settledBeyond(approach)) {
         settle(lower[lane]);
         continue;
       }
-      if (putOff(split, lane, other, lower[lane])) continue;
-      const Piece piece = PiecePair::child(split, lane);
+      if (putOff(split, lane, other.piece, lower[lane])) continue;
+      const Part child = part(split.ofA, PiecePair::child(split, lane));
       Vector3d direction = guess;
-      if (lower[lane] > 0.0F && settledAlong(piece, split.ofA, other, direction)) continue;
+      if (lower[lane] > 0.0F && settledAlong(child, split.ofA, other, lower[lane], direction))
+        continue;
       if (split.ofA) {
-        descend(piece, other, direction);
+        descend(child, other, direction);
       } else {
-        descend(other, piece, direction);
+        descend(other, child, direction);
       }
     }
   }
@@ -203,9 +236,8 @@ class Search {
   }
 
   /// The lanes that are not settled, nearest first.
-  int sortOpen(const WideNode& node, const PiecePair::Bounds& lower,
+  int sortOpen(const WideNode& node, const PiecePair::Bounds& lower, double beyond,
                std::array<int, WideNode::kLanes>& order) {
-    const double beyond = settledBeyond();
     int open = 0;
     for (int lane = 0; lane < node.count; ++lane) {
       if (lower[lane] > beyond) {
@@ -219,14 +251,21 @@ class Search {
     return open;
   }
 
-  /// Whether the boxes are apart as the motion needs along the best of their own axes, which may be
-  /// less than along every direction. `direction` receives that axis, from a to b.
-  bool settledAlong(const Piece& piece, bool ofA, const Piece& other, Vector3d& direction) {
+  /// Whether the boxes are apart as their motion needs in any direction, or along the best of their
+  /// own axes. `direction` receives that axis, from a to b.
+  bool settledAlong(const Part& part, bool ofA, const Part& other, double lower,
+                    Vector3d& direction) {
     if (goal_.approach == nullptr) return false;
-    const BoxGap gap = pieces_->gap(piece, ofA, other);
+    const PartApproach approach(*goal_.approach, (ofA ? part : other).motion,
+                                (ofA ? other : part).motion);
+    if (!failed_ && lower > approach.most()) {
+      settle(lower);
+      return true;
+    }
+    const BoxGap gap = pieces_->gap(part.piece, ofA, other.piece);
     if (!(gap.value > 0.0)) return false;
     direction = gap.direction;
-    if (failed_ || !(gap.value > goal_.approach->along(direction))) return false;
+    if (failed_ || !(gap.value > approach.along(direction))) return false;
     settle(gap.value);
     return true;
   }
@@ -235,15 +274,16 @@ class Search {
 
   /// m. A proven distance beyond this settles a pair whatever the direction: the goal may have come
   /// closer since the pair was measured.
-  double settledBeyond() const {
-    if (goal_.approach != nullptr) return failed_ ? goal_.contact : goal_.approach->most();
+  double settledBeyond(const Approach& approach) const {
+    if (approach) return failed_ ? goal_.contact : approach->most();
     return std::min(goal_.enough, std::max(0.0, result_.upper - goal_.tolerance));
   }
 
-  void testLeaves(const Piece& pieceA, const Piece& pieceB, const Vector3d& guess) {
-    const GjkResult measured = pieces_->areTriangles(pieceA, pieceB) && goal_.approach == nullptr
+  void testLeaves(const Piece& pieceA, const Piece& pieceB, const Approach& approach,
+                  const Vector3d& guess) {
+    const GjkResult measured = pieces_->areTriangles(pieceA, pieceB) && !approach
                                    ? measureTriangles(pieceA, pieceB)
-                                   : measure(pieceA, pieceB, guess);
+                                   : measure(pieceA, pieceB, approach, guess);
     result_.iterations += measured.iterations;
     settle(measured.lower);
     if (measured.upper < result_.upper) {
@@ -251,7 +291,7 @@ class Search {
       result_.pointA = measured.pointA;
       result_.pointB = measured.pointB;
     }
-    if (!measured.satisfied && !inContact() && !(measured.lower > settledBeyond())) {
+    if (!measured.satisfied && !inContact() && !(measured.lower > settledBeyond(approach))) {
       failed_ = true;
       if (!measured.normal.isZero()) result_.hint = measured.normal;
     }
@@ -302,7 +342,8 @@ class Search {
   const Side& b_;
   const Isometry3d& a_from_b_;
   const PieceGoal& goal_;
-  const PiecePair* pieces_ = nullptr;  ///< null while only convex bodies are looked at
+  std::optional<PartMotions> motions_;  ///< where a motion bound is asked for
+  const PiecePair* pieces_ = nullptr;   ///< null while only convex bodies are looked at
   Vector3d ownPoint_ = Vector3d::Zero();
   PieceResult result_;
   Waiting waiting_;

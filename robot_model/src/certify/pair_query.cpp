@@ -162,17 +162,18 @@ PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const Appro
 }
 
 void PairQuery::relativeMotion(const GeometryPair& pair, double half,
-                               const Eigen::Matrix3d& world_from_a, const Vector3d& velocity,
+                               const Isometry3d& world_from_a, const Vector3d& velocity,
                                ApproachBound& bound) {
   const Vector3d& reference = state(pair.reference).angular;
   const RobotGeometry& a = model_.robotGeometry[pair.a];
-  bound.linear = world_from_a.transpose() * velocity;
-  bound.spinA = world_from_a.transpose() * (half * (state(a.body).angular - reference));
-  bound.radiusA = a.radius;
+  const Eigen::Matrix3d a_from_world = world_from_a.linear().transpose();
+  bound.linear = a_from_world * velocity;
+  bound.spinA = a_from_world * (half * (state(a.body).angular - reference));
+  bound.ballA = {a_from_world * (center(pair.a) - world_from_a.translation()), a.radius};
   if (!pair.self) return;
   const RobotGeometry& b = model_.robotGeometry[pair.b];
-  bound.spinB = world_from_a.transpose() * (half * (state(b.body).angular - reference));
-  bound.radiusB = b.radius;
+  bound.spinB = a_from_world * (half * (state(b.body).angular - reference));
+  bound.ballB = {a_from_world * (center(pair.b) - world_from_a.translation()), b.radius};
 }
 
 PairAnswer PairQuery::prove(std::uint32_t index, double half) {
@@ -195,7 +196,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
 
   const Isometry3d& world_from_a = pose(pair.a);
   const Isometry3d world_from_b = poseOfB(pair);
-  relativeMotion(pair, half, world_from_a.linear(), velocity, bound);
+  relativeMotion(pair, half, world_from_a, velocity, bound);
   answer.travel = bound.most() - bound.required;
   SeparationQuery query;
   query.approach = bound;

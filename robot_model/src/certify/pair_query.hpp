@@ -66,7 +66,7 @@ class PairQuery {
   Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
                        const Eigen::Vector3d& relativeVelocity, Eigen::Vector3d& towards);
   Eigen::Vector3d relativeVelocity(const GeometryPair& pair);
-  void relativeMotion(const GeometryPair& pair, double half, const Eigen::Matrix3d& world_from_a,
+  void relativeMotion(const GeometryPair& pair, double half, const Eigen::Isometry3d& world_from_a,
                       const Eigen::Vector3d& velocity, ApproachBound& bound);
   const Shape& shapeOfB(const GeometryPair& pair) const;
   Eigen::Isometry3d poseOfB(const GeometryPair& pair);

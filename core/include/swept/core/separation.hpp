@@ -18,28 +18,29 @@ namespace swept {
 /// ball of radius r that contains the body, and let a bound the acceleration of all its points.
 /// Then every point stays within a h^2 / 2 of p(m) + s v(p) for some |s| <= h, hence along a fixed
 /// unit vector n it moves by at most h |n . v(c)| + h |n x w| r + a h^2 / 2. The two bodies' first
-/// terms are taken together: only their relative velocity counts. Vectors are given in the first
-/// body's frame at m.
+/// terms are taken together: only their relative velocity counts. The same holds for any part of a
+/// body with a centre and a size of its own; queries make use of it, and so need c besides v(c).
+/// Vectors and centres are given in the first body's frame at m.
 struct ApproachBound {
   double required = 0.0;   ///< m, separation to be proven besides the motion: margin and rounding
   double travel = 0.0;     ///< m, bound on the approach in any direction (may be infinity)
   double curvature = 0.0;  ///< m, (a_A + a_B) h^2 / 2
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();  ///< m, h (v_B(c_B) - v_A(c_A))
-  Eigen::Vector3d spinA = Eigen::Vector3d::Zero();   ///< rad, h w_A
-  Eigen::Vector3d spinB = Eigen::Vector3d::Zero();   ///< rad, h w_B
-  double radiusA = 0.0;                              ///< m
-  double radiusB = 0.0;                              ///< m
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();    ///< m, h (v_B(c_B) - v_A(c_A))
+  Eigen::Vector3d spinA = Eigen::Vector3d::Zero();     ///< rad, h w_A
+  Eigen::Vector3d spinB = Eigen::Vector3d::Zero();     ///< rad, h w_B
+  BoundingSphere ballA{Eigen::Vector3d::Zero(), 0.0};  ///< m, a's frame
+  BoundingSphere ballB{Eigen::Vector3d::Zero(), 0.0};  ///< m, a's frame
 
   /// m. A separation of more than this along the unit vector n at m lasts over the whole interval.
   double along(const Eigen::Vector3d& n) const {
-    const double directed = std::abs(n.dot(linear)) + n.cross(spinA).norm() * radiusA +
-                            n.cross(spinB).norm() * radiusB + curvature;
+    const double directed = std::abs(n.dot(linear)) + n.cross(spinA).norm() * ballA.radius +
+                            n.cross(spinB).norm() * ballB.radius + curvature;
     return required + std::min(travel, directed);
   }
   /// m, >= along(n) for every n.
   double most() const {
-    return required + std::min(travel, linear.norm() + spinA.norm() * radiusA +
-                                           spinB.norm() * radiusB + curvature);
+    return required + std::min(travel, linear.norm() + spinA.norm() * ballA.radius +
+                                           spinB.norm() * ballB.radius + curvature);
   }
 };
 

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "narrowphase/part_approach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesh_samples.hpp"
+#include "swept/core/distance.hpp"
+#include "swept/core/separation.hpp"
+
+namespace {
+
+using namespace swept;
+using namespace swept::detail;
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using swept::test::randomPose;
+using swept::test::uniform;
+using swept::test::uniformPoint;
+using swept::test::unitVector;
+
+/// A body that turns about its frame's origin while this moves along a line, for s in [-1, 1].
+struct Screwing {
+  Isometry3d middle;
+  Vector3d velocity;
+  Vector3d spin;
+
+  Isometry3d at(double s) const {
+    Isometry3d pose = middle;
+    pose.translation() += s * velocity;
+    const double rate = spin.norm();
+    if (rate > 0.0) pose.linear() = Eigen::AngleAxisd(s * rate, spin / rate) * middle.linear();
+    return pose;
+  }
+  Vector3d velocityOf(const Vector3d& local) const {
+    return velocity + spin.cross(Vector3d(middle.linear() * local));
+  }
+};
+
+ApproachBound approachOf(const Shape& a, const Screwing& moveA, const Shape& b,
+                         const Screwing& moveB) {
+  const BoundingSphere ballA = boundingSphere(a);
+  const BoundingSphere ballB = boundingSphere(b);
+  const Matrix3d a_from_world = moveA.middle.linear().transpose();
+  const double armA = ballA.center.norm() + ballA.radius;
+  const double armB = ballB.center.norm() + ballB.radius;
+  ApproachBound bound;
+  bound.linear = a_from_world * (moveB.velocityOf(ballB.center) - moveA.velocityOf(ballA.center));
+  bound.spinA = a_from_world * moveA.spin;
+  bound.spinB = a_from_world * moveB.spin;
+  bound.ballA = ballA;
+  bound.ballB = {moveA.middle.inverse() * (moveB.middle * ballB.center), ballB.radius};
+  bound.curvature = 0.5 * (armA * moveA.spin.squaredNorm() + armB * moveB.spin.squaredNorm());
+  bound.travel = moveA.velocity.norm() + moveB.velocity.norm() + armA * moveA.spin.norm() +
+                 armB * moveB.spin.norm();
+  bound.required = 1e-12;
+  return bound;
+}
+
+OrientedBox randomBox(std::mt19937& random, double far) {
+  OrientedBox box;
+  const Isometry3d pose = randomPose(random, far);
+  box.center = pose.translation();
+  for (int j = 0; j < 3; ++j) {
+    box.half[j] = static_cast<float>(std::pow(10.0, uniform(random, -3.0, 0.0)));
+    for (int i = 0; i < 3; ++i) box.axes[j][i] = static_cast<float>(pose.linear()(i, j));
+  }
+  return box;
+}
+
+/// No two points of two boxes approach faster than their bound says, and some two as fast: every
+/// corner is looked at.
+TEST(PartApproach, IsTheFastestApproachOfTheCorners) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 3000; ++i) {
+    const Screwing moveA{randomPose(random, 2.0), uniformPoint(random, 0.1),
+                         uniform(random, 0.0, 0.5) * unitVector(random)};
+    const Screwing moveB{randomPose(random, 2.0), uniformPoint(random, 0.1),
+                         uniform(random, 0.0, 0.5) * unitVector(random)};
+    ApproachBound whole = approachOf(Sphere{1.0}, moveA, Sphere{2.0}, moveB);
+    whole.travel = std::numeric_limits<double>::infinity();
+    const Isometry3d a_from_b = moveA.middle.inverse() * moveB.middle;
+    const OrientedBox boxA = randomBox(random, 2.0);
+    const OrientedBox boxB = randomBox(random, 2.0);
+    const PartMotions motions(whole, a_from_b);
+    const PartMotion partA = motions.of(true, boxA);
+    const PartMotion partB = motions.of(false, boxB);
+    const PartApproach approach(whole, partA, partB);
+    const Vector3d n = unitVector(random);
+    const Vector3d inWorld = moveA.middle.linear() * n;
+    double fastest = 0.0;
+    for (int corners = 0; corners < 64; ++corners) {
+      const auto corner = [&](const OrientedBox& box, int bits) {
+        Vector3d p = box.center;
+        for (int j = 0; j < 3; ++j) {
+          const double along = (bits >> j & 1) != 0 ? box.half[j] : -box.half[j];
+          p += along * Vector3d(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
+        }
+        return p;
+      };
+      const Vector3d relative = moveB.velocityOf(corner(boxB, corners >> 3)) -
+                                moveA.velocityOf(corner(boxA, corners & 7));
+      fastest = std::max(fastest, std::abs(inWorld.dot(relative)));
+    }
+    const double bound = approach.along(n) - whole.required - whole.curvature;
+    ASSERT_GE(bound, fastest);
+    ASSERT_LE(bound, fastest + 1e-5);
+    ASSERT_GE(approach.most(), approach.along(n));
+  }
+}
+
+TEST(PartApproach, WithoutNumbersOnlyTheTravelCounts) {
+  std::mt19937 random(4);
+  ApproachBound whole;
+  whole.spinA = Vector3d(0.0, 0.1, 0.2);
+  whole.travel = 0.3;
+  OrientedBox box = randomBox(random, 1.0);
+  const PartMotions motions(whole, Isometry3d::Identity());
+  const PartMotion still = motions.of(false, box);
+  box.half.fill(std::numeric_limits<float>::infinity());
+  const PartMotion endless = motions.of(true, box);
+  EXPECT_EQ(PartApproach(whole, endless, still).along(Vector3d::UnitX()), 0.3);
+  EXPECT_EQ(PartApproach(whole, endless, still).most(), 0.3);
+  whole.travel = std::nan("");
+  EXPECT_FALSE(1.0 > PartApproach(whole, endless, still).along(Vector3d::UnitX()));
+}
+
+TriangleMesh meshOf(const test::Soup& soup) {
+  return TriangleMesh::build(soup.vertices, soup.triangles);
+}
+
+Shape randomBody(std::mt19937& random, int kind) {
+  const auto scaled = [](test::Soup soup, double by) {
+    for (Vector3d& v : soup.vertices) v *= by;
+    return soup;
+  };
+  switch (kind % 5) {
+    case 0:
+      return meshOf(
+          test::torusSoup(20, 8, uniform(random, 0.2, 0.4), 0.05).moved(randomPose(random, 0.3)));
+    case 1:
+      return Cylinder{uniform(random, 0.03, 0.2), uniform(random, 0.05, 0.4)};
+    case 2:
+      return meshOf(test::boxSoup(Vector3d(-0.05, -0.05, -0.4), Vector3d(0.05, 0.05, 0.4)));
+    case 3:
+      return Box{uniformPoint(random, 0.2).cwiseAbs() + Vector3d::Constant(0.02)};
+    default:
+      return meshOf(scaled(test::blobSoup(random, 8, 10), 0.3).moved(randomPose(random, 0.3)));
+  }
+}
+
+/// What is called separated never meets at any sampled time. Of these the bound of whole bodies
+/// would have left many open: their distance is less than it asks for along the nearest points.
+TEST(PartApproach, ProofsOfTurningMeshesSurviveSampling) {
+  std::mt19937 random(7);
+  int separated = 0;
+  int close = 0;
+  int more = 0;
+  const int cases = 1000;
+  for (int i = 0; i < cases; ++i) {
+    const Shape a = randomBody(random, i % 2 == 0 ? 0 : 4);
+    const Shape b = randomBody(random, i / 2);
+    const double pace = std::pow(10.0, uniform(random, -2.0, -0.3));
+    const auto move = [&](double far) {
+      return Screwing{randomPose(random, far), 0.1 * pace * uniformPoint(random, 1.0),
+                      pace * unitVector(random)};
+    };
+    const Screwing moveA = move(0.25);
+    const Screwing moveB = move(0.4);
+    SeparationQuery query;
+    query.approach = approachOf(a, moveA, b, moveB);
+    query.thorough = i % 3 != 0;
+    const Isometry3d a_from_b = moveA.middle.inverse() * moveB.middle;
+    if (separate(a, b, a_from_b, query).status != Separation::Separated) continue;
+    ++separated;
+    const DistanceResult middle = distance(a, b, a_from_b);
+    const Vector3d n = (middle.pointB - middle.pointA).normalized();
+    more += !(middle.upper > query.approach.along(n));
+    double least = middle.upper;
+    for (int k = -20; k <= 20; ++k) {
+      const double s = k / 20.0;
+      const double upper = distance(a, b, moveA.at(s).inverse() * moveB.at(s)).upper;
+      ASSERT_GT(upper, 0.0) << "case " << i << " at s = " << s;
+      least = std::min(least, upper);
+    }
+    close += least < 0.05;
+  }
+  EXPECT_GT(separated, cases / 5);
+  EXPECT_GT(close, cases / 20);
+  EXPECT_GT(more, cases / 20);
+}
+
+/// A shaft that spins within a ring: all points of the shaft near the ring move along it.
+TEST(PartApproach, AShaftSpinsWithinARing) {
+  const Shape ring = meshOf(test::torusSoup(48, 16, 0.3, 0.1));
+  const Shape shaft = meshOf(test::torusSoup(48, 16, 0.1, 0.07));
+  const Screwing still{Isometry3d::Identity(), Vector3d::Zero(), Vector3d::Zero()};
+  const Screwing spins{Isometry3d::Identity(), Vector3d::Zero(), Vector3d(0.0, 0.0, 0.2)};
+  SeparationQuery query;
+  query.approach = approachOf(ring, still, shaft, spins);
+  query.approach.curvature = 0.5 * 0.17 * 0.04;
+  const double gap = distance(ring, shaft, Isometry3d::Identity()).upper;
+  ASSERT_GT(gap, 0.02);
+  ASSERT_GT(query.approach.along(Vector3d::UnitX()), gap) << "the whole body's bound is enough";
+  EXPECT_EQ(separate(ring, shaft, Isometry3d::Identity(), query).status, Separation::Separated);
+  std::swap(query.approach.spinA, query.approach.spinB);
+  std::swap(query.approach.ballA, query.approach.ballB);
+  EXPECT_EQ(separate(shaft, ring, Isometry3d::Identity(), query).status, Separation::Separated);
+}
+
+}  // namespace
