@@ -124,6 +124,49 @@ TEST(ConvexHull, BoundsRandomPoints) {
   }
 }
 
+/// A coarser hull grown by its error contains every vertex: no direction shows one ahead of it.
+TEST(ConvexHull, CoarserHullsContainTheVertices) {
+  std::mt19937 random(34);
+  for (const double flat : {1.0, 0.1, 1e-3}) {
+    Points points;
+    for (int i = 0; i < 3000; ++i) {
+      points.push_back(test::unitVector(random).cwiseProduct(Vector3d(1.0, 0.5, flat)) +
+                       Vector3d::Constant(3.0));
+    }
+    const ConvexHull hull = ConvexHull::of(points);
+    const ConvexHull coarse = ConvexHull::coarser(hull);
+    ASSERT_GT(hull.vertices().size(), ConvexHull::kFew);
+    EXPECT_LE(coarse.vertices().size(), static_cast<std::size_t>(ConvexHull::kCoarse));
+    EXPECT_LT(coarse.error(), 0.05);
+    checkFaces(coarse);
+    Points directions;
+    for (int i = 0; i < 3000; ++i) directions.push_back(test::unitVector(random));
+    for (const Vector3i& face : coarse.faces()) {
+      const Vector3d a = coarse.vertices()[face[0]];
+      directions.push_back((coarse.vertices()[face[1]] - a)
+                               .cross(coarse.vertices()[face[2]] - a)
+                               .stableNormalized());
+    }
+    double mostAhead = 0.0;
+    for (const Vector3d& d : directions) {
+      const double ahead =
+          largestAlong(hull.vertices(), d) - largestAlong(coarse.vertices(), d) - coarse.error();
+      EXPECT_LE(ahead, 1e-15);
+      mostAhead = std::max(mostAhead, ahead + coarse.error());
+    }
+    EXPECT_GT(mostAhead, 0.5 * coarse.error()) << "an error far larger than needed";
+  }
+}
+
+TEST(ConvexHull, FewVerticesNeedNoCoarserHull) {
+  std::mt19937 random(35);
+  Points points;
+  for (int i = 0; i < 300; ++i) points.push_back(test::unitVector(random));
+  const ConvexHull hull = ConvexHull::of(points);
+  EXPECT_EQ(ConvexHull::coarser(hull).vertices().size(), hull.vertices().size());
+  EXPECT_EQ(ConvexHull::coarser(hull).error(), hull.error());
+}
+
 TEST(ConvexHull, KeepsOnlyExtremePoints) {
   std::mt19937 random(33);
   // A cloud inside a cube whose corners are given: these are all that is kept, exactly.

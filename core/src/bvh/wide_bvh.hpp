@@ -19,6 +19,10 @@ struct OrientedBox {
   std::array<float, 3> half{};  ///< m
 };
 
+/// Lemma: the points p with |a_j . (p - c)| <= h_j, the axes a_j orthonormal up to 3 u in the
+/// entries of their Gram matrix, u = 2^-24, are c + sum t_j a_j with |t_j| <= h_j + 4 u |h|_1.
+inline constexpr double kBoxSkew = 4.5 * 0x1p-24;
+
 /// Eight oriented boxes, one a lane, in the layout that the vector kernels read.
 struct alignas(32) WideNode {
   static constexpr int kLanes = 8;

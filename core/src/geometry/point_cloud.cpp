@@ -37,8 +37,9 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double rad
   ordered.reserve(points.size());
   for (const int source : tree.order) ordered.push_back(points[source]);
   auto bvh = std::make_shared<const detail::WideBvh>(tree, PrimitivePoints{ordered, 1, radii});
-  return PointCloud(std::make_shared<const Data>(
-      Data{std::move(ordered), tree.order, ConvexHull::of(points), radius, std::move(bvh)}));
+  const ConvexHull hull = ConvexHull::of(points);
+  return PointCloud(std::make_shared<const Data>(Data{
+      std::move(ordered), tree.order, hull, ConvexHull::coarser(hull), radius, std::move(bvh)}));
 }
 
 }  // namespace swept

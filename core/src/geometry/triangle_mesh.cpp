@@ -267,15 +267,16 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   auto bvh = std::make_shared<const detail::WideBvh>(
       orderByTree(welded.vertices, parts.triangles, parts.componentOf));
   ConvexHull hull = ConvexHull::of(welded.vertices);
+  ConvexHull coarseHull = ConvexHull::coarser(hull);
   std::vector<ConvexHull> solids;
   if (interior == MeshInterior::Solid) {
     solids =
         detail::convexParts(welded.vertices, parts.triangles, parts.componentOf, parts.oriented);
   }
-  auto data = std::make_shared<Data>(Data{std::move(welded.vertices), std::move(parts.triangles),
-                                          std::move(parts.componentOf), std::move(components),
-                                          std::move(componentPoints), report, interior,
-                                          std::move(hull), std::move(solids), std::move(bvh), 0.0});
+  auto data = std::make_shared<Data>(
+      Data{std::move(welded.vertices), std::move(parts.triangles), std::move(parts.componentOf),
+           std::move(components), std::move(componentPoints), report, interior, std::move(hull),
+           std::move(coarseHull), std::move(solids), std::move(bvh), 0.0});
   TriangleMesh mesh(data);
   data->dent = estimateDent(mesh);
   return mesh;

@@ -5,15 +5,7 @@
 
 namespace swept::detail {
 
-namespace {
-
 using Eigen::Vector3d;
-
-/// Lemma: the points p with |a_j . (p - c)| <= h_j, the axes a_j orthonormal up to 3 u in the
-/// entries of their Gram matrix, u = 2^-24, are c + sum t_j a_j with |t_j| <= h_j + 4 u |h|_1.
-constexpr double kSkew = 4.5 * 0x1p-24;
-
-}  // namespace
 
 // Rounding: velocities, half axes and their products with a spin are sums of fewer than 20 products
 // of a spin with coordinates, each within a few ulps of the coordinates' 1-norms. Of b these are
@@ -29,7 +21,7 @@ PartMotion PartMotions::of(bool ofA, const OrientedBox& box) const {
   Vector3d half;
   for (int j = 0; j < 3; ++j) {
     const Vector3d axis(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
-    half[j] = box.half[j] + kSkew * size;
+    half[j] = box.half[j] + kBoxSkew * size;
     part.spread[j] = ofA ? Vector3d(half[j] * spin.cross(axis))
                          : Vector3d(a_from_b_.linear() * (half[j] * spinInB_.cross(axis)));
     part.most += part.spread[j].norm();
@@ -49,13 +41,6 @@ PartMotion PartMotions::ofBall(bool ofA) const {
   for (int j = 0; j < 3; ++j) part.spread[j] = radius * spin.cross(Vector3d::Unit(j));
   part.most = spin.norm() * radius;
   part.rounding = tolerance::kSupportRounding * spin.cwiseAbs().sum() * radius;
-  return part;
-}
-
-PartMotion PartMotions::ofPoint(bool ofA, const Vector3d& point) const {
-  PartMotion part;
-  const Vector3d& about = ofA ? whole_.ballA.center : whole_.ballB.center;
-  part.linear = (ofA ? whole_.spinA : whole_.spinB).cross(point - about);
   return part;
 }
 

@@ -74,8 +74,6 @@ class PartMotions {
   PartMotion of(bool ofA, const OrientedBox& box) const;
   /// Of the whole body, by its ball.
   PartMotion ofBall(bool ofA) const;
-  /// Of a point in a's frame.
-  PartMotion ofPoint(bool ofA, const Eigen::Vector3d& point) const;
 
  private:
   const ApproachBound& whole_;

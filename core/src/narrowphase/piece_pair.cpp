@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "narrowphase/flat_pair.hpp"
 #include "swept/core/tolerances.hpp"
@@ -14,9 +15,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-/// Beyond this many hull vertices the scan for a support point costs more than the hierarchy.
-constexpr std::size_t kCheapHull = 400;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -57,6 +55,14 @@ double reachOf(const Side& side) {
   return side.convex.isFlat() ? 0.0 : 2.0 * side.convex.extent;
 }
 
+/// The error of a hull that leaves out vertices is a ball around it, in which witnesses of its
+/// distance may lie. As an error, it would let them be anywhere.
+Convex grownAround(const ConvexHull& hull) {
+  Convex convex = Convex::of(hull);
+  convex.radius = std::exchange(convex.error, 0.0);
+  return convex;
+}
+
 double sizeOf(const Piece& piece) {
   if (piece.isLeaf()) return -1.0;
   const auto& half = piece.box.half;
@@ -69,16 +75,17 @@ Side Side::of(const Shape& shape) {
   return std::visit(
       [](const auto& body) -> Side {
         if constexpr (std::is_same_v<decltype(body), const TriangleMesh&>) {
-          const ConvexHull& hull = body.hull();
-          const bool cheap = hull.vertices().size() <= kCheapHull;
-          return {&body, nullptr, &body.bvh(), Convex::of(hull), cheap, body.dent()};
+          const Convex outer = grownAround(body.coarseHull());
+          const double dent = body.dent() + outer.radius;
+          return {&body, nullptr, &body.bvh(), Convex::of(body.hull()), outer, dent};
         } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
           Convex hull = Convex::of(body.hull());
           hull.radius = body.radius();
-          const bool cheap = body.hull().vertices().size() <= kCheapHull;
-          return {nullptr, &body, &body.bvh(), hull, cheap, hull.extent};
+          Convex outer = grownAround(body.coarseHull());
+          outer.radius += body.radius();
+          return {nullptr, &body, &body.bvh(), hull, outer, hull.extent};
         } else {
-          return {nullptr, nullptr, nullptr, Convex::of(body), true, 0.0};
+          return {nullptr, nullptr, nullptr, Convex::of(body), {}, 0.0};
         }
       },
       shape);
@@ -191,6 +198,38 @@ void PiecePair::place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) 
   const double moved = rounding_ + tolerance::kSupportRounding * a_.convex.extent;
   if (!pieceA.isWhole()) leaves.a.error += moved;
   if (pieceA.isWhole() && !pieceB.isWhole()) leaves.b.error += moved;
+}
+
+void PiecePair::place(const Piece& piece, bool ofA, BoxAndBody& pair) const {
+  const OrientedBox& box = piece.box;
+  const double size = static_cast<double>(box.half[0]) + box.half[1] + box.half[2];
+  std::array<Vector3d, 3> axes;
+  for (int j = 0; j < 3; ++j) {
+    axes[j] =
+        (box.half[j] + kBoxSkew * size) * Vector3d(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
+  }
+  for (int i = 0; i < 8; ++i) {
+    pair.corners[i] = (i & 1 ? axes[0] : Vector3d(-axes[0])) +
+                      (i & 2 ? axes[1] : Vector3d(-axes[1])) +
+                      (i & 4 ? axes[2] : Vector3d(-axes[2]));
+  }
+  pair.box = Convex::ofPoints(pair.corners);
+  pair.body = (ofA ? b_ : a_).convex;
+  pair.a_from_b = a_from_b_;
+  if (ofA) {
+    pair.a_from_b.translation() -= box.center;
+  } else {
+    pair.a_from_b.translation() = a_from_b_ * box.center;
+  }
+  // Lemma: corners and translation round by a few ulps of the coordinates they are sums and
+  // differences of.
+  pair.box.error = tolerance::kSupportRounding *
+                   (box.center.cwiseAbs().sum() + a_from_b_.translation().norm() + size);
+}
+
+bool PiecePair::isRound(const Convex& body) {
+  return body.core == Convex::Core::Cylinder || body.core == Convex::Core::Cone ||
+         body.core == Convex::Core::Ellipsoid || body.core == Convex::Core::Points;
 }
 
 TriangleCorners PiecePair::movedCorners(int triangle) const {

@@ -19,10 +19,12 @@ struct Side {
   const PointCloud* cloud = nullptr;
   const WideBvh* bvh = nullptr;  ///< of the mesh or cloud; null: `convex` is the whole body
   Convex convex;                 ///< of a mesh or cloud: its hull
-  bool convexIsCheap = true;     ///< the hull has few enough vertices to be worth asking first
-  double dent = 0.0;             ///< m, estimate of how far the hull reaches beyond the body
+  Convex outer;                  ///< of a mesh or cloud: around its hull, of few points
+  double dent = 0.0;             ///< m, estimate of how far `outer` reaches beyond the body
 
   bool isConvex() const { return bvh == nullptr; }
+  /// A convex body around the side that is quick to ask: itself if it is convex.
+  const Convex& around() const { return isConvex() ? convex : outer; }
   static Side of(const Shape& shape);
 };
 
@@ -84,6 +86,19 @@ class PiecePair {
     Eigen::Isometry3d a_from_b;
   };
   void place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) const;
+
+  /// The box of a piece of one side, about its centre, and the convex body that is the other side.
+  /// Stays where it was made.
+  struct BoxAndBody {
+    std::array<Eigen::Vector3d, 8> corners;  ///< m, relative to the box's centre
+    Convex box;
+    Convex body;
+    Eigen::Isometry3d a_from_b;
+  };
+  void place(const Piece& piece, bool ofA, BoxAndBody& pair) const;
+
+  /// Whether the box of a convex body says clearly less about distances than the body.
+  static bool isRound(const Convex& body);
 
   bool areTriangles(const Piece& pieceA, const Piece& pieceB) const {
     return a_.mesh != nullptr && b_.mesh != nullptr && pieceA.primitive >= 0 &&

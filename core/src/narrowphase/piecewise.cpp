@@ -91,11 +91,10 @@ class Search {
   /// The convex bodies or hulls themselves. For two convex bodies this is the whole answer.
   bool hullsSuffice(const Vector3d& guess) {
     const bool exact = a_.isConvex() && b_.isConvex();
-    if (!exact && !(a_.convexIsCheap && b_.convexIsCheap)) return false;
     const PartMotion motionA = motionOf(true, PiecePair::rootOf(a_));
     const PartMotion motionB = motionOf(false, PiecePair::rootOf(b_));
     const Approach approach = approachOf(motionA, motionB);
-    const GjkResult hulls = convexPair(a_.convex, b_.convex, a_from_b_, guess, goal(approach),
+    const GjkResult hulls = convexPair(a_.around(), b_.around(), a_from_b_, guess, goal(approach),
                                        goal_.contact, goal_.tolerance, modeOfLeaves());
     result_.iterations += hulls.iterations;
     result_.hint = hulls.normal;
@@ -106,10 +105,11 @@ class Search {
     }
     if (!exact && !hulls.satisfied) return outOfReach(hulls);
     result_.lower = hulls.lower;
+    result_.normal = hulls.lower > 0.0 ? hulls.normal : Vector3d::Zero();
+    if (!exact) return true;  // the nearest points of hulls witness nothing of what they contain
     result_.upper = hulls.upper;
     result_.pointA = hulls.pointA;
     result_.pointB = hulls.pointB;
-    result_.normal = hulls.lower > 0.0 ? hulls.normal : Vector3d::Zero();
     if (!hulls.satisfied) failed_ = true;
     return true;
   }
@@ -127,11 +127,7 @@ class Search {
   /// them: the pieces will not do better, and there is no contact.
   bool outOfReach(const GjkResult& hulls) {
     if (goal_.approach == nullptr || goal_.thorough || !(hulls.lower > goal_.contact)) return false;
-    // As the points move that are nearest: what the pieces there will need.
-    const PartMotion motionA = motions_->ofPoint(true, hulls.pointA);
-    const PartMotion motionB = motions_->ofPoint(false, hulls.pointB);
-    const double needed = PartApproach(*goal_.approach, motionA, motionB).along(hulls.normal);
-    if (hulls.upper + a_.dent + b_.dent > needed) return false;
+    if (hulls.upper + a_.dent + b_.dent > goal_.approach->along(hulls.normal)) return false;
     failed_ = true;
     result_.lower = hulls.lower;
     return true;
@@ -216,8 +212,7 @@ class Search {
       if (putOff(split, lane, other.piece, lower[lane])) continue;
       const Part child = part(split.ofA, PiecePair::child(split, lane));
       Vector3d direction = guess;
-      if (lower[lane] > 0.0F && settledAlong(child, split.ofA, other, lower[lane], direction))
-        continue;
+      if (settledAlong(child, split.ofA, other, lower[lane], direction)) continue;
       if (split.ofA) {
         descend(child, other, direction);
       } else {
@@ -262,11 +257,32 @@ class Search {
       settle(lower);
       return true;
     }
-    const BoxGap gap = pieces_->gap(part.piece, ofA, other.piece);
-    if (!(gap.value > 0.0)) return false;
-    direction = gap.direction;
-    if (failed_ || !(gap.value > approach.along(direction))) return false;
-    settle(gap.value);
+    const BoxGap gap = lower > 0.0 ? pieces_->gap(part.piece, ofA, other.piece) : BoxGap{};
+    if (gap.value > 0.0) {
+      direction = gap.direction;
+      if (!failed_ && gap.value > approach.along(direction)) {
+        settle(gap.value);
+        return true;
+      }
+    }
+    return settledByBody(part.piece, ofA, other.piece,
+                         failed_ ? Goal(goal_.contact) : Goal(approach), direction);
+  }
+
+  /// A node's box against a round body itself: against the body's own box alone, all of a mesh that
+  /// is near a corner of that box would be looked at triangle by triangle.
+  bool settledByBody(const Piece& piece, bool ofA, const Piece& other, const Goal& goal,
+                     const Vector3d& guess) {
+    if (piece.isLeaf() || !other.isWhole() || !PiecePair::isRound((ofA ? b_ : a_).convex))
+      return false;
+    PiecePair::BoxAndBody pair;
+    pieces_->place(piece, ofA, pair);
+    const GjkResult found =
+        convexPair(ofA ? pair.box : pair.body, ofA ? pair.body : pair.box, pair.a_from_b, guess,
+                   goal, goal_.contact, goal_.tolerance, GjkMode::BoundOnly);
+    result_.iterations += found.iterations;
+    if (!found.satisfied) return false;
+    settle(found.lower);
     return true;
   }
 

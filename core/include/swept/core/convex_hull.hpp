@@ -18,6 +18,11 @@ class ConvexHull {
   /// Throws std::invalid_argument when `points` is empty or holds a non-finite coordinate. Flat and
   /// degenerate sets (a point, a segment, a polygon) are hulls too.
   static ConvexHull of(std::span<const Eigen::Vector3d> points);
+  /// Of at most kCoarse vertices of `hull`, those farthest along directions that are spread evenly;
+  /// the others lie within `error()` of it. A hull of no more than kFew vertices stays as it is.
+  static ConvexHull coarser(const ConvexHull& hull);
+  static constexpr std::size_t kFew = 400;
+  static constexpr int kCoarse = 192;
 
   /// m, in the local frame.
   const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }

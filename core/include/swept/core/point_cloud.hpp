@@ -28,8 +28,10 @@ class PointCloud {
   const std::vector<Eigen::Vector3d>& points() const { return data_->points; }
   /// For each of points(), its index among the points given.
   const std::vector<int>& sourceIndices() const { return data_->sourceIndices; }
-  double radius() const { return data_->radius; }        ///< m
+  double radius() const { return data_->radius; }         ///< m
   const ConvexHull& hull() const { return data_->hull; }  ///< of the points, without their balls
+  /// The same, but of few points and with an error() to match: quick to ask.
+  const ConvexHull& coarseHull() const { return data_->coarseHull; }
   const detail::WideBvh& bvh() const { return *data_->bvh; }
 
  private:
@@ -37,6 +39,7 @@ class PointCloud {
     std::vector<Eigen::Vector3d> points;
     std::vector<int> sourceIndices;
     ConvexHull hull;
+    ConvexHull coarseHull;
     double radius = 0.0;
     std::shared_ptr<const detail::WideBvh> bvh;
   };

@@ -72,6 +72,8 @@ class TriangleMesh {
   double dent() const { return data_->dent; }
   /// Hull of the vertices: an outer bound of the solid.
   const ConvexHull& hull() const { return data_->hull; }
+  /// The same, but of few points and with an error() to match: quick to ask.
+  const ConvexHull& coarseHull() const { return data_->coarseHull; }
   /// One vertex of each connected component, open or closed (m).
   std::span<const Eigen::Vector3d> componentPoints() const { return data_->componentPoints; }
   /// The closed components that are convex solids; none under `Surface`. Their penetration is
@@ -95,6 +97,7 @@ class TriangleMesh {
     MeshReport report;
     MeshInterior interior = MeshInterior::Solid;
     ConvexHull hull;
+    ConvexHull coarseHull;
     std::vector<ConvexHull> convexParts;
     std::shared_ptr<const detail::WideBvh> bvh;
     double dent = 0.0;
