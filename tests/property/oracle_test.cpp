@@ -205,6 +205,48 @@ TEST(Oracle, MeshOfABoxBehavesAsTheBox) {
   EXPECT_GT(enclosed, 300);
 }
 
+/// Two cubes, the second 0.2 m further along x, as one closed part: a passage joins a
+/// triangle of the first one's far side to one of the second one's near side, inside both.
+Mesh joinedCubes(double half, bool consistent) {
+  const std::vector<std::array<int, 3>> sides{{1, 3, 7}, {0, 6, 2}, {1, 7, 5}, {0, 4, 6},
+                                              {2, 6, 7}, {2, 7, 3}, {0, 1, 5}, {0, 5, 4},
+                                              {4, 5, 7}, {4, 7, 6}, {0, 3, 1}, {0, 2, 3}};
+  std::vector<Vector3d> v;
+  std::vector<std::array<int, 3>> faces{{1, 3, 10},  {1, 10, 8}, {3, 7, 14},
+                                        {3, 14, 10}, {7, 1, 8},  {7, 8, 14}};
+  for (int k = 0; k < 2; ++k) {
+    for (int i = 0; i < 8; ++i)
+      v.push_back(Vector3d(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half) +
+                  k * Vector3d(0.2, 0, 0));
+    for (int i = 0; i < 12; ++i)
+      if (i != k) faces.push_back({sides[i][0] + 8 * k, sides[i][1] + 8 * k, sides[i][2] + 8 * k});
+  }
+  if (!consistent) std::swap(faces.back()[0], faces.back()[1]);
+  return Mesh(v, faces);
+}
+
+TEST(Oracle, PiecesOfOnePartMayOverlap) {
+  Random random;
+  const Mesh joined = joinedCubes(0.3, true), flipped = joinedCubes(0.3, false);
+  ASSERT_EQ(joined.closedParts(), 1);
+  ASSERT_EQ(flipped.closedParts(), 1);
+  int both = 0, holes = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d p = random.point(0.6);
+    const bool first = (p.cwiseAbs().array() < 0.3).all();
+    const bool second = ((p - Vector3d(0.2, 0, 0)).cwiseAbs().array() < 0.3).all();
+    both += first && second;
+    EXPECT_EQ(joined.encloses(p), first || second) << i;
+    // One triangle the other way round leaves parity, for which twice inside is outside.
+    if (first != second) {
+      EXPECT_TRUE(flipped.encloses(p)) << i;
+    }
+    holes += first && second && !flipped.encloses(p);
+  }
+  EXPECT_GT(both, 60);
+  EXPECT_GT(holes, 30);
+}
+
 const char* const kUrdf = R"(<robot name="r">
   <link name="base"/><link name="a"/><link name="b"><collision><geometry><sphere radius="0.1"/>
   </geometry></collision></link><link name="c"/>

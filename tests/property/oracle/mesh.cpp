@@ -41,6 +41,13 @@ std::vector<Face> welded(const std::vector<Vector3d>& vertices, const std::vecto
   return kept;
 }
 
+/// Whether the face runs through the edge from its first corner to its second.
+bool runsForward(const Face& face, const std::pair<int, int>& edge) {
+  for (int k = 0; k < 3; ++k)
+    if (face[k] == edge.first && face[(k + 1) % 3] == edge.second) return true;
+  return false;
+}
+
 void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
              const Vector3d& scale, std::vector<Vector3d>& vertices, std::vector<Face>& faces) {
   const aiMatrix4x4 pose = parent * node.mTransformation;
@@ -63,9 +70,10 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
     collect(scene, *node.mChildren[c], pose, scale, vertices, faces);
 }
 
-enum class Crossing { No, Yes, TooClose };
+enum class Crossing { No, FromFront, FromBack, TooClose };
 
-/// Whether the ray p + s d (s > 0) crosses the triangle; TooClose when it grazes the border.
+/// Whether, and to which side, the ray p + s d (s > 0) crosses the triangle; TooClose when it
+/// grazes the border.
 Crossing crossing(const Triangle& t, const Vector3d& p, const Vector3d& d) {
   const Vector3d u = t[1] - t[0], v = t[2] - t[0], h = d.cross(v), w = p - t[0], q = w.cross(u);
   const double det = u.dot(h);
@@ -78,7 +86,8 @@ Crossing crossing(const Triangle& t, const Vector3d& p, const Vector3d& d) {
   }
   const double a = w.dot(h) / det, b = d.dot(q) / det, s = v.dot(q) / det;
   if (s < 0 || a < -1e-9 || b < -1e-9 || a + b > 1 + 1e-9) return Crossing::No;
-  return a < 1e-9 || b < 1e-9 || a + b > 1 - 1e-9 ? Crossing::TooClose : Crossing::Yes;
+  if (a < 1e-9 || b < 1e-9 || a + b > 1 - 1e-9) return Crossing::TooClose;
+  return det > 0 ? Crossing::FromFront : Crossing::FromBack;
 }
 
 bool rayMeets(const Mesh::Node& box, const Vector3d& p, const Vector3d& inverse) {
@@ -114,8 +123,15 @@ Mesh::Mesh(const std::vector<Vector3d>& vertices, std::vector<Face> given) {
     triangles_.push_back({vertices[faces[f][0]], vertices[faces[f][1]], vertices[faces[f][2]]});
   }
   closed_.assign(number.size(), 1);
-  for (const auto& [edge, users] : edges)
-    if (users.size() != 2) closed_[part_[users[0]]] = 0;
+  oriented_.assign(number.size(), 1);
+  for (const auto& [edge, users] : edges) {
+    const int part = part_[users[0]];
+    if (users.size() != 2) {
+      closed_[part] = 0;
+    } else if (runsForward(faces[users[0]], edge) == runsForward(faces[users[1]], edge)) {
+      oriented_[part] = 0;
+    }
+  }
   closedParts_ = static_cast<int>(std::count(closed_.begin(), closed_.end(), 1));
   split(0, static_cast<int>(triangles_.size()));
 }
@@ -160,8 +176,8 @@ int Mesh::split(int first, int last) {
 }
 
 bool Mesh::countCrossings(const Vector3d& p, const Vector3d& direction,
-                          std::vector<char>& odd) const {
-  odd.assign(closed_.size(), 0);
+                          std::vector<Crossings>& found) const {
+  found.assign(closed_.size(), {});
   const Vector3d inverse = direction.cwiseInverse();
   std::vector<int> stack{0};
   while (!stack.empty()) {
@@ -176,7 +192,9 @@ bool Mesh::countCrossings(const Vector3d& p, const Vector3d& direction,
     for (int i = node.first; i < node.first + node.count; ++i) {
       const Crossing c = crossing(triangles_[i], p, direction);
       if (c == Crossing::TooClose) return false;
-      if (c == Crossing::Yes) odd[part_[i]] ^= 1;
+      if (c == Crossing::No) continue;
+      ++found[part_[i]].all;
+      found[part_[i]].winding += c == Crossing::FromBack ? 1 : -1;
     }
   }
   return true;
@@ -186,14 +204,14 @@ bool Mesh::encloses(const Vector3d& p) const {
   const Node& root = nodes_.front();
   if (closedParts_ == 0 || ((p - root.center).cwiseAbs().array() > root.half.array()).any())
     return false;
-  std::vector<char> odd;
+  std::vector<Crossings> found;
   for (int attempt = 0; attempt < 20; ++attempt) {
     // Any direction will do; grazing an edge asks for another.
     const double a = 0.7390851 + 2.3999632 * attempt, z = 0.31 + 0.03 * attempt;
     const Vector3d direction(std::cos(a), std::sin(a), z);
-    if (!countCrossings(p, direction, odd)) continue;
-    for (size_t k = 0; k < odd.size(); ++k)
-      if (odd[k] && closed_[k]) return true;
+    if (!countCrossings(p, direction, found)) continue;
+    for (size_t k = 0; k < found.size(); ++k)
+      if (closed_[k] && (oriented_[k] ? found[k].winding != 0 : found[k].all % 2 != 0)) return true;
     return false;
   }
   return false;

@@ -27,18 +27,28 @@ class Mesh {
   /// One vertex of each part.
   const std::vector<Vector3d>& representatives() const { return representatives_; }
   int closedParts() const { return closedParts_; }
-  /// Whether a closed part has p in its inside, by the parity of a ray's crossings.
+  /// Whether a closed part has p in its inside: by the winding number that a ray's crossings give
+  /// where the part's triangles are consistently oriented (pieces of one part may overlap), by
+  /// their parity elsewhere.
   bool encloses(const Vector3d& p) const;
   /// m; 0 inside.
   double distanceTo(const Vector3d& p) const;
 
  private:
   int split(int first, int last);
-  bool countCrossings(const Vector3d& p, const Vector3d& direction, std::vector<char>& odd) const;
+  /// Of a ray with the triangles of one part.
+  struct Crossings {
+    int all = 0;
+    int winding = 0;
+  };
+  /// Per part. False when the ray grazes an edge.
+  bool countCrossings(const Vector3d& p, const Vector3d& direction,
+                      std::vector<Crossings>& found) const;
 
   std::vector<Triangle> triangles_;
-  std::vector<int> part_;     ///< per triangle
-  std::vector<char> closed_;  ///< per part
+  std::vector<int> part_;       ///< per triangle
+  std::vector<char> closed_;    ///< per part
+  std::vector<char> oriented_;  ///< per part
   std::vector<Vector3d> representatives_;
   std::vector<Node> nodes_;
   int closedParts_ = 0;
