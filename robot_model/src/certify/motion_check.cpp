@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/motion_check.hpp"
 
-#include <algorithm>
-#include <numeric>
 #include <optional>
 
 #include "certify/exact_judge.hpp"
+#include "certify/pending_intervals.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
 
@@ -57,14 +56,11 @@ class MotionProver {
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
   bool settleInLanes(std::span<const double> from, std::span<const double> to) {
-    workspace_.pending.clear();
     const bool fits =
         model_.lanes.usable && model_.options.maxIntervals >= kLanes &&
         compileLaneMotion(model_.lanes, model_.kinematics, from, to, workspace_.lanes);
     if (!fits) {
-      workspace_.pendingArena.resize(model_.pairs.size());
-      std::iota(workspace_.pendingArena.begin(), workspace_.pendingArena.end(), 0U);
-      if (!model_.pairs.empty()) workspace_.pending.push_back({0.0, 1.0, 0, model_.pairs.size()});
+      takeAll(model_, workspace_);
       return false;
     }
     const LaneAnswer answer =
@@ -79,19 +75,8 @@ class MotionProver {
       certificate_.freeUntil = 1.0;
       return true;
     }
-    takeOver();
+    takeRest(workspace_);
     return false;
-  }
-
-  /// Intervals of the lane tier are dyadic: exact in either precision.
-  void takeOver() {
-    std::swap(workspace_.pendingArena, workspace_.lanes.restArena);
-    for (const LaneScratch::Item& item : workspace_.lanes.rest) {
-      const double time = static_cast<double>(item.time);
-      const double half = static_cast<double>(item.half);
-      workspace_.pending.push_back({time - half, time + half, item.first, item.count});
-    }
-    std::ranges::sort(workspace_.pending, {}, &PendingInterval::begin);
   }
 
   /// What examining one interval found out. Pairs still open are in workspace.failed.
@@ -107,10 +92,11 @@ class MotionProver {
                   bool dropResolved) {
     const double middle = 0.5 * (interval.begin + interval.end);
     const double half = 0.5 * (interval.end - interval.begin);
-    query_.moveTo(middle);
-    ++certificate_.effort.intervals;
     workspace_.failed.clear();
     Outcome outcome;
+    if (interval.count == 0) return outcome;
+    query_.moveTo(middle);
+    ++certificate_.effort.intervals;
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
       const std::uint32_t pair = arena[i];
       if (outcome.contact) {  // not looked at: still open
@@ -137,36 +123,13 @@ class MotionProver {
     return outcome;
   }
 
-  /// Pairs with the same interval share its kinematics.
-  void groupPending() {
-    auto& parts = workspace_.parts;
-    parts.clear();
-    for (const PendingInterval& interval : workspace_.pending)
-      for (std::size_t i = interval.first; i < interval.first + interval.count; ++i)
-        parts.push_back({workspace_.pendingArena[i], interval.begin, interval.end});
-    std::ranges::sort(parts, [](const PendingPart& a, const PendingPart& b) {
-      if (a.begin != b.begin) return a.begin < b.begin;
-      return a.end != b.end ? a.end < b.end : a.pair < b.pair;
-    });
-    auto& now = workspace_.generation;
-    auto& arena = workspace_.arena;
-    now.clear();
-    arena.clear();
-    for (const PendingPart& part : parts) {
-      if (now.empty() || now.back().begin != part.begin || now.back().end != part.end)
-        now.push_back({part.begin, part.end, arena.size(), 0});
-      arena.push_back(part.pair);
-      ++now.back().count;
-    }
-  }
-
   /// All that is pending, a level of the bisection at a time, so that contacts show early wherever
   /// they are. Ends at the first contact, or with the level in which some interval turned out
   /// undecidable.
   void searchWhole() {
     auto& now = workspace_.generation;
     auto& next = workspace_.nextGeneration;
-    groupPending();
+    groupByInterval(workspace_);
     while (!now.empty()) {
       next.clear();
       workspace_.nextArena.clear();
@@ -194,47 +157,25 @@ class MotionProver {
     if (!undecidedAt_ || begin < *undecidedAt_) undecidedAt_ = begin;
   }
 
-  /// Intervals in order of time, the first on top. Those that overlap become one with the pairs of
-  /// all, so that whatever lies before an interval's begin is settled once it is on top.
-  void stackPending() {
-    auto& stack = workspace_.generation;
-    auto& arena = workspace_.arena;
-    auto& pending = workspace_.pending;
-    stack.clear();
-    arena.clear();
-    std::ranges::sort(pending, {}, &PendingInterval::begin);
-    for (std::size_t i = 1; i < pending.size(); ++i)
-      pending[i].end = std::max(pending[i].end, pending[i - 1].end);
-    for (std::size_t i = pending.size(); i > 0;) {
-      PendingInterval whole{0.0, pending[i - 1].end, arena.size(), 0};
-      do {
-        --i;
-        whole.begin = pending[i].begin;
-        const auto first =
-            workspace_.pendingArena.begin() + static_cast<std::ptrdiff_t>(pending[i].first);
-        arena.insert(arena.end(), first, first + static_cast<std::ptrdiff_t>(pending[i].count));
-      } while (i > 0 && pending[i - 1].end > whole.begin);
-      const auto own = arena.begin() + static_cast<std::ptrdiff_t>(whole.first);
-      std::sort(own, arena.end());
-      arena.erase(std::unique(own, arena.end()), arena.end());
-      whole.count = arena.size() - whole.first;
-      stack.push_back(whole);
-    }
-  }
-
   /// From the left: the largest t up to which everything is proven, to within the tolerance.
   /// Contacts on the way move the witness forward in time, and nothing behind it matters any more.
   void provePrefix() {
     auto& stack = workspace_.generation;
     auto& arena = workspace_.arena;
-    stackPending();
+    stackByTime(workspace_);
     while (!stack.empty()) {
       const PendingInterval interval = stack.back();
       stack.pop_back();
       certificate_.freeUntil = interval.begin;
       if (certificate_.witness && interval.begin >= certificate_.witness->t) return;
       if (!budgetLeft()) return stopAt(interval.begin);
-      const Outcome outcome = examine(interval, arena, false);
+      const OpenPairs open = sortOpenPairs(interval, workspace_);
+      const Outcome outcome =
+          examine({interval.begin, interval.end, interval.first, open.onAll}, arena, false);
+      // Pairs that are open on a part only wait for that part.
+      const auto waiting = arena.begin() + static_cast<std::ptrdiff_t>(interval.first + open.onAll);
+      workspace_.failed.insert(workspace_.failed.end(), waiting,
+                               waiting + static_cast<std::ptrdiff_t>(open.onPart));
       arena.resize(interval.first);
       if (workspace_.failed.empty()) continue;
       if (outcome.resolved) return stopAt(interval.begin);
