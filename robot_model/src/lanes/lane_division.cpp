@@ -122,41 +122,53 @@ class Division {
     placeBodies(model_, scratch_.motion, scratch_.bodies, scratch_.block);
   }
 
+  /// A time at which exact geometry is asked about the pair, and around it.
+  struct Look {
+    int lane;
+    double t;
+    double half;
+  };
+
+  /// The middle of what is open, but first the ends of the motion that it reaches: contacts that
+  /// begin or end beyond the motion are deepest there.
+  Look nextLook(std::uint32_t open) {
+    const int first = std::countr_zero(open);
+    const int last = std::bit_width(open) - 1;
+    const bool atBegin = contacts_ && !beginSeen_ && timeOf(first) - halfOf(first) <= 0.0;
+    const bool atEnd = contacts_ && !endSeen_ && timeOf(last) + halfOf(last) >= 1.0;
+    const bool onlyOne = atBegin != atEnd;
+    if (atEnd && (onlyOne || looks_ > 0)) {
+      endSeen_ = true;
+      return {last, 1.0, 2.0 * halfOf(last)};
+    }
+    if (atBegin && (onlyOne || looks_ > 0)) {
+      beginSeen_ = true;
+      return {first, 0.0, 2.0 * halfOf(first)};
+    }
+    const int lane = middleOf(open);
+    return {lane, timeOf(lane), halfOf(lane)};
+  }
+
   /// True: a contact. Leaves in `open` what is not proven.
   bool examine(std::uint32_t pair, std::uint32_t& open) {
     while (open != 0 && looks_ < kMostLooks) {
-      if (looks_ > 0 && meetsAtEnd(pair, open)) return true;
-      const int lane = middleOf(open);
+      const Look at = nextLook(open);
       ++looks_;
-      const LaneLook look = judge_.look(pair, timeOf(lane), halfOf(lane));
+      const LaneLook look = judge_.look(pair, at.t, at.half);
       if (look.kind == LaneLook::Kind::Contact) {
         // Where the first contact is wanted, the exact tier looks for it.
         inContact_ = true;
         return contacts_;
       }
-      std::uint32_t apart = look.kind == LaneLook::Kind::Apart ? 1U << lane : 0U;
+      std::uint32_t apart = look.kind == LaneLook::Kind::Apart ? 1U << at.lane : 0U;
       if (look.directed)
-        apart |=
-            lanesDivided(model_, pair, {{look.towards[0], look.towards[1], look.towards[2]}, lane},
-                         open, scratch_);
+        apart |= lanesDivided(model_, pair,
+                              {{look.towards[0], look.towards[1], look.towards[2]}, at.lane}, open,
+                              scratch_);
       open &= ~apart;
       if (apart == 0) return false;
     }
     return false;
-  }
-
-  /// Contacts that begin or end beyond the motion are deepest at its ends.
-  bool meetsAtEnd(std::uint32_t pair, std::uint32_t open) {
-    if (!contacts_) return false;
-    const int first = std::countr_zero(open);
-    const int last = std::bit_width(open) - 1;
-    if (!beginSeen_ && timeOf(first) - halfOf(first) <= 0.0) {
-      beginSeen_ = true;
-      if (judge_.look(pair, 0.0, 0.0).kind == LaneLook::Kind::Contact) return true;
-    }
-    if (endSeen_ || timeOf(last) + halfOf(last) < 1.0) return false;
-    endSeen_ = true;
-    return judge_.look(pair, 1.0, 0.0).kind == LaneLook::Kind::Contact;
   }
 
   static int middleOf(std::uint32_t lanes) {
