@@ -38,9 +38,7 @@ struct JointTable {
     bool touching = false;    ///< some pair is in contact in the middle
     bool coarse = false;      ///< work ran out: what is not proven was not tried as finely as this
     std::int32_t parts = -1;  ///< of an open cell: index into openParts; -1: all of them are open
-    /// Two balls inside the bodies that meet in the middle: where a contact is certain, or likely.
-    std::int32_t nodeA = -1;  ///< of LaneModel::nodes; -1: none is known
-    std::int32_t nodeB = -1;
+    std::int32_t meeting = -1;  ///< index into meetings; -1: none is known
   };
   static constexpr std::size_t kPairBits = 8;
   std::vector<Cell> cells;  ///< [i * axes[1].cells + j]
@@ -51,6 +49,19 @@ struct JointTable {
     int b = 0;
   };
   std::vector<Geometries> pairs;
+
+  /// In a body's solid.
+  struct InnerBall {
+    float center[3] = {};  ///< m, frame of LaneNode::center
+    float inside = 0.0F;   ///< m, the radius
+  };
+  /// Balls that meet in the middle of a cell: around it contact is certain, or likely.
+  struct Meeting {
+    InnerBall a;
+    InnerBall b;
+    std::int32_t pair = 0;  ///< of `pairs`
+  };
+  std::vector<Meeting> meetings;
 
   /// The cell with these values; null outside and where it is coarse.
   const Cell* cellAt(const Values& values) const;

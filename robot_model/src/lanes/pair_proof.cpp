@@ -2,8 +2,10 @@
 #include "lanes/pair_proof.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "certify/checker_model.hpp"
+#include "lanes/inner_ball.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {
@@ -21,11 +23,16 @@ constexpr int kStepWork = 8;
 constexpr double kMoreTravel = 1.25;
 /// Of what points travel, as well are distances known.
 constexpr double kTolerance = 0.25;
+/// Of what points travel: balls that meet by more than this hold a contact in most of a region.
+constexpr double kMeetingTravel = 0.5;
 /// Pairs of balls split in search of the points that are close.
 constexpr int kMostLooks = 24;
 
-Vector3d centerOf(const LaneNode& node) {
-  return {node.center[0], node.center[1], node.center[2]};
+using InnerBall = JointTable::InnerBall;
+
+template <typename Ball>
+Vector3d centerOf(const Ball& ball) {
+  return {ball.center[0], ball.center[1], ball.center[2]};
 }
 
 }  // namespace
@@ -52,7 +59,7 @@ void PairProof::choose(const JointTable::Geometries& pair) {
   geometryA_ = pair.a;
   geometryB_ = pair.b;
   stopped_ = {-1, -1};
-  meetingBalls_ = {-1, -1};
+  meetingOfA_ = meetingOfB_ = {};
   guess_.setZero();
 }
 
@@ -86,7 +93,7 @@ bool PairProof::apart(const Place& place, const Balls& balls) {
   const double travel = motion_.approach(place, atA, atB, between, levers);
   if (gap > travel || staysWithinGap(place, atA, inB, a.radius, b.radius)) return true;
   const bool solid = a.inside > 0.0F && b.inside > 0.0F;
-  if (solid && noteMeeting(place, balls, between, levers)) {
+  if (solid && noteMeeting(place, innerBall(a), innerBall(b))) {
     stopped_ = balls;
     return false;
   }
@@ -113,42 +120,80 @@ bool PairProof::staysWithinGap(const Place& place, const Vector3d& a, const Vect
   return TableMotion::travel(place, levers) < gap_;
 }
 
-/// Of balls inside the links; whether they meet for all values in the region.
-bool PairProof::noteMeeting(const Place& place, const Balls& balls, double between,
-                            const Levers& levers) {
-  const LaneNode& a = lanes_.nodes[balls.a];
-  const LaneNode& b = lanes_.nodes[balls.b];
+/// Whether balls inside the links meet for all values in the region.
+bool PairProof::noteMeeting(const Place& place, const InnerBall& a, const InnerBall& b) {
+  const Vector3d atA = centerOf(a);
+  const Vector3d inB = centerOf(b);
+  const double between = (place.a_from_b * inB - atA).norm();
   const double overlap = static_cast<double>(a.inside + b.inside) - between - slack_;
   if (overlap > meeting_) {
     meeting_ = overlap;
-    meetingBalls_ = balls;
+    meetingOfA_ = a;
+    meetingOfB_ = b;
   }
-  const bool always = overlap > TableMotion::travel(place, levers);
+  const bool always = overlap > TableMotion::travel(place, motion_.levers(atA, inB));
   certain_ = certain_ || always;
   return always;
 }
 
 /// Where those that met in the last region do so in this one, more need not be known.
 void PairProof::noteLastMeeting(const Place& place) {
-  if (meetingBalls_.a < 0 || meeting_ > 0.0) return;
-  const Vector3d a = centerOf(lanes_.nodes[meetingBalls_.a]);
-  const Vector3d b = centerOf(lanes_.nodes[meetingBalls_.b]);
-  noteMeeting(place, meetingBalls_, (place.a_from_b * b - a).norm(), motion_.levers(a, b));
+  if (!(meetingOfA_.inside > 0.0F) || meeting_ > 0.0) return;
+  noteMeeting(place, InnerBall(meetingOfA_), InnerBall(meetingOfB_));
 }
 
-void PairProof::findMeeting(const Place& place) {
+void PairProof::findMeeting(const Place& place, const Compared& found) {
+  if (meeting_ > kMeetingTravel * TableMotion::travel(place, whole_)) return;
   const LaneModel::InnerBalls& ofA = lanes_.innerBalls[geometryA_];
   const LaneModel::InnerBalls& ofB = lanes_.innerBalls[geometryB_];
+  double most = meeting_ > 0.0 ? meeting_ : -static_cast<double>(lanes_.reach);
+  Vector3d between = Vector3d::Zero();
+  Vector3d middleA = Vector3d::Zero();
+  Vector3d middleB = Vector3d::Zero();
   for (std::int32_t b = ofB.first; b < ofB.first + ofB.count; ++b) {
-    const Vector3d at = place.a_from_b * centerOf(lanes_.nodes[b]);
+    const LaneNode& ballB = lanes_.nodes[b];
+    const Vector3d at = place.a_from_b * centerOf(ballB);
     for (std::int32_t a = ofA.first; a < ofA.first + ofA.count; ++a) {
-      const double reach = static_cast<double>(lanes_.nodes[a].inside + lanes_.nodes[b].inside);
-      const double overlap = reach - (at - centerOf(lanes_.nodes[a])).norm() - slack_;
-      if (overlap <= meeting_) continue;
-      meeting_ = overlap;
-      meetingBalls_ = {a, b};
+      const LaneNode& ballA = lanes_.nodes[a];
+      const Vector3d towards = at - centerOf(ballA);
+      const double reach = static_cast<double>(ballA.inside + ballB.inside) - slack_;
+      const double squared = towards.squaredNorm();
+      if (!(reach > most && squared < (reach - most) * (reach - most))) continue;
+      const double distance = std::sqrt(squared);
+      most = reach - distance;
+      const double share = (static_cast<double>(ballA.inside) - 0.5 * most) / distance;
+      between = centerOf(ballA) + std::clamp(share, 0.0, 1.0) * towards;
+      middleA = centerOf(ballA);
+      middleB = at;
+      if (!(most > meeting_)) continue;
+      meeting_ = most;
+      meetingOfA_ = innerBall(ballA);
+      meetingOfB_ = innerBall(ballB);
     }
   }
+  // Covers have few balls near the surface, where bodies that are hardly in contact meet.
+  if (meeting_ > 0.0 || ofA.count == 0 || ofB.count == 0) return;
+  if (found.touching && !found.point.isZero(0.0)) findAround(place, found.point, middleA, middleB);
+  if (!(meeting_ > 0.0)) findAround(place, between, middleA, middleB);
+}
+
+/// The balls around a point (m, A's lane frame). One on the surface of either body is moved towards
+/// the middle of that, by no more than the other has around it.
+void PairProof::findAround(const Place& place, const Vector3d& point, const Vector3d& middleA,
+                           const Vector3d& middleB) {
+  work -= 2 * kExactWork;
+  const Eigen::Isometry3d b_from_a = place.a_from_b.inverse();
+  InnerBall a = innerBallAround(model_, lanes_, geometryA_, point);
+  InnerBall b = innerBallAround(model_, lanes_, geometryB_, b_from_a * point);
+  const auto moved = [&](const InnerBall& other, const Vector3d& middle) -> Vector3d {
+    const Vector3d towards = middle - point;
+    return point + 0.5 * static_cast<double>(other.inside) * towards.normalized();
+  };
+  if (a.inside > 0.0F && !(b.inside > 0.0F))
+    b = innerBallAround(model_, lanes_, geometryB_, b_from_a * moved(a, middleB));
+  if (b.inside > 0.0F && !(a.inside > 0.0F))
+    a = innerBallAround(model_, lanes_, geometryA_, moved(b, middleA));
+  if (a.inside > 0.0F && b.inside > 0.0F) noteMeeting(place, a, b);
 }
 
 TableMotion::Levers PairProof::closeLevers(const Place& place) {
@@ -197,12 +242,14 @@ PairProof::Compared PairProof::compare(const Place& place, double contact, doubl
       a.shape, b.shape, a.body_from_shape.inverse() * place.bodies * b.body_from_shape, options);
   work -= kExactWork + kStepWork * found.iterations;
   guess_ = found.normal;
-  return {true, found.upper <= model_.options.margin, found.lower - slack_};
+  const Vector3d point = a.body_from_shape * found.pointA;
+  return {true, found.upper <= model_.options.margin, found.lower - slack_,
+          lanes_.bodyFromLane[a.body].transpose() * point};
 }
 
 PairProof::Compared PairProof::compareWhereStopped(const Place& place, bool single) {
   noteLastMeeting(place);
-  if (meeting_ > 0.0) return {true, true, 0.0};
+  if (meeting_ > 0.0) return {true, true, 0.0, Vector3d::Zero()};
   const LaneNode& a = lanes_.nodes[stopped_.a];
   const LaneNode& b = lanes_.nodes[stopped_.b];
   const Levers levers = motion_.levers(centerOf(a), centerOf(b), static_cast<double>(a.radius),

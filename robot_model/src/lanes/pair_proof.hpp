@@ -26,7 +26,8 @@ class PairProof {
   struct Compared {
     bool tried = false;
     bool touching = false;
-    double gap = 0.0;  ///< m, proven, less the slack
+    double gap = 0.0;                                 ///< m, proven, less the slack
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, lane frame of A; common, if touching
   };
 
   PairProof(const CheckerModel& model, const LaneModel& lanes, const LaneBodyPair& bodies,
@@ -50,9 +51,10 @@ class PairProof {
   bool meet() const { return meeting_ > 0.0; }
   /// For all values of the joints.
   bool alwaysMeet() const { return certain_; }
-  const Balls& meetingBalls() const { return meetingBalls_; }
-  /// The ones that overlap most.
-  void findMeeting(const Place& place);
+  const JointTable::InnerBall& meetingOfA() const { return meetingOfA_; }
+  const JointTable::InnerBall& meetingOfB() const { return meetingOfB_; }
+  /// Those that overlap most, among the covers' and what is found in the solids.
+  void findMeeting(const Place& place, const Compared& found);
 
   double slack() const { return slack_; }  ///< m, for the margin and for roundings
   /// Distances of balls evaluated, or what takes as long, are taken off it; some 30 ns each.
@@ -64,8 +66,11 @@ class PairProof {
   bool apart(const Place& place, const Balls& balls);
   bool staysWithinGap(const Place& place, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       float radiusA, float radiusB) const;
-  bool noteMeeting(const Place& place, const Balls& balls, double between, const Levers& levers);
+  bool noteMeeting(const Place& place, const JointTable::InnerBall& a,
+                   const JointTable::InnerBall& b);
   void noteLastMeeting(const Place& place);
+  void findAround(const Place& place, const Eigen::Vector3d& point, const Eigen::Vector3d& middleA,
+                  const Eigen::Vector3d& middleB);
   void findLevers(const Place& place, const Balls& balls);
 
   const CheckerModel& model_;
@@ -79,7 +84,7 @@ class PairProof {
   double gap_ = 0.0;      ///< m, see apart
   double meeting_ = 0.0;  ///< m, the most that balls inside overlap in the middle
   bool certain_ = false;
-  Balls meetingBalls_{-1, -1};
+  JointTable::InnerBall meetingOfA_, meetingOfB_;  ///< lately
   Levers close_{};
   int looks_ = 0;
   Eigen::Vector3d guess_ = Eigen::Vector3d::Zero();

@@ -16,6 +16,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 
+/// Of the square of a distance within which balls meet: beyond, its roundings may count.
+constexpr float kMeeting = 1.0F - 1e-5F;
+
 /// Points x + s g, |s| <= 1.
 struct Segment {
   V3 x;
@@ -43,8 +46,10 @@ HWY_INLINE F8 inflation(const F8& half, float acceleration) {
   return half * half * set(acceleration * (0.5F + 1e-6F));
 }
 
-HWY_INLINE V3 place(const LaneNode& node, const LaneBodyState& state) {
-  return addRotated(load3(state.origin), state.rotation, set3(node.center));
+/// Its centre.
+template <typename Ball>
+HWY_INLINE V3 place(const Ball& ball, const LaneBodyState& state) {
+  return addRotated(load3(state.origin), state.rotation, set3(ball.center));
 }
 
 /// Eight points of a link as they are in one lane.

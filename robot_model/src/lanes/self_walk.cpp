@@ -87,18 +87,17 @@ class SelfWalk {
   /// Looks where the table suggests a contact.
   bool meets(const JointTable& table, Lanes lanes) {
     if (!block_.stopAtContact) return false;
-    const JointTable::Cell* last = nullptr;
+    std::int32_t last = -1;
     for (; lanes != 0; lanes &= lanes - 1) {
       const JointTable::Cell* cell = tables_.cellOf(table, std::countr_zero(lanes));
-      if (cell == nullptr || cell->nodeA < 0) continue;
-      const bool again =
-          last != nullptr && last->nodeA == cell->nodeA && last->nodeB == cell->nodeB;
-      if (again) continue;
-      last = cell;
-      const LaneNode& a = model_.nodes[cell->nodeA];
-      const LaneNode& b = model_.nodes[cell->nodeB];
-      pair_ = pairOf(a.geometry, b.geometry);
-      if (touches(a, {place(a, *stateA_), {}}, b, {place(b, *stateB_), {}}, lanes)) return true;
+      if (cell == nullptr || cell->meeting < 0 || cell->meeting == last) continue;
+      last = cell->meeting;
+      const JointTable::Meeting& meeting = table.meetings[static_cast<std::size_t>(last)];
+      const JointTable::Geometries& pair = table.pairs[static_cast<std::size_t>(meeting.pair)];
+      pair_ = pairOf(pair.a, pair.b);
+      if (touches(meeting.a.inside, place(meeting.a, *stateA_), meeting.b.inside,
+                  place(meeting.b, *stateB_), lanes))
+        return true;
     }
     return false;
   }
@@ -188,7 +187,8 @@ class SelfWalk {
         scratch_.selfVisits.push_back({bodyPair_, indexOf(a), indexOf(b), lanes});
         return false;
       }
-      if (a.inside > 0.0F && b.inside > 0.0F && touches(a, atA, b, atB, lanes)) return true;
+      if (a.inside > 0.0F && b.inside > 0.0F && touches(a.inside, atA.x, b.inside, atB.x, lanes))
+        return true;
       lanes &= ~block_.contactLanes;
       if (lanes == 0) return false;
     }
@@ -238,7 +238,7 @@ class SelfWalk {
           const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - x;
           const float inB = eightB.inside.lane[k] - 2.0F * scratch_.rounding;
           const F8 reach = load(eightA.inside) + set(inB - 2.0F * scratch_.rounding);
-          const Lanes found = below(dot(to, to), set(0.9F) * reach * reach);
+          const Lanes found = below(dot(to, to), set(kMeeting) * reach * reach);
           if (found == 0) continue;
           const int which = std::countr_zero(found);
           const float inA = eightA.inside.lane[which] - 2.0F * scratch_.rounding;
@@ -255,18 +255,17 @@ class SelfWalk {
   }
 
   /// At a middle, two balls inside the links meet.
-  bool touches(const LaneNode& a, const Segment& atA, const LaneNode& b, const Segment& atB,
-               Lanes lanes) {
+  bool touches(float insideA, const V3& atA, float insideB, const V3& atB, Lanes lanes) {
     if (!block_.stopAtContact) return false;
     // Either ball less what its position, and that of the point, may be off.
-    const float ofA = a.inside - 2.0F * scratch_.rounding;
-    const float ofB = b.inside - 2.0F * scratch_.rounding;
+    const float ofA = insideA - 2.0F * scratch_.rounding;
+    const float ofB = insideB - 2.0F * scratch_.rounding;
     if (!(ofA > 0.0F && ofB > 0.0F)) return false;
-    const V3 between = atB.x - atA.x;
-    lanes &= below(dot(between, between), set(0.9F * (ofA + ofB) * (ofA + ofB)));
+    const V3 between = atB - atA;
+    lanes &= below(dot(between, between), set(kMeeting * (ofA + ofB) * (ofA + ofB)));
     // A point of the line between the centres that is in both balls, by the same share.
     const F8 share = set(ofA / (ofA + ofB));
-    return lanes != 0 && claim(block_, pair_, lanes, along(atA.x, share, between), 0.0F);
+    return lanes != 0 && claim(block_, pair_, lanes, along(atA, share, between), 0.0F);
   }
 
   const LaneModel& model_;

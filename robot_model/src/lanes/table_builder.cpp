@@ -96,7 +96,7 @@ void TableBuilder::proveRegion(const Region& region) {
   if (proof_.apartWithin(place, found.gap)) return;
   if (single) {
     // Where the middle is known to be free of contact no balls meet.
-    if (found.touching || !found.tried) proof_.findMeeting(place);
+    if (found.touching || !found.tried) proof_.findMeeting(place, found);
     leaveOpen(region, found.touching, false);
     if (found.tried && !found.touching) startParts(region, found.gap);
     return;
@@ -116,20 +116,21 @@ void TableBuilder::splitRegion(const Region& region) {
 bool TableBuilder::haveMeetings(const Region& region) const {
   for (int i = region.begin[0]; i < region.end[0]; ++i)
     for (int j = region.begin[1]; j < region.end[1]; ++j)
-      if (table_.cells[i * table_.axes[1].cells + j].nodeA < 0) return false;
+      if (table_.cells[i * table_.axes[1].cells + j].meeting < 0) return false;
   return true;
 }
 
 void TableBuilder::leaveOpen(const Region& region, bool touching, bool coarse) {
+  const bool meets = !coarse && proof_.meet();
+  if (meets) table_.meetings.push_back({proof_.meetingOfA(), proof_.meetingOfB(), pair_});
+  const auto last = static_cast<std::int32_t>(table_.meetings.size()) - 1;
   for (int i = region.begin[0]; i < region.end[0]; ++i) {
     for (int j = region.begin[1]; j < region.end[1]; ++j) {
       JointTable::Cell& cell = table_.cells[i * table_.axes[1].cells + j];
       cell.openPairs |= bit_;
       cell.touching = cell.touching || touching;
       cell.coarse = cell.coarse || coarse;
-      if (coarse || !proof_.meet() || cell.nodeA >= 0) continue;
-      cell.nodeA = proof_.meetingBalls().a;
-      cell.nodeB = proof_.meetingBalls().b;
+      if (meets && cell.meeting < 0) cell.meeting = last;
     }
   }
 }

@@ -219,7 +219,7 @@ class WorldWalk {
       const F8 away = squaredDistance(model_.obstacles, obstacle, {x, still});
       const Lanes found = obstacle.near == NearProof::Inside
                               ? below(away, set(1e-30F))
-                              : below(away, set(0.9F) * inside * inside);
+                              : below(away, set(kMeeting) * inside * inside);
       if (found == 0) continue;
       const int which = std::countr_zero(found);
       Row at[3];
@@ -248,7 +248,7 @@ class WorldWalk {
   Lanes lanesNear(const LaneObstacle& obstacle, const Segment& segment, float within,
                   Lanes lanes) const {
     const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
-    const float most = obstacle.near == NearProof::Distance ? 0.9F * within * within : 1e-30F;
+    const float most = obstacle.near == NearProof::Distance ? kMeeting * within * within : 1e-30F;
     if (obstacle.near == NearProof::None) return 0;
     return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(most));
   }
