@@ -60,7 +60,7 @@ class Approach {
     if (!detail::compileLaneMotion(lanes, model_.kinematics, from_, to_, scratch))
       return std::nullopt;
     Silent silent;
-    return detail::searchMotion(lanes, silent, false, scratch).kind;
+    return detail::searchMotion(lanes, silent, detail::LaneGoal::Prefix, scratch).kind;
   }
 
  private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/exact_judge.hpp"
 
+#include <utility>
+
 #include "certify/lane_witness.hpp"
 
 namespace swept::detail {
@@ -10,9 +12,15 @@ bool ExactJudge::start() {
   return started_;
 }
 
+bool ExactJudge::keep(std::optional<Witness> witness) {
+  if (!witness) return false;
+  const bool earliest = !certificate_.witness || witness->t < certificate_.witness->t;
+  if (earliest) certificate_.witness = std::move(witness);
+  return true;
+}
+
 bool ExactJudge::isContact(const LaneContact& contact, double t) {
-  certificate_.witness = laneWitness(model_, contact, t);
-  return certificate_.witness.has_value();
+  return keep(laneWitness(model_, contact, t));
 }
 
 bool ExactJudge::isInside(std::uint32_t pair, std::int32_t point, double t) {
@@ -20,8 +28,7 @@ bool ExactJudge::isInside(std::uint32_t pair, std::int32_t point, double t) {
   query_.moveTo(t);
   const Eigen::Vector3d at =
       query_.placed(pair, model_.lanes.hulls->inBody[static_cast<std::size_t>(point)]);
-  certificate_.witness = pointWitness(model_, pair, at, t);
-  return certificate_.witness.has_value();
+  return keep(pointWitness(model_, pair, at, t));
 }
 
 LaneLook ExactJudge::look(std::uint32_t pair, double t, double half) {
@@ -34,7 +41,7 @@ LaneLook ExactJudge::look(std::uint32_t pair, double t, double half) {
   ++(answer.culled ? effort.culled : effort.distances);
   if (answer.status == Separation::Contact) {
     look.kind = LaneLook::Kind::Contact;
-    if (contacts_) certificate_.witness = query_.witness(pair, t, answer);
+    keep(query_.witness(pair, t, answer));
     return look;
   }
   if (answer.status == Separation::Separated) look.kind = LaneLook::Kind::Apart;

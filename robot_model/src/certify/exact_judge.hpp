@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "certify/pair_query.hpp"
@@ -8,19 +9,13 @@
 
 namespace swept::detail {
 
-/// Looks at one motion on exact geometry, where the lane tier asks for it. Effort and witnesses go
-/// to the certificate.
+/// Looks at one motion on exact geometry, where the lane tier asks for it. Effort and the earliest
+/// witness go to the certificate.
 class ExactJudge final : public LaneJudge {
  public:
-  /// `contacts`: a contact decides the motion, and its witness is wanted.
   ExactJudge(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
-             bool contacts, PairQuery& query, MotionCertificate& certificate)
-      : model_(model),
-        from_(from),
-        to_(to),
-        contacts_(contacts),
-        query_(query),
-        certificate_(certificate) {}
+             PairQuery& query, MotionCertificate& certificate)
+      : model_(model), from_(from), to_(to), query_(query), certificate_(certificate) {}
 
   /// Compiles the motion for the query, once. False: nothing can be said about it.
   bool start();
@@ -30,9 +25,10 @@ class ExactJudge final : public LaneJudge {
   LaneLook look(std::uint32_t pair, double t, double half) override;
 
  private:
+  bool keep(std::optional<Witness> witness);
+
   const CheckerModel& model_;
   std::span<const double> from_, to_;
-  const bool contacts_;
   PairQuery& query_;
   MotionCertificate& certificate_;
   bool started_ = false;

@@ -27,11 +27,11 @@ class MotionProver {
         wanted_(wanted),
         query_(model, workspace),
         certificate_(certificate),
-        judge_(model, from, to, wanted == MotionQuery::VerdictOnly, query_, certificate) {}
+        judge_(model, from, to, query_, certificate) {}
 
   void run(std::span<const double> from, std::span<const double> to) {
     if (settleInLanes(from, to) || !judge_.start()) return;
-    searchWhole();
+    if (!certificate_.witness) searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
     // second attempt in another order settles some of what the first left open.
     const bool undecided = undecidedAt_ && !certificate_.witness;
@@ -63,11 +63,13 @@ class MotionProver {
       takeAll(model_, workspace_);
       return false;
     }
-    const LaneAnswer answer =
-        searchMotion(model_.lanes, judge_, wanted_ == MotionQuery::VerdictOnly, workspace_.lanes);
+    const LaneGoal goal =
+        wanted_ == MotionQuery::VerdictOnly ? LaneGoal::Verdict : LaneGoal::Prefix;
+    const LaneAnswer answer = searchMotion(model_.lanes, judge_, goal, workspace_.lanes);
     certificate_.effort.lanes = answer.intervals;
     if (answer.kind == LaneAnswer::Kind::Contact) {
       certificate_.verdict = Verdict::Collision;
+      if (goal == LaneGoal::Prefix) certificate_.freeUntil = certificate_.witness->t;
       return true;
     }
     if (answer.kind == LaneAnswer::Kind::Free) {
@@ -85,6 +87,8 @@ class MotionProver {
     bool resolved =
         false;  ///< some open pair moves less than the tolerance: splitting is pointless
   };
+
+  bool isEarliest(double t) const { return !certificate_.witness || t < certificate_.witness->t; }
 
   bool budgetLeft() const { return certificate_.effort.intervals < model_.options.maxIntervals; }
 
@@ -110,7 +114,7 @@ class MotionProver {
       if (answer.status == Separation::Contact) {
         outcome.contact = true;
         outcome.resolved = outcome.resolved || atTolerance;
-        certificate_.witness = query_.witness(pair, middle, answer);
+        if (isEarliest(middle)) certificate_.witness = query_.witness(pair, middle, answer);
         workspace_.failed.push_back(pair);
         continue;
       }
@@ -170,20 +174,24 @@ class MotionProver {
       if (certificate_.witness && interval.begin >= certificate_.witness->t) return;
       if (!budgetLeft()) return stopAt(interval.begin);
       const OpenPairs open = sortOpenPairs(interval, workspace_);
+      const double middle = 0.5 * (interval.begin + interval.end);
+      // Nothing from the contact on matters.
+      const bool behind = certificate_.witness && middle >= certificate_.witness->t;
+      const std::size_t asked = behind ? 0 : open.onAll;
       const Outcome outcome =
-          examine({interval.begin, interval.end, interval.first, open.onAll}, arena, false);
+          examine({interval.begin, interval.end, interval.first, asked}, arena, false);
       // Pairs that are open on a part only wait for that part.
-      const auto waiting = arena.begin() + static_cast<std::ptrdiff_t>(interval.first + open.onAll);
-      workspace_.failed.insert(workspace_.failed.end(), waiting,
-                               waiting + static_cast<std::ptrdiff_t>(open.onPart));
+      const auto waiting = arena.begin() + static_cast<std::ptrdiff_t>(interval.first);
+      workspace_.failed.insert(workspace_.failed.end(),
+                               waiting + static_cast<std::ptrdiff_t>(asked),
+                               waiting + static_cast<std::ptrdiff_t>(open.onAll + open.onPart));
       arena.resize(interval.first);
       if (workspace_.failed.empty()) continue;
       if (outcome.resolved) return stopAt(interval.begin);
-      const double middle = 0.5 * (interval.begin + interval.end);
       if (outcome.contact) {
         stack.clear();
         arena.clear();
-      } else {
+      } else if (!behind) {
         push(middle, interval.end);
       }
       push(interval.begin, middle);

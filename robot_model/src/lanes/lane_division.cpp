@@ -19,9 +19,13 @@ constexpr float kFinestInflation = 2e-4F;
 
 class Division {
  public:
-  Division(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch,
+  Division(const LaneModel& model, LaneJudge& judge, LaneGoal goal, LaneScratch& scratch,
            LaneAnswer& answer)
-      : model_(model), judge_(judge), scratch_(scratch), answer_(answer), contacts_(contacts) {}
+      : model_(model),
+        judge_(judge),
+        scratch_(scratch),
+        answer_(answer),
+        decides_(goal == LaneGoal::Verdict) {}
 
   bool run() {
     sortByPair();
@@ -134,8 +138,8 @@ class Division {
   Look nextLook(std::uint32_t open) {
     const int first = std::countr_zero(open);
     const int last = std::bit_width(open) - 1;
-    const bool atBegin = contacts_ && !beginSeen_ && timeOf(first) - halfOf(first) <= 0.0;
-    const bool atEnd = contacts_ && !endSeen_ && timeOf(last) + halfOf(last) >= 1.0;
+    const bool atBegin = decides_ && !beginSeen_ && timeOf(first) - halfOf(first) <= 0.0;
+    const bool atEnd = decides_ && !endSeen_ && timeOf(last) + halfOf(last) >= 1.0;
     const bool onlyOne = atBegin != atEnd;
     if (atEnd && (onlyOne || looks_ > 0)) {
       endSeen_ = true;
@@ -158,7 +162,8 @@ class Division {
       if (look.kind == LaneLook::Kind::Contact) {
         // Where the first contact is wanted, the exact tier looks for it.
         inContact_ = true;
-        return contacts_;
+        answer_.horizon = std::min(answer_.horizon, static_cast<float>(at.t));
+        return decides_;
       }
       std::uint32_t apart = look.kind == LaneLook::Kind::Apart ? 1U << at.lane : 0U;
       if (look.directed)
@@ -191,6 +196,7 @@ class Division {
   }
 
   void leave(const Part& part) {
+    if (part.time - part.half >= answer_.horizon) return;
     scratch_.rest.push_back({part.time, part.half, scratch_.restArena.size(), 1});
     scratch_.restArena.push_back(part.pair);
   }
@@ -199,7 +205,7 @@ class Division {
   LaneJudge& judge_;
   LaneScratch& scratch_;
   LaneAnswer& answer_;
-  bool contacts_;
+  const bool decides_;  ///< a contact
   int looks_ = 0;
   bool beginSeen_ = false;  ///< of the pair
   bool endSeen_ = false;
@@ -208,9 +214,9 @@ class Division {
 
 }  // namespace
 
-bool dividePairs(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch,
+bool dividePairs(const LaneModel& model, LaneJudge& judge, LaneGoal goal, LaneScratch& scratch,
                  LaneAnswer& answer) {
-  return Division(model, judge, contacts, scratch, answer).run();
+  return Division(model, judge, goal, scratch, answer).run();
 }
 
 }  // namespace swept::detail

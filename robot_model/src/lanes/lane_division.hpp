@@ -9,8 +9,8 @@ namespace swept::detail {
 
 /// Takes from scratch.rest what planes between the hulls of two bodies prove. Their directions come
 /// from exact geometry at one time; each serves for all sub-intervals around it. True: the judge
-/// found a contact on the way.
-bool dividePairs(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch,
+/// found a contact that decides.
+bool dividePairs(const LaneModel& model, LaneJudge& judge, LaneGoal goal, LaneScratch& scratch,
                  LaneAnswer& answer);
 
 }  // namespace swept::detail

@@ -33,8 +33,8 @@ constexpr std::int32_t kMostPoints = 2;
 
 class MotionSearch {
  public:
-  MotionSearch(const LaneModel& model, LaneJudge& judge, bool contacts, LaneScratch& scratch)
-      : model_(model), judge_(judge), contacts_(contacts), scratch_(scratch) {
+  MotionSearch(const LaneModel& model, LaneJudge& judge, LaneGoal goal, LaneScratch& scratch)
+      : model_(model), judge_(judge), goal_(goal), scratch_(scratch) {
     for (const Row& row : scratch.bounds[0].acceleration)
       for (const float value : row.lane)
         answer_.acceleration = std::max(answer_.acceleration, value);
@@ -43,7 +43,6 @@ class MotionSearch {
   LaneAnswer run() {
     LaneBlock& block = scratch_.block;
     block.mode = LaneMode::Motion;
-    block.stopAtContact = contacts_;
     for (auto* items : {&scratch_.next, &scratch_.rest}) items->clear();
     for (auto* pairs : {&scratch_.nextArena, &scratch_.restArena}) pairs->clear();
     forgetOpen(block);
@@ -54,15 +53,22 @@ class MotionSearch {
       std::swap(scratch_.arena, scratch_.nextArena);
       scratch_.next.clear();
       scratch_.nextArena.clear();
+      forgetBehind(scratch_.now);
       last_ = generation + 1 >= kMostGenerations || scratch_.now.size() > kMostItems / 2;
       for (std::size_t i = 0; i < scratch_.now.size(); i += kLanes) {
         if (examine(i)) return contact();
         collect();
       }
     }
-    if (!scratch_.rest.empty() && dividePairs(model_, judge_, contacts_, scratch_, answer_))
+    forgetBehind(scratch_.rest);
+    if (!scratch_.rest.empty() && dividePairs(model_, judge_, goal_, scratch_, answer_))
       return contact();
-    answer_.kind = scratch_.rest.empty() ? LaneAnswer::Kind::Free : LaneAnswer::Kind::Open;
+    if (!scratch_.rest.empty()) {
+      answer_.kind = LaneAnswer::Kind::Open;
+    } else {
+      const bool met = answer_.horizon <= 1.0F;
+      answer_.kind = met ? LaneAnswer::Kind::Contact : LaneAnswer::Kind::Free;
+    }
     return answer_;
   }
 
@@ -74,26 +80,53 @@ class MotionSearch {
 
   double timeOf(int lane) const { return static_cast<double>(scratch_.block.time.lane[lane]); }
 
-  /// Walks until it is through or the judge has confirmed a contact. A claim that is not confirmed
-  /// is not made a second time: the walk is repeated without looking for contacts.
+  void forgetBehind(std::vector<LaneScratch::Item>& items) const {
+    std::erase_if(items, [this](const LaneScratch::Item& item) {
+      return item.time - item.half >= answer_.horizon;
+    });
+  }
+
+  /// Lanes that begin no earlier than a contact.
+  std::uint32_t lanesBehind() const {
+    const LaneBlock& block = scratch_.block;
+    std::uint32_t lanes = 0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (block.time.lane[lane] - block.half.lane[lane] >= answer_.horizon) lanes |= 1U << lane;
+    return lanes;
+  }
+
+  /// Whether the search is over with this contact.
+  bool decides(int lane) {
+    answer_.horizon = std::min(answer_.horizon, scratch_.block.time.lane[lane]);
+    return goal_ == LaneGoal::Verdict;
+  }
+
+  /// Walks until it is through or the judge has confirmed a contact that decides. Otherwise the
+  /// walk is repeated for what lies before the contact, without looking for more; and a claim that
+  /// is not confirmed is not made a second time.
   template <typename Walk>
   bool walk(const Walk& walkAll) {
     LaneBlock& block = scratch_.block;
     block.suspect = {};
-    block.contactLanes = 0;
+    block.contactLanes = lanesBehind();
+    block.stopAtContact = contacts_;
+    const std::uint32_t behind = block.contactLanes;
     if (walkAll()) {
-      const int lane = std::countr_zero(block.contactLanes);
-      if (judge_.isContact(block.contacts[lane], timeOf(lane))) return true;
-      contacts_ = false;
-      block.contactLanes = 0;
+      const int lane = std::countr_zero(block.contactLanes & ~behind);
+      const bool confirmed = judge_.isContact(block.contacts[lane], timeOf(lane));
+      if (confirmed && decides(lane)) return true;
+      contacts_ = confirmed;
+      block.contactLanes = lanesBehind();
       block.stopAtContact = false;
       walkAll();
+      return false;
     }
     if (!contacts_ || block.suspect.lane < 0 || suspects_ == kMostSuspects) return false;
     ++suspects_;
-    if (isInside(block.suspect)) return true;
-    return judge_.look(block.suspect.pair, timeOf(block.suspect.lane), 0.0).kind ==
-           LaneLook::Kind::Contact;
+    const bool confirmed = isInside(block.suspect) ||
+                           judge_.look(block.suspect.pair, timeOf(block.suspect.lane), 0.0).kind ==
+                               LaneLook::Kind::Contact;
+    return confirmed && decides(block.suspect.lane);
   }
 
   /// Some point of the link's surface in an obstacle.
@@ -133,6 +166,7 @@ class MotionSearch {
     const LaneBlock& block = scratch_.block;
     const float time = block.time.lane[lane];
     const float half = block.half.lane[lane];
+    if (time - half >= answer_.horizon) return;
     const bool fine = last_ || 0.5F * half * half * answer_.acceleration < kFinestInflation;
     const std::size_t rest = scratch_.restArena.size();
     const std::size_t next = scratch_.nextArena.size();
@@ -146,9 +180,10 @@ class MotionSearch {
     const std::size_t count = scratch_.nextArena.size() - next;
     if (count == 0) return;
     const float part = half / static_cast<float>(parts);
-    for (int i = 0; i < parts; ++i)
-      scratch_.next.push_back(
-          {time - half + part * static_cast<float>(2 * i + 1), part, next, count});
+    for (int i = 0; i < parts; ++i) {
+      const float middle = time - half + part * static_cast<float>(2 * i + 1);
+      if (middle - part < answer_.horizon) scratch_.next.push_back({middle, part, next, count});
+    }
   }
 
   /// Up to eight of the current sub-intervals, each with its own pairs.
@@ -218,7 +253,8 @@ class MotionSearch {
 
   const LaneModel& model_;
   LaneJudge& judge_;
-  bool contacts_;
+  const LaneGoal goal_;
+  bool contacts_ = true;  ///< looked for
   LaneScratch& scratch_;
   LaneAnswer answer_;
   int suspects_ = 0;
@@ -257,9 +293,9 @@ void LaneScratch::restBase(const LaneModel& model) {
       value = model.nodes[model.rootOfBody[0]].center[i];
 }
 
-LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, bool contacts,
+LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, LaneGoal goal,
                         LaneScratch& scratch) {
-  return MotionSearch(model, judge, contacts, scratch).run();
+  return MotionSearch(model, judge, goal, scratch).run();
 }
 
 void searchStates(const LaneModel& model, LaneMode mode, bool contacts, LaneScratch& scratch) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "lanes/lane_model.hpp"
 #include "lanes/lane_scratch.hpp"
@@ -11,10 +12,12 @@ namespace swept::detail {
 struct LaneAnswer {
   enum class Kind : std::uint8_t {
     Free,     ///< all pairs, on all of [0, 1]
-    Contact,  ///< the judge said so
+    Contact,  ///< the judge said so; with LaneGoal::Prefix, and all before it is proven
     Open,     ///< scratch.rest is what is left
   };
   Kind kind = Kind::Open;
+  /// Of the earliest contact that the judge confirmed; what begins there or later is not in `rest`.
+  float horizon = std::numeric_limits<float>::infinity();
   int intervals = 0;          ///< sub-intervals examined
   float acceleration = 0.0F;  ///< m per unit t squared, bounds that of all ball centres
 };
@@ -44,8 +47,14 @@ class LaneJudge {
   ~LaneJudge() = default;
 };
 
-/// Of the motion in the scratch. `contacts`: stops at a contact.
-LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, bool contacts,
+/// What a search of a motion is after.
+enum class LaneGoal : std::uint8_t {
+  Verdict,  ///< the first contact that shows ends it
+  Prefix,   ///< all that lies before the earliest contact
+};
+
+/// Of the motion in the scratch.
+LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, LaneGoal goal,
                         LaneScratch& scratch);
 /// Of states: of the motion's begin in all lanes (LaneMode::State), or of eight (States). What is
 /// found is in scratch.block: a lane is free if it is neither in `contactLanes` nor has open pairs.
