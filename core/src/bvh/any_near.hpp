@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "bvh/wide_bvh.hpp"
-#include "simd/segment_boxes.hpp"
+#include "simd/near_boxes.hpp"
 #include "swept/core/segment_query.hpp"
 
 namespace swept::detail {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cover/rounded.hpp"
-#include "simd/point_boxes.hpp"
+#include "simd/near_boxes.hpp"
 
 namespace swept::detail {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -14,9 +15,15 @@ struct NearSegment {
   std::array<float, 3> half;    ///< m
 };
 
-/// Squares (m^2) of lower bounds on the distances of a segment from the boxes of a node. Bit i of
-/// the result: box i is in use and its square is not above `most`, or no number. Lanes not in use
-/// hold anything.
+// Of each: bit i of the result says that box i is in use and that its square is not above `most`
+// (m^2), or no number. Lanes not in use hold anything.
+
+/// Squared distances (m^2) of a point from the boxes of a node, in single precision: fewer than
+/// twelve roundings of coordinates relative to the node's origin.
+std::uint32_t pointBoxes(const WideNode& node, const Eigen::Vector3d& p, float most,
+                         std::array<float, WideNode::kLanes>& squared);
+
+/// Squares (m^2) of lower bounds on the distances of a segment from the boxes of a node.
 ///
 /// Lemma (rounding): let u = 2^-24 and m = |center|_1 + |half|_1 + the node's reach. Along an axis
 /// of a box, off by 3 u of a unit vector, the difference of centres is off by 8 u m (one rounding
