@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "bvh/pending_boxes.hpp"
 #include "bvh/wide_bvh.hpp"
 #include "simd/near_boxes.hpp"
 #include "swept/core/segment_query.hpp"
@@ -17,16 +18,9 @@ namespace swept::detail {
 /// about the nearest first, until `stop` is true of one. Returns whether it was.
 template <typename Stop>
 bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, const Stop& stop) {
-  struct Pending {
-    float squared;
-    std::int32_t child;
-  };
-  // Each level leaves at most seven siblings behind.
-  std::array<Pending, (WideNode::kLanes - 1) * WideBvh::kMaxDepth + 1> stack;
-  int pending = 0;
-  stack[pending++] = {0.0F, 0};
-  while (pending > 0) {
-    const std::int32_t top = stack[--pending].child;
+  PendingBoxes pending;
+  while (!pending.isEmpty()) {
+    const std::int32_t top = pending.pop().child;
     if (top < 0) {
       if (stop(~top)) return true;
       continue;
@@ -45,13 +39,10 @@ bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, cons
     // out.
     const double reach = radius + 50.0 * 0x1p-24 * size;
     alignas(32) std::array<float, WideNode::kLanes> squared;
-    const int first = pending;
     for (std::uint32_t open = segmentBoxes(node, near, static_cast<float>(reach * reach), squared);
          open != 0; open &= open - 1) {
       const int lane = std::countr_zero(open);
-      int at = pending++;  // the nearest on top
-      for (; at > first && stack[at - 1].squared < squared[lane]; --at) stack[at] = stack[at - 1];
-      stack[at] = {squared[lane], node.child[lane]};
+      pending.push({squared[lane], node.child[lane]});
     }
   }
   return false;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "bvh/pending_boxes.hpp"
 #include "cover/rounded.hpp"
 #include "simd/near_boxes.hpp"
 
@@ -129,16 +130,9 @@ void Nearest::test(int primitive, const Vector3d& p, Found& best) const {
 Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
   Found best;
   best.squared = bound * bound;
-  struct Pending {
-    float squared;
-    std::int32_t child;
-  };
-  // Each level leaves at most seven siblings behind.
-  std::array<Pending, (WideNode::kLanes - 1) * WideBvh::kMaxDepth + 1> stack;
-  int pending = 0;
-  stack[pending++] = {0.0F, 0};
-  while (pending > 0) {
-    const Pending top = stack[--pending];
+  PendingBoxes pending;
+  while (!pending.isEmpty()) {
+    const PendingBoxes::Box top = pending.pop();
     if (top.squared > best.squared) continue;
     if (top.child < 0) {
       test(~top.child, p, best);
@@ -146,16 +140,12 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
     }
     const WideNode& node = bvh_.nodes()[top.child];
     alignas(32) std::array<float, WideNode::kLanes> squared;
-    const int first = pending;
     for (std::uint32_t near = pointBoxes(node, p, roundedUp(best.squared), squared); near != 0;
          near &= near - 1) {
       const int lane = std::countr_zero(near);
       const std::int32_t child = node.child[lane];
       if (!hasParts_.empty() && child >= 0 && !hasParts_[child]) continue;
-      // Nearest on top.
-      int at = pending++;
-      for (; at > first && stack[at - 1].squared < squared[lane]; --at) stack[at] = stack[at - 1];
-      stack[at] = {squared[lane], child};
+      pending.push({squared[lane], child});
     }
   }
   return best;
