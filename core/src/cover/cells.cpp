@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cover/clip.hpp"
+#include "swept/core/bv/aabb.hpp"
 
 namespace swept::detail {
 namespace {
@@ -28,12 +29,7 @@ std::uint32_t sidesOf(int corner) {
 /// Points in one cube of a coarse grid become one point, whose blur is what they are off by.
 double thinOut(std::vector<Vector3d>& points) {
   constexpr int kGrid = 4;
-  Vector3d lower = points.front();
-  Vector3d upper = lower;
-  for (const Vector3d& point : points) {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
-  }
+  const auto [lower, upper] = Aabb::fit(points);
   struct Box {
     Vector3d lower, upper;
     bool used = false;
@@ -184,13 +180,7 @@ void Cells::gather(Cell& cell) {
   if (cell.content.size() > kMostPoints) {
     cell.blur = thinOut(cell.content);
   }
-  Vector3d lower = cell.content.front();
-  Vector3d upper = lower;
-  for (const Vector3d& point : cell.content) {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
-  }
-  cell.middle = 0.5 * (lower + upper);
+  cell.middle = Aabb::fit(cell.content).center();
   cell.reach = cell.farthest(cell.middle);
   extremesFirst(cell.content);
 }

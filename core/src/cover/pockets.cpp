@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cover/clip.hpp"
+#include "swept/core/bv/aabb.hpp"
 
 namespace swept::detail {
 
@@ -12,12 +13,7 @@ using Eigen::Vector3d;
 
 Pockets::Pockets(std::span<const Vector3d> vertices, std::span<const Eigen::Vector3i> triangles) {
   constexpr int kResolution = 48;
-  Vector3d lower = vertices.front();
-  Vector3d upper = lower;
-  for (const Vector3d& vertex : vertices) {
-    lower = lower.cwiseMin(vertex);
-    upper = upper.cwiseMax(vertex);
-  }
+  const auto [lower, upper] = Aabb::fit(vertices);
   cell_ = (upper - lower).maxCoeff() / kResolution;
   if (!(cell_ > 0.0) || !std::isfinite(cell_)) return;
   for (int axis = 0; axis < 3; ++axis) {
