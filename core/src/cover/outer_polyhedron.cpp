@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "swept/core/bv/aabb.hpp"
+
 namespace swept::detail {
 namespace {
 
@@ -126,12 +128,7 @@ ThickHull thickHull(const ConvexHull& hull) {
   // Thick enough for rounding to leave a volume, too thin to matter.
   constexpr double kOfSize = 1e-6;
   constexpr double kOfCoordinates = 1e-9;
-  Vector3d lower = hull.vertices().front();
-  Vector3d upper = lower;
-  for (const Vector3d& vertex : hull.vertices()) {
-    lower = lower.cwiseMin(vertex);
-    upper = upper.cwiseMax(vertex);
-  }
+  const auto [lower, upper] = Aabb::fit(hull.vertices());
   const double size = (upper - lower).maxCoeff();
   if (!(size > 0.0)) return {hull, 0.0};
   const double thickness = std::max(kOfSize * size, kOfCoordinates * hull.extent());
