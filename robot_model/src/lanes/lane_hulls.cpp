@@ -6,17 +6,12 @@
 #include <numbers>
 #include <variant>
 
-#include "swept/core/distance.hpp"
-
 namespace swept::detail {
 
 namespace {
 
 using Eigen::Vector3d;
 
-/// More take longer than exact geometry does; of more, as many are chosen.
-constexpr std::size_t kMostPoints = 320;
-constexpr int kChosen = 192;
 constexpr int kSides = 24;
 
 struct Grown {
@@ -63,47 +58,21 @@ struct GrownHull {
   Grown operator()(const Triangle& triangle) const {
     return {{triangle.corners.begin(), triangle.corners.end()}, 0.0, true};
   }
-  Grown operator()(const ConvexHull& hull) const { return {hull.vertices(), hull.error(), true}; }
-  Grown operator()(const TriangleMesh& mesh) const { return (*this)(mesh.hull()); }
+  /// More points than a coarser hull has take longer than exact geometry does.
+  Grown operator()(const ConvexHull& hull) const { return ofCoarse(ConvexHull::coarser(hull)); }
+  Grown operator()(const TriangleMesh& mesh) const { return ofCoarse(mesh.coarseHull()); }
+  static Grown ofCoarse(const ConvexHull& hull) { return {hull.vertices(), hull.error(), true}; }
   template <typename Other>
   Grown operator()(const Other&) const {
     return {};
   }
 };
 
-/// Those farthest along directions that are spread evenly (a Fibonacci lattice), grown by the
-/// farthest that any other is from their hull.
-Grown simplified(const Grown& full) {
-  Grown result{{}, full.radius, full.ofGeometry};
-  std::vector<char> chosen(full.points.size(), 0);
-  for (int i = 0; i < kChosen; ++i) {
-    const double z = (2.0 * i + 1.0) / kChosen - 1.0;
-    const double across = std::sqrt(1.0 - z * z);
-    const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const Vector3d direction(across * std::cos(angle), across * std::sin(angle), z);
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < full.points.size(); ++k)
-      if (direction.dot(full.points[k]) > direction.dot(full.points[best])) best = k;
-    if (chosen[best] == 0) result.points.push_back(full.points[best]);
-    chosen[best] = 1;
-  }
-  const ConvexHull hull = ConvexHull::of(result.points);
-  double farthest = 0.0;
-  for (std::size_t k = 0; k < full.points.size(); ++k) {
-    if (chosen[k] != 0) continue;
-    const Eigen::Isometry3d at(Eigen::Translation3d(-full.points[k]));
-    farthest = std::max(farthest, distance(Sphere{0.0}, hull, at).upper);
-  }
-  result.radius += farthest * (1.0 + 1e-9);
-  return result;
-}
-
 }  // namespace
 
 void LaneHulls::add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
                     const Eigen::Matrix3d& bodyFromLane, const std::vector<double>& armsOfPath) {
-  Grown grown = std::visit(GrownHull(), shape);
-  if (grown.points.size() > kMostPoints) grown = simplified(grown);
+  const Grown grown = std::visit(GrownHull(), shape);
   LaneHull hull;
   hull.first = static_cast<std::int32_t>(points.size());
   hull.firstArm = static_cast<std::int32_t>(arms.size());
