@@ -75,17 +75,29 @@ bool PairProof::apartByBalls(const Place& place) {
   return (last.a < 0 || apart(place, last)) && apart(place, roots());
 }
 
-/// False as soon as two balls that are fine against the travel are not proven apart; `stopped_`
-/// are these. `gap_`, less than the distance of the geometries in the middle by the slack, proves
-/// those whose points travel less.
-bool PairProof::apart(const Place& place, const Balls& balls) {
-  --work;
+PairProof::Look PairProof::lookAt(const Place& place, const Balls& balls) const {
   const LaneNode& a = lanes_.nodes[balls.a];
   const LaneNode& b = lanes_.nodes[balls.b];
   const Vector3d atA = centerOf(a);
   const Vector3d inB = centerOf(b);
   const Vector3d atB = place.a_from_b * inB;
-  const double between = (atB - atA).norm();
+  return {a, b, atA, inB, atB, (atB - atA).norm()};
+}
+
+PairProof::Split PairProof::split(const Balls& balls) const {
+  const LaneNode& a = lanes_.nodes[balls.a];
+  const LaneNode& b = lanes_.nodes[balls.b];
+  const bool ofA = a.childCount > 0 && (b.childCount == 0 || a.radius >= b.radius);
+  const LaneNode& parent = ofA ? a : b;
+  return {balls, ofA, parent.firstChild, parent.childCount};
+}
+
+/// False as soon as two balls that are fine against the travel are not proven apart; `stopped_`
+/// are these. `gap_`, less than the distance of the geometries in the middle by the slack, proves
+/// those whose points travel less.
+bool PairProof::apart(const Place& place, const Balls& balls) {
+  --work;
+  const auto [a, b, atA, inB, atB, between] = lookAt(place, balls);
   const double gap =
       between - static_cast<double>(a.radius) - static_cast<double>(b.radius) - slack_;
   if (gap > TableMotion::travel(place, whole_)) return true;
@@ -97,18 +109,14 @@ bool PairProof::apart(const Place& place, const Balls& balls) {
     stopped_ = balls;
     return false;
   }
-  const bool splitA = a.childCount > 0 && (b.childCount == 0 || a.radius >= b.radius);
-  const LaneNode& parent = splitA ? a : b;
+  const Split next = split(balls);
   const bool fine = static_cast<double>(a.beyond + b.beyond) < 0.5 * travel;
-  if (parent.childCount == 0 || fine || work <= 0) {
+  if (next.count == 0 || fine || work <= 0) {
     stopped_ = balls;
     return false;
   }
-  for (std::int32_t i = 0; i < parent.childCount; ++i) {
-    const Balls child =
-        splitA ? Balls{parent.firstChild + i, balls.b} : Balls{balls.a, parent.firstChild + i};
-    if (!apart(place, child)) return false;
-  }
+  for (std::int32_t i = 0; i < next.count; ++i)
+    if (!apart(place, next.child(i))) return false;
   return true;
 }
 
@@ -205,12 +213,7 @@ TableMotion::Levers PairProof::closeLevers(const Place& place) {
 
 void PairProof::findLevers(const Place& place, const Balls& balls) {
   --work;
-  const LaneNode& a = lanes_.nodes[balls.a];
-  const LaneNode& b = lanes_.nodes[balls.b];
-  const Vector3d atA = centerOf(a);
-  const Vector3d inB = centerOf(b);
-  const Vector3d atB = place.a_from_b * inB;
-  const double between = (atB - atA).norm();
+  const auto [a, b, atA, inB, atB, between] = lookAt(place, balls);
   const double radiusA = static_cast<double>(a.radius);
   const double radiusB = static_cast<double>(b.radius);
   const Levers levers = motion_.levers(atA, inB);
@@ -219,15 +222,12 @@ void PairProof::findLevers(const Place& place, const Balls& balls) {
   Levers all = motion_.levers(atA, inB, radiusA, radiusB);
   for (int k = 0; k < 2; ++k) all[k] = std::max(close_[k], all[k]);
   if (all == close_) return;
-  const bool splitA = a.childCount > 0 && (b.childCount == 0 || a.radius >= b.radius);
-  const LaneNode& parent = splitA ? a : b;
-  if (parent.childCount == 0 || --looks_ < 0) {
+  const Split next = split(balls);
+  if (next.count == 0 || --looks_ < 0) {
     close_ = all;
     return;
   }
-  for (std::int32_t i = 0; i < parent.childCount; ++i)
-    findLevers(place, splitA ? Balls{parent.firstChild + i, balls.b}
-                             : Balls{balls.a, parent.firstChild + i});
+  for (std::int32_t i = 0; i < next.count; ++i) findLevers(place, next.child(i));
 }
 
 PairProof::Compared PairProof::compare(const Place& place, double contact, double travel) {

@@ -9,6 +9,8 @@
 
 namespace swept::detail {
 
+struct LaneNode;
+
 /// Whether two pieces of geometry are apart for all values of the joints around a middle.
 ///
 /// Each pair of their points is in some pair of balls of their covers. It is apart if these balls
@@ -61,6 +63,28 @@ class PairProof {
   int work = 0;
 
  private:
+  /// Two balls as they are in the middle.
+  struct Look {
+    const LaneNode& a;
+    const LaneNode& b;
+    Eigen::Vector3d atA;  ///< m, a's frame; the centres
+    Eigen::Vector3d inB;  ///< m, b's frame
+    Eigen::Vector3d atB;  ///< m, a's frame
+    double between;       ///< m
+  };
+  Look lookAt(const Place& place, const Balls& balls) const;
+  /// The pairs that such a pair is split into.
+  struct Split {
+    Balls balls;
+    bool ofA;
+    std::int32_t first;
+    std::int32_t count;  ///< 0: neither ball has children
+    Balls child(std::int32_t i) const {
+      return ofA ? Balls{first + i, balls.b} : Balls{balls.a, first + i};
+    }
+  };
+  Split split(const Balls& balls) const;
+
   Balls roots() const;
   double widest(std::int32_t node, bool ofA) const;
   bool apart(const Place& place, const Balls& balls);
