@@ -52,6 +52,19 @@ HWY_INLINE V3 place(const Ball& ball, const LaneBodyState& state) {
   return addRotated(load3(state.origin), state.rotation, set3(ball.center));
 }
 
+/// Where a ball's centre is in the sub-interval, or rests; see world_walk.hpp.
+HWY_INLINE Segment segmentOf(const LaneNode& node, const LaneBodyState& state, const F8& half,
+                             bool moving) {
+  const V3 x = place(node, state);
+  if (!moving) return {x, set3({0.0F, 0.0F, 0.0F})};
+  return {x, half * addCross(load3(state.linear), load3(state.angular), x)};
+}
+
+HWY_INLINE Segment segmentOf(const LaneRoot& ball, bool moving) {
+  if (!moving) return {load3(ball.at), set3({0.0F, 0.0F, 0.0F})};
+  return {load3(ball.at), load3(ball.by)};
+}
+
 /// Eight points of a link as they are in one lane.
 template <typename Eight>
 HWY_INLINE V3 placedAt(const LaneBodyState& state, int lane, const Eight& eight) {

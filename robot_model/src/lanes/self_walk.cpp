@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lanes/self_walk.hpp"
 
-#include <algorithm>
-#include <array>
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,6 +10,7 @@
 
 #include "lanes/f8.hpp"
 #include "lanes/placed_ball.hpp"
+#include "lanes/self_contacts.hpp"
 #include "lanes/table_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,11 +20,6 @@ namespace {
 /// Pairs of balls that are split per pair of links: two links so close that this does not prove
 /// them apart are cheaper to compare exactly.
 constexpr int kMostLooks = 16;
-
-/// Rows of eight balls inside either link that are looked at.
-constexpr std::int32_t kProbeRows = 2;
-/// Of the sum of the radii around two links: balls inside farther apart hardly meet.
-constexpr float kProbeShare = 0.75F;
 
 /// m. As good a guess as any for a contact in a cell of a table.
 constexpr float kLikelyDepth = 0.01F;
@@ -37,6 +31,7 @@ class SelfWalk {
         scratch_(scratch),
         block_(scratch.block),
         tables_(scratch),
+        contacts_(model, scratch, states_),
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == LaneMode::Motion) {}
 
@@ -70,7 +65,7 @@ class SelfWalk {
       start(bodies);
       const LaneNode& a = model_.nodes[later.nodeA];
       const LaneNode& b = model_.nodes[later.nodeB];
-      if (visit(a, placed(a, *stateA_), b, placed(b, *stateB_), later.lanes)) return true;
+      if (visit(a, placed(a, *states_.a), b, placed(b, *states_.b), later.lanes)) return true;
     }
     return false;
   }
@@ -80,7 +75,7 @@ class SelfWalk {
     start(model_.bodyPairs[source.bodyPair]);
     const LaneNode& a = model_.nodes[model_.rootOfGeometry[source.geometry]];
     const LaneNode& b = model_.nodes[model_.rootOfGeometry[source.other]];
-    return visit(a, placed(a, *stateA_), b, placed(b, *stateB_), lanes);
+    return visit(a, placed(a, *states_.a), b, placed(b, *states_.b), lanes);
   }
 
  private:
@@ -94,9 +89,8 @@ class SelfWalk {
       last = cell->meeting;
       const JointTable::Meeting& meeting = table.meetings[static_cast<std::size_t>(last)];
       const JointTable::Geometries& pair = table.pairs[static_cast<std::size_t>(meeting.pair)];
-      pair_ = pairOf(pair.a, pair.b);
-      if (touches(meeting.a.inside, place(meeting.a, *stateA_), meeting.b.inside,
-                  place(meeting.b, *stateB_), lanes))
+      if (contacts_.touches(pairOf(pair.a, pair.b), meeting.a.inside, place(meeting.a, *states_.a),
+                            meeting.b.inside, place(meeting.b, *states_.b), lanes))
         return true;
     }
     return false;
@@ -137,8 +131,8 @@ class SelfWalk {
     const LaneReference& reference = model_.references[bodies.reference];
     const LaneBounds& bounds = scratch_.bounds[bodies.reference];
     looks_ = kMostLooks;
-    stateA_ = &block_.states[bodies.bodyA];
-    stateB_ = &block_.states[bodies.bodyB];
+    states_.a = &block_.states[bodies.bodyA];
+    states_.b = &block_.states[bodies.bodyB];
     turning_ = moving_ && reference.body != 0;
     if (turning_) angular_ = half_ * load3(block_.states[reference.body].angular);
     // Both balls' positions are rounded.
@@ -148,16 +142,10 @@ class SelfWalk {
                                              accelerationOf(reference, bounds, bodies.bodyB));
   }
 
-  Segment rootOf(int body) const {
-    const LaneRoot& ball = block_.roots[body];
-    if (!moving_ || body == 0) return {load3(ball.at), set3({0.0F, 0.0F, 0.0F})};
-    return {load3(ball.at), load3(ball.by)};
-  }
+  Segment rootOf(int body) const { return segmentOf(block_.roots[body], moving_ && body != 0); }
 
   HWY_INLINE Segment placed(const LaneNode& node, const LaneBodyState& state) const {
-    const V3 x = place(node, state);
-    if (!moving_) return {x, set3({0.0F, 0.0F, 0.0F})};
-    return {x, half_ * addCross(load3(state.linear), load3(state.angular), x)};
+    return segmentOf(node, state, half_, moving_);
   }
 
   HWY_INLINE Lanes notApart(const LaneNode& a, const Segment& atA, const LaneNode& b,
@@ -183,11 +171,12 @@ class SelfWalk {
       lanes &= ~static_cast<Lanes>(block_.openLanes[pair_]);
       if (lanes == 0) return false;
       if (first_) {
-        if (block_.stopAtContact && probe(a, atA, b, atB, lanes)) return true;
+        if (contacts_.probe(pair_, a, atA, b, atB, lanes)) return true;
         scratch_.selfVisits.push_back({bodyPair_, indexOf(a), indexOf(b), lanes});
         return false;
       }
-      if (a.inside > 0.0F && b.inside > 0.0F && touches(a.inside, atA.x, b.inside, atB.x, lanes))
+      if (a.inside > 0.0F && b.inside > 0.0F &&
+          contacts_.touches(pair_, a.inside, atA.x, b.inside, atB.x, lanes))
         return true;
       lanes &= ~block_.contactLanes;
       if (lanes == 0) return false;
@@ -204,8 +193,8 @@ class SelfWalk {
     }
     for (int i = 0; i < parent.childCount; ++i) {
       const LaneNode& child = model_.nodes[parent.firstChild + i];
-      const bool contact = splitA ? visit(child, placed(child, *stateA_), b, atB, lanes)
-                                  : visit(a, atA, child, placed(child, *stateB_), lanes);
+      const bool contact = splitA ? visit(child, placed(child, *states_.a), b, atB, lanes)
+                                  : visit(a, atA, child, placed(child, *states_.b), lanes);
       if (contact) return true;
     }
     return false;
@@ -215,67 +204,14 @@ class SelfWalk {
     return static_cast<std::int32_t>(&node - model_.nodes.data());
   }
 
-  /// Looks at the largest balls inside two links, in the lane in which they are nearest.
-  bool probe(const LaneNode& a, const Segment& atA, const LaneNode& b, const Segment& atB,
-             Lanes lanes) {
-    const LaneModel::InnerBalls& ofA = model_.probesOf[a.geometry];
-    const LaneModel::InnerBalls& ofB = model_.probesOf[b.geometry];
-    if (ofA.count == 0 || ofB.count == 0) return false;
-    const V3 between = atB.x - atA.x;
-    const F8 squared = dot(between, between);
-    const float near = kProbeShare * (a.radius + b.radius);
-    lanes &= below(squared, set(near * near));
-    if (lanes == 0) return false;
-    const int lane = lowestLane(squared, lanes);
-    for (std::int32_t j = 0; j < std::min(ofB.count, kProbeRows); ++j) {
-      Row centers[3];
-      const LaneModel::Probes& eightB = model_.probes[ofB.first + j];
-      store3(placedAt(*stateB_, lane, eightB), centers);
-      for (std::int32_t i = 0; i < std::min(ofA.count, kProbeRows); ++i) {
-        const LaneModel::Probes& eightA = model_.probes[ofA.first + i];
-        const V3 x = placedAt(*stateA_, lane, eightA);
-        for (int k = 0; k < kLanes; ++k) {
-          const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - x;
-          const float inB = eightB.inside.lane[k] - 2.0F * scratch_.rounding;
-          const F8 reach = load(eightA.inside) + set(inB - 2.0F * scratch_.rounding);
-          const Lanes found = below(dot(to, to), set(kMeeting) * reach * reach);
-          if (found == 0) continue;
-          const int which = std::countr_zero(found);
-          const float inA = eightA.inside.lane[which] - 2.0F * scratch_.rounding;
-          if (!(inA > 0.0F && inB > 0.0F)) continue;
-          Row point[3];
-          store3(along(x, set(inA / (inA + inB)), to), point);
-          return claim(block_, pair_, 1U << lane,
-                       set3({point[0].lane[which], point[1].lane[which], point[2].lane[which]}),
-                       0.0F);
-        }
-      }
-    }
-    return false;
-  }
-
-  /// At a middle, two balls inside the links meet.
-  bool touches(float insideA, const V3& atA, float insideB, const V3& atB, Lanes lanes) {
-    if (!block_.stopAtContact) return false;
-    // Either ball less what its position, and that of the point, may be off.
-    const float ofA = insideA - 2.0F * scratch_.rounding;
-    const float ofB = insideB - 2.0F * scratch_.rounding;
-    if (!(ofA > 0.0F && ofB > 0.0F)) return false;
-    const V3 between = atB - atA;
-    lanes &= below(dot(between, between), set(kMeeting * (ofA + ofB) * (ofA + ofB)));
-    // A point of the line between the centres that is in both balls, by the same share.
-    const F8 share = set(ofA / (ofA + ofB));
-    return lanes != 0 && claim(block_, pair_, lanes, along(atA, share, between), 0.0F);
-  }
-
   const LaneModel& model_;
   LaneScratch& scratch_;
   LaneBlock& block_;
   const TableLanes tables_;
+  SelfContacts contacts_;
   const F8 half_;
   const bool moving_;
-  const LaneBodyState* stateA_ = nullptr;
-  const LaneBodyState* stateB_ = nullptr;
+  LinkStates states_;
   bool turning_ = false;
   V3 angular_;  ///< of the reference, times the half width
   F8 extra_;

@@ -61,8 +61,7 @@ class WorldWalk {
     start(body);
     const std::int32_t index = model_.rootOfBody[body];
     const LaneNode& root = model_.nodes[index];
-    const LaneRoot& ball = block_.roots[body];
-    const Segment segment = {load3(ball.at), moving_ ? load3(ball.by) : set3({0.0F, 0.0F, 0.0F})};
+    const Segment segment = segmentOf(block_.roots[body], moving_);
     const std::size_t begin = scratch_.hits.size();
     cull(segment, inflated(root));
     const std::size_t culled = scratch_.hits.size();
@@ -98,9 +97,7 @@ class WorldWalk {
   }
 
   HWY_INLINE Segment placed(const LaneNode& node) const {
-    const V3 x = place(node, *state_);
-    if (!moving_) return {x, set3({0.0F, 0.0F, 0.0F})};
-    return {x, half_ * addCross(load3(state_->linear), load3(state_->angular), x)};
+    return segmentOf(node, *state_, half_, moving_);
   }
 
   /// m; more than what rounding of squares and roots takes away.
