@@ -69,7 +69,8 @@ Voxels layOut(const Aabb& box, const Aabb& window, double least, std::size_t cel
 }
 
 std::shared_ptr<const ClearanceField> measured(const Voxels& voxels, ClearanceField& field) {
-  measureDistances(voxels, field);
+  measureCells(voxels, field);
+  measureBricks(voxels, field);
   return std::make_shared<const ClearanceField>(std::move(field));
 }
 

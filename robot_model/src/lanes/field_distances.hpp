@@ -6,7 +6,11 @@
 
 namespace swept::detail {
 
-/// Fills in the values of cells and bricks. `field` has its grid, and the voxels are those of it.
-void measureDistances(const Voxels& voxels, ClearanceField& field);
+// Of each: `field` has its grid, and the voxels are those of it.
+
+/// Fills in the values of the cells.
+void measureCells(const Voxels& voxels, ClearanceField& field);
+/// Fills in the bricks and the values of their voxels.
+void measureBricks(const Voxels& voxels, ClearanceField& field);
 
 }  // namespace swept::detail
