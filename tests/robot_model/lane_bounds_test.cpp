@@ -110,74 +110,81 @@ class MovingRobot {
   }
 };
 
-TEST(LaneBounds, NoBallCentreAcceleratesMore) {
-  Random random(21);
+/// How accelerations that were seen compare with bounds on them.
+struct Tightness {
   Real tightest = 0;
   int compared = 0;
-  int relative = 0;
-  int attained = 0;
+  int attained = 0;  ///< by half or more
+
+  /// A difference of points, off by `noise` at the most (m per unit t squared).
+  void add(Real seen, Real bound, Real noise, int body, int reference) {
+    ASSERT_LE(seen, bound * (1 + 1e-7L) + noise) << "body " << body << " from " << reference;
+    ++compared;
+    if (!(bound > 1e3L * noise)) return;
+    tightest = std::max(tightest, seen / bound);
+    attained += seen > 0.5L * bound ? 1 : 0;
+  }
+};
+
+/// Calls `check(robot, index of a reference)` for those of many robots; ends at a failure.
+template <typename Check>
+void forEachReference(Random& random, const Check& check) {
   for (int round = 0; round < 2000; ++round) {
     MovingRobot robot(random, round);
     if (!robot.moves) continue;
     for (std::size_t k = 0; k < robot.lanes.references.size(); ++k) {
-      const LaneReference& reference = robot.lanes.references[k];
-      for (const LaneReference::Step& step : reference.steps) {
-        const Real bound = robot.bound(k, step.body);
-        const auto centers = robot.centers(step.body);
-        const Vector& center = centers[random.below(static_cast<int>(centers.size()))];
-        const Real t = random.uniform(0.0, 1.0);
-        const Real seen = robot.acceleration(t, step.body, reference.body, center).norm();
-        ASSERT_LE(seen, bound * (1 + 1e-7L) + robot.noise())
-            << "round " << round << ", body " << step.body << " from " << reference.body;
-        ++compared;
-        relative += reference.body != 0 ? 1 : 0;
-        if (!(bound > 1e3L * robot.noise())) continue;
-        tightest = std::max(tightest, seen / bound);
-        attained += seen > 0.5L * bound ? 1 : 0;
-      }
+      SCOPED_TRACE("round " + std::to_string(round));
+      check(robot, k);
+      if (testing::Test::HasFatalFailure()) return;
     }
   }
-  RecordProperty("tightest", std::to_string(static_cast<double>(tightest)));
-  EXPECT_GT(tightest, 0.98L) << "the bound is idle";
-  EXPECT_GT(attained, compared / 50);
-  EXPECT_GT(compared, 30000);
-  EXPECT_GT(relative, compared / 4);
+}
+
+TEST(LaneBounds, NoBallCentreAcceleratesMore) {
+  Random random(21);
+  Tightness tightness;
+  int relative = 0;
+  forEachReference(random, [&](const MovingRobot& robot, std::size_t k) {
+    const LaneReference& reference = robot.lanes.references[k];
+    for (const LaneReference::Step& step : reference.steps) {
+      const auto centers = robot.centers(step.body);
+      const Vector& center = centers[random.below(static_cast<int>(centers.size()))];
+      const Real t = random.uniform(0.0, 1.0);
+      const Real seen = robot.acceleration(t, step.body, reference.body, center).norm();
+      tightness.add(seen, robot.bound(k, step.body), robot.noise(), step.body, reference.body);
+      relative += reference.body != 0 ? 1 : 0;
+    }
+  });
+  RecordProperty("tightest", std::to_string(static_cast<double>(tightness.tightest)));
+  EXPECT_GT(tightness.tightest, 0.98L) << "the bound is idle";
+  EXPECT_GT(tightness.attained, tightness.compared / 50);
+  EXPECT_GT(tightness.compared, 30000);
+  EXPECT_GT(relative, tightness.compared / 4);
 }
 
 /// Of all points of a link's geometry, as far from its centre as they are.
 TEST(LaneBounds, NoPointOfAGeometryAcceleratesMore) {
   Random random(22);
-  Real tightest = 0;
-  int compared = 0;
-  int attained = 0;
-  for (int round = 0; round < 2000; ++round) {
-    MovingRobot robot(random, round);
-    if (!robot.moves) continue;
-    for (std::size_t k = 0; k < robot.lanes.references.size(); ++k) {
-      const LaneReference& reference = robot.lanes.references[k];
-      const int geometry = random.below(static_cast<int>(robot.model.robotGeometry.size()));
-      const detail::RobotGeometry& piece = robot.model.robotGeometry[geometry];
-      if (reference.slot[piece.body] < 0) continue;
-      const auto bound = static_cast<Real>(
-          detail::accelerationOfPoints(robot.lanes, static_cast<int>(k), geometry, *robot.scratch));
-      const Vector point =
-          (piece.center + piece.radius * random.direction() * (1.0 - 1e-9)).cast<Real>();
-      const Real t = random.uniform(0.0, 1.0);
-      const Real seen = robot.acceleration(t, piece.body, reference.body, point).norm();
-      const Real noise = robot.noise() * (1 + static_cast<Real>(piece.radius) /
-                                                  static_cast<Real>(robot.lanes.reach));
-      ASSERT_LE(seen, bound * (1 + 1e-7L) + noise)
-          << "round " << round << ", geometry " << geometry << " from " << reference.body;
-      ++compared;
-      if (!(bound > 1e3L * noise)) continue;
-      tightest = std::max(tightest, seen / bound);
-      attained += seen > 0.5L * bound ? 1 : 0;
-    }
-  }
-  RecordProperty("tightest", std::to_string(static_cast<double>(tightest)));
-  EXPECT_GT(tightest, 0.9L) << "the bound is idle";
-  EXPECT_GT(attained, compared / 100);
-  EXPECT_GT(compared, 5000);
+  Tightness tightness;
+  forEachReference(random, [&](MovingRobot& robot, std::size_t k) {
+    const LaneReference& reference = robot.lanes.references[k];
+    const int geometry = random.below(static_cast<int>(robot.model.robotGeometry.size()));
+    const detail::RobotGeometry& piece = robot.model.robotGeometry[geometry];
+    if (reference.slot[piece.body] < 0) return;
+    const auto bound = static_cast<Real>(
+        detail::accelerationOfPoints(robot.lanes, static_cast<int>(k), geometry, *robot.scratch));
+    const Vector point =
+        (piece.center + piece.radius * random.direction() * (1.0 - 1e-9)).cast<Real>();
+    const Real t = random.uniform(0.0, 1.0);
+    const Real seen = robot.acceleration(t, piece.body, reference.body, point).norm();
+    const Real noise = robot.noise() *
+                       (1 + static_cast<Real>(piece.radius) / static_cast<Real>(robot.lanes.reach));
+    tightness.add(seen, bound, noise, piece.body, reference.body);
+  });
+  RecordProperty("tightest", std::to_string(static_cast<double>(tightness.tightest)));
+  EXPECT_GT(tightness.tightest, 0.9L) << "the bound is idle";
+  EXPECT_GT(tightness.attained, tightness.compared / 100);
+  EXPECT_GT(tightness.compared, 5000);
 }
 
 /// Least distance of the origin from the points y + s h, |s| <= 1.
