@@ -147,6 +147,11 @@ struct Tally {
   int inside = 0;   ///< nearest away from both ends of the motion
   int gapFree = 0;  ///< proven where there is room
   int tightFree = 0;
+
+  std::string text() const {
+    return std::to_string(asked) + " asked, " + std::to_string(gapFree) +
+           " free of half the distance, " + std::to_string(tightFree) + " of nearly all";
+  }
 };
 
 void tryBoth(bool self, Tally& tally) {
@@ -173,26 +178,13 @@ void tryBoth(bool self, Tally& tally) {
   EXPECT_GT(tally.tightFree, tally.asked / 3);
 }
 
-void tryOnAllTargets(bool self) {
-  for (const std::int64_t target : laneTargets()) {
-    const OnTarget on(target);
-    Tally tally;
-    tryBoth(self, tally);
-    const std::string name = hwy::TargetName(target);
-    testing::Test::RecordProperty(
-        "tally_" + name, std::to_string(tally.asked) + " asked, " + std::to_string(tally.gapFree) +
-                             " free of " + "half the distance, " + std::to_string(tally.tightFree) +
-                             " of nearly all");
-  }
-}
-
 /// Two balls of a robot that touch only where they are nearest are never proven apart.
 TEST(LaneSearch, LinksThatTouchAreNotProvenApart) {
-  tryOnAllTargets(true);
+  tallyOnAllTargets<Tally>([](Tally& tally) { tryBoth(true, tally); });
 }
 
 TEST(LaneSearch, ALinkThatTouchesAnObstacleIsNotProvenApart) {
-  tryOnAllTargets(false);
+  tallyOnAllTargets<Tally>([](Tally& tally) { tryBoth(false, tally); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <string>
 #include <vector>
 
 namespace swept::lane_test {
@@ -32,5 +33,16 @@ class OnTarget {
  private:
   testing::ScopedTrace trace_;
 };
+
+/// Calls `check(tally)` on each of the instruction sets, and records what each tally says.
+template <typename Tally, typename Check>
+void tallyOnAllTargets(const Check& check) {
+  for (const std::int64_t target : laneTargets()) {
+    const OnTarget on(target);
+    Tally tally;
+    check(tally);
+    testing::Test::RecordProperty(std::string("tally_") + hwy::TargetName(target), tally.text());
+  }
+}
 
 }  // namespace swept::lane_test
