@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "swept/core/bv/aabb.hpp"
+
+namespace swept {
+
+/// Names a registered box. The least number that is free is given out first, so the boxes of a
+/// world that only grows are numbered as they came.
+using BoxHandle = std::uint32_t;
+
+/// What a broadphase takes a box for: itself, or all of space if it has a NaN or a lower above its
+/// upper coordinate. Such a box bounds nothing, and it must not hide a contact. Infinite
+/// coordinates are like any other.
+Aabb boundedOrEverywhere(const Aabb& box);
+
+/// m. Lower bound of the distance of two boxes, proven, and off by a few roundings; 0 if they
+/// overlap. Of what does not fit into a double: the largest one.
+double boxDistance(const Aabb& a, const Aabb& b);
+
+/// Memory that queries use again; one for each thread. Its content never matters.
+struct BroadphaseScratch {
+  struct Candidate {
+    double distance;      ///< m
+    std::uint64_t order;  ///< at the same distance: blocks first, then boxes by handle
+  };
+  std::vector<BoxHandle> handles;
+  std::vector<Candidate> nearest;
+};
+
+/// Boxes that come, move and go, and which of them overlap. Touching counts.
+///
+/// What is visited, and in which order, depends on the boxes and their handles alone, not on how
+/// they got there. A visitor that returns true stops the visit, and the function returns true.
+/// Visitors must not change what they visit. Everything const may run in any number of threads.
+///
+/// - `registerBox(box)`, `registerBoxes(boxes)`, `unregisterBox(handle)`
+/// - `update(handle, box)`, `update(handles, boxes)`; `updateAll(boxes)`: in the order of handles
+/// - `collide(visitor)`: `visitor(a, b)` for each pair, a < b, in lexicographic order
+/// - `collide(box, scratch, visitor)`: `visitor(a)` for each box that overlaps, ascending
+/// - `collide(other, scratch, visitor)`: `visitor(a, b)`, a of this one and b of the other,
+///   lexicographic
+/// - `distance(box, scratch, visitor)`: `visitor(a, d)`, nearest first, by handle if equally near;
+/// d
+///   (m) is `boxDistance`. What it returns bounds (m) what is visited from then on: boxes nearer
+///   than the least returned so far. Returns that least, or infinity.
+///
+/// A handle that is not in use, or a number of boxes that does not fit: std::invalid_argument, and
+/// nothing has changed.
+template <typename Manager>
+concept Broadphase = requires(Manager manager, const Manager fixed, const Aabb box,
+                              BoxHandle handle, std::span<const BoxHandle> handles,
+                              std::span<const Aabb> boxes, BroadphaseScratch& scratch,
+                              bool (*one)(BoxHandle), bool (*two)(BoxHandle, BoxHandle),
+                              double (*near)(BoxHandle, double)) {
+  { manager.registerBox(box) } -> std::same_as<BoxHandle>;
+  { manager.registerBoxes(boxes) } -> std::same_as<std::vector<BoxHandle>>;
+  manager.unregisterBox(handle);
+  manager.update(handle, box);
+  manager.update(handles, boxes);
+  manager.updateAll(boxes);
+  { fixed.size() } -> std::same_as<std::size_t>;
+  { fixed.contains(handle) } -> std::same_as<bool>;
+  { fixed.box(handle) } -> std::convertible_to<const Aabb&>;
+  { fixed.collide(two) } -> std::same_as<bool>;
+  { fixed.collide(box, scratch, one) } -> std::same_as<bool>;
+  { fixed.collide(fixed, scratch, two) } -> std::same_as<bool>;
+  { fixed.distance(box, scratch, near) } -> std::same_as<double>;
+};
+
+}  // namespace swept

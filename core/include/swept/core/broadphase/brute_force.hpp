@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "swept/core/broadphase/broadphase.hpp"
+
+namespace swept {
+
+/// The `Broadphase` that looks at every box, or pair, in each query: a reference for the others,
+/// and quick for a handful of boxes.
+class BruteForce {
+ public:
+  BoxHandle registerBox(const Aabb& box);
+  std::vector<BoxHandle> registerBoxes(std::span<const Aabb> boxes);
+  void unregisterBox(BoxHandle handle);
+
+  void update(BoxHandle handle, const Aabb& box);
+  void update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes);
+  void updateAll(std::span<const Aabb> boxes);
+
+  std::size_t size() const;
+  bool contains(BoxHandle handle) const {
+    return handle < boxes_.size() && boxes_[handle].has_value();
+  }
+  const Aabb& box(BoxHandle handle) const;  ///< m, as `boundedOrEverywhere` takes it
+
+  template <typename Visitor>
+  bool collide(Visitor&& visitor) const {
+    for (BoxHandle a = 0; a < boxes_.size(); ++a) {
+      for (BoxHandle b = a + 1; b < boxes_.size(); ++b) {
+        if (!contains(a) || !contains(b) || !boxes_[a]->overlaps(*boxes_[b])) continue;
+        if (visitor(a, b)) return true;
+      }
+    }
+    return false;
+  }
+
+  template <typename Visitor>
+  bool collide(const Aabb& box, BroadphaseScratch&, Visitor&& visitor) const {
+    const Aabb bounded = boundedOrEverywhere(box);
+    for (BoxHandle a = 0; a < boxes_.size(); ++a)
+      if (contains(a) && boxes_[a]->overlaps(bounded) && visitor(a)) return true;
+    return false;
+  }
+
+  template <typename Visitor>
+  bool collide(const BruteForce& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    for (BoxHandle a = 0; a < boxes_.size(); ++a) {
+      if (!contains(a)) continue;
+      if (other.collide(*boxes_[a], scratch, [&](BoxHandle b) { return visitor(a, b); }))
+        return true;
+    }
+    return false;
+  }
+
+  template <typename Visitor>
+  double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    sortByDistance(box, scratch);
+    double bound = std::numeric_limits<double>::infinity();
+    for (const BroadphaseScratch::Candidate& next : scratch.nearest) {
+      if (!(next.distance < bound)) break;
+      const double enough = visitor(static_cast<BoxHandle>(next.order), next.distance);
+      if (enough < bound) bound = enough;
+    }
+    return bound;
+  }
+
+ private:
+  void require(BoxHandle handle) const;
+  void sortByDistance(const Aabb& box, BroadphaseScratch& scratch) const;
+
+  std::vector<std::optional<Aabb>> boxes_;
+};
+
+}  // namespace swept

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/broadphase/broadphase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swept {
+namespace {
+
+using Eigen::Vector3d;
+
+/// m. Of two intervals; finite ones that are farther apart than a double holds are infinitely so.
+double gap(double lowerA, double upperA, double lowerB, double upperB) {
+  if (lowerA > upperB) return lowerA - upperB;
+  if (lowerB > upperA) return lowerB - upperA;
+  return 0.0;
+}
+
+}  // namespace
+
+Aabb boundedOrEverywhere(const Aabb& box) {
+  int ordered = 1;
+  for (int k = 0; k < 3; ++k) ordered &= static_cast<int>(box.lower[k] <= box.upper[k]);
+  if (ordered != 0) return box;
+  const auto all = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  return {-all, all};
+}
+
+/// Differences and the final rounding to double are off by half an epsilon each, the long sums and
+/// the root by less. Each step is monotonous in the gaps and so is the result: a box within
+/// another is not nearer, whatever the rounding.
+double boxDistance(const Aabb& a, const Aabb& b) {
+  long double sum = 0.0L;
+  for (int k = 0; k < 3; ++k) {
+    const long double apart = gap(a.lower[k], a.upper[k], b.lower[k], b.upper[k]);
+    sum += apart * apart;
+  }
+  constexpr double kShrink = 1.0 - 8.0 * std::numeric_limits<double>::epsilon();
+  const long double bound =
+      std::sqrt(sum) * kShrink - static_cast<long double>(std::numeric_limits<double>::min());
+  constexpr double kMost = std::numeric_limits<double>::max();
+  if (!(bound > 0.0L)) return 0.0;
+  return bound < kMost ? static_cast<double>(bound) : kMost;
+}
+
+}  // namespace swept

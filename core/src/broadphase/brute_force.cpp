@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/broadphase/brute_force.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace swept {
+
+static_assert(Broadphase<BruteForce>);
+
+void BruteForce::require(BoxHandle handle) const {
+  if (contains(handle)) return;
+  throw std::invalid_argument("broadphase: no box has the handle " + std::to_string(handle));
+}
+
+BoxHandle BruteForce::registerBox(const Aabb& box) {
+  const auto free = std::find(boxes_.begin(), boxes_.end(), std::nullopt);
+  const auto handle = static_cast<BoxHandle>(free - boxes_.begin());
+  if (free == boxes_.end()) boxes_.emplace_back();
+  boxes_[handle] = boundedOrEverywhere(box);
+  return handle;
+}
+
+std::vector<BoxHandle> BruteForce::registerBoxes(std::span<const Aabb> boxes) {
+  std::vector<BoxHandle> handles;
+  for (const Aabb& box : boxes) handles.push_back(registerBox(box));
+  return handles;
+}
+
+void BruteForce::unregisterBox(BoxHandle handle) {
+  require(handle);
+  boxes_[handle].reset();
+}
+
+void BruteForce::update(BoxHandle handle, const Aabb& box) {
+  require(handle);
+  boxes_[handle] = boundedOrEverywhere(box);
+}
+
+void BruteForce::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
+  if (handles.size() != boxes.size())
+    throw std::invalid_argument("broadphase: as many handles as boxes are needed");
+  for (const BoxHandle handle : handles) require(handle);
+  for (std::size_t i = 0; i < handles.size(); ++i) update(handles[i], boxes[i]);
+}
+
+void BruteForce::updateAll(std::span<const Aabb> boxes) {
+  if (boxes.size() != size())
+    throw std::invalid_argument("broadphase: as many boxes as are registered are needed");
+  std::size_t next = 0;
+  for (std::optional<Aabb>& box : boxes_)
+    if (box) box = boundedOrEverywhere(boxes[next++]);
+}
+
+std::size_t BruteForce::size() const {
+  return static_cast<std::size_t>(
+      std::count_if(boxes_.begin(), boxes_.end(), [](const auto& box) { return box.has_value(); }));
+}
+
+const Aabb& BruteForce::box(BoxHandle handle) const {
+  require(handle);
+  return *boxes_[handle];
+}
+
+void BruteForce::sortByDistance(const Aabb& box, BroadphaseScratch& scratch) const {
+  const Aabb bounded = boundedOrEverywhere(box);
+  scratch.nearest.clear();
+  for (BoxHandle a = 0; a < boxes_.size(); ++a)
+    if (contains(a)) scratch.nearest.push_back({boxDistance(bounded, *boxes_[a]), a});
+  std::sort(scratch.nearest.begin(), scratch.nearest.end(), [](const auto& a, const auto& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.order < b.order);
+  });
+}
+
+}  // namespace swept
