@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "swept/core/broadphase/broadphase.hpp"
+
+namespace swept {
+
+/// The `Broadphase` for many boxes; `BruteForce` gives the same answers.
+///
+/// Coherence is what it lives on: each box is looked up with some room around it, more the faster
+/// it moves, and what lies within that room is remembered. A box that stays in its room costs a
+/// look at those few. Which rooms overlap is asked of a tree, where a box that left its room goes
+/// to a small part of its own for a while. When many boxes leave at once, everything is built
+/// anew. The pairs are kept sorted, up to date after every change.
+///
+/// Exact: room only adds candidates, and the boxes themselves decide, in double. After an update
+/// for which there has been room before nothing is allocated. At most 2^30 boxes and 2^31 near
+/// pairs, else std::length_error.
+class SweepAndPrune {
+ public:
+  SweepAndPrune();
+  ~SweepAndPrune();
+  SweepAndPrune(SweepAndPrune&& other) noexcept;
+  SweepAndPrune& operator=(SweepAndPrune&& other) noexcept;
+  SweepAndPrune(const SweepAndPrune& other);
+  SweepAndPrune& operator=(const SweepAndPrune& other);
+
+  BoxHandle registerBox(const Aabb& box);
+  /// Much cheaper than one by one. The handles are in the order of the boxes.
+  std::vector<BoxHandle> registerBoxes(std::span<const Aabb> boxes);
+  void unregisterBox(BoxHandle handle);
+
+  void update(BoxHandle handle, const Aabb& box);
+  /// If a handle comes twice, its last box counts.
+  void update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes);
+  void updateAll(std::span<const Aabb> boxes);
+
+  std::size_t size() const;
+  bool contains(BoxHandle handle) const;
+  const Aabb& box(BoxHandle handle) const;  ///< m, as `boundedOrEverywhere` takes it
+  std::size_t bytes() const;                ///< on the heap
+
+  template <typename Visitor>
+  bool collide(Visitor&& visitor) const {
+    const Pairs pairs = this->pairs();
+    auto from = pairs.sorted.begin();
+    for (const std::uint64_t changed : pairs.changed) {
+      for (; from != pairs.sorted.end() && *from < changed; ++from)
+        if (visit(*from, visitor)) return true;
+      if (from != pairs.sorted.end() && *from == changed)
+        ++from;
+      else if (visit(changed, visitor))
+        return true;
+    }
+    for (; from != pairs.sorted.end(); ++from)
+      if (visit(*from, visitor)) return true;
+    return false;
+  }
+
+  template <typename Visitor>
+  bool collide(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    findOverlapping(box, scratch);
+    for (const BoxHandle handle : scratch.handles)
+      if (visitor(handle)) return true;
+    return false;
+  }
+
+  template <typename Visitor>
+  bool collide(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    for (BoxHandle handle = 0; handle < handleEnd(); ++handle) {
+      if (!contains(handle)) continue;
+      const auto visitPair = [&](BoxHandle found) { return visitor(handle, found); };
+      if (other.collide(box(handle), scratch, visitPair)) return true;
+    }
+    return false;
+  }
+
+  template <typename Visitor>
+  double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    double bound = std::numeric_limits<double>::infinity();
+    Near near;
+    startNearest(scratch);
+    while (nextNearest(box, bound, scratch, near)) {
+      const double enough = visitor(near.handle, near.distance);
+      if (enough < bound) bound = enough;
+    }
+    return bound;
+  }
+
+ private:
+  class State;
+  /// `sorted` but for `changed`, whose pairs overlap exactly if they are not in `sorted`.
+  struct Pairs {
+    std::span<const std::uint64_t> sorted, changed;
+  };
+  struct Near {
+    BoxHandle handle;
+    double distance;  ///< m
+  };
+
+  template <typename Visitor>
+  static bool visit(std::uint64_t pair, Visitor&& visitor) {
+    return visitor(static_cast<BoxHandle>(pair >> 32), static_cast<BoxHandle>(pair));
+  }
+  Pairs pairs() const;
+  BoxHandle handleEnd() const;  ///< all handles in use are below
+  void findOverlapping(const Aabb& box, BroadphaseScratch& scratch) const;
+  void startNearest(BroadphaseScratch& scratch) const;
+  /// The next box that is nearer than the bound; false if there is none.
+  bool nextNearest(const Aabb& box, double bound, BroadphaseScratch& scratch, Near& near) const;
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace swept

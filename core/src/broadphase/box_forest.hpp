@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "broadphase/box_tree.hpp"
+
+namespace swept::detail {
+
+/// Boxes by number in two trees: most in one, and those that left their places since it was built
+/// in a small one that is cheap to build again (the idea of log-structured merge trees: O'Neil,
+/// Cheng, Gawlick, O'Neil 1996). The boxes themselves are the caller's and come along as `boxes`,
+/// by number.
+class BoxForest {
+ public:
+  void insert(std::uint32_t owner, const FloatBox& box);
+  void move(std::uint32_t owner, const FloatBox& box);
+  void erase(std::uint32_t owner);
+  /// To be called after changes: builds what has become slow to search.
+  void tidy(std::span<const FloatBox> boxes);
+  /// Of these boxes only, and in order.
+  void build(std::span<const std::uint32_t> owners, std::span<const FloatBox> boxes);
+
+  void findOverlaps(const FloatBox& box, std::vector<std::uint32_t>& owners) const;
+  const BoxTree& tree(std::size_t i) const { return i == 0 ? settled_ : movers_; }
+  static constexpr std::size_t kTrees = 2;
+  std::size_t bytes() const;
+
+ private:
+  struct Place {
+    std::uint32_t mover : 1;
+    std::uint32_t slot : 31;
+  };
+  static constexpr std::uint32_t kSlotBits = 0x7FFFFFFF;
+  BoxTree& treeOf(std::uint32_t owner) { return places_[owner].mover ? movers_ : settled_; }
+  void gather(const BoxTree& tree);
+  void number(const BoxTree& tree, bool movers);
+
+  BoxTree settled_, movers_;
+  std::vector<Place> places_;
+  std::vector<std::uint32_t> gathered_;
+};
+
+}  // namespace swept::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "swept/core/bv/aabb.hpp"
+
+namespace swept::detail {
+
+/// Axis-aligned box in single precision, around one in double: half the memory to look through.
+struct FloatBox {
+  std::array<float, 3> lower;  ///< m
+  std::array<float, 3> upper;  ///< m
+
+  bool overlaps(const FloatBox& other) const {
+    int apart = 0;
+    for (int k = 0; k < 3; ++k) {
+      apart |= static_cast<int>(lower[k] > other.upper[k]);
+      apart |= static_cast<int>(other.lower[k] > upper[k]);
+    }
+    return apart == 0;
+  }
+  /// Without branches: nearly always true for a box that moved a little.
+  bool contains(const Aabb& box) const {
+    int inside = 1;
+    for (int k = 0; k < 3; ++k) {
+      inside &= static_cast<int>(box.lower[k] >= lower[k]);
+      inside &= static_cast<int>(box.upper[k] <= upper[k]);
+    }
+    return inside != 0;
+  }
+  bool contains(const FloatBox& box) const {
+    int inside = 1;
+    for (int k = 0; k < 3; ++k) {
+      inside &= static_cast<int>(box.lower[k] >= lower[k]);
+      inside &= static_cast<int>(box.upper[k] <= upper[k]);
+    }
+    return inside != 0;
+  }
+};
+
+/// A float that is not above x, which is no NaN.
+///
+/// Lemma: for |x| within the range of floats, f = fl(x) is off by at most u |f| (1 + u) plus half
+/// the least denormal, u = 2^-24; the product and the difference below round by at most u of
+/// theirs, and 4 u |f| exceeds the sum. The last term covers what underflows.
+inline float roundedDown(double x) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  if (x < -static_cast<double>(kMost)) return -std::numeric_limits<float>::infinity();
+  if (x > static_cast<double>(kMost)) return kMost;
+  const auto f = static_cast<float>(x);
+  return f - (0x1p-22F * std::abs(f) + std::numeric_limits<float>::min());
+}
+
+/// A float that is not below x, which is no NaN.
+inline float roundedUp(double x) {
+  return -roundedDown(-x);
+}
+
+/// Contains the box, which has no NaN.
+inline FloatBox floatBox(const Aabb& box) {
+  FloatBox result;
+  for (int k = 0; k < 3; ++k) {
+    result.lower[k] = roundedDown(box.lower[k]);
+    result.upper[k] = roundedUp(box.upper[k]);
+  }
+  return result;
+}
+
+}  // namespace swept::detail

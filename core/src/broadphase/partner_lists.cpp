@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "broadphase/partner_lists.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace swept::detail {
+
+void PartnerLists::grow(List& list) {
+  const std::uint32_t room = list.room == 0 ? kLeastRoom : 2 * list.room;
+  std::vector<std::uint32_t>& pieces = free_[std::countr_zero(room)];
+  std::uint32_t offset = 0;
+  if (pieces.empty()) {
+    if (arena_.size() + room > 0xFFFFFFFF)
+      throw std::length_error("SweepAndPrune: more than 2^31 pairs of near boxes");
+    offset = static_cast<std::uint32_t>(arena_.size());
+    arena_.resize(arena_.size() + room);
+  } else {
+    offset = pieces.back();
+    pieces.pop_back();
+  }
+  std::copy_n(arena_.begin() + list.offset, list.count, arena_.begin() + offset);
+  if (list.room > 0) free_[std::countr_zero(list.room)].push_back(list.offset);
+  list.offset = offset;
+  list.room = room;
+}
+
+void PartnerLists::clear() {
+  std::fill(lists_.begin(), lists_.end(), List{});
+  arena_.clear();
+  for (std::vector<std::uint32_t>& pieces : free_) pieces.clear();
+}
+
+void PartnerLists::reserve(std::span<const std::uint32_t> counts) {
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    lists_[i].offset = static_cast<std::uint32_t>(total);
+    lists_[i].room = std::max(kLeastRoom, std::bit_ceil(counts[i]));
+    total += lists_[i].room;
+  }
+  if (total > 0xFFFFFFFF)
+    throw std::length_error("SweepAndPrune: more than 2^31 pairs of near boxes");
+  arena_.resize(total);
+}
+
+std::size_t PartnerLists::bytes() const {
+  std::size_t sum = lists_.capacity() * sizeof(List) + arena_.capacity() * sizeof(Partner);
+  for (const std::vector<std::uint32_t>& pieces : free_)
+    sum += pieces.capacity() * sizeof(std::uint32_t);
+  return sum;
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/broadphase/sweep_and_prune.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "broadphase/sweep_and_prune_state.hpp"
+
+namespace swept {
+
+static_assert(Broadphase<SweepAndPrune>);
+
+namespace {
+
+using Candidate = BroadphaseScratch::Candidate;
+
+constexpr std::uint64_t kIsBox = std::uint64_t{1} << 63;
+
+/// The top of a heap is its greatest element: the nearest one here.
+bool isFarther(const Candidate& a, const Candidate& b) {
+  return a.distance > b.distance || (a.distance == b.distance && a.order > b.order);
+}
+
+void push(std::vector<Candidate>& heap, Candidate candidate) {
+  heap.push_back(candidate);
+  std::push_heap(heap.begin(), heap.end(), isFarther);
+}
+
+std::uint64_t blockOrder(std::size_t tree, std::size_t level, std::size_t block) {
+  return tree << 40 | level << 32 | block;
+}
+
+Aabb wide(const detail::FloatBox& box) {
+  Aabb result;
+  for (int k = 0; k < 3; ++k) {
+    result.lower[k] = static_cast<double>(box.lower[k]);
+    result.upper[k] = static_cast<double>(box.upper[k]);
+  }
+  return result;
+}
+
+}  // namespace
+
+SweepAndPrune::SweepAndPrune() : state_(std::make_unique<State>()) {}
+SweepAndPrune::~SweepAndPrune() = default;
+SweepAndPrune::SweepAndPrune(SweepAndPrune&& other) noexcept = default;
+SweepAndPrune& SweepAndPrune::operator=(SweepAndPrune&& other) noexcept = default;
+SweepAndPrune::SweepAndPrune(const SweepAndPrune& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
+SweepAndPrune& SweepAndPrune::operator=(const SweepAndPrune& other) {
+  *state_ = *other.state_;
+  return *this;
+}
+
+BoxHandle SweepAndPrune::registerBox(const Aabb& box) {
+  return registerBoxes({&box, 1}).front();
+}
+
+std::vector<BoxHandle> SweepAndPrune::registerBoxes(std::span<const Aabb> boxes) {
+  std::vector<BoxHandle> handles;
+  state_->add(boxes, handles);
+  return handles;
+}
+
+void SweepAndPrune::unregisterBox(BoxHandle handle) {
+  state_->remove(handle);
+}
+
+void SweepAndPrune::update(BoxHandle handle, const Aabb& box) {
+  state_->update({&handle, 1}, {&box, 1});
+}
+
+void SweepAndPrune::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
+  state_->update(handles, boxes);
+}
+
+void SweepAndPrune::updateAll(std::span<const Aabb> boxes) {
+  state_->updateAll(boxes);
+}
+
+std::size_t SweepAndPrune::size() const {
+  return state_->handles().live();
+}
+
+bool SweepAndPrune::contains(BoxHandle handle) const {
+  return state_->handles().contains(handle);
+}
+
+const Aabb& SweepAndPrune::box(BoxHandle handle) const {
+  state_->handles().require(handle);
+  return state_->box(handle);
+}
+
+std::size_t SweepAndPrune::bytes() const {
+  return state_->bytes();
+}
+
+BoxHandle SweepAndPrune::handleEnd() const {
+  return state_->handles().end();
+}
+
+SweepAndPrune::Pairs SweepAndPrune::pairs() const {
+  return {state_->pairs().sorted(), state_->pairs().changed()};
+}
+
+void SweepAndPrune::findOverlapping(const Aabb& box, BroadphaseScratch& scratch) const {
+  const Aabb bounded = boundedOrEverywhere(box);
+  scratch.handles.clear();
+  state_->forest().findOverlaps(detail::floatBox(bounded), scratch.handles);
+  std::erase_if(scratch.handles,
+                [&](BoxHandle handle) { return !bounded.overlaps(state_->box(handle)); });
+  std::sort(scratch.handles.begin(), scratch.handles.end());
+}
+
+void SweepAndPrune::startNearest(BroadphaseScratch& scratch) const {
+  scratch.nearest.clear();
+  for (std::size_t i = 0; i < detail::BoxForest::kTrees; ++i) {
+    const detail::BoxTree& tree = state_->forest().tree(i);
+    if (tree.live() > 0) push(scratch.nearest, {0.0, blockOrder(i, tree.levels() - 1, 0)});
+  }
+}
+
+bool SweepAndPrune::nextNearest(const Aabb& box, double bound, BroadphaseScratch& scratch,
+                                Near& near) const {
+  const Aabb bounded = boundedOrEverywhere(box);
+  std::vector<Candidate>& heap = scratch.nearest;
+  const auto consider = [&](const Aabb& candidate, std::uint64_t order) {
+    const double distance = boxDistance(bounded, candidate);
+    if (distance < bound) push(heap, {distance, order});
+  };
+  while (!heap.empty() && heap.front().distance < bound) {
+    const Candidate next = heap.front();
+    std::pop_heap(heap.begin(), heap.end(), isFarther);
+    heap.pop_back();
+    if ((next.order & kIsBox) != 0) {
+      near = {static_cast<BoxHandle>(next.order), next.distance};
+      return true;
+    }
+    const detail::BoxTree& tree = state_->forest().tree(next.order >> 40);
+    const std::size_t level = (next.order >> 32) & 0xFF, block = next.order & 0xFFFFFFFF;
+    const detail::BoxBlock& boxes = tree.level(level)[block];
+    for (std::size_t lane = 0; lane < detail::BoxBlock::kLanes; ++lane) {
+      const std::size_t below = block * detail::BoxBlock::kLanes + lane;
+      const Aabb bounds = wide(boxes.box(lane));
+      if (!(bounds.lower.x() <= bounds.upper.x())) continue;  // nothing there
+      if (level > 0)
+        consider(bounds, blockOrder(next.order >> 40, level - 1, below));
+      else
+        consider(state_->box(tree.owners()[below]), kIsBox | tree.owners()[below]);
+    }
+  }
+  return false;
+}
+
+}  // namespace swept
