@@ -15,8 +15,8 @@
 
 namespace swept::test {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Eigen::Vector3d;
 using Pairs = std::vector<std::pair<BoxHandle, BoxHandle>>;
@@ -35,8 +35,8 @@ enum class World {
   Hostile,    ///< one in eight has a NaN, is upside down, or infinite
   Identical,  ///< one of two boxes
 };
-constexpr std::array kWorlds = {World::Even, World::Sizes,   World::Grid,     World::Plates,
-                                World::Far,  World::Hostile, World::Identical};
+inline constexpr std::array kWorlds = {World::Even, World::Sizes,   World::Grid,     World::Plates,
+                                       World::Far,  World::Hostile, World::Identical};
 
 inline Aabb around(const Vector3d& center, const Vector3d& half) {
   return {center - half, center + half};
