@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,6 +26,14 @@ class BoxForest {
   /// Of these boxes only, and in order.
   void build(std::span<const std::uint32_t> owners, std::span<const FloatBox> boxes);
 
+  /// Near boxes mostly have near ranks. Below 2^rankBits().
+  std::uint32_t rank(std::uint32_t owner) const {
+    return places_[owner].slot << 1 | places_[owner].mover;
+  }
+  int rankBits() const {
+    return 1 + static_cast<int>(std::bit_width(std::max(settled_.slots(), movers_.slots())));
+  }
+
   void findOverlaps(const FloatBox& box, std::vector<std::uint32_t>& owners) const;
   const BoxTree& tree(std::size_t i) const { return i == 0 ? settled_ : movers_; }
   static constexpr std::size_t kTrees = 2;
@@ -32,7 +42,7 @@ class BoxForest {
  private:
   struct Place {
     std::uint32_t mover : 1;
-    std::uint32_t slot : 31;
+    std::uint32_t slot : 31;  ///< below 2^30
   };
   static constexpr std::uint32_t kSlotBits = 0x7FFFFFFF;
   BoxTree& treeOf(std::uint32_t owner) { return places_[owner].mover ? movers_ : settled_; }

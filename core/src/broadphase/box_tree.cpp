@@ -96,8 +96,11 @@ void BoxTree::makeRoomFor(std::size_t slots) {
 
 void BoxTree::refit(Slot slot) {
   std::size_t block = slot / kLanes;
-  for (std::size_t level = 1; level < height_; ++level, block /= kLanes)
-    levels_[level][block / kLanes].set(block % kLanes, levels_[level - 1][block].bounds());
+  for (std::size_t level = 1; level < height_; ++level, block /= kLanes) {
+    const FloatBox bounds = levels_[level - 1][block].bounds();
+    if (levels_[level][block / kLanes].box(block % kLanes) == bounds) return;
+    levels_[level][block / kLanes].set(block % kLanes, bounds);
+  }
 }
 
 BoxTree::Slot BoxTree::append(std::uint32_t owner, const FloatBox& box) {

@@ -14,6 +14,7 @@ struct FloatBox {
   std::array<float, 3> lower;  ///< m
   std::array<float, 3> upper;  ///< m
 
+  bool operator==(const FloatBox&) const = default;
   bool overlaps(const FloatBox& other) const {
     int apart = 0;
     for (int k = 0; k < 3; ++k) {

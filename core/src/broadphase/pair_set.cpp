@@ -56,22 +56,25 @@ void cancelTwins(std::vector<PairKey>& keys) {
 
 }  // namespace
 
-void sortPairs(std::vector<PairKey>& keys, int bits, std::vector<PairKey>& scratch) {
+void sortPairs(std::vector<PairKey>& keys, int lowerBits, int upperBits,
+               std::vector<PairKey>& scratch) {
   if (keys.size() < kFewKeys) {
     std::sort(keys.begin(), keys.end());
     return;
   }
-  for (const int half : {0, 32}) {
+  const auto sortHalf = [&](int first, int bits) {
     for (int bit = 0; bit < bits; bit += kDigitBits) {
-      sortByDigit(keys, half + bit, scratch);
+      sortByDigit(keys, first + bit, scratch);
       keys.swap(scratch);
     }
-  }
+  };
+  sortHalf(0, lowerBits);
+  sortHalf(32, upperBits);
 }
 
 void PairSet::toggle(std::vector<PairKey>& keys, int bits) {
   if (keys.empty()) return;
-  sortPairs(keys, bits, scratch_);
+  sortPairs(keys, bits, bits, scratch_);
   cancelTwins(keys);
   symmetricDifference(changed_, keys, scratch_);
   changed_.swap(scratch_);

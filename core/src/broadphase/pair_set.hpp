@@ -15,14 +15,16 @@ inline PairKey pairKey(std::uint32_t a, std::uint32_t b) {
   return a < b ? PairKey{a} << 32 | b : PairKey{b} << 32 | a;
 }
 
-/// Sorts by the lowest `bits` of both halves; the others have to be zero. `scratch` is any.
-void sortPairs(std::vector<PairKey>& keys, int bits, std::vector<PairKey>& scratch);
+/// Sorts by the lowest bits of both halves, at least: so many of the lower and of the upper one.
+void sortPairs(std::vector<PairKey>& keys, int lowerBits, int upperBits,
+               std::vector<PairKey>& scratch);
 
 /// Sorted pairs under changes. What changed lately is kept beside as a short sorted list, so that
 /// one change does not move all that is behind it.
 class PairSet {
  public:
-  /// Each key that was in goes out and the other way round; one named twice stays. Sorts `keys`.
+  /// Each key that was in goes out and the other way round; one named twice stays. Sorts `keys`,
+  /// both halves of which are below 2^bits.
   void toggle(std::vector<PairKey>& keys, int bits);
   void clear();
   /// `sorted`: strictly ascending; what it held before is given back in it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <hwy/cache_control.h>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -25,6 +26,10 @@ class PartnerLists {
   std::span<const Partner> of(std::uint32_t box) const {
     return {arena_.data() + lists_[box].offset, lists_[box].count};
   }
+
+  /// Requests for memory that will be read soon: where the list is, then the list.
+  void prefetchPlace(std::uint32_t box) const { hwy::Prefetch(&lists_[box]); }
+  void prefetch(std::uint32_t box) const { hwy::Prefetch(arena_.data() + lists_[box].offset); }
 
   void add(std::uint32_t a, std::uint32_t b, bool overlap) {
     const std::uint32_t atA = lists_[a].count, atB = lists_[b].count;

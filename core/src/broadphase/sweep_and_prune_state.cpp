@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "broadphase/sweep_and_prune_state.hpp"
 
+#include <hwy/cache_control.h>
 #include <algorithm>
 #include <bit>
 
@@ -11,6 +12,9 @@ namespace {
 
 using detail::PairKey;
 using detail::pairKey;
+
+/// Boxes between the request for memory and its use.
+constexpr std::uint32_t kAhead = 6;
 
 /// Without branches: whether near boxes overlap is anyone's guess.
 bool overlap(const Aabb& a, const Aabb& b) {
@@ -79,6 +83,31 @@ void SweepAndPrune::State::stage(BoxHandle handle, const Aabb& box) {
   boxes_[handle] = moved;
 }
 
+void SweepAndPrune::State::prefetch(BoxHandle handle) const {
+  const auto* box = reinterpret_cast<const char*>(&boxes_[handle]);
+  hwy::Prefetch(box);
+  hwy::Prefetch(box + sizeof(Aabb) - 1);
+}
+
+/// Calls `act` for each handle in order, a while after it has asked for the memory of its partners:
+/// these may be anywhere, and waiting for them would take most of the time.
+template <typename Act>
+void SweepAndPrune::State::forEach(std::span<const BoxHandle> handles, const Act& act) {
+  const auto at = [&](std::size_t i, const auto& ask) {
+    if (i < handles.size()) ask(handles[i]);
+  };
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    at(i + 3 * kAhead, [&](BoxHandle handle) { partners_.prefetchPlace(handle); });
+    at(i + 2 * kAhead, [&](BoxHandle handle) { partners_.prefetch(handle); });
+    at(i + kAhead, [&](BoxHandle handle) {
+      prefetch(handle);
+      for (const detail::PartnerLists::Partner& partner : partners_.of(handle))
+        prefetch(partner.box);
+    });
+    act(handles[i]);
+  }
+}
+
 template <typename Skip>
 void SweepAndPrune::State::look(BoxHandle handle, const Skip& skip) {
   const Aabb& box = boxes_[handle];
@@ -98,13 +127,18 @@ void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<
   left_.clear();
   moved_.clear();
   for (std::size_t i = 0; i < handles.size(); ++i) {
+    if (i + kAhead < handles.size()) {
+      prefetch(handles[i + kAhead]);
+      hwy::Prefetch(&rooms_[handles[i + kAhead]]);
+    }
     stage(handles[i], boxes[i]);
     moved_.insert(handles[i]);
   }
   if (manyLeft()) return rebuild();
   toggled_.clear();
-  for (const BoxHandle handle : handles)
+  forEach(handles, [&](BoxHandle handle) {
     look(handle, [&](BoxHandle other) { return other < handle && moved_.contains(other); });
+  });
   for (const BoxHandle handle : left_) forest_.move(handle, rooms_[handle]);
   settleLeavers();
 }
@@ -112,20 +146,30 @@ void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<
 void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   detail::Handles::requireAsMany(handles_.live(), boxes.size());
   left_.clear();
-  std::size_t next = 0;
-  for (BoxHandle handle = 0; handle < handles_.end(); ++handle)
-    if (handles_.contains(handle)) stage(handle, boxes[next++]);
+  found_.clear();
+  for (BoxHandle handle = 0; handle < handles_.end(); ++handle) {
+    if (!handles_.contains(handle)) continue;
+    stage(handle, boxes[found_.size()]);
+    found_.push_back(handle);
+  }
   if (manyLeft()) return rebuild();
   toggled_.clear();
-  for (BoxHandle handle = 0; handle < handles_.end(); ++handle)
+  forEach(found_, [&](BoxHandle handle) {
     look(handle, [handle](BoxHandle other) { return other < handle; });
+  });
   for (const BoxHandle handle : left_) forest_.move(handle, rooms_[handle]);
   settleLeavers();
 }
 
 void SweepAndPrune::State::settleLeavers() {
   forest_.tidy(rooms_);
-  for (const BoxHandle handle : left_) relink(handle);
+  // In the order of the trees, so that searches find in the cache what the last ones needed.
+  near_.clear();
+  for (const BoxHandle handle : left_)
+    near_.push_back(PairKey{forest_.rank(handle)} << 32 | handle);
+  detail::sortPairs(near_, 0, forest_.rankBits(), scratch_);
+  for (std::size_t i = 0; i < near_.size(); ++i) left_[i] = static_cast<BoxHandle>(near_[i]);
+  forEach(left_, [&](BoxHandle handle) { relink(handle); });
   pairs_.toggle(toggled_, handleBits());
 }
 
@@ -168,7 +212,7 @@ void SweepAndPrune::State::rebuild() {
     for (const BoxHandle other : found_)
       if (other > handle) near_.push_back(pairKey(handle, other));
   }
-  detail::sortPairs(near_, handleBits(), scratch_);
+  detail::sortPairs(near_, handleBits(), handleBits(), scratch_);
   partners_.clear();
   partners_.reserve(counts_);
   toggled_.clear();

@@ -35,6 +35,9 @@ class SweepAndPrune::State {
   void resize();
   void stage(BoxHandle handle, const Aabb& box);
   bool manyLeft() const;
+  void prefetch(BoxHandle handle) const;
+  template <typename Act>
+  void forEach(std::span<const BoxHandle> handles, const Act& act);
   void settleLeavers();
   void relink(BoxHandle handle);
   template <typename Skip>
