@@ -55,6 +55,12 @@ void BoxForest::build(std::span<const std::uint32_t> owners, std::span<const Flo
   number(settled_, false);
 }
 
+void BoxForest::ownBySlot() {
+  settled_.ownBySlot();
+  places_.resize(settled_.slots());
+  number(settled_, false);
+}
+
 void BoxForest::findOverlaps(const FloatBox& box, std::vector<std::uint32_t>& owners) const {
   detail::findOverlaps(settled_, box, owners);
   detail::findOverlaps(movers_, box, owners);

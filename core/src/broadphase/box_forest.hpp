@@ -26,6 +26,8 @@ class BoxForest {
   /// Of these boxes only, and in order.
   void build(std::span<const std::uint32_t> owners, std::span<const FloatBox> boxes);
 
+  /// After `build`: each box takes the number of its slot, and there are no others.
+  void ownBySlot();
   /// Near boxes mostly have near ranks. Below 2^rankBits().
   std::uint32_t rank(std::uint32_t owner) const {
     return places_[owner].slot << 1 | places_[owner].mover;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -43,9 +44,14 @@ class BoxTree {
   /// Of the boxes `boxes[owner]`, m, in slots of any order.
   void build(std::span<const std::uint32_t> owners, std::span<const FloatBox> boxes);
 
+  void ownBySlot() { std::iota(owners_.begin(), owners_.end(), 0U); }
+
   /// Whether a box in this slot would keep its block small.
   bool hasRoom(Slot slot, const FloatBox& box) const;
   std::uint32_t owner(Slot slot) const { return owners_[slot]; }  ///< kNobody: an empty slot
+  FloatBox box(Slot slot) const {
+    return levels_[0][slot / BoxBlock::kLanes].box(slot % BoxBlock::kLanes);
+  }
   std::size_t slots() const { return owners_.size(); }
   std::size_t live() const { return live_; }
   std::size_t unsorted() const { return slots() - sorted_; }

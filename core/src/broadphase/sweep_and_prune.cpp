@@ -57,9 +57,7 @@ BoxHandle SweepAndPrune::registerBox(const Aabb& box) {
 }
 
 std::vector<BoxHandle> SweepAndPrune::registerBoxes(std::span<const Aabb> boxes) {
-  std::vector<BoxHandle> handles;
-  state_->add(boxes, handles);
-  return handles;
+  return state_->add(boxes);
 }
 
 void SweepAndPrune::unregisterBox(BoxHandle handle) {
@@ -108,7 +106,8 @@ void SweepAndPrune::findOverlapping(const Aabb& box, BroadphaseScratch& scratch)
   scratch.handles.clear();
   state_->forest().findOverlaps(detail::floatBox(bounded), scratch.handles);
   std::erase_if(scratch.handles,
-                [&](BoxHandle handle) { return !bounded.overlaps(state_->box(handle)); });
+                [&](std::uint32_t number) { return !bounded.overlaps(state_->boxAt(number)); });
+  for (BoxHandle& found : scratch.handles) found = state_->handleAt(found);
   std::sort(scratch.handles.begin(), scratch.handles.end());
 }
 
@@ -140,13 +139,13 @@ bool SweepAndPrune::nextNearest(const Aabb& box, double bound, BroadphaseScratch
     const std::size_t level = (next.order >> 32) & 0xFF, block = next.order & 0xFFFFFFFF;
     const detail::BoxBlock& boxes = tree.level(level)[block];
     for (std::size_t lane = 0; lane < detail::BoxBlock::kLanes; ++lane) {
-      const std::size_t below = block * detail::BoxBlock::kLanes + lane;
+      const auto below = static_cast<std::uint32_t>(block * detail::BoxBlock::kLanes + lane);
       const Aabb bounds = wide(boxes.box(lane));
       if (!(bounds.lower.x() <= bounds.upper.x())) continue;  // nothing there
       if (level > 0)
         consider(bounds, blockOrder(next.order >> 40, level - 1, below));
       else
-        consider(state_->box(tree.owners()[below]), kIsBox | tree.owners()[below]);
+        consider(state_->boxAt(tree.owner(below)), kIsBox | state_->handleAt(tree.owner(below)));
     }
   }
   return false;

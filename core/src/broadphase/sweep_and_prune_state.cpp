@@ -2,6 +2,7 @@
 #include "broadphase/sweep_and_prune_state.hpp"
 
 #include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -11,10 +12,12 @@ namespace swept {
 namespace {
 
 using detail::PairKey;
-using detail::pairKey;
 
 /// Boxes between the request for memory and its use.
 constexpr std::uint32_t kAhead = 6;
+
+/// Fewer are all in the cache.
+constexpr std::size_t kManyBoxes = 5000;
 
 /// Without branches: whether near boxes overlap is anyone's guess.
 bool overlap(const Aabb& a, const Aabb& b) {
@@ -28,8 +31,22 @@ bool overlap(const Aabb& a, const Aabb& b) {
 
 }  // namespace
 
+SweepAndPrune::State::Number SweepAndPrune::State::takeNumber(BoxHandle handle) {
+  auto number = static_cast<Number>(owners_.size());
+  if (free_.empty()) {
+    owners_.push_back(handle);
+  } else {
+    number = free_.back();
+    free_.pop_back();
+    owners_[number] = handle;
+  }
+  numbers_.resize(handles_.end());
+  numbers_[handle] = number;
+  return number;
+}
+
 void SweepAndPrune::State::resize() {
-  const std::size_t count = handles_.end();
+  const std::size_t count = owners_.size();
   boxes_.resize(count);
   rooms_.resize(count);
   moved_.resize(count);
@@ -45,188 +62,233 @@ bool SweepAndPrune::State::manyLeft() const {
   return left_.size() > 32 && left_.size() > handles_.live() / 3;
 }
 
-void SweepAndPrune::State::add(std::span<const Aabb> boxes, std::vector<BoxHandle>& handles) {
+std::vector<BoxHandle> SweepAndPrune::State::add(std::span<const Aabb> boxes) {
+  std::vector<BoxHandle> handles;
+  handles.reserve(boxes.size());
   left_.clear();
-  for (std::size_t i = 0; i < boxes.size(); ++i) left_.push_back(handles_.take());
-  handles = left_;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    handles.push_back(handles_.take());
+    left_.push_back(takeNumber(handles.back()));
+  }
   resize();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     boxes_[left_[i]] = boundedOrEverywhere(boxes[i]);
     rooms_[left_[i]] = detail::floatBox(boxes_[left_[i]]);
   }
-  if (manyLeft()) return rebuild();
-  toggled_.clear();
-  for (const BoxHandle handle : left_) forest_.insert(handle, rooms_[handle]);
-  settleLeavers();
+  if (manyLeft()) {
+    rebuild();
+  } else {
+    toggled_.clear();
+    for (const Number number : left_) forest_.insert(number, rooms_[number]);
+    settle();
+  }
+  return handles;
 }
 
 void SweepAndPrune::State::remove(BoxHandle handle) {
   handles_.require(handle);
+  const Number number = numbers_[handle];
   toggled_.clear();
-  for (std::span<const detail::PartnerLists::Partner> list = partners_.of(handle); !list.empty();
-       list = partners_.of(handle)) {
-    if (list.back().overlaps) toggled_.push_back(pairKey(handle, list.back().box));
-    partners_.remove(handle, static_cast<std::uint32_t>(list.size() - 1));
+  for (std::span<const detail::PartnerLists::Partner> list = partners_.of(number); !list.empty();
+       list = partners_.of(number)) {
+    if (list.back().overlaps) toggled_.push_back(key(number, list.back().box));
+    partners_.remove(number, static_cast<std::uint32_t>(list.size() - 1));
   }
-  forest_.erase(handle);
+  forest_.erase(number);
   forest_.tidy(rooms_);
   handles_.giveBack(handle);
+  owners_[number] = kNobody;
+  free_.push_back(number);
   pairs_.toggle(toggled_, handleBits());
 }
 
-void SweepAndPrune::State::stage(BoxHandle handle, const Aabb& box) {
+void SweepAndPrune::State::stage(Number number, const Aabb& box) {
   const Aabb moved = boundedOrEverywhere(box);
-  if (!rooms_[handle].contains(moved)) {
-    rooms_[handle] = detail::roomFor(boxes_[handle], moved, handle);
-    left_.push_back(handle);
+  if (!rooms_[number].contains(moved)) {
+    rooms_[number] = detail::roomFor(boxes_[number], moved, number);
+    left_.push_back(number);
   }
-  boxes_[handle] = moved;
+  boxes_[number] = moved;
 }
 
-void SweepAndPrune::State::prefetch(BoxHandle handle) const {
-  const auto* box = reinterpret_cast<const char*>(&boxes_[handle]);
+void SweepAndPrune::State::prefetch(Number number) const {
+  const auto* box = reinterpret_cast<const char*>(&boxes_[number]);
   hwy::Prefetch(box);
   hwy::Prefetch(box + sizeof(Aabb) - 1);
 }
 
-/// Calls `act` for each handle in order, a while after it has asked for the memory of its partners:
+/// Calls `act` for each number in order, a while after it has asked for the memory of its partners:
 /// these may be anywhere, and waiting for them would take most of the time.
 template <typename Act>
-void SweepAndPrune::State::forEach(std::span<const BoxHandle> handles, const Act& act) {
+void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Act& act) {
   const auto at = [&](std::size_t i, const auto& ask) {
-    if (i < handles.size()) ask(handles[i]);
+    if (i < numbers.size()) ask(numbers[i]);
   };
-  for (std::size_t i = 0; i < handles.size(); ++i) {
-    at(i + 3 * kAhead, [&](BoxHandle handle) { partners_.prefetchPlace(handle); });
-    at(i + 2 * kAhead, [&](BoxHandle handle) { partners_.prefetch(handle); });
-    at(i + kAhead, [&](BoxHandle handle) {
-      prefetch(handle);
-      for (const detail::PartnerLists::Partner& partner : partners_.of(handle))
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    at(i + 3 * kAhead, [&](Number number) { partners_.prefetchPlace(number); });
+    at(i + 2 * kAhead, [&](Number number) { partners_.prefetch(number); });
+    at(i + kAhead, [&](Number number) {
+      for (const detail::PartnerLists::Partner& partner : partners_.of(number))
         prefetch(partner.box);
     });
-    act(handles[i]);
+    act(numbers[i]);
   }
 }
 
 template <typename Skip>
-void SweepAndPrune::State::look(BoxHandle handle, const Skip& skip) {
-  const Aabb& box = boxes_[handle];
-  const std::span<const detail::PartnerLists::Partner> list = partners_.of(handle);
+void SweepAndPrune::State::look(Number number, const Skip& skip) {
+  const Aabb& box = boxes_[number];
+  const std::span<const detail::PartnerLists::Partner> list = partners_.of(number);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const BoxHandle other = list[i].box;
+    const Number other = list[i].box;
     if (skip(other)) continue;
     const bool overlaps = overlap(box, boxes_[other]);
     if (overlaps == (list[i].overlaps != 0)) continue;
-    partners_.setOverlap(handle, static_cast<std::uint32_t>(i), overlaps);
-    toggled_.push_back(pairKey(handle, other));
+    partners_.setOverlap(number, static_cast<std::uint32_t>(i), overlaps);
+    toggled_.push_back(key(number, other));
   }
 }
 
 void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
   handles_.require(handles, boxes);
+  // In the order of the numbers, if that spares memory; of twins the last one has the last word.
+  keys_.clear();
+  for (std::size_t i = 0; i < handles.size(); ++i)
+    keys_.push_back(PairKey{numbers_[handles[i]]} << 32 | i);
+  if (owners_.size() > kManyBoxes)
+    detail::sortPairs(keys_, 0, static_cast<int>(std::bit_width(owners_.size())), scratch_);
   left_.clear();
+  changed_.clear();
   moved_.clear();
-  for (std::size_t i = 0; i < handles.size(); ++i) {
-    if (i + kAhead < handles.size()) {
-      prefetch(handles[i + kAhead]);
-      hwy::Prefetch(&rooms_[handles[i + kAhead]]);
-    }
-    stage(handles[i], boxes[i]);
-    moved_.insert(handles[i]);
+  for (const PairKey next : keys_) {
+    const auto number = static_cast<Number>(next >> 32);
+    stage(number, boxes[next & 0xFFFFFFFF]);
+    changed_.push_back(number);
+    moved_.insert(number);
   }
   if (manyLeft()) return rebuild();
   toggled_.clear();
-  forEach(handles, [&](BoxHandle handle) {
-    look(handle, [&](BoxHandle other) { return other < handle && moved_.contains(other); });
+  forEach(changed_, [&](Number number) {
+    look(number, [&](Number other) { return other < number && moved_.contains(other); });
   });
-  for (const BoxHandle handle : left_) forest_.move(handle, rooms_[handle]);
-  settleLeavers();
+  for (const Number number : left_) forest_.move(number, rooms_[number]);
+  settle();
 }
 
 void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   detail::Handles::requireAsMany(handles_.live(), boxes.size());
+  // Which of the boxes a handle's is.
+  counts_.resize(handles_.end());
+  std::uint32_t next = 0;
+  for (BoxHandle handle = 0; handle < handles_.end(); ++handle)
+    counts_[handle] = handles_.contains(handle) ? next++ : next;
   left_.clear();
-  found_.clear();
-  for (BoxHandle handle = 0; handle < handles_.end(); ++handle) {
-    if (!handles_.contains(handle)) continue;
-    stage(handle, boxes[found_.size()]);
-    found_.push_back(handle);
+  changed_.clear();
+  for (Number number = 0; number < owners_.size(); ++number) {
+    const Number ahead = number + kAhead;
+    if (ahead < owners_.size() && owners_[ahead] != kNobody)
+      hwy::Prefetch(boxes.data() + counts_[owners_[ahead]]);
+    if (owners_[number] == kNobody) continue;
+    stage(number, boxes[counts_[owners_[number]]]);
+    changed_.push_back(number);
   }
   if (manyLeft()) return rebuild();
   toggled_.clear();
-  forEach(found_, [&](BoxHandle handle) {
-    look(handle, [handle](BoxHandle other) { return other < handle; });
-  });
-  for (const BoxHandle handle : left_) forest_.move(handle, rooms_[handle]);
-  settleLeavers();
+  forEach(changed_,
+          [&](Number number) { look(number, [number](Number other) { return other < number; }); });
+  for (const Number number : left_) forest_.move(number, rooms_[number]);
+  settle();
 }
 
-void SweepAndPrune::State::settleLeavers() {
+/// Finds the partners of boxes in new rooms.
+void SweepAndPrune::State::settle() {
   forest_.tidy(rooms_);
   // In the order of the trees, so that searches find in the cache what the last ones needed.
-  near_.clear();
-  for (const BoxHandle handle : left_)
-    near_.push_back(PairKey{forest_.rank(handle)} << 32 | handle);
-  detail::sortPairs(near_, 0, forest_.rankBits(), scratch_);
-  for (std::size_t i = 0; i < near_.size(); ++i) left_[i] = static_cast<BoxHandle>(near_[i]);
-  forEach(left_, [&](BoxHandle handle) { relink(handle); });
+  keys_.clear();
+  for (const Number number : left_) keys_.push_back(PairKey{forest_.rank(number)} << 32 | number);
+  if (owners_.size() > kManyBoxes) detail::sortPairs(keys_, 0, forest_.rankBits(), scratch_);
+  for (std::size_t i = 0; i < keys_.size(); ++i) left_[i] = static_cast<Number>(keys_[i]);
+  forEach(left_, [&](Number number) { relink(number); });
   pairs_.toggle(toggled_, handleBits());
 }
 
-void SweepAndPrune::State::link(BoxHandle a, BoxHandle b) {
+void SweepAndPrune::State::link(Number a, Number b) {
   const bool overlaps = overlap(boxes_[a], boxes_[b]);
   partners_.add(a, b, overlaps);
-  if (overlaps) toggled_.push_back(pairKey(a, b));
+  if (overlaps) toggled_.push_back(key(a, b));
 }
 
 /// Partners out of reach do not overlap, and have been looked at: the pairs do not change with
 /// them.
-void SweepAndPrune::State::relink(BoxHandle handle) {
+void SweepAndPrune::State::relink(Number number) {
   kept_.clear();
-  kept_.insert(handle);
-  for (auto i = static_cast<std::uint32_t>(partners_.of(handle).size()); i-- > 0;) {
-    const BoxHandle other = partners_.of(handle)[i].box;
-    if (rooms_[handle].overlaps(rooms_[other]))
+  kept_.insert(number);
+  for (auto i = static_cast<std::uint32_t>(partners_.of(number).size()); i-- > 0;) {
+    const Number other = partners_.of(number)[i].box;
+    if (rooms_[number].overlaps(rooms_[other]))
       kept_.insert(other);
     else
-      partners_.remove(handle, i);
+      partners_.remove(number, i);
   }
   found_.clear();
-  forest_.findOverlaps(rooms_[handle], found_);
-  for (const BoxHandle other : found_)
-    if (!kept_.contains(other)) link(handle, other);
+  forest_.findOverlaps(rooms_[number], found_);
+  for (const Number other : found_)
+    if (!kept_.contains(other)) link(number, other);
 }
 
-void SweepAndPrune::State::rebuild() {
+/// Numbers are slots of the tree from then on.
+void SweepAndPrune::State::renumber() {
   left_.clear();
-  for (BoxHandle handle = 0; handle < handles_.end(); ++handle)
-    if (handles_.contains(handle)) left_.push_back(handle);
+  for (Number number = 0; number < owners_.size(); ++number)
+    if (owners_[number] != kNobody) left_.push_back(number);
   forest_.build(left_, rooms_);
-  near_.clear();
-  counts_.assign(handles_.end(), 0);
-  // In the order of the tree, what is needed is still in the cache.
-  for (const BoxHandle handle : forest_.tree(0).owners()) {
-    found_.clear();
-    forest_.findOverlaps(rooms_[handle], found_);
-    counts_[handle] = static_cast<std::uint32_t>(found_.size() - 1);
-    for (const BoxHandle other : found_)
-      if (other > handle) near_.push_back(pairKey(handle, other));
+  const std::vector<Number>& order = forest_.tree(0).owners();
+  renumbered_.clear();
+  changed_.clear();
+  for (const Number number : order) {
+    renumbered_.push_back(boxes_[number]);
+    changed_.push_back(owners_[number]);
   }
-  detail::sortPairs(near_, handleBits(), handleBits(), scratch_);
+  boxes_.swap(renumbered_);
+  owners_.swap(changed_);
+  free_.clear();
+  resize();
+  for (Number number = 0; number < owners_.size(); ++number) {
+    numbers_[owners_[number]] = number;
+    rooms_[number] = forest_.tree(0).box(number);
+  }
+  forest_.ownBySlot();
+}
+
+/// Everything from the boxes and their rooms.
+void SweepAndPrune::State::rebuild() {
+  renumber();
+  keys_.clear();
+  counts_.assign(owners_.size(), 0);
+  for (Number number = 0; number < owners_.size(); ++number) {
+    found_.clear();
+    forest_.findOverlaps(rooms_[number], found_);
+    counts_[number] = static_cast<std::uint32_t>(found_.size() - 1);
+    for (const Number other : found_)
+      if (other > number) keys_.push_back(detail::pairKey(number, other));
+  }
   partners_.clear();
   partners_.reserve(counts_);
   toggled_.clear();
-  for (const PairKey key : near_)
-    link(static_cast<BoxHandle>(key >> 32), static_cast<BoxHandle>(key));
+  for (const PairKey near : keys_) link(static_cast<Number>(near >> 32), static_cast<Number>(near));
+  detail::sortPairs(toggled_, handleBits(), handleBits(), scratch_);
   pairs_.replace(toggled_);
 }
 
 std::size_t SweepAndPrune::State::bytes() const {
-  const std::size_t keys = toggled_.capacity() + near_.capacity() + scratch_.capacity();
-  return sizeof(State) + handles_.bytes() + boxes_.capacity() * sizeof(Aabb) +
-         rooms_.capacity() * sizeof(detail::FloatBox) + moved_.bytes() + kept_.bytes() +
-         forest_.bytes() + partners_.bytes() + pairs_.bytes() + keys * sizeof(PairKey) +
-         (left_.capacity() + found_.capacity() + counts_.capacity()) * sizeof(BoxHandle);
+  const std::size_t keys = toggled_.capacity() + keys_.capacity() + scratch_.capacity();
+  const std::size_t numbers = numbers_.capacity() + owners_.capacity() + free_.capacity() +
+                              changed_.capacity() + left_.capacity() + found_.capacity() +
+                              counts_.capacity();
+  return sizeof(State) + handles_.bytes() + moved_.bytes() + kept_.bytes() + forest_.bytes() +
+         partners_.bytes() + pairs_.bytes() + keys * sizeof(PairKey) + numbers * sizeof(Number) +
+         (boxes_.capacity() + renumbered_.capacity()) * sizeof(Aabb) +
+         rooms_.capacity() * sizeof(detail::FloatBox);
 }
 
 }  // namespace swept

@@ -16,46 +16,61 @@ namespace swept {
 
 /// Between calls: each box is in its room; partners are all whose rooms overlap, and know whether
 /// they themselves do; these are the pairs.
+///
+/// Within, boxes go by numbers, which `rebuild` gives out in the order of the tree: near boxes then
+/// share cache lines and pages, whatever the order of their handles.
 class SweepAndPrune::State {
  public:
-  void add(std::span<const Aabb> boxes, std::vector<BoxHandle>& handles);
+  using Number = std::uint32_t;
+
+  std::vector<BoxHandle> add(std::span<const Aabb> boxes);
   void remove(BoxHandle handle);
   void update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes);
   void updateAll(std::span<const Aabb> boxes);
-  /// Builds everything from the boxes and their rooms.
-  void rebuild();
 
   const detail::Handles& handles() const { return handles_; }
-  const Aabb& box(BoxHandle handle) const { return boxes_[handle]; }
+  const Aabb& box(BoxHandle handle) const { return boxes_[numbers_[handle]]; }
+  const Aabb& boxAt(Number number) const { return boxes_[number]; }
+  BoxHandle handleAt(Number number) const { return owners_[number]; }
   const detail::BoxForest& forest() const { return forest_; }
   const detail::PairSet& pairs() const { return pairs_; }
   std::size_t bytes() const;
 
  private:
+  static constexpr BoxHandle kNobody = detail::BoxTree::kNobody;
+
+  Number takeNumber(BoxHandle handle);
   void resize();
-  void stage(BoxHandle handle, const Aabb& box);
+  void stage(Number number, const Aabb& box);
   bool manyLeft() const;
-  void prefetch(BoxHandle handle) const;
-  template <typename Act>
-  void forEach(std::span<const BoxHandle> handles, const Act& act);
-  void settleLeavers();
-  void relink(BoxHandle handle);
-  template <typename Skip>
-  void look(BoxHandle handle, const Skip& skip);
-  void link(BoxHandle a, BoxHandle b);
+  detail::PairKey key(Number a, Number b) const { return detail::pairKey(owners_[a], owners_[b]); }
   int handleBits() const;
+  void prefetch(Number number) const;
+  template <typename Act>
+  void forEach(std::span<const Number> numbers, const Act& act);
+  template <typename Skip>
+  void look(Number number, const Skip& skip);
+  void settle();
+  void relink(Number number);
+  void link(Number a, Number b);
+  void rebuild();
+  void renumber();
 
   detail::Handles handles_;
+  std::vector<Number> numbers_;          ///< by handle
+  std::vector<BoxHandle> owners_;        ///< by number, as is all below
   std::vector<Aabb> boxes_;              ///< m
   std::vector<detail::FloatBox> rooms_;  ///< m
   detail::Stamps moved_, kept_;
+  std::vector<Number> free_;
   detail::BoxForest forest_;
   detail::PartnerLists partners_;
   detail::PairSet pairs_;
   // Of the change at work.
-  std::vector<BoxHandle> left_, found_;
-  std::vector<detail::PairKey> toggled_, near_, scratch_;
+  std::vector<Number> changed_, left_, found_;
+  std::vector<detail::PairKey> toggled_, keys_, scratch_;
   std::vector<std::uint32_t> counts_;
+  std::vector<Aabb> renumbered_;
 };
 
 }  // namespace swept
