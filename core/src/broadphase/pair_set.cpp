@@ -12,7 +12,7 @@ namespace {
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 /// Fewer are sorted by comparisons.
-constexpr std::size_t kFewKeys = 1500;
+constexpr std::size_t kFewKeys = 300;
 
 /// One stable pass by the digit that starts at bit `shift`.
 void sortByDigit(const std::vector<PairKey>& from, int shift, std::vector<PairKey>& to) {

@@ -14,7 +14,7 @@ namespace {
 using detail::PairKey;
 
 /// Boxes between the request for memory and its use.
-constexpr std::uint32_t kAhead = 6;
+constexpr std::uint32_t kAhead = 8;
 
 /// Fewer are all in the cache.
 constexpr std::size_t kManyBoxes = 5000;
@@ -27,6 +27,12 @@ bool overlap(const Aabb& a, const Aabb& b) {
     meets &= static_cast<int>(b.lower[k] <= a.upper[k]);
   }
   return meets != 0;
+}
+
+/// It may lie across two cache lines.
+void prefetch(const Aabb& box) {
+  hwy::Prefetch(&box);
+  hwy::Prefetch(reinterpret_cast<const char*>(&box + 1) - 1);
 }
 
 }  // namespace
@@ -111,12 +117,6 @@ void SweepAndPrune::State::stage(Number number, const Aabb& box) {
   boxes_[number] = moved;
 }
 
-void SweepAndPrune::State::prefetch(Number number) const {
-  const auto* box = reinterpret_cast<const char*>(&boxes_[number]);
-  hwy::Prefetch(box);
-  hwy::Prefetch(box + sizeof(Aabb) - 1);
-}
-
 /// Calls `act` for each number in order, a while after it has asked for the memory of its partners:
 /// these may be anywhere, and waiting for them would take most of the time.
 template <typename Act>
@@ -129,7 +129,7 @@ void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Act& a
     at(i + 2 * kAhead, [&](Number number) { partners_.prefetch(number); });
     at(i + kAhead, [&](Number number) {
       for (const detail::PartnerLists::Partner& partner : partners_.of(number))
-        prefetch(partner.box);
+        prefetch(boxes_[partner.box]);
     });
     act(numbers[i]);
   }
@@ -187,7 +187,7 @@ void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   for (Number number = 0; number < owners_.size(); ++number) {
     const Number ahead = number + kAhead;
     if (ahead < owners_.size() && owners_[ahead] != kNobody)
-      hwy::Prefetch(boxes.data() + counts_[owners_[ahead]]);
+      prefetch(boxes[counts_[owners_[ahead]]]);
     if (owners_[number] == kNobody) continue;
     stage(number, boxes[counts_[owners_[number]]]);
     changed_.push_back(number);

@@ -45,7 +45,6 @@ class SweepAndPrune::State {
   bool manyLeft() const;
   detail::PairKey key(Number a, Number b) const { return detail::pairKey(owners_[a], owners_[b]); }
   int handleBits() const;
-  void prefetch(Number number) const;
   template <typename Act>
   void forEach(std::span<const Number> numbers, const Act& act);
   template <typename Skip>
