@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boxes that move: the time to follow them and to visit all pairs that overlap, one
+// step at a time.
+// An argument N stops at N boxes.
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "broadphase_bullet.hpp"
+#include "broadphase_fcl.hpp"
+#include "broadphase_worlds.hpp"
+#include "swept/core/broadphase/sweep_and_prune.hpp"
+#include "timing.hpp"
+
+namespace swept::benchmark {
+namespace {
+
+/// A library that took so many times as long as the best with a tenth of the boxes, or so long to
+/// register them (s), is left out.
+constexpr double kHopeless = 50.0, kPatience = 0.3;
+/// s. Of one library in one round; steps not done by then are left out.
+constexpr double kEnough = 4.0;
+/// Steps before the measured ones: from standing still to what goes on.
+constexpr int kWarmUp = 10;
+
+class SweptBroadphase : public BroadphasePeer {
+ public:
+  explicit SweptBroadphase(const MovingBoxes& boxes) { manager_.registerBoxes(boxes.boxes()); }
+
+  void prepare(const MovingBoxes& boxes) override {
+    moved_.clear();
+    for (const std::uint32_t i : boxes.moving()) moved_.push_back(boxes.boxes()[i]);
+  }
+  std::size_t step(const MovingBoxes& boxes) override {
+    if (boxes.moving().size() == boxes.boxes().size())
+      manager_.updateAll(boxes.boxes());
+    else
+      manager_.update(boxes.moving(), moved_);
+    std::size_t pairs = 0;
+    manager_.collide([&](BoxHandle, BoxHandle) {
+      ++pairs;
+      return false;
+    });
+    return pairs;
+  }
+
+ private:
+  SweepAndPrune manager_;
+  std::vector<Aabb> moved_;
+};
+
+struct Library {
+  std::string name;
+  std::unique_ptr<BroadphasePeer> (*make)(const MovingBoxes&);
+};
+
+template <typename Peer>
+std::unique_ptr<BroadphasePeer> make(const MovingBoxes& boxes) {
+  return std::make_unique<Peer>(boxes);
+}
+
+std::vector<Library> libraries() {
+  std::vector<Library> all{{"swept", make<SweptBroadphase>}};
+#ifdef SWEPT_HAS_FCL
+  all.push_back({"FCL SaP", make<FclSweepAndPrune>});
+  all.push_back({"FCL tree", make<FclDynamicTree>});
+#else
+  std::printf("FCL is not there.\n");
+#endif
+#ifdef SWEPT_HAS_BULLET
+  all.push_back({"Bullet dbvt", bulletTrees});
+  all.push_back({"Bullet axis sweep", bulletAxisSweep});
+#else
+  std::printf("Bullet is not there.\n");
+#endif
+  return all;
+}
+
+struct Setting {
+  std::size_t count;
+  double movingShare;
+  BoxMotion motion;
+
+  int steps() const { return count <= 1000 ? 200 : count <= 10000 ? 80 : 40; }
+  int rounds() const { return count <= 10000 ? 3 : 2; }
+};
+
+/// What one library did in all rounds: the least time of each step, and its pairs.
+struct Run {
+  std::vector<double> seconds;
+  std::vector<std::size_t> pairs;
+  double registering = 0.0;  ///< s
+
+  void add(std::size_t step, double time, std::size_t found) {
+    if (step == seconds.size()) {
+      seconds.push_back(time);
+      pairs.push_back(found);
+    }
+    seconds[step] = std::min(seconds[step], time);
+    if (pairs[step] != found) pairs[step] = 0;  // does not agree with itself
+  }
+  double mean() const {
+    double sum = 0.0;
+    for (const double s : seconds) sum += s;
+    return seconds.empty() ? std::numeric_limits<double>::infinity()
+                           : sum / static_cast<double>(seconds.size());
+  }
+};
+
+void oneRound(const Setting& setting, const Library& library, Run& run) {
+  MovingBoxes boxes(setting.count, setting.movingShare, setting.motion, 7);
+  const double start = cpuSeconds();
+  const std::unique_ptr<BroadphasePeer> peer = library.make(boxes);
+  run.registering = cpuSeconds() - start;
+  for (int i = -kWarmUp; i < setting.steps(); ++i) {
+    boxes.step();
+    peer->prepare(boxes);
+    const double before = cpuSeconds();
+    const std::size_t pairs = peer->step(boxes);
+    const double seconds = cpuSeconds() - before;
+    if (i >= 0) run.add(static_cast<std::size_t>(i), seconds, pairs);
+    if (i >= 0 && cpuSeconds() - start > kEnough) break;
+  }
+}
+
+class Table {
+ public:
+  explicit Table(BoxMotion motion) : motion_(motion) {}
+
+  void measure(std::size_t most) {
+    std::vector<std::string> head{"boxes", "moving", "pairs"};
+    for (const Library& library : libraries_) head.push_back(library.name);
+    head.push_back("swept / best");
+    const MarkdownTable table(head);
+    for (const double share : {0.01, 0.1, 1.0}) {
+      std::vector<bool> hopeless(libraries_.size(), false);
+      for (std::size_t count = 1000; count <= most; count *= 10)
+        table.row(row({count, share, motion_}, hopeless));
+    }
+  }
+  void printGrowth(std::size_t most) const {
+    std::vector<std::string> head{"moving"};
+    for (std::size_t count = 1000; count <= most; count *= 10)
+      head.push_back(std::to_string(count) + " boxes, ns per box");
+    head.push_back("exponent");
+    std::printf("\n");
+    const MarkdownTable table(head);
+    const std::size_t sizes = head.size() - 2;
+    for (std::size_t first = 0; first + sizes <= ours_.size(); first += sizes) {
+      std::vector<std::string> cells{number(100.0 * ours_[first].setting.movingShare) + " %"};
+      for (std::size_t i = first; i < first + sizes; ++i)
+        cells.push_back(
+            number(1e9 * ours_[i].seconds / static_cast<double>(ours_[i].setting.count)));
+      cells.push_back(number(exponent(first, first + sizes - 1), 3));
+      table.row(cells);
+    }
+  }
+  bool agree() const { return agree_; }
+
+ private:
+  struct Point {
+    Setting setting;
+    double seconds;
+  };
+
+  /// `hopeless`: which libraries are left out; more for the next size.
+  std::vector<std::string> row(const Setting& setting, std::vector<bool>& hopeless) {
+    std::vector<Run> runs(libraries_.size());
+    for (int round = 0; round < setting.rounds(); ++round) {
+      for (std::size_t i = 0; i < libraries_.size(); ++i)
+        if (!hopeless[i]) oneRound(setting, libraries_[i], runs[i]);
+    }
+    const Run& ours = runs.front();
+    ours_.push_back({setting, ours.mean()});
+    std::vector<std::string> cells{std::to_string(setting.count),
+                                   number(100.0 * setting.movingShare) + " %",
+                                   std::to_string(ours.pairs.back())};
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      cells.push_back(hopeless[i] ? "-" : number(1e6 * runs[i].mean()));
+      if (i > 0) best = std::min(best, runs[i].mean());
+      check(setting, libraries_[i].name, ours, runs[i]);
+    }
+    cells.push_back(runs.size() > 1 ? number(ours.mean() / best, 2) : "-");
+    for (std::size_t i = 1; i < runs.size(); ++i) {
+      hopeless[i] =
+          hopeless[i] || runs[i].mean() > kHopeless * best || runs[i].registering > kPatience;
+    }
+    return cells;
+  }
+
+  void check(const Setting& setting, const std::string& name, const Run& ours, const Run& theirs) {
+    for (std::size_t i = 0; i < theirs.pairs.size(); ++i) {
+      if (theirs.pairs[i] == ours.pairs[i]) continue;
+      std::fprintf(stderr, "%zu boxes, step %zu: %zu pairs, %s %zu\n", setting.count, i,
+                   ours.pairs[i], name.c_str(), theirs.pairs[i]);
+      agree_ = false;
+      return;
+    }
+  }
+
+  double exponent(std::size_t first, std::size_t last) const {
+    return std::log(ours_[last].seconds / ours_[first].seconds) /
+           std::log(static_cast<double>(ours_[last].setting.count) /
+                    static_cast<double>(ours_[first].setting.count));
+  }
+
+  BoxMotion motion_;
+  std::vector<Library> libraries_ = libraries();
+  std::vector<Point> ours_;
+  bool agree_ = true;
+};
+
+bool measure(const char* title, BoxMotion motion, std::size_t most) {
+  std::printf("\n%s: us per step\n\n", title);
+  Table table(motion);
+  table.measure(most);
+  table.printGrowth(most);
+  return table.agree();
+}
+
+}  // namespace
+}  // namespace swept::benchmark
+
+int main(int argc, char** argv) {
+  using swept::benchmark::BoxMotion;
+  const std::size_t most = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100'000;
+  const bool coherent =
+      swept::benchmark::measure("Coherent, up to 10 mm along each axis", BoxMotion::Coherent, most);
+  const bool teleporting = swept::benchmark::measure("Teleporting", BoxMotion::Teleporting, most);
+  return coherent && teleporting ? EXIT_SUCCESS : EXIT_FAILURE;
+}
