@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/broadphase/broadphase.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace swept {
 namespace {
-
-using Eigen::Vector3d;
 
 /// m. Of two intervals; finite ones that are farther apart than a double holds are infinitely so.
 double gap(double lowerA, double upperA, double lowerB, double upperB) {
@@ -18,14 +15,6 @@ double gap(double lowerA, double upperA, double lowerB, double upperB) {
 }
 
 }  // namespace
-
-Aabb boundedOrEverywhere(const Aabb& box) {
-  int ordered = 1;
-  for (int k = 0; k < 3; ++k) ordered &= static_cast<int>(box.lower[k] <= box.upper[k]);
-  if (ordered != 0) return box;
-  const auto all = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  return {-all, all};
-}
 
 /// Differences and the final rounding to double are off by half an epsilon each, the long sums and
 /// the root by less. Each step is monotonous in the gaps and so is the result: a box within

@@ -19,7 +19,13 @@ using BoxHandle = std::uint32_t;
 /// What a broadphase takes a box for: itself, or all of space if it has a NaN or a lower above its
 /// upper coordinate. Such a box bounds nothing, and it must not hide a contact. Infinite
 /// coordinates are like any other.
-Aabb boundedOrEverywhere(const Aabb& box);
+inline Aabb boundedOrEverywhere(const Aabb& box) {
+  int ordered = 1;
+  for (int k = 0; k < 3; ++k) ordered &= static_cast<int>(box.lower[k] <= box.upper[k]);
+  if (ordered != 0) return box;
+  const auto all = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  return {-all, all};
+}
 
 /// m. Lower bound of the distance of two boxes, proven, and off by a few roundings; 0 if they
 /// overlap. Of what does not fit into a double: the largest one.
