@@ -160,9 +160,14 @@ void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<
   left_.clear();
   changed_.clear();
   moved_.clear();
-  for (const PairKey next : keys_) {
-    const auto number = static_cast<Number>(next >> 32);
-    stage(number, boxes[next & 0xFFFFFFFF]);
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    if (i + kAhead < keys_.size()) {
+      const auto ahead = static_cast<Number>(keys_[i + kAhead] >> 32);
+      prefetch(boxes_[ahead]);
+      hwy::Prefetch(&rooms_[ahead]);
+    }
+    const auto number = static_cast<Number>(keys_[i] >> 32);
+    stage(number, boxes[keys_[i] & 0xFFFFFFFF]);
     changed_.push_back(number);
     moved_.insert(number);
   }

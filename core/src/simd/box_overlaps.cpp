@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simd/box_overlaps.hpp"
 
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <bit>
 
@@ -50,10 +52,13 @@ void FindOverlaps(const BoxTree& tree, const FloatBox& box, std::vector<std::uin
     for (; hits != 0; hits &= hits - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
       const std::uint32_t below = open.block * BoxBlock::kLanes + lane;
-      if (open.level == 0)
+      if (open.level == 0) {
         owners.push_back(tree.owners()[below]);
-      else
-        stack[depth++] = {open.level - 1, below};
+        continue;
+      }
+      const auto* block = reinterpret_cast<const char*>(&tree.level(open.level - 1)[below]);
+      for (std::size_t line = 0; line < sizeof(BoxBlock); line += 64) hwy::Prefetch(block + line);
+      stack[depth++] = {open.level - 1, below};
     }
   }
 }
