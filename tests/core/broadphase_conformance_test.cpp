@@ -247,8 +247,8 @@ std::vector<Aabb> shelves() {
   return boxes;
 }
 
-/// A sweep that swaps neighbours until they are in order never ends where endpoints are equal and
-/// the order is taken for strict: FCL 0.7's does not return from update() in such worlds.
+/// A sweep that swaps neighbours until they are in order may go on for ever where endpoints are
+/// equal.
 TYPED_TEST(BroadphaseConformance, CoincidentEndpointsOfARobotWorld) {
   std::mt19937 random(6);
   std::vector<Aabb> boxes = shelves();

@@ -53,10 +53,9 @@ struct BroadphaseScratch {
 /// - `collide(box, scratch, visitor)`: `visitor(a)` for each box that overlaps, ascending
 /// - `collide(other, scratch, visitor)`: `visitor(a, b)`, a of this one and b of the other,
 ///   lexicographic
-/// - `distance(box, scratch, visitor)`: `visitor(a, d)`, nearest first, by handle if equally near;
-/// d
-///   (m) is `boxDistance`. What it returns bounds (m) what is visited from then on: boxes nearer
-///   than the least returned so far. Returns that least, or infinity.
+/// - `distance(box, scratch, visitor)`: `visitor(a, d)`, nearest first, and by handle if equally
+///   near; d is `boxDistance`, m. What the visitor returns is a bound, m: from then on only boxes
+///   nearer than the least bound so far are visited. Returns that, or infinity.
 ///
 /// A handle that is not in use, or a number of boxes that does not fit: std::invalid_argument, and
 /// nothing has changed.
