@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "certify/checker_model.hpp"
-#include "swept/core/signed_distance.hpp"
+#include "swept/core/solid_depth.hpp"
 
 namespace swept::detail {
 
@@ -21,8 +21,7 @@ JointTable::InnerBall innerBallAround(const CheckerModel& model, const LaneModel
   const Eigen::Vector3d inShape =
       body.body_from_shape.inverse() *
       (lanes.bodyFromLane[static_cast<std::size_t>(body.body)] * center);
-  const Eigen::Isometry3d point_from_shape(Eigen::Translation3d(-inShape));
-  const double depth = -signedDistance(Sphere{0.0}, body.shape, point_from_shape).upper;
+  const double depth = solidDepth(body.shape, inShape);
   const double magnitude = center.norm() + inShape.norm();
   ball.inside = static_cast<float>(std::max(0.0, (depth - 1e-6 * magnitude) * (1.0 - 1e-6)));
   return ball;
