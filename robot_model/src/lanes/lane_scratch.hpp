@@ -77,7 +77,8 @@ struct LaneBlock {
   std::vector<std::uint8_t> finalLanes;
   LaneMode mode = LaneMode::Motion;
   bool stopAtContact = true;
-  std::uint32_t contactLanes = 0;  ///< those with a contact; these are not looked at any more
+  /// Those with a contact, or behind one; these are not looked at any more.
+  std::uint32_t contactLanes = 0;
   LaneContact contacts[kLanes];
   LaneSuspect suspect;
 };
