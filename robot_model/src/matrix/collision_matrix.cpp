@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/collision_matrix.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <thread>
+
+#include "matrix/contact_search.hpp"
+#include "matrix/never_proof.hpp"
+
+namespace swept {
+
+namespace {
+
+using detail::ContactSearch;
+using detail::KinematicModel;
+using detail::LinkChain;
+using detail::LinkPieces;
+using detail::NeverProof;
+
+/// Share of the budget for a first proof, before contacts are looked for with more effort: most
+/// pairs are far apart.
+constexpr std::int64_t kFirstProof = 16;
+
+/// Apart for every variable of the robot, whatever group moves it.
+KinematicModel wholeRobot(const Robot& robot) {
+  Group all;
+  for (std::size_t j = 0; j < robot.joints().size(); ++j)
+    if (robot.joints()[j].firstVariable >= 0) all.joints.push_back(static_cast<int>(j));
+  all.variables.resize(robot.variables().size());
+  std::iota(all.variables.begin(), all.variables.end(), 0);
+  return detail::compileKinematics(robot, all, robot.defaultState());
+}
+
+class Examiner {
+ public:
+  Examiner(const Robot& robot, const CollisionMatrixOptions& options)
+      : robot_(robot), options_(options), model_(wholeRobot(robot)), start_(robot.defaultState()) {
+    for (std::size_t i = 0; i < robot.links().size(); ++i)
+      pieces_.push_back(detail::piecesOf(robot, model_, static_cast<int>(i)));
+    for (std::size_t j = 0; j < robot.joints().size(); ++j) {
+      const Joint& joint = robot.joints()[j];
+      if (joint.parentLink < 0) continue;
+      const auto [a, b] = std::minmax(joint.parentLink, joint.childLink);
+      adjacent_.emplace(std::pair{a, b}, static_cast<int>(j));
+    }
+  }
+
+  std::vector<LinkPairReport> pairs() const {
+    std::vector<LinkPairReport> result;
+    const int count = static_cast<int>(pieces_.size());
+    for (int a = 0; a < count; ++a)
+      for (int b = a + 1; b < count; ++b) {
+        if (pieces_[a].pieces.empty() || pieces_[b].pieces.empty()) continue;
+        LinkPairReport report;
+        report.linkA = a;
+        report.linkB = b;
+        result.push_back(std::move(report));
+      }
+    return result;
+  }
+
+  void examine(LinkPairReport& report) const;
+
+ private:
+  Eigen::VectorXd configuration(const LinkChain& chain, const ContactSearch::Values& values) const {
+    Eigen::VectorXd q = start_;
+    for (std::size_t k = 0; k < values.size(); ++k) q[chain.variables()[k]] = values[k];
+    return q;
+  }
+  void classifyContact(ContactSearch& search, std::uint64_t seed, LinkPairReport& report) const;
+  void prove(const LinkChain& chain, LinkChain::Place& place, ContactSearch& search,
+             std::uint64_t seed, LinkPairReport& report) const;
+  void contact(const LinkChain& chain, const ContactSearch::Values& values,
+               LinkPairReport& report) const {
+    report.status = PairStatus::MayCollide;
+    report.witness = configuration(chain, values);
+  }
+
+  const Robot& robot_;
+  const CollisionMatrixOptions& options_;
+  const KinematicModel model_;
+  const Eigen::VectorXd start_;
+  std::vector<LinkPieces> pieces_;
+  std::map<std::pair<int, int>, int> adjacent_;
+};
+
+void Examiner::examine(LinkPairReport& report) const {
+  const LinkChain chain(robot_, model_, model_.bodyOfLink[report.linkA],
+                        model_.bodyOfLink[report.linkB]);
+  report.variables = chain.variables();
+  const auto adjacent = adjacent_.find({report.linkA, report.linkB});
+  if (adjacent != adjacent_.end()) {
+    report.status = PairStatus::Adjacent;
+    report.joint = adjacent->second;
+    return;
+  }
+  LinkChain::Place place;
+  chain.startFrom(start_, place);
+  ContactSearch search(pieces_[report.linkA], pieces_[report.linkB], chain, options_.margin, place);
+  // Of its own for each pair, so that no pair depends on how many come before it.
+  const std::uint64_t seed = (std::uint64_t{options_.seed} << 32) +
+                             (static_cast<std::uint64_t>(report.linkA) << 16) +
+                             static_cast<std::uint64_t>(report.linkB);
+  ContactSearch::Values atStart;
+  for (const int v : chain.variables()) atStart.push_back(start_[v]);
+  if (search.isContact(atStart)) {
+    report.witness = start_;
+    classifyContact(search, seed, report);
+  } else {
+    prove(chain, place, search, seed, report);
+  }
+}
+
+void Examiner::classifyContact(ContactSearch& search, std::uint64_t seed,
+                               LinkPairReport& report) const {
+  const bool apart = search.findApart(options_.samples, seed).has_value();
+  // Without samples nothing speaks for more than the default state, unless there is no other.
+  const bool looked = options_.samples > 0 || report.variables.empty();
+  report.status = looked && !apart ? PairStatus::Always : PairStatus::Default;
+}
+
+void Examiner::prove(const LinkChain& chain, LinkChain::Place& place, ContactSearch& search,
+                     std::uint64_t seed, LinkPairReport& report) const {
+  if (const auto found = search.findContact(options_.samples, seed)) {
+    contact(chain, *found, report);
+    return;
+  }
+  const LinkPieces& a = pieces_[report.linkA];
+  const LinkPieces& b = pieces_[report.linkB];
+  const auto covered = [](const LinkPieces::Piece& piece) { return piece.root >= 0; };
+  const bool provable = chain.bounded() && std::ranges::all_of(a.pieces, covered) &&
+                        std::ranges::all_of(b.pieces, covered);
+  if (!provable) {
+    if (const auto found = search.descend({})) contact(chain, *found, report);
+    return;
+  }
+  NeverProof proof(a, b, chain, options_.margin, place);
+  NeverProof::State state = proof.run(options_.budget / kFirstProof);
+  if (state != NeverProof::State::Proven) {
+    if (const auto found = search.descend(proof.nearest())) {
+      contact(chain, *found, report);
+    } else if (state == NeverProof::State::Open) {
+      state = proof.run(options_.budget);
+    }
+  }
+  report.proven = proof.share();
+  report.effort = proof.effort();
+  if (state == NeverProof::State::Proven) {
+    report.status = PairStatus::Never;
+    report.proven = 1.0;
+  } else if (!report.witness) {
+    if (const auto found = search.descend(proof.nearest())) contact(chain, *found, report);
+  }
+}
+
+void requireUsable(const CollisionMatrixOptions& options) {
+  if (!(options.margin >= 0.0) || !std::isfinite(options.margin)) {
+    throw std::invalid_argument("collisionMatrix: margin " + std::to_string(options.margin) +
+                                " m must be a finite number that is not negative");
+  }
+  if (options.budget < 0 || options.samples < 0)
+    throw std::invalid_argument("collisionMatrix: budget and samples must not be negative");
+}
+
+}  // namespace
+
+std::string_view toString(PairStatus status) {
+  switch (status) {
+    case PairStatus::Unknown:
+      return "unknown";
+    case PairStatus::Adjacent:
+      return "adjacent";
+    case PairStatus::Never:
+      return "never";
+    case PairStatus::MayCollide:
+      return "may collide";
+    case PairStatus::Default:
+      return "default";
+    case PairStatus::Always:
+      return "always";
+  }
+  return "unknown";
+}
+
+std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
+                                            const CollisionMatrixOptions& options) {
+  requireUsable(options);
+  const Examiner examiner(robot, options);
+  std::vector<LinkPairReport> reports = examiner.pairs();
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failures(reports.size());
+  const auto work = [&] {
+    for (std::size_t i = next++; i < reports.size(); i = next++) {
+      try {
+        examiner.examine(reports[i]);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  {
+    const unsigned wanted = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < std::min<std::size_t>(wanted, reports.size()); ++i)
+      others.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return reports;
+}
+
+}  // namespace swept

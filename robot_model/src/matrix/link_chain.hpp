@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "kinematics/motion_model.hpp"
+
+namespace swept::detail {
+
+/// A range of values for each variable of a chain.
+struct JointBox {
+  std::vector<double> lower;  ///< rad or m
+  std::vector<double> upper;
+
+  double middle(std::size_t k) const { return 0.5 * lower[k] + 0.5 * upper[k]; }
+  /// No value is farther from the middle, rounding included.
+  double half(std::size_t k) const {
+    const double m = middle(k);
+    return std::max(upper[k] - m, m - lower[k]) * (1.0 + 1e-15);
+  }
+};
+
+/// One joint between two bodies.
+struct ChainJoint {
+  int body = 0;              ///< that the joint moves
+  bool slides = false;       ///< prismatic; else it turns
+  std::size_t variable = 0;  ///< index into LinkChain::variables()
+  double scale = 1.0;        ///< the joint moves by this times what its variable does; not negative
+};
+
+/// The joints between two bodies, in order from the first to the second, and where their axes are.
+class LinkChain {
+ public:
+  /// Poses and axes for one value of each variable, in the frame of the last body that carries both.
+  struct Place {
+    struct Axis {
+      Eigen::Vector3d point;      ///< m
+      Eigen::Vector3d direction;  ///< unit
+    };
+    Eigen::Isometry3d base_from_a;
+    Eigen::Isometry3d base_from_b;
+    std::vector<Axis> axes;  ///< one per joint
+    // Scratch: the path's share of a motion that stands still.
+    std::vector<double> q;
+    std::vector<JointMotion> motion;
+    std::vector<BodyState> states;
+  };
+
+  /// `model` has all of the robot's variables and must outlive this.
+  LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB);
+
+  /// The box holds all relative poses within the limits, and joints() is all there is between.
+  bool bounded() const { return bounded_; }
+  const std::vector<ChainJoint>& joints() const { return joints_; }
+  const std::vector<int>& variables() const { return variables_; }  ///< of the robot
+  /// All values the variables can have (tolerance::kLimit past their limits included); of those that
+  /// can turn by more than a turn, one turn.
+  const JointBox& box() const { return box_; }
+  /// The limits themselves; may be infinite.
+  const JointBox& limits() const { return limits_; }
+  /// m; no point of either path is farther from the base's origin, apart from the links themselves.
+  double reach() const { return reach_; }
+
+  /// All variables at these values of a whole configuration.
+  void startFrom(const Eigen::VectorXd& configuration, Place& place) const;
+  /// The chain's variables at these values. False: nothing can be said.
+  bool moveTo(std::span<const double> values, Place& place) const;
+
+ private:
+  void addPath(int from, bool reversed);
+  void addVariable(const Robot& robot, ChainJoint& joint);
+  void boundTurns();
+
+  const KinematicModel& model_;
+  int bodyA_, bodyB_;
+  int base_ = 0;
+  bool bounded_ = true;
+  double reach_ = 0.0;
+  std::vector<ChainJoint> joints_;
+  std::vector<int> order_;  ///< bodies of the path, parents first
+  std::vector<int> variables_;
+  JointBox box_, limits_;
+};
+
+}  // namespace swept::detail

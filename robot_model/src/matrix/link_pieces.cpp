@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matrix/link_pieces.hpp"
+
+#include <algorithm>
+
+#include "swept/core/distance.hpp"
+
+namespace swept::detail {
+
+LinkPieces piecesOf(const Robot& robot, const KinematicModel& model, int link) {
+  LinkPieces result;
+  for (const CollisionGeometry& geometry : robot.links()[link].collision) {
+    LinkPieces::Piece piece{geometry.shape, model.body_from_link[link] * geometry.link_from_shape,
+                            boundingSphere(geometry.shape), -1};
+    piece.ball.center = piece.body_from_shape * piece.ball.center;
+    result.reach = std::max(result.reach, piece.ball.center.norm() + piece.ball.radius);
+    if (geometry.cover) {
+      const int first = static_cast<int>(result.balls.size());
+      const int number = static_cast<int>(result.pieces.size());
+      piece.root = first;
+      for (const SphereCover::Node& node : geometry.cover->nodes)
+        result.balls.push_back({piece.body_from_shape * node.ball.center.cast<double>(),
+                                static_cast<double>(node.ball.radius), number,
+                                first + node.firstChild, node.childCount});
+    }
+    result.pieces.push_back(std::move(piece));
+  }
+  return result;
+}
+
+LinkDistance linkDistance(const LinkPieces& a, const LinkPieces& b, const LinkChain::Place& place,
+                          double enough, double contact) {
+  const Eigen::Isometry3d a_from_b = place.base_from_a.inverse() * place.base_from_b;
+  LinkDistance result;
+  for (const LinkPieces::Piece& first : a.pieces) {
+    const Eigen::Isometry3d shape_from_b = first.body_from_shape.inverse() * a_from_b;
+    for (const LinkPieces::Piece& second : b.pieces) {
+      const double coarse = (a_from_b * second.ball.center - first.ball.center).norm() -
+                            first.ball.radius - second.ball.radius;
+      DistanceOptions options;
+      options.enough = std::min(enough, result.upper);
+      options.contact = contact;
+      if (coarse > options.enough) {
+        result.lower = std::min(result.lower, coarse);
+        continue;
+      }
+      const DistanceResult found =
+          distance(first.shape, second.shape, shape_from_b * second.body_from_shape, options);
+      ++result.computed;
+      result.lower = std::min(result.lower, found.lower);
+      result.upper = std::min(result.upper, found.upper);
+      if (result.upper <= contact) return result;
+    }
+  }
+  return result;
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinematics/motion_model.hpp"
+#include "matrix/link_chain.hpp"
+#include "swept/core/shapes.hpp"
+
+namespace swept::detail {
+
+/// A link's collision geometry in its body's frame, with all balls of its covers in one list.
+struct LinkPieces {
+  struct Piece {
+    Shape shape;
+    Eigen::Isometry3d body_from_shape;
+    BoundingSphere ball;  ///< body frame
+    int root = -1;        ///< its cover's first ball; -1: it has none
+  };
+  struct Ball {
+    Eigen::Vector3d center;  ///< m, body frame
+    double radius;           ///< m
+    int piece;
+    int firstChild;  ///< children are consecutive
+    int childCount;  ///< 0: a leaf
+  };
+  std::vector<Piece> pieces;
+  std::vector<Ball> balls;
+  double reach = 0.0;  ///< m, no point is farther from the body's origin
+};
+
+LinkPieces piecesOf(const Robot& robot, const KinematicModel& model, int link);
+
+/// Least distance of two links at one place of the chain, as an interval.
+struct LinkDistance {
+  double lower = std::numeric_limits<double>::infinity();  ///< m
+  double upper = std::numeric_limits<double>::infinity();  ///< m
+  int computed = 0;                                        ///< pieces compared on exact geometry
+};
+/// Gives up on what is proven farther than `enough`, and on all once two points at most `contact`
+/// apart are known (m).
+LinkDistance linkDistance(const LinkPieces& a, const LinkPieces& b, const LinkChain::Place& place,
+                          double enough, double contact);
+
+}  // namespace swept::detail

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matrix/never_proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "swept/core/tolerances.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// What one distance on exact geometry counts for in the effort.
+constexpr std::int64_t kExactEffort = 100;
+
+/// Balls are replaced by their children while their radius is more than this share of the approach:
+/// before, halving the box gains more.
+constexpr double kRefineAt = 0.5;
+
+/// Exact geometry is asked where it may gain this share of the approach over leaves.
+constexpr double kExactAt = 0.5;
+
+/// m. A box in which open pairs approach by less is not halved any more.
+constexpr double kFinestApproach = 1e-6;
+
+}  // namespace
+
+NeverProof::NeverProof(const LinkPieces& a, const LinkPieces& b, const LinkChain& chain,
+                       double margin, LinkChain::Place& place)
+    : a_(a),
+      b_(b),
+      chain_(chain),
+      margin_(margin),
+      place_(place),
+      bounds_(chain),
+      nearestDistance_(std::numeric_limits<double>::infinity()) {
+  double largest = 1.0;  // of the joints' values, which are off by their own rounding
+  for (const ChainJoint& joint : chain.joints()) {
+    const double value = std::max(std::abs(chain.box().lower[joint.variable]),
+                                  std::abs(chain.box().upper[joint.variable]));
+    largest = std::max(largest, joint.scale * value);
+  }
+  const double joints = static_cast<double>(chain.joints().size() + 2);
+  required_ = margin + tolerance::kRoundingPerJoint * largest * joints *
+                           (2.0 * chain.reach() + a.reach + b.reach);
+  for (const LinkPieces::Piece& first : a.pieces)
+    for (const LinkPieces::Piece& second : b.pieces) arena_.push_back({first.root, second.root});
+  middle_.resize(chain.variables().size());
+  boxes_.push_back({chain.box(), 0, arena_.size(), 1.0});
+}
+
+ChainBounds::Ball NeverProof::ballA(int i, double radius) const {
+  return {place_.base_from_a * a_.balls[i].center, radius};
+}
+ChainBounds::Ball NeverProof::ballB(int i, double radius) const {
+  return {place_.base_from_b * b_.balls[i].center, radius};
+}
+
+NeverProof::State NeverProof::run(std::int64_t budget) {
+  while (!boxes_.empty() && !contact_ && effort_ < budget) {
+    const Box box = std::move(boxes_.back());
+    boxes_.pop_back();
+    look(box);
+  }
+  if (contact_) return State::Contact;
+  if (!boxes_.empty()) return State::Open;
+  return stuck_ ? State::Stuck : State::Proven;
+}
+
+void NeverProof::look(const Box& box) {
+  for (std::size_t k = 0; k < middle_.size(); ++k) middle_[k] = box.values.middle(k);
+  if (!chain_.moveTo(middle_, place_)) {
+    stuck_ = true;
+    return;
+  }
+  bounds_.setBox(box.values, place_);
+  collectOpen(box);
+  if (contact_) return;
+  if (asked_) dropFar();
+  if (arena_.size() == firstOpen_) {
+    share_ += box.share;
+  } else {
+    split(box);
+  }
+}
+
+void NeverProof::collectOpen(const Box& box) {
+  forgetWorst();
+  asked_ = false;
+  // What later boxes had appended is done with.
+  arena_.resize(box.first + box.count);
+  firstOpen_ = arena_.size();
+  for (std::size_t i = box.first; i < firstOpen_ && !contact_; ++i) refine(arena_[i]);
+}
+
+void NeverProof::refine(BallPair pair) {
+  work_.assign(1, pair);
+  while (!work_.empty() && !contact_) {
+    pair = work_.back();
+    work_.pop_back();
+    double approach = 0.0, gap = 0.0;
+    if (isApart(pair, approach, gap)) continue;
+    const LinkPieces::Ball& a = a_.balls[pair.a];
+    const LinkPieces::Ball& b = b_.balls[pair.b];
+    const bool leaves = a.childCount == 0 && b.childCount == 0;
+    if (!leaves && std::max(a.radius, b.radius) > kRefineAt * approach) {
+      const bool ofA = b.childCount == 0 || (a.childCount > 0 && a.radius >= b.radius);
+      const LinkPieces::Ball& parent = ofA ? a : b;
+      for (int i = parent.firstChild; i < parent.firstChild + parent.childCount; ++i)
+        work_.push_back(ofA ? BallPair{i, pair.b} : BallPair{pair.a, i});
+      continue;
+    }
+    keepOpen(pair, approach, gap);
+    // What overlaps deeply has many such pairs; the first of them is enough to see it.
+    if (leaves && !asked_ && !(gap > kExactAt * approach)) askExact(pair);
+  }
+}
+
+bool NeverProof::isApart(const BallPair& pair, double& approach, double& gap) {
+  ++effort_;
+  const ChainBounds::Ball a = ballA(pair.a, 0.0);
+  const ChainBounds::Ball b = ballB(pair.b, 0.0);
+  const Eigen::Vector3d between = b.center - a.center;
+  const double distance = between.norm();
+  gap = distance - a_.balls[pair.a].radius - b_.balls[pair.b].radius - required_;
+  approach =
+      distance > 0.0 ? bounds_.approachAlong(between / distance, a, b) : bounds_.approach(a, b);
+  return gap > approach;  // false for NaN
+}
+
+void NeverProof::keepOpen(const BallPair& pair, double approach, double gap) {
+  arena_.push_back(pair);
+  if (approach - gap <= worst_.lack) return;
+  worst_.lack = approach - gap;
+  worst_.approach = approach;
+  worst_.shares.assign(bounds_.shares().begin(), bounds_.shares().end());
+}
+
+void NeverProof::askExact(const BallPair& leaves) {
+  asked_ = true;
+  const double approach = bounds_.approach(ballA(leaves.a, a_.balls[leaves.a].radius),
+                                           ballB(leaves.b, b_.balls[leaves.b].radius));
+  const LinkDistance found =
+      linkDistance(a_, b_, place_, required_ + 2.0 * approach, margin_);
+  effort_ += kExactEffort * std::max(1, found.computed);
+  exactDistance_ = found.lower;
+  contact_ = found.upper <= margin_;
+  if (!contact_ && !(found.lower < nearestDistance_)) return;
+  nearestDistance_ = found.lower;
+  nearest_ = middle_;
+}
+
+void NeverProof::dropFar() {
+  forgetWorst();
+  const std::size_t end = arena_.size();
+  const double gap = exactDistance_ - required_;
+  std::size_t kept = firstOpen_;
+  // Pairs are kept in place: none is written before it is read.
+  for (std::size_t i = firstOpen_; i < end; ++i) {
+    ++effort_;
+    const BallPair pair = arena_[i];
+    const double approach = bounds_.approach(ballA(pair.a, a_.balls[pair.a].radius),
+                                             ballB(pair.b, b_.balls[pair.b].radius));
+    if (gap > approach) continue;
+    arena_[kept++] = pair;
+    if (approach - gap <= worst_.lack) continue;
+    worst_.lack = approach - gap;
+    worst_.approach = approach;
+    worst_.shares.assign(bounds_.shares().begin(), bounds_.shares().end());
+  }
+  arena_.resize(kept);
+}
+
+void NeverProof::split(const Box& box) {
+  if (worst_.shares.empty() || worst_.approach < kFinestApproach) {
+    stuck_ = true;
+    return;
+  }
+  const auto most = std::ranges::max_element(worst_.shares);
+  const auto k = static_cast<std::size_t>(most - worst_.shares.begin());
+  const std::size_t count = arena_.size() - firstOpen_;
+  const double middle = box.values.middle(k);
+  for (const bool high : {true, false}) {
+    Box part{box.values, firstOpen_, count, 0.5 * box.share};
+    (high ? part.values.lower : part.values.upper)[k] = middle;
+    boxes_.push_back(std::move(part));
+  }
+}
+
+}  // namespace swept::detail
