@@ -22,6 +22,11 @@ constexpr std::string_view kReplayExitCodes =
 constexpr std::string_view kBenchExitCodes =
     "Exit codes: 0 measured, whatever the verdicts; 3 bad input or usage.";
 
+constexpr std::string_view kAcmExitCodes =
+    "Exit codes: 0 the SRDF disables no pair that may collide, 1 it disables one, 2 it disables "
+    "one\n"
+    "for which that is not known, 3 bad input or usage.";
+
 constexpr std::string_view kStates =
     "States are names from the SRDF or comma-separated values (rad, m) in the order of the "
     "group's\n"
@@ -140,6 +145,36 @@ void addBenchOptions(CLI::App& app, Arguments& args) {
           ""));
 }
 
+void addAcmOptions(CLI::App& app, Arguments& args) {
+  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
+  app.add_option("--srdf", args.srdf,
+                 "SRDF file to compare with, and to keep all but the disabled pairs of; without: a "
+                 ".srdf beside the URDF with the same stem, if there is one; 'none': no SRDF")
+      ->type_name("FILE");
+  app.add_option("-o,--output", args.output, "SRDF to write; may be the one that was read")
+      ->type_name("FILE");
+  app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+  app.add_option("--margin", args.margin, "m; contact means: at most this apart (default 0)")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--budget", args.budget,
+                 "work per pair of links, in distances between balls; one on exact geometry counts "
+                 "as 100 (default 20000000, a few seconds)")
+      ->type_name("N")
+      ->check(within(0, 1e15, "between 0 and 1e15"));
+  app.add_option("--samples", args.samples,
+                 "random configurations per pair of links (default 1000)")
+      ->type_name("N")
+      ->check(within(0, 1e9, "between 0 and 1e9"));
+  app.add_option("--seed", args.seed, "of the random numbers, 1 or more (default 1)")
+      ->type_name("N")
+      ->check(within(1, std::numeric_limits<std::uint32_t>::max(), "between 1 and 4294967295"));
+  app.add_flag("--json", args.json, "one JSON object on stdout instead of text");
+  app.add_flag("-q,--quiet", args.quiet, "no warnings and no progress on stderr");
+}
+
 /// Each runs from the folder that holds `models`.
 std::string_view exampleOf(std::string_view command) {
   if (command == "info")
@@ -150,6 +185,7 @@ std::string_view exampleOf(std::string_view command) {
   if (command == "motion")
     return "swept motion models/robots/rook7/rook7.urdf home ready --group arm "
            "--scene models/scenes/narrow_slot.yaml";
+  if (command == "acm") return "swept acm models/robots/rook7/rook7.urdf -o rook7.srdf";
   if (command == "replay") return "swept replay models/cases.json";
   if (command == "edges")
     return "swept bench edges models/robots/rook7/rook7.urdf --group arm "
@@ -160,6 +196,7 @@ std::string_view exampleOf(std::string_view command) {
 
 std::string footer(std::string_view command) {
   std::string text = "\nExample:\n  " + std::string(exampleOf(command)) + "\n";
+  if (command == "acm") return text + "\n" + std::string(kAcmExitCodes);
   if (command == "replay") return text + "\n" + std::string(kReplayExitCodes);
   if (command == "edges") return text + "\n" + std::string(kBenchExitCodes);
   if (command != "info") text = "\n" + std::string(kStates) + "\n" + text;
@@ -187,7 +224,7 @@ std::string messageOf(const CLI::ParseError& error, int argc, const char* const*
     return argc > 2 ? std::string("bench has no subcommand '") + argv[2] + "'; there is edges"
                     : "bench: a subcommand is required; there is edges";
   return std::string("no subcommand '") + argv[1] +
-         "'; there are info, check, motion, plan, replay, bench";
+         "'; there are info, check, motion, plan, acm, replay, bench";
 }
 
 }  // namespace
@@ -220,12 +257,15 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
   addProblemOptions(*plan, args, "plans from start to goals; without --set or --index all of them");
   addPlanOptions(*plan, args);
   addBenchOptions(*edges, args);
+  auto* acm = app.add_subcommand(
+      "acm", "Which pairs of links can never collide: the SRDF's disabled pairs");
+  addAcmOptions(*acm, args);
   auto* replay = app.add_subcommand("replay", "Distances of shape pairs against known answers");
   replay->add_option("cases", args.cases, "cases of two shapes each; planners_demo/README.md")
       ->required()
       ->type_name("FILE.json");
   replay->add_flag("--json", args.json, "one JSON object on stdout instead of text");
-  for (CLI::App* sub : {info, check, motion, plan, replay, edges})
+  for (CLI::App* sub : {info, check, motion, plan, acm, replay, edges})
     sub->footer(footer(sub->get_name()));
 
   try {

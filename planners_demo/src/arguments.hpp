@@ -43,6 +43,9 @@ struct Arguments {
   std::string output;
   bool noSimplify = false;
   int jobs = 1;
+
+  std::int64_t budget = 20'000'000;  ///< per pair of links
+  int samples = 1000;                ///< per pair of links
 };
 
 /// The result of reading a command line: either something to run, or everything is said already.

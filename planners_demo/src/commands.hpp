@@ -12,6 +12,7 @@ ExitCode runInfo(const Arguments& args);
 ExitCode runCheck(const Arguments& args);
 ExitCode runMotion(const Arguments& args);
 ExitCode runPlan(const Arguments& args);
+ExitCode runAcm(const Arguments& args);
 ExitCode runReplay(const Arguments& args);
 ExitCode runBenchEdges(const Arguments& args);
 /// `plan` over all problems of a file, or of one set of it.

@@ -15,6 +15,7 @@ swept::ExitCode run(const swept::Arguments& args) {
   if (args.command == "info") return swept::runInfo(args);
   if (args.command == "check") return swept::runCheck(args);
   if (args.command == "motion") return swept::runMotion(args);
+  if (args.command == "acm") return swept::runAcm(args);
   if (args.command == "replay") return swept::runReplay(args);
   if (args.command == "bench edges") return swept::runBenchEdges(args);
   return swept::runPlan(args);

@@ -87,7 +87,7 @@ const Case kOptions[] = {
     {"UnknownSubcommand",
      {"verfy"},
      kError +
-         "no subcommand 'verfy'; there are info, check, motion, plan, replay, bench (try --help)"},
+         "no subcommand 'verfy'; there are info, check, motion, plan, acm, replay, bench (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},
     {"UnknownOption", both("check", {"left", "--frobnicate"}),
      kError + "The following argument was not expected: --frobnicate (try --help)"},

@@ -27,16 +27,16 @@ namespace swept::detail {
 ///    x = b, let D be some of the joints after C. While these move and the others keep the middle,
 ///    Taylor's theorem bounds the change of n . x by
 ///      sum over D of (e_j |m_j| + e_j^2 r_j(x) / 2 + e_j sum over k in D, k > j, of e_k r_k(x)),
-///    since dx/dq_j = w_j x (x - o_j) =: m_j along n, and d2x/dq_j dq_k = w_j x (w_k x (x - o_k)) is
-///    no longer than r_k(x). Where j slides, m_j = n . w_j and there is no second derivative with
-///    respect to j and those after it; where k slides, r_k is replaced by 1. The joints that are not
-///    in D move afterwards, for s_j each. a likewise.
+///    since dx/dq_j = w_j x (x - o_j) =: m_j along n, and d2x/dq_j dq_k = w_j x (w_k x (x - o_k))
+///    is no longer than r_k(x). Where j slides, m_j = n . w_j and there is no second derivative
+///    with respect to j and those after it; where k slides, r_k is replaced by 1. The joints that
+///    are not in D move afterwards, for s_j each. a likewise.
 /// Which C is best, and which joints are in D, is chosen anew for each pair of points; whatever is
 /// chosen holds. For all points of balls around a and b, r_j grows by the ball's radius, and |m_j|
 /// for a given n by |n x w_j| times it. A joint that occurs twice in a mechanism (mimics) counts as
 /// several that are free: that bounds more than can happen.
-/// Roundings: sums of positive terms in doubles, raised by 1e-9 of them; poses in the middle are off
-/// by what the caller adds to the distance to be kept.
+/// Roundings: sums of positive terms in doubles, raised by 1e-9 of them; poses in the middle are
+/// off by what the caller adds to the distance to be kept.
 class ChainBounds {
  public:
   /// `chain` must outlive this.
@@ -64,11 +64,11 @@ class ChainBounds {
 
   const LinkChain& chain_;
   const LinkChain::Place* place_ = nullptr;
-  std::vector<double> half_, chord_;       ///< e_j, c_j (e_j where j slides)
-  std::vector<double> reachA_, reachB_;    ///< r_j(a), r_j(b); 1 where j slides
-  std::vector<double> free_;               ///< s_j
-  std::vector<double> costA_, costB_;      ///< of each joint
-  std::vector<double> totalA_, totalB_;    ///< of the first joints; of the last ones
+  std::vector<double> half_, chord_;     ///< e_j, c_j (e_j where j slides)
+  std::vector<double> reachA_, reachB_;  ///< r_j(a), r_j(b); 1 where j slides
+  std::vector<double> free_;             ///< s_j
+  std::vector<double> costA_, costB_;    ///< of each joint
+  std::vector<double> totalA_, totalB_;  ///< of the first joints; of the last ones
   std::vector<double> shares_;
 };
 

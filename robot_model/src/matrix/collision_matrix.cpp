@@ -206,7 +206,8 @@ std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
     }
   };
   {
-    const unsigned wanted = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+    const unsigned wanted =
+        options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
     std::vector<std::jthread> others;
     for (std::size_t i = 1; i < std::min<std::size_t>(wanted, reports.size()); ++i)
       others.emplace_back(work);

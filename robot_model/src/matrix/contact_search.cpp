@@ -65,8 +65,7 @@ std::optional<ContactSearch::Values> ContactSearch::findContact(int samples, std
   if (!canSample()) return std::nullopt;
   return firstSample(chain_.limits(), samples, seed, [&](const Values& values) {
     const bool full = nearest_.size() == kStarts;
-    const double enough =
-        full ? nearest_.back().distance : std::numeric_limits<double>::infinity();
+    const double enough = full ? nearest_.back().distance : std::numeric_limits<double>::infinity();
     const double distance = distanceAt(values, enough);
     if (distance <= margin_) return true;
     if (!full || distance < enough) keepNearest(distance, values);

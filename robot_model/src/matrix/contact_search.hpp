@@ -24,8 +24,8 @@ class ContactSearch {
   std::optional<Values> findContact(int samples, std::uint64_t seed);
   /// The same, at which they are not.
   std::optional<Values> findApart(int samples, std::uint64_t seed);
-  /// Values in contact, downhill on the distance from these values and from the nearest of those that
-  /// findContact looked at.
+  /// Values in contact, downhill on the distance from these values and from the nearest of those
+  /// that findContact looked at.
   std::optional<Values> descend(const Values& start);
 
  private:

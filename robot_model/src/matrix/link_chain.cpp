@@ -61,8 +61,9 @@ void LinkChain::addVariable(const Robot& robot, ChainJoint& joint) {
   const MovingBody& body = model_.bodies[joint.body];
   const Variable& variable = robot.variables()[body.variable];
   const bool several = body.type == JointType::Planar || body.type == JointType::Floating;
-  bounded_ = bounded_ && !several && std::abs(body.offset) <= kFarthest &&
-             joint.scale * std::max(std::abs(variable.lower), std::abs(variable.upper)) <= kFarthest;
+  bounded_ =
+      bounded_ && !several && std::abs(body.offset) <= kFarthest &&
+      joint.scale * std::max(std::abs(variable.lower), std::abs(variable.upper)) <= kFarthest;
   const auto known = std::ranges::find(variables_, body.variable);
   joint.variable = static_cast<std::size_t>(known - variables_.begin());
   if (known != variables_.end()) return;
@@ -75,8 +76,8 @@ void LinkChain::addVariable(const Robot& robot, ChainJoint& joint) {
 }
 
 /// After a turn of a variable all is as before if each joint that follows it turns, by whole turns.
-/// The value of a joint without limits is the same angle whatever turns are added: then this must be
-/// so.
+/// The value of a joint without limits is the same angle whatever turns are added: then this must
+/// be so.
 void LinkChain::boundTurns() {
   constexpr double turn = 2.0 * std::numbers::pi;
   for (std::size_t k = 0; k < variables_.size(); ++k) {

@@ -33,7 +33,8 @@ struct ChainJoint {
 /// The joints between two bodies, in order from the first to the second, and where their axes are.
 class LinkChain {
  public:
-  /// Poses and axes for one value of each variable, in the frame of the last body that carries both.
+  /// Poses and axes for one value of each variable, in the frame of the last body that carries
+  /// both.
   struct Place {
     struct Axis {
       Eigen::Vector3d point;      ///< m
@@ -55,8 +56,8 @@ class LinkChain {
   bool bounded() const { return bounded_; }
   const std::vector<ChainJoint>& joints() const { return joints_; }
   const std::vector<int>& variables() const { return variables_; }  ///< of the robot
-  /// All values the variables can have (tolerance::kLimit past their limits included); of those that
-  /// can turn by more than a turn, one turn.
+  /// All values the variables can have (tolerance::kLimit past their limits included); of those
+  /// that can turn by more than a turn, one turn.
   const JointBox& box() const { return box_; }
   /// The limits themselves; may be infinite.
   const JointBox& limits() const { return limits_; }

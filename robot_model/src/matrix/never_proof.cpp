@@ -17,9 +17,6 @@ constexpr std::int64_t kExactEffort = 100;
 /// before, halving the box gains more.
 constexpr double kRefineAt = 0.5;
 
-/// Exact geometry is asked where it may gain this share of the approach over leaves.
-constexpr double kExactAt = 0.5;
-
 /// m. A box in which open pairs approach by less is not halved any more.
 constexpr double kFinestApproach = 1e-6;
 
@@ -111,8 +108,9 @@ void NeverProof::refine(BallPair pair) {
       continue;
     }
     keepOpen(pair, approach, gap);
-    // What overlaps deeply has many such pairs; the first of them is enough to see it.
-    if (leaves && !asked_ && !(gap > kExactAt * approach)) askExact(pair);
+    // What overlaps deeply has many such pairs; the first of them is enough to see it. Leaves that
+    // are just apart are no exception: around a corner of a box where they touch, no halving helps.
+    if (leaves && !asked_) askExact(pair);
   }
 }
 
@@ -140,8 +138,7 @@ void NeverProof::askExact(const BallPair& leaves) {
   asked_ = true;
   const double approach = bounds_.approach(ballA(leaves.a, a_.balls[leaves.a].radius),
                                            ballB(leaves.b, b_.balls[leaves.b].radius));
-  const LinkDistance found =
-      linkDistance(a_, b_, place_, required_ + 2.0 * approach, margin_);
+  const LinkDistance found = linkDistance(a_, b_, place_, required_ + 2.0 * approach, margin_);
   effort_ += kExactEffort * std::max(1, found.computed);
   exactDistance_ = found.lower;
   contact_ = found.upper <= margin_;

@@ -13,12 +13,12 @@ namespace swept::detail {
 ///
 /// A box of joint values is looked at in its middle. Each point of a link is in the ball of some
 /// leaf of its cover; so two links are more than the margin apart all over the box if each pair of
-/// leaves, or of ancestors in their place, is: centres farther apart than the radii, the margin, the
-/// rounding of poses and what ChainBounds says that they approach. What a box proved apart holds in
-/// its parts too, so these inherit only the pairs of balls that are still open; their number falls
-/// as boxes get smaller. Where balls that touch in the middle are all that is left, exact geometry
-/// is asked for its distance there. If that is more than points in the open balls can approach, the
-/// box is proven as well. Else it is halved across the variable that contributes most to the
+/// leaves, or of ancestors in their place, is: centres farther apart than the radii, the margin,
+/// the rounding of poses and what ChainBounds says that they approach. What a box proved apart
+/// holds in its parts too, so these inherit only the pairs of balls that are still open; their
+/// number falls as boxes get smaller. Where leaves are open, exact geometry is asked for its
+/// distance in the middle: a pair of balls within which points approach by less is proven apart as
+/// well. If pairs are left, the box is halved across the variable that contributes most to the
 /// approach of the worst pair.
 ///
 /// Boxes are taken depth first: the list of open pairs of balls is a stack then.
