@@ -68,11 +68,11 @@ inline std::string randomChain(std::mt19937& random) {
     if (i == 0) continue;
     const bool slides = unit(random) < 0.2;
     const bool forks = i > 2 && unit(random) < 0.3;
-    const std::string range = slides ? "0.1" : std::to_string(0.3 + 2.5 * unit(random));
+    const std::string range = slides ? "0.1" : std::to_string(0.5 + 2.6 * unit(random));
     text += jointText("j" + std::to_string(i), slides ? "prismatic" : "revolute",
                       "l" + std::to_string(forks ? i - 2 : i - 1), "l" + std::to_string(i),
                       "-" + range + " " + range,
-                      numbers(vector(0.06) + Eigen::Vector3d(0.0, 0.0, 0.12 + length)),
+                      numbers(vector(0.06) + Eigen::Vector3d(0.0, 0.0, 0.1 + 0.7 * length)),
                       numbers(vector(1.0)));
   }
   return text;

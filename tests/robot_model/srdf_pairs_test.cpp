@@ -20,13 +20,17 @@ std::shared_ptr<const Robot> robot() {
       "r.urdf");
 }
 
-/// a - b may collide, a - c never, b - c adjacent.
+LinkPairReport pairOf(int a, int b, PairStatus status) {
+  LinkPairReport report;
+  report.linkA = a;
+  report.linkB = b;
+  report.status = status;
+  return report;
+}
+
 std::vector<LinkPairReport> reports() {
-  std::vector<LinkPairReport> pairs(3);
-  pairs[0] = {.linkA = 0, .linkB = 1, .status = PairStatus::MayCollide};
-  pairs[1] = {.linkA = 0, .linkB = 2, .status = PairStatus::Never};
-  pairs[2] = {.linkA = 1, .linkB = 2, .status = PairStatus::Adjacent};
-  return pairs;
+  return {pairOf(0, 1, PairStatus::MayCollide), pairOf(0, 2, PairStatus::Never),
+          pairOf(1, 2, PairStatus::Adjacent)};
 }
 
 const std::string kNever = R"(<disable_collisions link1="a" link2="c &lt; d" reason="Never"/>)";
