@@ -65,7 +65,9 @@ std::string detailOf(const AcmResult& result, const LinkPairReport& pair) {
     case PairStatus::Unknown:
       break;
   }
-  return percent(pair.proven) + " proven, for " + joints;
+  const std::string near =
+      std::isinf(pair.nearest) ? "" : ", nearest seen " + shortNumber(pair.nearest) + " m";
+  return percent(pair.proven) + " proven, for " + joints + near;
 }
 
 std::string pairTable(const AcmResult& result) {
@@ -144,7 +146,8 @@ Json pairJson(const AcmResult& result, const LinkPairReport& pair) {
                {"link_b", robot.links()[pair.linkB].name},
                {"status", toString(pair.status)},
                {"proven", pair.proven},
-               {"effort", pair.effort}};
+               {"effort", pair.effort},
+               {"nearest", finiteOrNull(pair.nearest)}};
   json["joint"] = pair.joint < 0 ? Json(nullptr) : Json(robot.joints()[pair.joint].name);
   Json variables = Json::array();
   for (const int v : pair.variables) variables.push_back(robot.variables()[v].name);

@@ -121,7 +121,9 @@ TEST(Acm, NothingIsDisabledOnSamplesAlone) {
   const Outcome run =
       runSwept({"acm", mill.urdf, "--srdf", srdf, "--budget", "0", "--samples", "500", "-o", out});
   EXPECT_EQ(run.exitCode, 2);
-  EXPECT_THAT(run.out, HasSubstr("base   upper  unknown      0.0 % proven, for 1 variable\n"));
+  EXPECT_THAT(
+      run.out,
+      HasSubstr("base   upper  unknown      0.0 % proven, for 1 variable, nearest seen 0.0"));
   EXPECT_THAT(run.out,
               HasSubstr("disabled in the SRDF, not known to be apart:\n  base - upper (Never)\n"));
   EXPECT_THAT(mill.folder().read("out.srdf"), Not(HasSubstr("upper")));

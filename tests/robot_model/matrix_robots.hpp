@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,13 @@ inline std::shared_ptr<const Robot> robotOf(const std::string& parts) {
   return Robot::parse("<robot name='made'>\n" + parts + "</robot>", "made.urdf");
 }
 
+template <typename... Parts>
+std::string joined(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
 /// A chain of links that bend and slide about any axes; some of them fork off.
 inline std::string randomChain(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -61,19 +69,19 @@ inline std::string randomChain(std::mt19937& random) {
   for (int i = 0; i < links; ++i) {
     const double length = 0.1 + 0.25 * unit(random);
     const double width = 0.03 + 0.05 * unit(random);
-    const std::string w = std::to_string(width), l = std::to_string(length);
-    const std::string geometry = i % 2 == 0 ? "<box size='" + w + " " + w + " " + l + "'/>"
-                                            : "<cylinder radius='" + w + "' length='" + l + "'/>";
-    text += linkText("l" + std::to_string(i), geometry, {0.0, 0.0, 0.5 * length});
+    const std::string geometry =
+        i % 2 == 0 ? joined("<box size='", width, " ", width, " ", length, "'/>")
+                   : joined("<cylinder radius='", width, "' length='", length, "'/>");
+    text += linkText(joined("l", i), geometry, {0.0, 0.0, 0.5 * length});
     if (i == 0) continue;
     const bool slides = unit(random) < 0.2;
     const bool forks = i > 2 && unit(random) < 0.3;
-    const std::string range = slides ? "0.1" : std::to_string(0.5 + 2.6 * unit(random));
-    text += jointText("j" + std::to_string(i), slides ? "prismatic" : "revolute",
-                      "l" + std::to_string(forks ? i - 2 : i - 1), "l" + std::to_string(i),
-                      "-" + range + " " + range,
-                      numbers(vector(0.06) + Eigen::Vector3d(0.0, 0.0, 0.1 + 0.7 * length)),
-                      numbers(vector(1.0)));
+    const double range = slides ? 0.1 : 0.5 + 2.6 * unit(random);
+    text +=
+        jointText(joined("j", i), slides ? "prismatic" : "revolute",
+                  joined("l", forks ? i - 2 : i - 1), joined("l", i), joined(-range, " ", range),
+                  numbers(vector(0.06) + Eigen::Vector3d(0.0, 0.0, 0.1 + 0.7 * length)),
+                  numbers(vector(1.0)));
   }
   return text;
 }

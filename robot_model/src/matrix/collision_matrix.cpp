@@ -112,9 +112,11 @@ void Examiner::examine(LinkPairReport& report) const {
   for (const int v : chain.variables()) atStart.push_back(start_[v]);
   if (search.isContact(atStart)) {
     report.witness = start_;
+    report.nearest = search.least();
     classifyContact(search, seed, report);
   } else {
     prove(chain, place, search, seed, report);
+    report.nearest = search.least();
   }
 }
 

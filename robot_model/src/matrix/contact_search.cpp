@@ -47,12 +47,14 @@ bool ContactSearch::canSample() const {
 double ContactSearch::distanceAt(const Values& values, double enough) {
   if (!chain_.moveTo(values, place_)) return std::numeric_limits<double>::infinity();
   const LinkDistance found = linkDistance(a_, b_, place_, enough, margin_);
-  return std::isfinite(found.upper) ? found.upper : found.lower;
+  least_ = std::min(least_, found.upper);
+  // Without two points to show, a bound is no contact.
+  const bool known = std::isfinite(found.upper) || !(found.lower > margin_);
+  return known ? found.upper : found.lower;
 }
 
 bool ContactSearch::isContact(const Values& values) {
-  return chain_.moveTo(values, place_) &&
-         linkDistance(a_, b_, place_, margin_, margin_).upper <= margin_;
+  return distanceAt(values, margin_) <= margin_;
 }
 
 void ContactSearch::keepNearest(double distance, const Values& values) {

@@ -27,6 +27,7 @@ class ContactSearch {
   /// Values in contact, downhill on the distance from these values and from the nearest of those
   /// that findContact looked at.
   std::optional<Values> descend(const Values& start);
+  double least() const { return least_; }  ///< m, of all distances computed; infinity without any
 
  private:
   struct Candidate {
@@ -44,6 +45,7 @@ class ContactSearch {
   const double margin_;
   LinkChain::Place& place_;
   std::vector<Candidate> nearest_;  ///< nearest first
+  double least_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace swept::detail

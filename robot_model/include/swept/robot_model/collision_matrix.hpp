@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -56,6 +57,9 @@ struct LinkPairReport {
   /// under Adjacent and where the proof was not tried.
   double proven = 0.0;
   std::int64_t effort = 0;  ///< spent of the budget
+  /// m. Least distance seen, to tell a pair that is Unknown: the two come at least so near.
+  /// Infinity where none was computed.
+  double nearest = std::numeric_limits<double>::infinity();
 };
 
 /// Every pair of links with collision geometry, ordered by linkA, then linkB. All variables count,
