@@ -134,7 +134,8 @@ TEST(Acm, TheMarginCounts) {
   // The upper arm's end is 0.3 m from the axis, the wall 0.44 m.
   const auto statusAt = [&](const char* margin) {
     const Outcome run = runSwept({"acm", mill.urdf, "--json", "--margin", margin});
-    for (const auto& pair : jsonOf(run)["pairs"])
+    const auto json = jsonOf(run);
+    for (const auto& pair : json["pairs"])
       if (pair["link_a"] == "wall" && pair["link_b"] == "upper")
         return pair["status"].get<std::string>();
     return std::string("none");
@@ -178,7 +179,7 @@ TEST(Acm, RefusesWhatCannotBeUsed) {
   for (const Case& c : {
            Case{{"acm"}, "swept: error: robot is required"},
            Case{{"acm", "none.urdf"}, "none.urdf: error: file not found"},
-           Case{{"acm", mill.urdf, "--srdf", broken}, broken + ":3: error: malformed XML"},
+           Case{{"acm", mill.urdf, "--srdf", broken}, broken + ":2: error: malformed XML"},
            Case{{"acm", mill.urdf, "-o", mill.folder().path("no/such.srdf")}, "cannot write '"},
            Case{{"acm", mill.urdf, "-o", mill.folder().path()}, "Is a directory"},
            Case{{"acm", mill.urdf, "--budget", "-1"}, "must be between 0 and 1e15, not -1"},
