@@ -6,7 +6,6 @@
 #include <cmath>
 #include <exception>
 #include <map>
-#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
