@@ -304,4 +304,16 @@ ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
   return ConvexHull(std::move(data));
 }
 
+ConvexHull ConvexHull::scaled(const ConvexHull& hull, double factor,
+                              const Eigen::Vector3d& middle) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(hull.vertices().size());
+  for (const Eigen::Vector3d& vertex : hull.vertices())
+    points.push_back(middle + factor * (vertex - middle));
+  const ConvexHull kept = of(points);
+  auto data = std::make_shared<Data>(*kept.data_);
+  data->error += factor * hull.error() * (1.0 + std::numeric_limits<double>::epsilon());
+  return ConvexHull(std::move(data));
+}
+
 }  // namespace swept

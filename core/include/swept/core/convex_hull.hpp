@@ -21,6 +21,8 @@ class ConvexHull {
   /// Of at most kCoarse vertices of `hull`, those farthest along directions that are spread evenly;
   /// the others lie within `error()` of it. A hull of no more than kFew vertices stays as it is.
   static ConvexHull coarser(const ConvexHull& hull);
+  /// Larger by a factor above zero from a middle (m), and so is `error()`.
+  static ConvexHull scaled(const ConvexHull& hull, double factor, const Eigen::Vector3d& middle);
   static constexpr std::size_t kFew = 400;
   static constexpr int kCoarse = 192;
 

@@ -89,6 +89,11 @@ struct BoundingSphere {
 };
 BoundingSphere boundingSphere(const Shape& shape);
 
+/// The shape, larger by `factor` in all directions from the middle of its box; planes and
+/// half-spaces stay as they are. Throws std::invalid_argument unless the factor is finite and above
+/// zero, and as the shapes' own functions do where sizes get too large.
+Shape scaled(const Shape& shape, double factor);
+
 /// Box of the shape in its own frame, rounded outward; unbounded (infinite coordinates) for planes
 /// and half-spaces.
 Aabb boundingBox(const Shape& shape);
