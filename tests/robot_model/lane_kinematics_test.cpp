@@ -176,7 +176,7 @@ class Turntable {
     geometry.body_from_shape.setIdentity();
     geometry.cover = cover;
     geometry.levers = detail::leverArms(model_.kinematics, 1, Eigen::Vector3d::UnitX(), 0.1);
-    model_.robotGeometry.push_back(geometry);
+    model_.robotGeometry = detail::SharedArray(std::vector<detail::RobotGeometry>{geometry});
     lanes_ = detail::compileLanes(model_);
     scratch_.emplace(lanes_);
   }

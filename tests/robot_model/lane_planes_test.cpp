@@ -58,7 +58,9 @@ class Pass {
     options.link = size_ = random.scale(1e-2, 1e1);
     options.branches = random.chance(0.5) ? 0.5 : 0.0;
     model_ = robotOf(random, options);
-    for (RobotGeometry& geometry : model_.robotGeometry) setShape(random, geometry);
+    changeGeometry(model_, [&](std::vector<RobotGeometry>& all) {
+      for (RobotGeometry& geometry : all) setShape(random, geometry);
+    });
     const double turn = random.scale(0.01, 4.0);
     from_ = configuration(random, model_.kinematics, turn, size_);
     to_ = configuration(random, model_.kinematics, turn, size_);
@@ -74,7 +76,7 @@ class Pass {
   /// Lanes in which more than the margin is proven. The direction is that of the nearest points at
   /// the middle of a lane, turned by up to `off`.
   Found divide(double margin, int lane, const Eigen::Vector3d& direction) {
-    model_.options.margin = margin;
+    model_.pairs.front().margin = margin;
     const LaneModel lanes = detail::compileLanes(model_);
     LaneScratch scratch(lanes);
     Found found;

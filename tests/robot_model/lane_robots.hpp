@@ -120,11 +120,21 @@ inline std::shared_ptr<const SphereCover> ballCover(Random& random, double size)
   return cover;
 }
 
+/// A model's geometry is shared between versions, so a changed one is a new one.
+template <typename Change>
+void changeGeometry(detail::CheckerModel& model, const Change& change) {
+  std::vector<detail::RobotGeometry> geometry(model.robotGeometry.begin(),
+                                              model.robotGeometry.end());
+  change(geometry);
+  model.robotGeometry = detail::SharedArray(std::move(geometry));
+}
+
 /// Bodies with one or several balls each, as the checker would compile them, with no world.
 inline detail::CheckerModel robotOf(Random& random, const ChainOptions& options) {
   detail::CheckerModel model;
   model.kinematics.bodies.emplace_back();
   for (const JointType type : options.types) addBody(random, options, type, model.kinematics);
+  std::vector<detail::RobotGeometry> all;
   for (std::size_t body = 1; body < model.kinematics.bodies.size(); ++body) {
     const int pieces = random.chance(0.3) ? 3 : 1;
     for (int i = 0; i < pieces; ++i) {
@@ -138,9 +148,10 @@ inline detail::CheckerModel robotOf(Random& random, const ChainOptions& options)
       geometry.radius = static_cast<double>(ball.radius);
       geometry.levers =
           detail::leverArms(model.kinematics, geometry.body, geometry.center, geometry.radius);
-      model.robotGeometry.push_back(geometry);
+      all.push_back(geometry);
     }
   }
+  model.robotGeometry = detail::SharedArray(std::move(all));
   return model;
 }
 

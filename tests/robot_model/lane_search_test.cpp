@@ -49,12 +49,11 @@ class Approach {
   /// What the search says with radii that add up to `sum` (m).
   std::optional<LaneAnswer::Kind> search(double sum) {
     const detail::GeometryPair& pair = model_.pairs.front();
-    setRadius(model_.robotGeometry[pair.a], 0.5 * sum);
-    if (self_) {
-      setRadius(model_.robotGeometry[pair.b], 0.5 * sum);
-    } else {
-      model_.worldGeometry = {worldGeometry(Sphere{0.5 * sum}, obstacle_)};
-    }
+    changeGeometry(model_, [&](std::vector<RobotGeometry>& geometry) {
+      setRadius(geometry[pair.a], 0.5 * sum);
+      if (self_) setRadius(geometry[pair.b], 0.5 * sum);
+    });
+    if (!self_) model_.worldGeometry = {worldGeometry(Sphere{0.5 * sum}, obstacle_)};
     const detail::LaneModel lanes = detail::compileLanes(model_);
     detail::LaneScratch scratch(lanes);
     if (!detail::compileLaneMotion(lanes, model_.kinematics, from_, to_, scratch))

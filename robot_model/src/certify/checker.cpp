@@ -7,6 +7,7 @@
 
 #include "certify/checker_model.hpp"
 #include "certify/motion_check.hpp"
+#include "certify/pair_reasons.hpp"
 #include "certify/state_check.hpp"
 
 namespace swept {
@@ -64,10 +65,10 @@ Checker::Checker(std::shared_ptr<const Robot> robot, std::string_view group,
 
 Checker::Checker(std::shared_ptr<const detail::CheckerModel> model) : model_(std::move(model)) {}
 
-Checker Checker::withWorld(std::shared_ptr<const World> world) const {
-  if (!world) throw std::invalid_argument("Checker: the world must not be null");
-  return Checker(detail::compileChecker(model_->robot, model_->group, std::move(world),
-                                        model_->options, model_.get()));
+detail::WorkspaceData& Checker::dataOf(Workspace& workspace) const {
+  if (workspace.data_->version != model_->version)
+    workspace.data_ = std::make_unique<detail::WorkspaceData>(*model_);
+  return *workspace.data_;
 }
 
 const Robot& Checker::robot() const {
@@ -87,13 +88,17 @@ int Checker::dimension() const {
 }
 
 const std::vector<Checker::Pair>& Checker::checkedPairs() const {
-  return model_->checkedPairs;
+  return detail::pairLists(*model_).checked;
 }
 const std::vector<Checker::Pair>& Checker::skippedPairs() const {
-  return model_->skippedPairs;
+  return detail::pairLists(*model_).skipped;
 }
 const std::vector<Checker::Pair>& Checker::standingContacts() const {
-  return model_->standingContacts;
+  return detail::pairLists(*model_).standing;
+}
+
+std::string Checker::explain(std::string_view bodyA, std::string_view bodyB) const {
+  return detail::explainPair(*model_, bodyA, bodyB);
 }
 
 void Checker::requireSize(std::span<const double> q) const {
@@ -103,37 +108,40 @@ void Checker::requireSize(std::span<const double> q) const {
                               std::to_string(q.size()));
 }
 
+void Checker::requireSizes(std::span<const double> states, std::size_t count) const {
+  const std::size_t expected = count * static_cast<std::size_t>(dimension());
+  if (states.size() == expected) return;
+  throw std::invalid_argument("Checker: " + std::to_string(count) + " states of group '" +
+                              group().name + "' have " + std::to_string(expected) +
+                              " values, not " + std::to_string(states.size()));
+}
+
 Verdict Checker::checkState(std::span<const double> q, Workspace& workspace) const {
   requireSize(q);
-  return detail::checkState(*model_, q, *workspace.data_);
+  return detail::checkState(*model_, q, dataOf(workspace));
 }
 
 void Checker::checkStates(std::span<const double> states, std::span<Verdict> verdicts,
                           Workspace& workspace) const {
-  const std::size_t expected = verdicts.size() * static_cast<std::size_t>(dimension());
-  if (states.size() != expected) {
-    throw std::invalid_argument(
-        "Checker: " + std::to_string(verdicts.size()) + " states of group '" + group().name +
-        "' have " + std::to_string(expected) + " values, not " + std::to_string(states.size()));
-  }
-  detail::checkStates(*model_, states, verdicts, *workspace.data_);
+  requireSizes(states, verdicts.size());
+  detail::checkStates(*model_, states, verdicts, dataOf(workspace));
 }
 
 StateReport Checker::reportState(std::span<const double> q, Workspace& workspace) const {
   requireSize(q);
-  return detail::reportState(*model_, q, *workspace.data_);
+  return detail::reportState(*model_, q, dataOf(workspace));
 }
 
 double Checker::clearance(std::span<const double> q, Workspace& workspace) const {
   requireSize(q);
-  return detail::stateClearance(*model_, q, *workspace.data_);
+  return detail::stateClearance(*model_, q, dataOf(workspace));
 }
 
 MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span<const double> to,
                                          Workspace& workspace, MotionQuery query) const {
   requireSize(from);
   requireSize(to);
-  return detail::certifyMotion(*model_, from, to, query, *workspace.data_);
+  return detail::certifyMotion(*model_, from, to, query, dataOf(workspace));
 }
 
 MotionClearance Checker::motionClearance(std::span<const double> from, std::span<const double> to,
@@ -144,7 +152,7 @@ MotionClearance Checker::motionClearance(std::span<const double> from, std::span
     throw std::invalid_argument("Checker: accuracy " + std::to_string(accuracy) +
                                 " m must be greater than zero");
   }
-  return detail::motionClearance(*model_, from, to, accuracy, *workspace.data_);
+  return detail::motionClearance(*model_, from, to, accuracy, dataOf(workspace));
 }
 
 bool Checker::withinLimits(std::span<const double> q) const {
@@ -153,7 +161,7 @@ bool Checker::withinLimits(std::span<const double> q) const {
   for (int i = 0; i < kinematics.dimension; ++i) {
     const bool inside = q[i] >= kinematics.lower[i] - tolerance::kLimit &&
                         q[i] <= kinematics.upper[i] + tolerance::kLimit;
-    if (!inside) return false;
+    if (!inside || !std::isfinite(q[i])) return false;
   }
   return true;
 }

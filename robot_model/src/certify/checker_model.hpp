@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
+#include "kinematics/shared_array.hpp"
 #include "lanes/lane_model.hpp"
 #include "lanes/lane_scratch.hpp"
 #include "swept/core/separation.hpp"
@@ -17,10 +19,22 @@
 
 namespace swept::detail {
 
-/// A piece of collision geometry on a moving body.
+/// What pairs are made of, but for bodies of the world that stand still.
+struct Carrier {
+  enum class Kind : std::uint8_t { Link, Attached, Obstacle };
+  Kind kind = Kind::Link;
+  std::string name;
+  int link = -1;  ///< into Robot::links(): itself, or the one it is attached to; -1: an obstacle
+  int body = 0;   ///< into KinematicModel::bodies
+  Eigen::Isometry3d body_from_frame = Eigen::Isometry3d::Identity();
+};
+
+/// A piece of collision geometry of a carrier.
 struct RobotGeometry {
-  int link = -1;
-  int body = 0;
+  int carrier = -1;
+  int piece = 0;       ///< of the carrier
+  double scale = 1.0;  ///< that the shape has been changed by
+  int body = 0;        ///< the carrier's
   Shape shape;
   Eigen::Isometry3d body_from_shape;
   Eigen::Vector3d center;  ///< m, of a ball that contains it, body frame
@@ -31,7 +45,9 @@ struct RobotGeometry {
 
 /// A piece of the world, with the box that contains it.
 struct WorldGeometry {
-  int body = -1;  ///< index into World::bodies()
+  int body = -1;       ///< index into World::bodies()
+  int part = 0;        ///< of the body
+  double scale = 1.0;  ///< that the shape has been changed by
   Shape shape;
   Eigen::Isometry3d world_from_shape;
   Eigen::Isometry3d box_from_world;  ///< frame centred in the box, along its axes
@@ -49,6 +65,33 @@ struct GeometryPair {
   int travelA = 0;        ///< index into CheckerModel::travels
   int travelB = -1;       ///< likewise; -1 when b does not move relative to the reference
   double rounding = 0.0;  ///< m, bound on the error of the computed relative pose, for any point
+  double margin = 0.0;    ///< m, what the two have to keep
+};
+
+/// Why a pair of bodies is checked or not.
+enum class PairReason : std::uint8_t {
+  Checked,
+  Allowed,     ///< by a rule
+  Disabled,    ///< by the SRDF, a joint between the two, or as touch links
+  Unmoved,     ///< a link that the group does not move, and the world
+  Rigid,       ///< the group does not change their relative pose
+  OutOfReach,  ///< of the link, whatever the group does
+};
+
+/// A carrier and a body of the world, or two carriers.
+struct BodyPair {
+  int a = 0;              ///< index into CheckerModel::carriers
+  int b = 0;              ///< index into World::bodies(), or of the second carrier
+  bool carriers = false;  ///< two carriers
+  bool touching = false;  ///< of those that do not move: in contact
+  PairReason reason = PairReason::Checked;
+  double margin = 0.0;  ///< m
+};
+
+/// For people to read; made when it is first asked for.
+struct PairLists {
+  std::once_flag made;
+  std::vector<Checker::Pair> checked, skipped, standing;
 };
 
 /// A ball whose motion relative to an ancestor is bounded once per motion.
@@ -59,25 +102,26 @@ struct TravelSlot {
 
 /// Robot x group x world, compiled: only what can move, only the pairs that can meet.
 struct CheckerModel {
+  std::uint64_t version = 0;  ///< no two have the same
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;
   Group group;
   CheckerOptions options;
   KinematicModel kinematics;
-  std::vector<RobotGeometry> robotGeometry;
+  std::vector<Carrier> carriers;  ///< links, as in Robot::links(), attached bodies, obstacles
+  SharedArray<RobotGeometry> robotGeometry;
   std::vector<WorldGeometry> worldGeometry;
   std::vector<TravelSlot> travels;
   std::vector<GeometryPair> pairs;
   LaneModel lanes;
-  std::vector<Checker::Pair> checkedPairs;
-  std::vector<Checker::Pair> skippedPairs;
-  std::vector<Checker::Pair> standingContacts;
+  std::vector<BodyPair> bodyPairs;  ///< of the world first
+  std::shared_ptr<PairLists> lists = std::make_shared<PairLists>();
 
   std::string nameOfA(const GeometryPair& pair) const;
   std::string nameOfB(const GeometryPair& pair) const;
 };
 
-/// `like`: null, or the model of a checker that differs in nothing but its world.
+/// `like`: null, or an earlier version for the same robot, group and reference.
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,
@@ -100,9 +144,16 @@ struct PendingPart {
   double end = 1.0;
 };
 
+/// An obstacle changes its way.
+struct Passage {
+  double t = 0.0;     ///< in [0, 1]
+  double time = 0.0;  ///< s
+};
+
 struct WorkspaceData {
   explicit WorkspaceData(const CheckerModel& model);
 
+  std::uint64_t version = 0;  ///< of the model that it fits
   std::vector<JointMotion> motion;
   /// At the current t; computed when first asked for.
   std::vector<BodyState> states;
@@ -131,6 +182,9 @@ struct WorkspaceData {
   std::vector<PendingInterval> pending;
   std::vector<std::uint32_t> pendingArena;
   std::vector<PendingPart> parts;
+  /// Whole configurations: see KinematicModel. Empty without moving obstacles.
+  std::vector<double> from, to;
+  std::vector<Passage> passages;  ///< of the current motion, in order
 };
 
 }  // namespace swept::detail

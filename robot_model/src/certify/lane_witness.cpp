@@ -27,10 +27,10 @@ std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t ind
   const WorldGeometry& world = model.worldGeometry[pair.b];
   const Eigen::Isometry3d point_from_world(Eigen::Translation3d(-point));
   DistanceOptions options;
-  options.contact = model.options.margin;
+  options.contact = pair.margin;
   const DistanceResult found =
       distance(Sphere{0.0}, world.shape, point_from_world * world.world_from_shape, options);
-  if (!(found.upper <= model.options.margin)) return std::nullopt;
+  if (!(found.upper <= pair.margin)) return std::nullopt;
   Witness witness;
   witness.t = t;
   witness.bodyA = model.nameOfA(pair);

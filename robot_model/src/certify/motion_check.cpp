@@ -2,8 +2,10 @@
 #include "certify/motion_check.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "certify/exact_judge.hpp"
+#include "certify/obstacle_clock.hpp"
 #include "certify/pending_intervals.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
@@ -218,13 +220,44 @@ class MotionProver {
   std::optional<double> undecidedAt_;
 };
 
+void addEffort(const Effort& more, Effort& effort) {
+  effort.intervals += more.intervals;
+  effort.distances += more.distances;
+  effort.culled += more.culled;
+  effort.lanes += more.lanes;
+}
+
+/// Takes over what a part says; what lies before it is part of the certificate already.
+void addPart(const EvenPart& part, MotionCertificate&& own, MotionCertificate& all) {
+  addEffort(own.effort, all.effort);
+  const bool open = all.verdict != Verdict::Free;  // an earlier part was left undecided
+  if (!open) all.freeUntil = part.timeOf(own.freeUntil);
+  if (own.verdict == Verdict::Free) return;
+  if (own.verdict == Verdict::Collision) {
+    all.verdict = own.verdict;
+    all.witness = std::move(own.witness);
+    all.witness->t = part.timeOf(all.witness->t);
+  } else if (!open) {
+    all.verdict = own.verdict;
+    all.undecidedAt = part.timeOf(own.undecidedAt);
+  }
+}
+
 }  // namespace
 
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, MotionQuery wanted,
                                 WorkspaceData& workspace) {
   MotionCertificate certificate;
-  MotionProver(model, from, to, wanted, workspace, certificate).run(from, to);
+  certificate.verdict = Verdict::Free;
+  EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
+    MotionCertificate own;
+    MotionProver(model, part.from, part.to, wanted, workspace, own).run(part.from, part.to);
+    addPart(part, std::move(own), certificate);
+    return certificate.verdict != Verdict::Collision;
+  });
+  if (wanted == MotionQuery::VerdictOnly && certificate.verdict != Verdict::Free)
+    certificate.freeUntil = 0.0;
   return certificate;
 }
 

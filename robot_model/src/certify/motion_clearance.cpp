@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "certify/motion_check.hpp"
+#include "certify/obstacle_clock.hpp"
 
 namespace swept::detail {
 
@@ -90,7 +91,18 @@ class ClearanceSearch {
 MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, double accuracy,
                                 WorkspaceData& workspace) {
-  return ClearanceSearch(model, accuracy, workspace).run(from, to);
+  MotionClearance all;
+  all.lower = all.upper = std::numeric_limits<double>::infinity();
+  EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
+    const MotionClearance own = ClearanceSearch(model, accuracy, workspace).run(part.from, part.to);
+    if (own.upper < all.upper) {
+      all.upper = own.upper;
+      all.t = part.timeOf(own.t);
+    }
+    all.lower = std::min(all.lower, own.lower);
+    return all.upper > 0.0;
+  });
+  return all;
 }
 
 }  // namespace swept::detail

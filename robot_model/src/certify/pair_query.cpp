@@ -184,7 +184,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   double acceleration = this->bound(pair.travelA).acceleration;
   if (pair.travelB >= 0) acceleration += this->bound(pair.travelB).acceleration;
   bound.curvature = 0.5 * half * half * acceleration * (1.0 + kVelocityRounding);
-  bound.required = model_.options.margin + rounding(pair) + kVelocityRounding * bound.travel;
+  bound.required = pair.margin + rounding(pair) + kVelocityRounding * bound.travel;
   const Vector3d velocity = half * relativeVelocity(pair);
   answer.travel = bound.travel;
   const Coarse coarse = compareBounds(pair, bound, velocity, answer.normal);
@@ -200,7 +200,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   answer.travel = bound.most() - bound.required;
   SeparationQuery query;
   query.approach = bound;
-  query.contact = model_.options.margin;
+  query.contact = pair.margin;
   query.tolerance = kQueryShare * model_.options.tolerance;
   query.guess = hint(index);
   query.thorough = answer.travel <= model_.options.tolerance;

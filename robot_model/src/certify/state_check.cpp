@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "certify/lane_witness.hpp"
+#include "certify/obstacle_clock.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
 
@@ -57,7 +58,9 @@ Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane
 
 }  // namespace
 
-Verdict checkState(const CheckerModel& model, std::span<const double> q, WorkspaceData& workspace) {
+Verdict checkState(const CheckerModel& model, std::span<const double> configuration,
+                   WorkspaceData& workspace) {
+  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
   const bool fits =
       model.lanes.usable && compileLaneState(model.lanes, model.kinematics, q, workspace.lanes);
   if (!fits) return checkAllPairs(model, q, workspace);
@@ -102,19 +105,21 @@ double leastDistance(const CheckerModel& model, PairQuery& query, const Visitor&
 
 }  // namespace
 
-double stateClearance(const CheckerModel& model, std::span<const double> q,
+double stateClearance(const CheckerModel& model, std::span<const double> configuration,
                       WorkspaceData& workspace) {
+  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!query.start(q, q)) return 0.0;
   query.moveTo(0.0);
   return leastDistance(model, query, [](std::uint32_t) {});
 }
 
-StateReport reportState(const CheckerModel& model, std::span<const double> q,
+StateReport reportState(const CheckerModel& model, std::span<const double> configuration,
                         WorkspaceData& workspace) {
+  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
   StateReport report;
   report.finite = std::all_of(q.begin(), q.end(), [](double v) { return std::isfinite(v); });
-  for (int i = 0; i < model.kinematics.dimension; ++i) {
+  for (std::size_t i = 0; i < model.group.variables.size(); ++i) {
     const double slack = tolerance::kLimit;
     const bool inside =
         q[i] >= model.kinematics.lower[i] - slack && q[i] <= model.kinematics.upper[i] + slack;

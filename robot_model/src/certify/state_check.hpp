@@ -8,11 +8,11 @@ namespace swept::detail {
 /// Verdict on one state; stops at the first contact.
 Verdict checkState(const CheckerModel& model, std::span<const double> q, WorkspaceData& workspace);
 
-/// Every violating pair, and the clearance.
 /// One verdict for each of the states, which follow each other in `states`.
 void checkStates(const CheckerModel& model, std::span<const double> states,
                  std::span<Verdict> verdicts, WorkspaceData& workspace);
 
+/// Every violating pair, and the clearance.
 StateReport reportState(const CheckerModel& model, std::span<const double> q,
                         WorkspaceData& workspace);
 

@@ -7,50 +7,10 @@
 #include <exception>
 #include <thread>
 
+#include "kinematics/shape_cover.hpp"
+
 namespace swept::detail {
 namespace {
-
-struct SameShape {
-  const Shape& other;
-
-  bool operator()(const Sphere& s) const { return s.radius == as<Sphere>().radius; }
-  bool operator()(const Box& s) const { return s.halfExtents == as<Box>().halfExtents; }
-  bool operator()(const Cylinder& s) const { return sameRound(s); }
-  bool operator()(const Capsule& s) const { return sameRound(s); }
-  bool operator()(const Cone& s) const { return sameRound(s); }
-  bool operator()(const Ellipsoid& s) const { return s.semiAxes == as<Ellipsoid>().semiAxes; }
-  bool operator()(const Triangle& s) const { return s.corners == as<Triangle>().corners; }
-  /// Copies share their data.
-  bool operator()(const ConvexHull& s) const {
-    return &s.vertices() == &as<ConvexHull>().vertices();
-  }
-  bool operator()(const TriangleMesh& s) const {
-    return &s.vertices() == &as<TriangleMesh>().vertices();
-  }
-  bool operator()(const PointCloud& s) const {
-    return s.points().data() == as<PointCloud>().points().data();
-  }
-  bool operator()(const Plane&) const { return false; }
-  bool operator()(const HalfSpace&) const { return false; }
-
- private:
-  template <typename Same>
-  const Same& as() const {
-    return std::get<Same>(other);
-  }
-  template <typename Round>
-  bool sameRound(const Round& s) const {
-    return s.radius == as<Round>().radius && s.halfLength == as<Round>().halfLength;
-  }
-};
-
-bool areSame(const Shape& a, const Shape& b) {
-  return a.index() == b.index() && std::visit(SameShape{b}, a);
-}
-
-bool isBounded(const Shape& shape) {
-  return !std::holds_alternative<Plane>(shape) && !std::holds_alternative<HalfSpace>(shape);
-}
 
 /// A cover to build, and the geometries that get it.
 struct Task {
@@ -81,10 +41,7 @@ std::vector<Task> tasksOf(std::vector<Link>& links) {
 void build(Task& task) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    task.cover = std::make_shared<const SphereCover>(
-        sphereCover(task.of.front()->shape, {.finestOverhang = kCoverOverhang,
-                                             .finestRelative = kCoverRelative,
-                                             .mostInnerBalls = kMostInnerBalls}));
+    task.cover = coverOf(task.of.front()->shape);
   } catch (...) {
     task.failure = std::current_exception();
   }

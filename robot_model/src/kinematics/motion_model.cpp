@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "swept/core/tolerances.hpp"
@@ -121,6 +122,7 @@ KinematicModel compileKinematics(const Robot& robot, const Group& group,
   KinematicModel model;
   model.bodies.emplace_back();
   model.dimension = static_cast<int>(group.variables.size());
+  model.wholeDimension = model.dimension;
   for (const int index : group.variables) {
     const Variable& variable = robot.variables()[index];
     model.cyclic.push_back(variable.cyclic);
@@ -148,6 +150,38 @@ KinematicModel compileKinematics(const Robot& robot, const Group& group,
     }
   }
   return model;
+}
+
+int addAttachedFrame(KinematicModel& model, int body, const Isometry3d& body_from_frame) {
+  MovingBody frame;
+  frame.parent = body;
+  frame.parent_from_joint = body_from_frame;
+  // Whatever the first value, the joint's is zero.
+  frame.variable = 0;
+  frame.multiplier = 0.0;
+  model.bodies.push_back(frame);
+  return static_cast<int>(model.bodies.size()) - 1;
+}
+
+int addObstacleFrames(KinematicModel& model, std::size_t count) {
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  constexpr int kPose = 7;
+  const int first = static_cast<int>(model.bodies.size());
+  if (count == 0) return first;
+  model.cyclic.push_back(0);
+  model.lower.push_back(-kUnlimited);
+  model.upper.push_back(kUnlimited);
+  ++model.dimension;
+  model.wholeDimension = model.dimension;
+  for (std::size_t i = 0; i < count; ++i) {
+    MovingBody frame;
+    frame.parent = 0;
+    frame.type = JointType::Floating;
+    frame.variable = model.wholeDimension;
+    model.bodies.push_back(frame);
+    model.wholeDimension += kPose;
+  }
+  return first;
 }
 
 namespace {
@@ -252,7 +286,7 @@ void interpolateMotion(const KinematicModel& model, std::span<const double> from
     q[i] = std::abs(value) <= kPi ? value : std::remainder(value, 2.0 * kPi);
   }
   for (const MovingBody& body : model.bodies) {
-    if (body.type != JointType::Floating) continue;
+    if (body.type != JointType::Floating || body.variable >= model.dimension) continue;
     JointMotion motion;
     if (!compileFloating(from.data() + body.variable, to.data() + body.variable, motion)) continue;
     motion.spinSpeed = motion.spin.norm();

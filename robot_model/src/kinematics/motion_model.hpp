@@ -25,19 +25,30 @@ struct MovingBody {
 };
 
 /// The group's tree of moving frames. Joints outside the group are folded at their reference
-/// values, so that nothing that does not move costs anything.
+/// values, so that nothing that does not move costs anything. Behind the bodies of the robot are
+/// those that are attached to it, on joints that never move, and moving obstacles, each on a
+/// floating joint of its own.
+///
+/// A configuration is that of the group, followed by the time where there are moving obstacles. The
+/// functions on motions read whole configurations: with the poses of the obstacles behind it.
 struct KinematicModel {
   std::vector<MovingBody> bodies;  ///< parents first; [0] is the model frame itself
   std::vector<int> bodyOfLink;
   std::vector<Eigen::Isometry3d> body_from_link;
-  std::vector<char> cyclic;          ///< per variable of the group
-  std::vector<double> lower, upper;  ///< per variable of the group: rad or m
-  int dimension = 0;
+  std::vector<char> cyclic;          ///< per value of a configuration
+  std::vector<double> lower, upper;  ///< likewise: rad, m or s
+  int dimension = 0;                 ///< of a configuration
+  int wholeDimension = 0;            ///< of a whole configuration
 };
 
 /// `reference` has a value for every variable of the robot.
 KinematicModel compileKinematics(const Robot& robot, const Group& group,
                                  const Eigen::VectorXd& reference);
+
+/// A frame that is fixed in a moving body; its index.
+int addAttachedFrame(KinematicModel& model, int body, const Eigen::Isometry3d& body_from_frame);
+/// Frames for so many obstacles; the index of the first one.
+int addObstacleFrames(KinematicModel& model, std::size_t count);
 
 /// How one joint moves over t in [0, 1]: its child frame at t is
 /// [ exp(t spin) rotation | translation + t rate ], all in the joint frame.
@@ -66,6 +77,11 @@ inline bool turns(JointType type) {
   return type == JointType::Revolute || type == JointType::Continuous;
 }
 
+/// Joints that let a body slide without limits.
+inline bool slidesFreely(JointType type) {
+  return type == JointType::Planar || type == JointType::Floating;
+}
+
 /// The way a cyclic value goes: the given difference when it is at most half a turn, else the
 /// shorter.
 double cyclicDifference(double from, double to);
@@ -83,7 +99,7 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
 void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
                   int body, std::span<BodyState> states);
 
-/// Configuration at t on the motion.
+/// Configuration at t on the motion: of configurations, or of whole ones, whose rest is left out.
 void interpolateMotion(const KinematicModel& model, std::span<const double> from,
                        std::span<const double> to, double t, std::span<double> q);
 

@@ -2,29 +2,26 @@
 #include "swept/robot_model/world.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
+#include "kinematics/rigid_transform.hpp"
+#include "kinematics/shape_cover.hpp"
+
 namespace swept {
 
-namespace {
+using detail::isRigid;
 
-/// How far a given rotation matrix may be from orthonormal: the rounding of files and of products.
-constexpr double kRigid = 1e-9;
-
-bool isRigid(const Eigen::Isometry3d& pose) {
-  const Eigen::Matrix3d r = pose.linear();
-  const Eigen::Matrix3d defect = r * r.transpose() - Eigen::Matrix3d::Identity();
-  return pose.translation().allFinite() && defect.cwiseAbs().maxCoeff() <= kRigid &&
-         r.determinant() > 0.0 && pose.matrix().row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
+void World::requireFree(const std::string& name) const {
+  if (find(name) != nullptr || findObstacle(name) != nullptr) {
+    throw std::invalid_argument("World: a second body is named '" + name + "'");
+  }
 }
 
-}  // namespace
-
 void World::add(WorldBody body) {
-  if (find(body.name) != nullptr) {
-    throw std::invalid_argument("World: a second body is named '" + body.name + "'");
-  }
+  requireFree(body.name);
   for (const WorldBody::Part& part : body.parts) {
     if (!isRigid(part.world_from_shape)) {
       throw std::invalid_argument("World: a pose of body '" + body.name +
@@ -41,10 +38,56 @@ void World::add(std::string name, Shape shape, const Eigen::Isometry3d& world_fr
   add(std::move(body));
 }
 
+void World::add(MovingObstacle obstacle) {
+  requireFree(obstacle.name);
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("World: obstacle '" + obstacle.name + "' " + what);
+  };
+  for (const MovingObstacle::Part& part : obstacle.parts) {
+    if (!isRigid(part.body_from_shape)) fail("has a part whose pose is no finite rigid transform");
+    if (!detail::isBounded(part.shape)) fail("has a plane or a half-space, which cannot move");
+  }
+  if (obstacle.waypoints.empty()) fail("has no waypoint");
+  for (std::size_t i = 0; i < obstacle.waypoints.size(); ++i) {
+    const MovingObstacle::Waypoint& waypoint = obstacle.waypoints[i];
+    const std::string which = "has a waypoint, number " + std::to_string(i + 1);
+    if (!std::isfinite(waypoint.time)) fail(which + ", whose time is not finite");
+    if (i > 0 && !(waypoint.time > obstacle.waypoints[i - 1].time))
+      fail(which + ", that is not later than the one before");
+    if (!isRigid(waypoint.world_from_body))
+      fail(which + ", whose pose is no finite rigid transform");
+  }
+  obstacles_.push_back(std::move(obstacle));
+}
+
+bool World::remove(std::string_view name) {
+  const auto named = [name](const auto& body) { return body.name == name; };
+  return std::erase_if(bodies_, named) + std::erase_if(obstacles_, named) > 0;
+}
+
 const WorldBody* World::find(std::string_view name) const {
-  const auto found = std::find_if(bodies_.begin(), bodies_.end(),
-                                  [name](const WorldBody& body) { return body.name == name; });
+  const auto found = std::ranges::find(bodies_, name, &WorldBody::name);
   return found == bodies_.end() ? nullptr : &*found;
+}
+
+const MovingObstacle* World::findObstacle(std::string_view name) const {
+  const auto found = std::ranges::find(obstacles_, name, &MovingObstacle::name);
+  return found == obstacles_.end() ? nullptr : &*found;
+}
+
+Eigen::Isometry3d MovingObstacle::poseAt(double time) const {
+  const auto after = std::ranges::upper_bound(waypoints, time, {}, &Waypoint::time);
+  if (after == waypoints.begin()) return waypoints.front().world_from_body;
+  const Waypoint& first = *std::prev(after);
+  if (after == waypoints.end() || time == first.time) return first.world_from_body;
+  const double share = (time - first.time) / (after->time - first.time);
+  const Eigen::Vector3d begin = first.world_from_body.translation();
+  const Eigen::Quaterniond turn(first.world_from_body.linear());
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = begin + share * (after->world_from_body.translation() - begin);
+  pose.linear() =
+      turn.slerp(share, Eigen::Quaterniond(after->world_from_body.linear())).toRotationMatrix();
+  return pose;
 }
 
 }  // namespace swept

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "certify/checker_model.hpp"
 #include "lanes/lane_model.hpp"
@@ -16,8 +18,7 @@ using Eigen::Vector3d;
 
 class CoverCompiler {
  public:
-  CoverCompiler(const CheckerModel& model, const LaneModel* like, LaneModel& lanes)
-      : model_(model), like_(like), lanes_(lanes) {}
+  CoverCompiler(const CheckerModel& model, LaneModel& lanes) : model_(model), lanes_(lanes) {}
 
   void compile() {
     const std::size_t bodies = model_.kinematics.bodies.size();
@@ -25,33 +26,40 @@ class CoverCompiler {
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       const RobotGeometry& geometry = model_.robotGeometry[i];
       geometriesOf[geometry.body].push_back(static_cast<int>(i));
-      lanes_.geometryBody.push_back(geometry.body);
+      geometryBody_.push_back(geometry.body);
       lanes_.reach = std::max(lanes_.reach, static_cast<float>(geometry.levers.reach) * 1.00001F);
     }
-    lanes_.rootOfGeometry.assign(model_.robotGeometry.size(), -1);
-    lanes_.rootOfBody.assign(bodies, -1);
+    rootOfGeometry_.assign(model_.robotGeometry.size(), -1);
+    rootOfBody_.assign(bodies, -1);
     for (std::size_t body = 0; body < bodies; ++body) addBodyCover(body, geometriesOf[body]);
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       addInnerBalls(static_cast<int>(i));
       addProbes(static_cast<int>(i));
     }
     addHulls();
+    lanes_.geometryBody = SharedArray(std::move(geometryBody_));
+    lanes_.rootOfGeometry = SharedArray(std::move(rootOfGeometry_));
+    lanes_.rootOfBody = SharedArray(std::move(rootOfBody_));
+    lanes_.nodes = SharedArray(std::move(nodes_));
+    lanes_.innerBalls = SharedArray(std::move(innerBalls_));
+    lanes_.probes = SharedArray(std::move(probes_));
+    lanes_.probesOf = SharedArray(std::move(probesOf_));
   }
 
  private:
   void addBodyCover(std::size_t body, const std::vector<int>& geometries) {
     if (geometries.empty()) return;
-    const auto first = static_cast<std::int32_t>(lanes_.nodes.size());
-    lanes_.rootOfBody[body] = first;
+    const auto first = static_cast<std::int32_t>(nodes_.size());
+    rootOfBody_[body] = first;
     if (geometries.size() == 1) {
-      lanes_.nodes.emplace_back();
+      nodes_.emplace_back();
       addTree(geometries.front(), first);
       return;
     }
-    lanes_.nodes.resize(lanes_.nodes.size() + 1 + geometries.size());
+    nodes_.resize(nodes_.size() + 1 + geometries.size());
     for (std::size_t i = 0; i < geometries.size(); ++i)
       addTree(geometries[i], first + 1 + static_cast<std::int32_t>(i));
-    LaneNode& root = lanes_.nodes[first];
+    LaneNode& root = nodes_[first];
     root = ballAround(first + 1, static_cast<int>(geometries.size()));
     root.firstChild = first + 1;
     root.childCount = static_cast<std::int32_t>(geometries.size());
@@ -60,7 +68,7 @@ class CoverCompiler {
   /// Contains the balls of consecutive nodes.
   LaneNode ballAround(std::int32_t first, int count) const {
     const auto centerOf = [&](int i) {
-      const float(&c)[3] = lanes_.nodes[first + i].center;
+      const float(&c)[3] = nodes_[first + i].center;
       return Vector3d(c[0], c[1], c[2]);
     };
     // Steps towards the farthest ball, each shorter than the one before (Badoiu, Clarkson 2003).
@@ -68,7 +76,7 @@ class CoverCompiler {
     const auto farthest = [&](const Vector3d& from, int& which) {
       double most = -1.0;
       for (int i = 0; i < count; ++i) {
-        const double reach = (centerOf(i) - from).norm() + lanes_.nodes[first + i].radius;
+        const double reach = (centerOf(i) - from).norm() + nodes_[first + i].radius;
         if (!(reach > most)) continue;
         most = reach;
         which = i;
@@ -91,19 +99,19 @@ class CoverCompiler {
 
   void addTree(int index, std::int32_t at) {
     const RobotGeometry& geometry = model_.robotGeometry[index];
-    lanes_.rootOfGeometry[index] = at;
+    rootOfGeometry_[index] = at;
     if (geometry.cover == nullptr) {
       // Unbounded: never proven here.
-      lanes_.nodes[at].geometry = index;
-      lanes_.nodes[at].radius = lanes_.nodes[at].beyond = std::numeric_limits<float>::infinity();
+      nodes_[at].geometry = index;
+      nodes_[at].radius = nodes_[at].beyond = std::numeric_limits<float>::infinity();
       return;
     }
     const std::vector<SphereCover::Node>& cover = geometry.cover->nodes;
-    const auto rest = static_cast<std::int32_t>(lanes_.nodes.size());
-    lanes_.nodes.resize(lanes_.nodes.size() + cover.size() - 1);
+    const auto rest = static_cast<std::int32_t>(nodes_.size());
+    nodes_.resize(nodes_.size() + cover.size() - 1);
     for (std::size_t i = 0; i < cover.size(); ++i) {
       const SphereCover::Node& node = cover[i];
-      LaneNode& lane = lanes_.nodes[i == 0 ? at : rest + static_cast<std::int32_t>(i) - 1];
+      LaneNode& lane = nodes_[i == 0 ? at : rest + static_cast<std::int32_t>(i) - 1];
       setCenter(lane, geometry, node.ball.center);
       lane.radius = node.ball.radius;
       lane.inside = node.inside;
@@ -116,39 +124,35 @@ class CoverCompiler {
 
   void addInnerBalls(int index) {
     const RobotGeometry& geometry = model_.robotGeometry[index];
-    lanes_.innerBalls.push_back({static_cast<std::int32_t>(lanes_.nodes.size()), 0});
+    innerBalls_.push_back({static_cast<std::int32_t>(nodes_.size()), 0});
     if (geometry.cover == nullptr) return;
     for (const CoverBall& ball : geometry.cover->inner) {
       LaneNode node;
       setCenter(node, geometry, ball.center);
       node.radius = node.inside = ball.radius;
       node.geometry = index;
-      lanes_.nodes.push_back(node);
-      ++lanes_.innerBalls.back().count;
+      nodes_.push_back(node);
+      ++innerBalls_.back().count;
     }
   }
 
   void addProbes(int index) {
-    const LaneModel::InnerBalls& balls = lanes_.innerBalls[index];
-    lanes_.probesOf.push_back({static_cast<std::int32_t>(lanes_.probes.size()), 0});
+    const LaneModel::InnerBalls& balls = innerBalls_[index];
+    probesOf_.push_back({static_cast<std::int32_t>(probes_.size()), 0});
     for (std::int32_t i = 0; i < balls.count; i += kLanes) {
-      LaneModel::Probes& eight = lanes_.probes.emplace_back();
+      LaneModel::Probes& eight = probes_.emplace_back();
       for (std::int32_t lane = 0; lane < kLanes; ++lane) {
-        const LaneNode& node = lanes_.nodes[balls.first + std::min(i + lane, balls.count - 1)];
+        const LaneNode& node = nodes_[balls.first + std::min(i + lane, balls.count - 1)];
         eight.x.lane[lane] = node.center[0];
         eight.y.lane[lane] = node.center[1];
         eight.z.lane[lane] = node.center[2];
         eight.inside.lane[lane] = node.inside;
       }
-      ++lanes_.probesOf.back().count;
+      ++probesOf_.back().count;
     }
   }
 
   void addHulls() {
-    if (like_ != nullptr) {
-      lanes_.hulls = like_->hulls;
-      return;
-    }
     auto hulls = std::make_shared<LaneHulls>();
     for (const RobotGeometry& geometry : model_.robotGeometry)
       hulls->add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
@@ -164,14 +168,18 @@ class CoverCompiler {
   }
 
   const CheckerModel& model_;
-  const LaneModel* like_;
   LaneModel& lanes_;
+  std::vector<int> geometryBody_;
+  std::vector<std::int32_t> rootOfGeometry_, rootOfBody_;
+  std::vector<LaneNode> nodes_;
+  std::vector<LaneModel::InnerBalls> innerBalls_, probesOf_;
+  std::vector<LaneModel::Probes> probes_;
 };
 
 }  // namespace
 
-void compileCovers(const CheckerModel& model, const LaneModel* like, LaneModel& lanes) {
-  CoverCompiler(model, like, lanes).compile();
+void compileCovers(const CheckerModel& model, LaneModel& lanes) {
+  CoverCompiler(model, lanes).compile();
 }
 
 }  // namespace swept::detail

@@ -107,7 +107,8 @@ class DividedPair {
     float acceleration = accelerationOfPoints(model, reference_, source_.geometry, scratch);
     if (self_) acceleration += accelerationOfPoints(model, reference_, source_.other, scratch);
     // Two rounded positions, and as much for what is computed of them here.
-    required_ = (set(4.0F * scratch.rounding + model.margin) + inflation(half_, acceleration)) *
+    const float margin = (model.margin + model.extraOf(pair)) * (1.0F + 1e-6F);
+    required_ = (set(4.0F * scratch.rounding + margin) + inflation(half_, acceleration)) *
                 set(1.0F + 4e-6F);
   }
 

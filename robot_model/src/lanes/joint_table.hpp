@@ -47,6 +47,7 @@ struct JointTable {
   struct Geometries {
     int a = 0;  ///< index into CheckerModel::robotGeometry
     int b = 0;
+    double margin = 0.0;  ///< m, that they are proven to keep
   };
   std::vector<Geometries> pairs;
 

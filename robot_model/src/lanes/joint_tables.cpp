@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <thread>
+#include <utility>
 
 #include "lanes/lane_model.hpp"
 #include "lanes/table_builder.hpp"
@@ -67,10 +68,24 @@ void share(std::vector<Task>& tasks, int most, const Done& done, const Work& wor
   }
 }
 
+bool sameGeometry(const RobotGeometry& a, const RobotGeometry& b) {
+  return a.cover == b.cover && a.cover != nullptr;
+}
+
+bool holdsFor(const CheckerModel& model, const JointTables& tables, const JointTable& table,
+              const GeometryPair& pair) {
+  const auto known = std::ranges::find_if(table.pairs, [&](const JointTable::Geometries& other) {
+    return other.a == pair.a && other.b == pair.b;
+  });
+  return known != table.pairs.end() && known->margin >= pair.margin &&
+         sameGeometry(tables.geometry[pair.a], model.robotGeometry[pair.a]) &&
+         sameGeometry(tables.geometry[pair.b], model.robotGeometry[pair.b]);
+}
+
 }  // namespace
 
-std::vector<std::shared_ptr<const JointTable>> buildJointTables(const CheckerModel& model,
-                                                                const LaneModel& lanes) {
+std::shared_ptr<const JointTables> buildJointTables(const CheckerModel& model,
+                                                    const LaneModel& lanes) {
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < lanes.bodyPairs.size(); ++i) {
     const LaneBodyPair& bodies = lanes.bodyPairs[i];
@@ -86,9 +101,27 @@ std::vector<std::shared_ptr<const JointTable>> buildJointTables(const CheckerMod
   share(
       tasks, kMostPartWork, [](const TableBuilder& builder) { return builder.refined(); },
       [](TableBuilder& builder, int& work) { builder.refine(work); });
-  std::vector<std::shared_ptr<const JointTable>> tables(lanes.bodyPairs.size());
-  for (Task& task : tasks) tables[task.bodies] = task.builder->finish();
+  auto tables = std::make_shared<JointTables>();
+  tables->geometry = model.robotGeometry;
+  for (Task& task : tasks) {
+    const LaneBodyPair& bodies = lanes.bodyPairs[task.bodies];
+    if (auto table = task.builder->finish())
+      tables->entries.push_back({bodies.bodyA, bodies.bodyB, std::move(table)});
+  }
   return tables;
+}
+
+void chooseTables(const CheckerModel& model, const JointTables& tables, LaneModel& lanes) {
+  for (LaneBodyPair& bodies : lanes.bodyPairs) {
+    for (const JointTables::Entry& entry : tables.entries)
+      if (entry.bodyA == bodies.bodyA && entry.bodyB == bodies.bodyB) bodies.table = entry.table;
+  }
+  for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
+    const LanePairSource& source = lanes.sources[i];
+    if (source.obstacle >= 0) continue;
+    std::shared_ptr<const JointTable>& table = lanes.bodyPairs[source.bodyPair].table;
+    if (table != nullptr && !holdsFor(model, tables, *table, model.pairs[i])) table = nullptr;
+  }
 }
 
 }  // namespace swept::detail

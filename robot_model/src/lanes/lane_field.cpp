@@ -20,6 +20,12 @@ bool wantsField(const WorldGeometry& geometry) {
          std::holds_alternative<PointCloud>(geometry.shape);
 }
 
+/// Copies of a mesh or of a cloud share it.
+const void* dataOf(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return &mesh->bvh();
+  return &std::get<PointCloud>(shape).bvh();
+}
+
 /// Cells of one field and of all of a world.
 constexpr std::size_t kMostFieldCells = std::size_t{1} << 19;
 constexpr std::size_t kLeastFieldCells = std::size_t{1} << 12;
@@ -27,18 +33,19 @@ constexpr std::size_t kMostCells = std::size_t{1} << 22;
 
 }  // namespace
 
-FieldCompiler::FieldCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded)
+FieldCompiler::FieldCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+                             std::span<const LaneField> known)
     : reach_(reach), bounded_(bounded) {
   const auto fields = static_cast<std::size_t>(std::ranges::count_if(world, wantsField));
   cells_ =
       std::clamp(kMostCells / std::max<std::size_t>(fields, 1), kLeastFieldCells, kMostFieldCells);
+  for (const LaneField& lane : known)
+    known_.push_back({dataOf(lane.shape), lane.window, lane.field});
 }
 
 std::shared_ptr<const ClearanceField> FieldCompiler::fieldFor(const Shape& shape,
                                                               const Aabb& window) {
-  const auto* mesh = std::get_if<TriangleMesh>(&shape);
-  const void* data =
-      mesh != nullptr ? static_cast<const void*>(&mesh->bvh()) : &std::get<PointCloud>(shape).bvh();
+  const void* data = dataOf(shape);
   for (const KnownField& known : known_) {
     if (known.data == data && known.window.lower == window.lower &&
         known.window.upper == window.upper)
@@ -88,6 +95,7 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, LaneFie
   lane.field = field;
   lane.shape = geometry.shape;
   lane.shape_from_world = shape_from_world;
+  lane.window = window;
   return true;
 }
 

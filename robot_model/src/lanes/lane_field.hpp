@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "lanes/clearance_field.hpp"
@@ -31,13 +32,15 @@ struct LaneField {
   std::shared_ptr<const ClearanceField> field;
   Shape shape;
   Eigen::Isometry3d shape_from_world;
+  Aabb window;  ///< m, shape's frame: what the field was built for
 };
 
 /// Makes the fields of a world's meshes and clouds; equal ones are shared.
 class FieldCompiler {
  public:
-  /// `reach` and `bounded`: as for compileObstacles.
-  FieldCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded);
+  /// `reach` and `bounded`: as for compileObstacles. `known`: of another world, to be shared.
+  FieldCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+                std::span<const LaneField> known);
 
   /// `slack`: m, what a coordinate in a frame of the geometry is rounded by. False where no point
   /// of the robot comes near the geometry's box.

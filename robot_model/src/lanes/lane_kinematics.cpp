@@ -124,7 +124,7 @@ HWY_INLINE void placeRoot(const LaneNode& root, bool moving, const F8& half,
   if (moving) store3(half * addCross(load3(state.linear), load3(state.angular), x), ball.by);
 }
 
-void Place(const LaneModel& model, const LaneJointMotion* motion, const std::vector<int>& bodies,
+void Place(const LaneModel& model, const LaneJointMotion* motion, std::span<const int> bodies,
            LaneBlock& block) {
   const F8 time = load(block.time);
   const F8 half = load(block.half);
@@ -188,7 +188,7 @@ HWY_EXPORT(Place);
 HWY_EXPORT(Bound);
 
 void placeBodies(const LaneModel& model, const std::vector<LaneJointMotion>& motion,
-                 const std::vector<int>& bodies, LaneBlock& block) {
+                 std::span<const int> bodies, LaneBlock& block) {
   HWY_DYNAMIC_DISPATCH(Place)(model, motion.data(), bodies, block);
 }
 

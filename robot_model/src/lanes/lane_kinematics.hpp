@@ -9,7 +9,7 @@ namespace swept::detail {
 /// Frames and root balls of `bodies` (parents first) in all lanes, with velocities under
 /// LaneMode::Motion.
 void placeBodies(const LaneModel& model, const std::vector<LaneJointMotion>& motion,
-                 const std::vector<int>& bodies, LaneBlock& block);
+                 std::span<const int> bodies, LaneBlock& block);
 
 /// Bounds on the acceleration of every ball centre relative to each of the model's references.
 ///

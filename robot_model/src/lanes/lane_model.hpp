@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "kinematics/shared_array.hpp"
 #include "lanes/joint_table.hpp"
 #include "lanes/lane_hulls.hpp"
 #include "lanes/obstacles.hpp"
@@ -14,6 +15,7 @@
 namespace swept::detail {
 
 struct CheckerModel;
+struct JointTables;
 
 /// How a body moves in its parent's frame. Frames of the lane tier are turned so that a joint turns
 /// about z.
@@ -72,6 +74,7 @@ struct LaneBodyPair {
   int bodyB = 0;
   int reference = 0;                        ///< index into LaneModel::references
   std::shared_ptr<const JointTable> table;  ///< null: none
+  float extra = 0.0F;                       ///< m, most that a pair of them keeps beyond the margin
 };
 
 /// What a pair of the model is here.
@@ -85,30 +88,30 @@ struct LanePairSource {
 /// Robot x world for the vector kernels: single precision, eight lanes.
 struct LaneModel {
   bool usable = false;
-  std::vector<LaneBody> bodies;  ///< [0] is the model frame
+  SharedArray<LaneBody> bodies;  ///< [0] is the model frame
   /// Per body: its parent's frame as it is here, from the parent's frame in KinematicModel.
-  std::vector<Eigen::Matrix3d> parentLaneFromParent;
-  std::vector<Eigen::Matrix3d> bodyFromLane;  ///< per body, KinematicModel's frame from this one
-  std::vector<LaneNode> nodes;
-  std::vector<std::int32_t> rootOfBody;      ///< -1: no geometry
-  std::vector<std::int32_t> rootOfGeometry;  ///< -1: none
+  SharedArray<Eigen::Matrix3d> parentLaneFromParent;
+  SharedArray<Eigen::Matrix3d> bodyFromLane;  ///< per body, KinematicModel's frame from this one
+  SharedArray<LaneNode> nodes;
+  SharedArray<std::int32_t> rootOfBody;      ///< -1: no geometry
+  SharedArray<std::int32_t> rootOfGeometry;  ///< -1: none
   /// Per geometry: balls inside it, as nodes without children.
   struct InnerBalls {
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
-  std::vector<InnerBalls> innerBalls;
+  SharedArray<InnerBalls> innerBalls;
   /// Eight balls inside a geometry; the last ones of a geometry are repeated to fill it up.
   struct Probes {
     Row x, y, z;  ///< m, in the body's frame
     Row inside;   ///< m
   };
-  std::vector<Probes> probes;
-  std::vector<InnerBalls> probesOf;        ///< per geometry, into `probes`
-  std::shared_ptr<const LaneHulls> hulls;  ///< those of a checker for another world are shared
-  std::vector<int> geometryBody;
+  SharedArray<Probes> probes;
+  SharedArray<InnerBalls> probesOf;  ///< per geometry, into `probes`
+  std::shared_ptr<const LaneHulls> hulls;
+  SharedArray<int> geometryBody;
   std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
-  std::vector<LaneReference> references;  ///< [0]: the model frame
+  SharedArray<LaneReference> references;  ///< [0]: the model frame
   std::vector<LaneBodyPair> bodyPairs;
   LaneObstacles obstacles;
   /// Index of the pair of a geometry and a world geometry: [geometry * obstacles + obstacle]; -1:
@@ -116,17 +119,24 @@ struct LaneModel {
   std::vector<std::int32_t> pairOf;
   std::vector<std::int32_t> pairOfGeometries;  ///< of two links, likewise: [a * geometries + b]
   std::vector<LanePairSource> sources;         ///< per pair of the model
-  std::vector<int> allBodies;                  ///< that move, parents first
-  std::vector<std::vector<int>> ancestors;     ///< per body, itself included, root first
-  bool slides = false;                         ///< some joint does not only turn
-  bool floats = false;                         ///< some joint is floating
-  float margin = 0.0F;                         ///< m
-  float rounding = 0.0F;                       ///< relative, of positions; see lane_motion.cpp
+  /// m, per pair: what it has to keep beyond `margin`. Empty where all margins are the same.
+  std::vector<float> extras;
+  std::vector<float> obstacleExtras;  ///< m, per obstacle: the most of its pairs; empty likewise
+  SharedArray<int> allBodies;         ///< that move, parents first
+  SharedArray<std::vector<int>> ancestors;  ///< per body, itself included, root first
+  bool slides = false;                      ///< some joint does not only turn
+  bool floats = false;                      ///< some joint is floating
+  float margin = 0.0F;                      ///< m, the least of all pairs
+  float rounding = 0.0F;                    ///< relative, of positions; see lane_motion.cpp
   float reach = 0.0F;  ///< m, no point is farther from the origin but for what slides freely
+  std::shared_ptr<const JointTables> tables;  ///< all that were built
+
+  /// m. What the pair has to keep beyond `margin`.
+  float extraOf(std::uint32_t pair) const { return extras.empty() ? 0.0F : extras[pair]; }
 };
 
-/// `like`: null, or the lanes of a checker that differs in nothing but its world; its tables are
-/// shared.
-LaneModel compileLanes(const CheckerModel& model, const LaneModel* like = nullptr);
+/// `like`: null, or an earlier version for the same robot, group and reference. What it has in
+/// common is shared, and tables are not built but taken from it where they hold.
+LaneModel compileLanes(const CheckerModel& model, const CheckerModel* like = nullptr);
 
 }  // namespace swept::detail

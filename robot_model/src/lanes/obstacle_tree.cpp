@@ -19,11 +19,12 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Eight-wide tree of boxes along the model frame's axes.
 class BoxTree {
  public:
-  BoxTree(const std::vector<WorldGeometry>& world, double reach) {
+  BoxTree(const std::vector<WorldGeometry>& world, double reach, std::span<const float> extras) {
     std::vector<Entry> bounded;
     std::vector<Entry> unbounded;
     for (std::size_t i = 0; i < world.size(); ++i) {
-      const Entry entry = entryOf(world[i], reach, ~static_cast<std::int32_t>(i));
+      const double extra = extras.empty() ? 0.0 : static_cast<double>(extras[i]);
+      const Entry entry = entryOf(world[i], reach, extra, ~static_cast<std::int32_t>(i));
       (entry.half.allFinite() ? bounded : unbounded).push_back(entry);
     }
     if (world.empty()) return;
@@ -53,9 +54,10 @@ class BoxTree {
     std::int32_t child;
   };
 
-  static Entry entryOf(const WorldGeometry& geometry, double reach, std::int32_t child) {
+  static Entry entryOf(const WorldGeometry& geometry, double reach, double extra,
+                       std::int32_t child) {
     const Eigen::Isometry3d world_from_box = geometry.box_from_world.inverse();
-    const double slack = 32.0 * kSingle * (reach + geometry.magnitude);
+    const double slack = 32.0 * kSingle * (reach + geometry.magnitude + extra) + extra;
     Entry entry;
     entry.child = child;
     entry.center = world_from_box.translation();
@@ -128,9 +130,9 @@ class BoxTree {
 
 }  // namespace
 
-std::vector<LaneWorldNode> buildObstacleTree(const std::vector<WorldGeometry>& world,
-                                             double reach) {
-  return BoxTree(world, reach).take();
+std::vector<LaneWorldNode> buildObstacleTree(const std::vector<WorldGeometry>& world, double reach,
+                                             std::span<const float> extras) {
+  return BoxTree(world, reach, extras).take();
 }
 
 }  // namespace swept::detail

@@ -19,8 +19,9 @@ using Eigen::Vector3d;
 
 class ObstacleCompiler {
  public:
-  ObstacleCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded)
-      : reach_(reach), fields_(world, reach, bounded) {}
+  ObstacleCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+                   std::span<const LaneField> known)
+      : reach_(reach), fields_(world, reach, bounded, known) {}
 
   void add(const WorldGeometry& geometry) {
     geometry_ = &geometry;
@@ -222,12 +223,14 @@ void ObstacleCompiler::addTriangle(const Triangle& triangle) {
 
 }  // namespace
 
-LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach,
-                               bool bounded) {
-  ObstacleCompiler compiler(world, reach, bounded);
+LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+                               std::span<const float> extras, const LaneObstacles* like) {
+  ObstacleCompiler compiler(
+      world, reach, bounded,
+      like != nullptr ? std::span(like->fields) : std::span<const LaneField>());
   for (const WorldGeometry& geometry : world) compiler.add(geometry);
   LaneObstacles result = compiler.take();
-  result.nodes = buildObstacleTree(world, reach);
+  result.nodes = buildObstacleTree(world, reach, extras);
   return result;
 }
 

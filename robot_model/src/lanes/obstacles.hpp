@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lanes/lane_field.hpp"
@@ -94,7 +95,11 @@ struct LaneObstacles {
 };
 
 /// `reach`: m, no point of the robot is farther from the model frame's origin, but for what slides
-/// freely; `bounded`: nothing does.
-LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded);
+/// freely; `bounded`: nothing does. `extras`: m, per geometry, how much farther around it must be
+/// looked for the robot; empty: not at all. `like`: null, or another world, whose fields are
+/// shared.
+LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+                               std::span<const float> extras = {},
+                               const LaneObstacles* like = nullptr);
 
 }  // namespace swept::detail

@@ -40,7 +40,6 @@ Vector3d centerOf(const Ball& ball) {
 PairProof::PairProof(const CheckerModel& model, const LaneModel& lanes, const LaneBodyPair& bodies,
                      const TableMotion& motion)
     : model_(model), lanes_(lanes), motion_(motion) {
-  slack_ = model_.options.margin + 1e-5 * static_cast<double>(lanes_.reach);
   whole_ = motion_.combine(widest(lanes_.rootOfBody[bodies.bodyA], true),
                            widest(lanes_.rootOfBody[bodies.bodyB], false));
 }
@@ -58,6 +57,8 @@ void PairProof::choose(const JointTable::Geometries& pair) {
   if (pair.a == geometryA_ && pair.b == geometryB_) return;
   geometryA_ = pair.a;
   geometryB_ = pair.b;
+  margin_ = pair.margin;
+  slack_ = margin_ + 1e-5 * static_cast<double>(lanes_.reach);
   stopped_ = {-1, -1};
   meetingOfA_ = meetingOfB_ = {};
   guess_.setZero();
@@ -243,7 +244,7 @@ PairProof::Compared PairProof::compare(const Place& place, double contact, doubl
   work -= kExactWork + kStepWork * found.iterations;
   guess_ = found.normal;
   const Vector3d point = a.body_from_shape * found.pointA;
-  return {true, found.upper <= model_.options.margin, found.lower - slack_,
+  return {true, found.upper <= margin_, found.lower - slack_,
           lanes_.bodyFromLane[a.body].transpose() * point};
 }
 
@@ -257,7 +258,7 @@ PairProof::Compared PairProof::compareWhereStopped(const Place& place, bool sing
   const double travel = TableMotion::travel(place, levers);
   if (!(travel <= kExactTravel)) return {};
   // Whether there is contact is of interest only where it is kept.
-  const double contact = single ? model_.options.margin : travel + slack_;
+  const double contact = single ? margin_ : travel + slack_;
   return compare(place, contact, kMoreTravel * travel);
 }
 

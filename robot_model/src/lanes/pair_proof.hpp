@@ -58,7 +58,8 @@ class PairProof {
   /// Those that overlap most, among the covers' and what is found in the solids.
   void findMeeting(const Place& place, const Compared& found);
 
-  double slack() const { return slack_; }  ///< m, for the margin and for roundings
+  double margin() const { return margin_; }  ///< m, of the pair
+  double slack() const { return slack_; }    ///< m, for the margin and for roundings
   /// Distances of balls evaluated, or what takes as long, are taken off it; some 30 ns each.
   int work = 0;
 
@@ -100,6 +101,7 @@ class PairProof {
   const CheckerModel& model_;
   const LaneModel& lanes_;
   const TableMotion& motion_;
+  double margin_ = 0.0;
   double slack_ = 0.0;
   Levers whole_{};  ///< of all centres of balls of the bodies
   int geometryA_ = -1;

@@ -88,16 +88,19 @@ class SelfWalk {
       if (cell == nullptr || cell->meeting < 0 || cell->meeting == last) continue;
       last = cell->meeting;
       const JointTable::Meeting& meeting = table.meetings[static_cast<std::size_t>(last)];
-      const JointTable::Geometries& pair = table.pairs[static_cast<std::size_t>(meeting.pair)];
-      if (contacts_.touches(pairOf(pair.a, pair.b), meeting.a.inside, place(meeting.a, *states_.a),
-                            meeting.b.inside, place(meeting.b, *states_.b), lanes))
+      const std::int32_t pair = pairOf(table.pairs[static_cast<std::size_t>(meeting.pair)]);
+      if (pair < 0) continue;
+      if (contacts_.touches(static_cast<std::uint32_t>(pair), meeting.a.inside,
+                            place(meeting.a, *states_.a), meeting.b.inside,
+                            place(meeting.b, *states_.b), lanes))
         return true;
     }
     return false;
   }
 
-  std::uint32_t pairOf(int a, int b) const {
-    return static_cast<std::uint32_t>(model_.pairOfGeometries[a * model_.geometryBody.size() + b]);
+  /// -1: not checked. The table may be older than the rule that says so.
+  std::int32_t pairOf(const JointTable::Geometries& pair) const {
+    return model_.pairOfGeometries[pair.a * model_.geometryBody.size() + pair.b];
   }
 
   /// Leaves open what the table does; returns the lanes that it knows nothing of.
@@ -117,10 +120,11 @@ class SelfWalk {
       }
       const std::uint8_t bits = table.openPairs(lower, upper);
       for (std::size_t k = 0; k < table.pairs.size(); ++k) {
-        if ((bits >> k & 1U) == 0) continue;
+        const std::int32_t pair = pairOf(table.pairs[k]);
+        if ((bits >> k & 1U) == 0 || pair < 0) continue;
         // A contact seen in the cell is likely here, and the deeper the farther from where it ends.
         const bool likely = cell->touching && (cell->openPairs >> k & 1U) != 0;
-        leaveOpen(block_, pairOf(table.pairs[k].a, table.pairs[k].b), 1U << lane, true,
+        leaveOpen(block_, static_cast<std::uint32_t>(pair), 1U << lane, true,
                   set(likely ? kLikelyDepth : 0.0F));
       }
     }
@@ -136,7 +140,7 @@ class SelfWalk {
     turning_ = moving_ && reference.body != 0;
     if (turning_) angular_ = half_ * load3(block_.states[reference.body].angular);
     // Both balls' positions are rounded.
-    extra_ = set(2.0F * scratch_.rounding + model_.margin);
+    extra_ = set(2.0F * scratch_.rounding + (model_.margin + bodies.extra) * (1.0F + 1e-6F));
     if (moving_)
       extra_ = extra_ + inflation(half_, accelerationOf(reference, bounds, bodies.bodyA) +
                                              accelerationOf(reference, bounds, bodies.bodyB));

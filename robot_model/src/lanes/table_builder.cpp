@@ -38,10 +38,11 @@ TableBuilder::TableBuilder(const CheckerModel& model, const LaneModel& lanes,
   table_.joints = motion_.joints();
   table_.axes = motion_.axes();
   table_.cells.resize(static_cast<std::size_t>(table_.axes[0].cells * table_.axes[1].cells));
-  for (const LanePairSource& pair : lanes.sources)
+  for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
+    const LanePairSource& pair = lanes.sources[i];
     if (pair.obstacle < 0 && &lanes.bodyPairs[pair.bodyPair] == &bodies)
-      table_.pairs.push_back({pair.geometry, pair.other});
-  margin_ = model.options.margin;
+      table_.pairs.push_back({pair.geometry, pair.other, model.pairs[i].margin});
+  }
 }
 
 /// The pair that is looked at from now on.
@@ -208,7 +209,7 @@ void TableBuilder::proveParts(PartRegion& region) {
     if (!(region.gap > kLeastGap * TableMotion::travel(place, region.levers))) return;
   } else {
     const double travel = TableMotion::travel(place, region.levers);
-    const double contact = last ? travel + proof_.slack() : margin_;
+    const double contact = last ? travel + proof_.slack() : proof_.margin();
     const PairProof::Compared found = proof_.compare(place, contact, travel);
     if (found.touching) return;
     region.gap = found.gap;

@@ -67,7 +67,6 @@ class TableBuilder {
   TableMotion motion_;
   PairProof proof_;  ///< refers to motion_
   JointTable table_;
-  double margin_ = 0.0;  ///< m
   std::vector<Region> level_, next_;
   std::size_t at_ = 0;
   std::vector<PartRegion> partLevel_, nextParts_;

@@ -28,7 +28,8 @@ class WorldWalk {
         block_(scratch.block),
         fields_(model, scratch),
         half_(load(scratch.block.half)),
-        moving_(scratch.block.mode == LaneMode::Motion) {}
+        moving_(scratch.block.mode == LaneMode::Motion),
+        padded_(!model.extras.empty()) {}
 
   /// The first balls of all links, and balls inside these, before any more of their covers: most
   /// contacts show there.
@@ -155,8 +156,9 @@ class WorldWalk {
 
   /// Adds those of the hits that the node's children have to look at. True: the walk is over.
   bool sift(const LaneNode& node, const Segment& segment, std::size_t first, std::size_t last) {
-    const F8 radius = inflated(node);
-    const F8 squared = radius * radius;
+    const F8 plain = inflated(node);
+    F8 radius = plain;
+    F8 squared = radius * radius;
     const bool isRoot =
         node.geometry >= 0 && &node == &model_.nodes[model_.rootOfGeometry[node.geometry]];
     const bool divides = node.childCount > 0 && (node.geometry < 0 || node.beyond > enough_);
@@ -170,6 +172,10 @@ class WorldWalk {
         hit.lanes &= ~static_cast<Lanes>(block_.openLanes[pair]);
       }
       if (hit.lanes == 0) continue;
+      if (padded_) {
+        radius = plain + set(extraOf(node, hit.index, pair));
+        squared = radius * radius;
+      }
       const LaneObstacle& obstacle = model_.obstacles.obstacles[hit.index];
       if (obstacle.kind == ObstacleKind::Field) {
         if (fields_.visit(node, segment, radius, hit, static_cast<std::uint32_t>(pair), divides,
@@ -196,6 +202,13 @@ class WorldWalk {
       }
     }
     return false;
+  }
+
+  /// m, rounded up: what the pair keeps beyond the margin of all, or any pair of the obstacle where
+  /// the node has several pieces of geometry.
+  float extraOf(const LaneNode& node, std::int32_t obstacle, std::int32_t pair) const {
+    const float extra = node.geometry >= 0 ? model_.extras[pair] : model_.obstacleExtras[obstacle];
+    return extra * (1.0F + 1e-5F);
   }
 
   /// Looks at balls inside the link, in the lane in which it is deepest in the obstacle.
@@ -259,6 +272,7 @@ class WorldWalk {
   FieldWalk fields_;
   const F8 half_;
   const bool moving_;
+  const bool padded_;  ///< margins differ
   const LaneBodyState* state_ = nullptr;
   F8 extra_;
   float enough_ = 0.0F;

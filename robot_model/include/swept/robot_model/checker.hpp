@@ -13,6 +13,8 @@
 
 #include "swept/core/tolerances.hpp"
 #include "swept/core/verdict.hpp"
+#include "swept/robot_model/attached_body.hpp"
+#include "swept/robot_model/collision_rules.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
@@ -24,21 +26,23 @@ struct WorkspaceData;
 }  // namespace detail
 
 struct CheckerOptions {
-  /// m. Free means: every checked pair keeps more than this.
+  /// m. Free means: every checked pair keeps more than this, or than what the rules say.
   double margin = 0.0;
   /// m. A motion that keeps more than margin + tolerance everywhere is Free, never Undecided.
   double tolerance = tolerance::kMotion;
   /// All of the robot's variables; those outside the group keep these values. Default:
   /// Robot::defaultState().
-  std::optional<Eigen::VectorXd> reference;
+  std::optional<Eigen::VectorXd> reference = {};
   /// Cap on the intervals examined per motion; a motion that needs more is Undecided.
   int maxIntervals = tolerance::kMaxIntervals;
+  CollisionRules rules = {};
+  std::vector<AttachedBody> attached = {};
 };
 
 /// Two points of two bodies at most the margin apart.
 struct Witness {
   double t = 0.0;                                    ///< in [0, 1]; 0 for a state
-  std::string bodyA;                                 ///< a robot link
+  std::string bodyA;                                 ///< a robot link or an attached body
   std::string bodyB;                                 ///< a world body or another link
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyA
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyB
@@ -91,7 +95,8 @@ struct MotionClearance {
 
 class Checker;
 
-/// Scratch memory for one thread. No result depends on what it held before.
+/// Scratch memory for one thread. No result depends on what it held before. It grows when it is
+/// used with another checker than before; used with one, queries allocate nothing.
 class Workspace {
  public:
   explicit Workspace(const Checker& checker);
@@ -107,21 +112,48 @@ class Workspace {
 /// Validity of states and motions of one group of a robot in one world. Immutable: any number of
 /// threads may use one Checker, each with a Workspace of its own.
 ///
+/// A configuration has the values of the group's variables. If the world has moving obstacles, one
+/// more follows: the time on their clock, in s.
+///
 /// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0), cyclic variables the shorter way, floating
 /// orientations by slerp along the shorter arc, mimicking joints following. Checked are: each link
-/// that the group moves against each world body, and each pair of links whose relative pose the
-/// group changes, unless the SRDF disables the pair or a joint connects the two. Queries never
-/// throw on spans of the right size (std::invalid_argument otherwise).
+/// that the group moves, and each body attached to one, against each world body, and each pair of
+/// links or attached bodies whose relative pose the group changes, unless the rules or the SRDF
+/// disable the pair or a joint connects the two. Queries never throw on spans of the right size
+/// (std::invalid_argument otherwise).
+///
+/// What changes makes a new version: `with...` and `without...` return another Checker that shares
+/// with this one what is the same, and is built in a fraction of the time. This one stays as it is,
+/// for whoever uses it.
 class Checker {
  public:
   /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin or
-  /// tolerance, or a reference of the wrong size.
+  /// tolerance, a reference of the wrong size, a rule that names a body that is not there, and an
+  /// attached body whose link or touch link is not there, whose name is taken, or with a shape or
+  /// pose that AttachedBody does not allow.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
-  /// The same robot, group and options in another world. Shares what does not depend on the world,
-  /// and is built in a fraction of the time. Throws std::invalid_argument for null.
+  /// In another world. Rules that name a body that was in the world, and is no more, are dropped.
+  /// Throws std::invalid_argument for null, and a body with the name of a link or an attached one.
   Checker withWorld(std::shared_ptr<const World> world) const;
+  /// The world with one more body, or without one. Throws as World::add, and for a name that is not
+  /// there.
+  Checker withBody(WorldBody body) const;
+  Checker withObstacle(MovingObstacle obstacle) const;
+  Checker withoutBody(std::string_view name) const;
+  /// Throw as the constructor, and for a name that is not there.
+  Checker withAttached(AttachedBody body) const;
+  Checker withoutAttached(std::string_view name) const;
+  /// Instead of the ones so far. A pair that has to keep more than it had to when the first version
+  /// was made, and one with a scaled body, may take more time than in a Checker made with these
+  /// rules.
+  Checker withRules(CollisionRules rules) const;
+
+  /// An attached body where it is at a configuration, as a body of the world: what a gripper lets
+  /// go of. Throws std::invalid_argument for a name that is not there, and a configuration in which
+  /// no pose is known (see checkState).
+  WorldBody placed(std::string_view attached, std::span<const double> q) const;
 
   const Robot& robot() const;
   const World& world() const;
@@ -136,6 +168,9 @@ class Checker {
   /// one. Throws std::invalid_argument unless there is one verdict for each.
   void checkStates(std::span<const double> states, std::span<Verdict> verdicts,
                    Workspace& workspace) const;
+  /// The same on so many threads (0: as many as there are processors), whatever their number.
+  void checkStates(std::span<const double> states, std::span<Verdict> verdicts,
+                   unsigned threads = 0) const;
   /// Every violating pair and the clearance.
   StateReport reportState(std::span<const double> q, Workspace& workspace) const;
   /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not
@@ -145,6 +180,12 @@ class Checker {
   MotionCertificate certifyMotion(std::span<const double> from, std::span<const double> to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
+  /// Many at once, which follow each other in `from` and `to`, on so many threads (0: as many as
+  /// there are processors). The certificates do not depend on their number. Throws
+  /// std::invalid_argument unless there is one certificate for each.
+  void certifyMotions(std::span<const double> from, std::span<const double> to,
+                      std::span<MotionCertificate> certificates,
+                      MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
   /// upper - lower <= accuracy (m), and lower >= upper / 2 while upper >= accuracy / 50, unless the
   /// cap on intervals ends the search.
   MotionClearance motionClearance(std::span<const double> from, std::span<const double> to,
@@ -157,9 +198,10 @@ class Checker {
 
   /// One checked pair of bodies, and one that is left out with the reason.
   struct Pair {
-    std::string bodyA;  ///< a robot link
-    std::string bodyB;  ///< a link or a world body
-    bool selfPair = false;
+    std::string bodyA;      ///< a robot link or an attached body
+    std::string bodyB;      ///< likewise, or a world body
+    bool selfPair = false;  ///< both are links or attached bodies
+    double margin = 0.0;    ///< m, what they have to keep where they are checked
     std::string
         reason;  ///< empty when checked: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ...
   };
@@ -168,11 +210,17 @@ class Checker {
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;
+  /// Why a pair is checked or not, and what it has to keep: one sentence. The names may come in
+  /// either order. Throws std::invalid_argument for a name that is neither a link's nor a body's.
+  std::string explain(std::string_view bodyA, std::string_view bodyB) const;
 
  private:
   friend class Workspace;
   explicit Checker(std::shared_ptr<const detail::CheckerModel> model);
   void requireSize(std::span<const double> q) const;
+  void requireSizes(std::span<const double> states, std::size_t count) const;
+  detail::WorkspaceData& dataOf(Workspace& workspace) const;
+  Checker version(std::shared_ptr<const World> world, CheckerOptions options) const;
   std::shared_ptr<const detail::CheckerModel> model_;
 };
 

@@ -20,8 +20,9 @@ struct PlanningProblem {
 };
 
 /// MotionBenchMaker problems in one JSON file:
-/// `{ SET: [ { "index", "world": {"sphere": [...], "cylinder": [...], "box": [...]}, "start", "goals",
-/// "joint_names" } ] }`. Orientations are x, y, z, w; boxes have half extents; cylinders a full length.
+/// `{ SET: [ { "index", "world": {"sphere": [...], "cylinder": [...], "box": [...]}, "start",
+/// "goals", "joint_names" } ] }`. Orientations are x, y, z, w; boxes have half extents; cylinders a
+/// full length.
 class ProblemFile {
  public:
   /// Throws InputError.

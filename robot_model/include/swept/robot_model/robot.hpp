@@ -55,10 +55,11 @@ struct Joint {
   int firstVariable = -1;  ///< into Robot::variables(); -1 for fixed and mimicking joints
 };
 
-/// One number of a configuration. A planar joint has three (x, y in m; theta in rad), a floating one
-/// seven (x, y, z in m; quaternion x, y, z, w), in this order.
+/// One number of a configuration. A planar joint has three (x, y in m; theta in rad), a floating
+/// one seven (x, y, z in m; quaternion x, y, z, w), in this order.
 struct Variable {
-  std::string name;  ///< the joint's, or `joint/x`, `joint/theta`, `joint/trans_x`, `joint/rot_w`, ...
+  std::string
+      name;  ///< the joint's, or `joint/x`, `joint/theta`, `joint/trans_x`, `joint/rot_w`, ...
   int joint = -1;
   double lower = 0.0;   ///< rad or m; -infinity where nothing bounds it
   double upper = 0.0;   ///< rad or m
@@ -85,8 +86,8 @@ struct DisabledPair {
   std::string reason;  ///< as the SRDF says it: Adjacent, Never, Default, ...
 };
 
-/// A kinematic tree with collision geometry, from URDF and SRDF. Immutable after loading. Covers are
-/// built on as many threads as there are processors, and are the same on any number.
+/// A kinematic tree with collision geometry, from URDF and SRDF. Immutable after loading. Covers
+/// are built on as many threads as there are processors, and are the same on any number.
 ///
 /// Links and joints are stored parents first. Mimicking joints follow their master and have no
 /// variable. Lengths in metres, angles in radians.
@@ -96,8 +97,10 @@ class Robot {
   static std::shared_ptr<const Robot> load(const std::filesystem::path& urdf,
                                            const std::filesystem::path& srdf = {},
                                            const LoadOptions& options = {});
-  /// Same from text; `urdfName` is what messages call it, and relative meshes are looked up beside it.
-  static std::shared_ptr<const Robot> parse(const std::string& urdfText, const std::string& urdfName,
+  /// Same from text; `urdfName` is what messages call it, and relative meshes are looked up beside
+  /// it.
+  static std::shared_ptr<const Robot> parse(const std::string& urdfText,
+                                            const std::string& urdfName,
                                             const std::string& srdfText = {},
                                             const std::string& srdfName = {},
                                             const LoadOptions& options = {});
@@ -117,8 +120,8 @@ class Robot {
   const Group* findGroup(std::string_view name) const;
   const NamedState* findNamedState(std::string_view name, std::string_view group) const;
 
-  /// A configuration of all variables: zero where the limits allow it, else the middle of the limits;
-  /// identity for floating joints.
+  /// A configuration of all variables: zero where the limits allow it, else the middle of the
+  /// limits; identity for floating joints.
   Eigen::VectorXd defaultState() const;
 
  private:

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "certify/checker_model.hpp"
+#include "certify/obstacle_clock.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+namespace {
+
+[[noreturn]] void failUnknown(const std::string& what, std::string_view name) {
+  throw std::invalid_argument("Checker: there is no " + what + " '" + std::string(name) + "'");
+}
+
+/// Empty where no pose is known.
+std::optional<Eigen::Isometry3d> poseOf(const detail::CheckerModel& model,
+                                        const detail::Carrier& carrier, std::span<const double> q) {
+  const detail::KinematicModel& kinematics = model.kinematics;
+  std::vector<double> whole(model.world->obstacles().empty() ? 0 : kinematics.wholeDimension);
+  const std::span<const double> at = detail::wholeConfiguration(model, q, whole);
+  std::vector<detail::JointMotion> motion(kinematics.bodies.size());
+  std::vector<detail::BodyState> states(kinematics.bodies.size());
+  if (!detail::compileMotion(kinematics, at, at, motion)) return std::nullopt;
+  for (std::size_t i = 1; i < states.size(); ++i)
+    detail::evaluateBody(kinematics, motion, 0.0, static_cast<int>(i), states);
+  return states[carrier.body].world_from_body * carrier.body_from_frame;
+}
+
+}  // namespace
+
+Checker Checker::version(std::shared_ptr<const World> world, CheckerOptions options) const {
+  return Checker(detail::compileChecker(model_->robot, model_->group, std::move(world), options,
+                                        model_.get()));
+}
+
+Checker Checker::withWorld(std::shared_ptr<const World> next) const {
+  if (!next) throw std::invalid_argument("Checker: the world must not be null");
+  CheckerOptions changed = options();
+  const auto forget = [&](const auto& bodies) {
+    for (const auto& body : bodies)
+      if (next->find(body.name) == nullptr && next->findObstacle(body.name) == nullptr)
+        changed.rules = changed.rules.without(body.name);
+  };
+  if (!changed.rules.empty()) {
+    forget(world().bodies());
+    forget(world().obstacles());
+  }
+  return version(std::move(next), std::move(changed));
+}
+
+Checker Checker::withBody(WorldBody body) const {
+  World next = world();
+  next.add(std::move(body));
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
+Checker Checker::withObstacle(MovingObstacle obstacle) const {
+  World next = world();
+  next.add(std::move(obstacle));
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
+Checker Checker::withoutBody(std::string_view name) const {
+  World next = world();
+  if (!next.remove(name)) failUnknown("body of the world", name);
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
+Checker Checker::withAttached(AttachedBody body) const {
+  CheckerOptions changed = options();
+  changed.attached.push_back(std::move(body));
+  return version(model_->world, std::move(changed));
+}
+
+Checker Checker::withoutAttached(std::string_view name) const {
+  CheckerOptions changed = options();
+  const auto named = [name](const AttachedBody& body) { return body.name == name; };
+  if (std::erase_if(changed.attached, named) == 0) failUnknown("attached body", name);
+  changed.rules = changed.rules.without(name);
+  return version(model_->world, std::move(changed));
+}
+
+Checker Checker::withRules(CollisionRules rules) const {
+  CheckerOptions changed = options();
+  changed.rules = std::move(rules);
+  return version(model_->world, std::move(changed));
+}
+
+WorldBody Checker::placed(std::string_view attached, std::span<const double> q) const {
+  requireSize(q);
+  const auto body = std::ranges::find(options().attached, attached, &AttachedBody::name);
+  if (body == options().attached.end()) failUnknown("attached body", attached);
+  const auto carrier = std::ranges::find(model_->carriers, attached, &detail::Carrier::name);
+  const std::optional<Eigen::Isometry3d> world_from_frame = poseOf(*model_, *carrier, q);
+  if (!world_from_frame) {
+    throw std::invalid_argument("Checker: no pose of '" + std::string(attached) +
+                                "' is known in a configuration that is not finite");
+  }
+  WorldBody result{.name = body->name, .parts = {}};
+  for (const AttachedBody::Part& part : body->parts)
+    result.parts.push_back({part.shape, *world_from_frame * part.link_from_shape});
+  return result;
+}
+
+}  // namespace swept

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certify/obstacle_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swept::detail {
+
+namespace {
+
+/// Behind the configuration that is there already.
+void placeObstacles(const CheckerModel& model, std::vector<double>& whole) {
+  auto at = whole.begin() + model.kinematics.dimension;
+  const double time = *std::prev(at);
+  // No pose is known, and nothing is free.
+  if (!std::isfinite(time)) {
+    std::fill(at, whole.end(), std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  for (const MovingObstacle& obstacle : model.world->obstacles()) {
+    const Eigen::Isometry3d pose = obstacle.poseAt(time);
+    const Eigen::Quaterniond turn(pose.linear());
+    at = std::copy_n(pose.translation().data(), 3, at);
+    at = std::copy_n(turn.coeffs().data(), 4, at);
+  }
+}
+
+}  // namespace
+
+std::span<const double> wholeConfiguration(const CheckerModel& model, std::span<const double> q,
+                                           std::vector<double>& whole) {
+  if (whole.empty()) return q;
+  std::ranges::copy(q, whole.begin());
+  placeObstacles(model, whole);
+  return whole;
+}
+
+EvenParts::EvenParts(const CheckerModel& model, std::span<const double> from,
+                     std::span<const double> to, WorkspaceData& workspace)
+    : model_(model), from_(from), to_(to), workspace_(workspace) {
+  workspace.passages.clear();
+  if (workspace.from.empty()) return;
+  const double begin = from.back();
+  const double end = to.back();
+  for (const MovingObstacle& obstacle : model.world->obstacles()) {
+    for (const MovingObstacle::Waypoint& waypoint : obstacle.waypoints) {
+      const double t = (waypoint.time - begin) / (end - begin);
+      if (t > 0.0 && t < 1.0) workspace.passages.push_back({t, waypoint.time});
+    }
+  }
+  std::ranges::sort(workspace.passages, {}, &Passage::t);
+  const auto repeated = std::ranges::unique(workspace.passages, {}, &Passage::t);
+  workspace.passages.erase(repeated.begin(), repeated.end());
+}
+
+EvenPart EvenParts::part(const Passage& begin, const Passage& end) {
+  fill(begin, workspace_.from);
+  fill(end, workspace_.to);
+  return {begin.t, end.t, workspace_.from, workspace_.to};
+}
+
+/// At the time itself: where it is large, that of the interpolated configuration may lie on the
+/// other side of a waypoint.
+void EvenParts::fill(const Passage& passage, std::vector<double>& whole) const {
+  const auto dimension = static_cast<std::size_t>(model_.kinematics.dimension);
+  const std::span<double> q = std::span(whole).first(dimension);
+  if (passage.t == 0.0 || passage.t == 1.0)
+    std::ranges::copy(passage.t == 0.0 ? from_ : to_, q.begin());
+  else
+    interpolateMotion(model_.kinematics, from_, to_, passage.t, q);
+  q.back() = passage.time;
+  placeObstacles(model_, whole);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certify/pair_compile.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "certify/checker_model.hpp"
+#include "certify/pair_reasons.hpp"
+#include "swept/core/distance.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b) {
+  return collide(a, b, a_from_b) != Contact::Separate;
+}
+
+class PairCompiler {
+ public:
+  explicit PairCompiler(CheckerModel& model) : model_(model), rules_(model.options.rules) {}
+
+  void compile() {
+    for (const CollisionRules::Rule& rule : rules_.rules()) {
+      requireKnown(rule.bodyA);
+      if (!rule.bodyB.empty()) requireKnown(rule.bodyB);
+    }
+    for (const Carrier& carrier : model_.carriers)
+      paddings_.push_back(rules_.padding(carrier.name));
+    firstOf_.assign(model_.carriers.size() + 1, 0);
+    for (const RobotGeometry& geometry : model_.robotGeometry) ++firstOf_[geometry.carrier + 1];
+    std::partial_sum(firstOf_.begin(), firstOf_.end(), firstOf_.begin());
+    pairWithWorld();
+    pairCarriers();
+  }
+
+ private:
+  void requireKnown(const std::string& name) const {
+    const bool known =
+        name.find('*') != std::string::npos ||
+        std::ranges::find(model_.carriers, name, &Carrier::name) != model_.carriers.end() ||
+        model_.world->find(name) != nullptr;
+    if (!known) {
+      throw std::invalid_argument("Checker: a rule names '" + name +
+                                  "', which is no link, attached body or body of the world");
+    }
+  }
+
+  double marginOf(const std::string& a, double paddingA, const std::string& b,
+                  double paddingB) const {
+    if (rules_.empty()) return model_.options.margin;
+    const auto* rule = rules_.find(CollisionRules::Kind::Margin, a, b);
+    return rule != nullptr ? rule->value : model_.options.margin + paddingA + paddingB;
+  }
+
+  std::optional<bool> allowed(const std::string& a, const std::string& b) const {
+    return rules_.empty() ? std::nullopt : rules_.allowed(a, b);
+  }
+
+  /// Rounding of the relative pose of two geometries, in metres at their points: proportional to
+  /// the coordinates and to the number of joints that were multiplied.
+  static double rounding(double magnitudes, std::size_t joints) {
+    return tolerance::kRoundingPerJoint * magnitudes * static_cast<double>(joints + 2);
+  }
+
+  int travelSlot(int geometry, int reference) {
+    const LeverArms& levers = model_.robotGeometry[geometry].levers;
+    std::size_t first = 0;
+    while (first < levers.path.size() && reference != 0 && levers.path[first] != reference) ++first;
+    if (reference != 0) ++first;  // the joints after the reference body
+    const auto known = slots_.find({geometry, first});
+    if (known != slots_.end()) return known->second;
+    const int slot = static_cast<int>(model_.travels.size());
+    model_.travels.push_back({geometry, first});
+    slots_.emplace(std::pair{geometry, first}, slot);
+    return slot;
+  }
+
+  /// Farthest any point of the geometry gets from its first moving joint, if that is bounded.
+  bool outOfReach(const RobotGeometry& robot, const WorldGeometry& world, double margin) const {
+    for (const int i : robot.levers.path)
+      if (slidesFreely(model_.kinematics.bodies[i].type)) return false;
+    const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
+    const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
+    const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
+    const double slack = rounding(robot.levers.reach + world.magnitude, robot.levers.path.size());
+    return outside.norm() > robot.levers.reachFromBase + margin + slack;
+  }
+
+  void pairWithWorld() {
+    const std::vector<WorldBody>& bodies = model_.world->bodies();
+    std::vector<double> worldPaddings;
+    for (const WorldBody& body : bodies) worldPaddings.push_back(rules_.padding(body.name));
+    for (std::size_t c = 0; c < model_.carriers.size(); ++c) {
+      const Carrier& carrier = model_.carriers[c];
+      if (carrier.kind == Carrier::Kind::Obstacle || firstOf_[c] == firstOf_[c + 1]) continue;
+      const std::size_t base = model_.bodyPairs.size();
+      for (std::size_t k = 0; k < bodies.size(); ++k) {
+        BodyPair pair{.a = static_cast<int>(c), .b = static_cast<int>(k)};
+        pair.margin = marginOf(carrier.name, paddings_[c], bodies[k].name, worldPaddings[k]);
+        if (allowed(carrier.name, bodies[k].name).value_or(false))
+          pair.reason = PairReason::Allowed;
+        else
+          pair.reason = carrier.body == 0 ? PairReason::Unmoved : PairReason::OutOfReach;
+        model_.bodyPairs.push_back(pair);
+      }
+      for (int i = firstOf_[c]; i < firstOf_[c + 1]; ++i)
+        for (std::size_t j = 0; j < model_.worldGeometry.size(); ++j)
+          pairWithPart(i, static_cast<int>(j),
+                       model_.bodyPairs[base + model_.worldGeometry[j].body]);
+    }
+  }
+
+  void pairWithPart(int a, int b, BodyPair& bodies) {
+    const RobotGeometry& robot = model_.robotGeometry[a];
+    const WorldGeometry& world = model_.worldGeometry[b];
+    if (bodies.reason == PairReason::Allowed) return;
+    if (bodies.reason == PairReason::Unmoved) {
+      bodies.touching =
+          bodies.touching ||
+          touch(robot.shape, world.shape, robot.body_from_shape.inverse() * world.world_from_shape);
+      return;
+    }
+    if (outOfReach(robot, world, bodies.margin)) return;
+    bodies.reason = PairReason::Checked;
+    GeometryPair pair;
+    pair.a = a;
+    pair.b = b;
+    pair.travelA = travelSlot(a, 0);
+    pair.rounding = rounding(robot.levers.reach + world.magnitude, robot.levers.path.size());
+    pair.margin = bodies.margin;
+    model_.pairs.push_back(pair);
+  }
+
+  int lastCommonAncestor(int a, int b) const {
+    while (a != b) {
+      // Parents have smaller indices than their children.
+      if (a > b) {
+        a = model_.kinematics.bodies[a].parent;
+      } else {
+        b = model_.kinematics.bodies[b].parent;
+      }
+    }
+    return a;
+  }
+
+  /// The body that what is fixed in `body` moves with, and its frame from the one of `body`.
+  int movingBody(int body, Isometry3d& moving_from_body) const {
+    moving_from_body.setIdentity();
+    for (; body != 0 && model_.kinematics.bodies[body].type == JointType::Fixed;
+         body = model_.kinematics.bodies[body].parent)
+      moving_from_body = model_.kinematics.bodies[body].parent_from_joint * moving_from_body;
+    return body;
+  }
+
+  void pairCarriers() {
+    const std::set<std::pair<int, int>> disabled = disabledCarriers(model_);
+    const std::size_t count = model_.carriers.size();
+    for (std::size_t a = 0; a < count; ++a) {
+      // Obstacles come last, and are not checked against each other.
+      if (model_.carriers[a].kind == Carrier::Kind::Obstacle) break;
+      const std::size_t base = model_.bodyPairs.size();
+      for (std::size_t b = a + 1; b < count && firstOf_[a] < firstOf_[a + 1]; ++b)
+        if (firstOf_[b] < firstOf_[b + 1])
+          model_.bodyPairs.push_back(
+              carrierPair(static_cast<int>(a), static_cast<int>(b), disabled));
+      for (int i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
+        for (std::size_t k = base; k < model_.bodyPairs.size(); ++k)
+          for (int j = firstOf_[model_.bodyPairs[k].b]; j < firstOf_[model_.bodyPairs[k].b + 1];
+               ++j)
+            pairGeometries(i, j, model_.bodyPairs[k]);
+    }
+  }
+
+  BodyPair carrierPair(int a, int b, const std::set<std::pair<int, int>>& disabled) const {
+    const Carrier& first = model_.carriers[a];
+    const Carrier& second = model_.carriers[b];
+    BodyPair pair{.a = a, .b = b, .carriers = true};
+    pair.margin = marginOf(first.name, paddings_[a], second.name, paddings_[b]);
+    const std::optional<bool> rule = allowed(first.name, second.name);
+    Isometry3d ignored;
+    if (rule.value_or(false))
+      pair.reason = PairReason::Allowed;
+    else if (!rule && disabled.contains({a, b}))
+      pair.reason = PairReason::Disabled;
+    else if (movingBody(first.body, ignored) == movingBody(second.body, ignored))
+      pair.reason = PairReason::Rigid;
+    return pair;
+  }
+
+  void pairGeometries(int i, int j, BodyPair& bodies) {
+    const RobotGeometry& a = model_.robotGeometry[i];
+    const RobotGeometry& b = model_.robotGeometry[j];
+    if (bodies.reason == PairReason::Rigid) {
+      Isometry3d moving_from_a;
+      Isometry3d moving_from_b;
+      movingBody(a.body, moving_from_a);
+      movingBody(b.body, moving_from_b);
+      bodies.touching = bodies.touching || touch(a.shape, b.shape,
+                                                 (moving_from_a * a.body_from_shape).inverse() *
+                                                     moving_from_b * b.body_from_shape);
+    }
+    if (bodies.reason != PairReason::Checked) return;
+    GeometryPair pair;
+    pair.self = true;
+    pair.a = i;
+    pair.b = j;
+    pair.reference = lastCommonAncestor(a.body, b.body);
+    pair.travelA = travelSlot(i, pair.reference);
+    pair.travelB = travelSlot(j, pair.reference);
+    pair.rounding =
+        rounding(a.levers.reach + b.levers.reach, a.levers.path.size() + b.levers.path.size());
+    pair.margin = bodies.margin;
+    model_.pairs.push_back(pair);
+  }
+
+  CheckerModel& model_;
+  const CollisionRules& rules_;
+  std::vector<double> paddings_;  ///< m, per carrier
+  std::vector<int> firstOf_;      ///< per carrier: of its geometry, the first
+  std::map<std::pair<int, std::size_t>, int> slots_;
+};
+
+}  // namespace
+
+void compilePairs(CheckerModel& model) {
+  PairCompiler(model).compile();
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a version of a checker and a workspace take, in KB of heap.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "version_arms.hpp"
+
+namespace {
+
+std::atomic<long> live{0};  ///< bytes
+
+void* counted(std::size_t size, std::size_t alignment) {
+  void* memory = nullptr;
+  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), std::max<std::size_t>(size, 1)))
+    throw std::bad_alloc();
+  live += static_cast<long>(malloc_usable_size(memory));
+  return memory;
+}
+
+void release(void* memory) {
+  live -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  release(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  release(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  release(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  release(memory);
+}
+
+namespace swept {
+namespace {
+
+using test::at;
+
+/// KB that what `make` returns holds, beyond what there was before.
+template <typename Make>
+double kilobytesOf(const std::string& what, const Make& make) {
+  const long before = live;
+  const auto made = make();
+  const double kilobytes = static_cast<double>(live - before) / 1024.0;
+  testing::Test::RecordProperty(what, std::to_string(kilobytes));
+  std::printf("%s: %.1f KB\n", what.c_str(), kilobytes);
+  return kilobytes;
+}
+
+/// Six joints, meshes and primitives, a world of boxes.
+class CheckerMemory : public testing::Test {
+ protected:
+  CheckerMemory() : world_(std::make_shared<World>(test::clutter(1, 12))) {
+    const std::string folder = SWEPT_MODELS_DIR "/robots/rook6/";
+    robot_ = Robot::load(folder + "rook6.urdf", folder + "rook6.srdf");
+    base_.emplace(robot_, robot_->groups().front().name, world_);
+  }
+
+  std::shared_ptr<const World> world_;
+  std::shared_ptr<const Robot> robot_;
+  std::optional<Checker> base_;
+};
+
+TEST_F(CheckerMemory, OfAVersionIsAFractionOfAChecker) {
+  const double whole =
+      kilobytesOf("checker", [&] { return Checker(robot_, base_->group().name, world_); });
+  EXPECT_LT(whole, 4000.0);
+  const double body = kilobytesOf("version with a body more", [&] {
+    return base_->withBody({.name = "ball", .parts = {{Sphere{0.1}, at(1, 0, 1)}}});
+  });
+  EXPECT_LT(body, 64.0);
+  const double rules = kilobytesOf("version with other rules", [&] {
+    return base_->withRules(CollisionRules().pad("*", 0.01));
+  });
+  EXPECT_LT(rules, 64.0);
+  // The covers of all links are copied to make room for one more.
+  const double attached = kilobytesOf("version with an attached body", [&] {
+    return base_->withAttached({.name = "gripped",
+                                .link = robot_->links().back().name,
+                                .parts = {{Box{{0.05, 0.05, 0.05}}, at(0, 0, 0.1)}}});
+  });
+  EXPECT_LT(attached, 1000.0);
+  EXPECT_LT(10.0 * body, whole);
+}
+
+TEST_F(CheckerMemory, OfAWorkspace) {
+  EXPECT_LT(kilobytesOf("workspace", [&] { return Workspace(*base_); }), 64.0);
+  // Used, it has room for what queries need.
+  EXPECT_LT(kilobytesOf("used workspace",
+                        [&] {
+                          Workspace workspace(*base_);
+                          std::mt19937 random(1);
+                          for (int i = 0; i < 500; ++i) {
+                            const auto from = test::randomConfiguration(*base_, random);
+                            const auto to = test::randomConfiguration(*base_, random);
+                            (void)base_->certifyMotion(from, to, workspace);
+                            (void)base_->clearance(to, workspace);
+                          }
+                          return workspace;
+                        }),
+            256.0);
+}
+
+TEST_F(CheckerMemory, ALongLineOfVersionsDoesNotGrow) {
+  const auto change = [&](const Checker& checker, int i) {
+    const std::string name = "ball" + std::to_string(i % 2);
+    const Checker with = checker.withBody({.name = name, .parts = {{Sphere{0.1}, at(1, 0, 1)}}})
+                             .withAttached({.name = "gripped",
+                                            .link = robot_->links().back().name,
+                                            .parts = {{Sphere{0.05}, at(0, 0, 0.1)}}})
+                             .withRules(CollisionRules().pad(name, 0.02));
+    return with.withoutAttached("gripped").withoutBody(name);
+  };
+  Checker version = change(*base_, 0);
+  const long before = live;
+  for (int i = 0; i < 50; ++i) version = change(version, i);
+  EXPECT_LT(static_cast<double>(live - before) / 1024.0, 16.0);
+}
+
+}  // namespace
+}  // namespace swept

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One checker, asked by many threads while others make new versions of it.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <barrier>
+#include <thread>
+
+#include "version_arms.hpp"
+
+namespace swept {
+namespace {
+
+using test::armUrdf;
+using test::at;
+using test::parseArm;
+
+constexpr int kAsking = 8;
+constexpr int kBuilding = 2;
+constexpr int kMotions = 200;
+
+std::shared_ptr<const World> shared(World world) {
+  return std::make_shared<const World>(std::move(world));
+}
+
+struct Motions {
+  explicit Motions(const Checker& checker) {
+    std::mt19937 random(3);
+    for (int i = 0; i < kMotions; ++i) {
+      for (std::vector<double>* ends : {&from, &to}) {
+        const std::vector<double> q = test::randomConfiguration(checker, random);
+        ends->insert(ends->end(), q.begin(), q.end());
+      }
+    }
+  }
+  std::span<const double> begin(int i) const { return {from.data() + 2 * i, 2}; }
+  std::span<const double> end(int i) const { return {to.data() + 2 * i, 2}; }
+  std::vector<double> from, to;
+};
+
+struct Answer {
+  Verdict motion;
+  double freeUntil;
+  Verdict state;
+  double clearance;
+  bool operator==(const Answer&) const = default;
+};
+
+Answer ask(const Checker& checker, const Motions& motions, int i, Workspace& workspace) {
+  const MotionCertificate certificate =
+      checker.certifyMotion(motions.begin(i), motions.end(i), workspace);
+  return {certificate.verdict, certificate.freeUntil, checker.checkState(motions.end(i), workspace),
+          checker.clearance(motions.begin(i), workspace)};
+}
+
+TEST(CheckerThreads, NewVersionsDisturbNobody) {
+  const Checker checker(parseArm(armUrdf({})), "all", shared(test::clutter(41)),
+                        {.rules = CollisionRules().pad("hand", 0.01)});
+  const Motions motions(checker);
+  std::vector<Answer> alone;
+  Workspace first(checker);
+  for (int i = 0; i < kMotions; ++i) alone.push_back(ask(checker, motions, i, first));
+
+  std::atomic<int> different{0};
+  std::atomic<int> built{0};
+  std::atomic<bool> done{false};
+  std::barrier start(kAsking + kBuilding);
+  std::vector<std::jthread> threads;
+  for (int thread = 0; thread < kAsking; ++thread) {
+    threads.emplace_back([&, thread] {
+      Workspace workspace(checker);
+      start.arrive_and_wait();
+      // The lists of pairs are made when somebody first asks for them.
+      different +=
+          checker.checkedPairs().empty() || checker.explain("hand", "base").empty() ? 1 : 0;
+      for (int k = 0; k < 3 * kMotions; ++k) {
+        const int i = (37 * thread + k) % kMotions;
+        different += ask(checker, motions, i, workspace) == alone[i] ? 0 : 1;
+      }
+      done = true;
+    });
+  }
+  for (int thread = 0; thread < kBuilding; ++thread) {
+    threads.emplace_back([&, thread] {
+      start.arrive_and_wait();
+      const std::string name = "ball" + std::to_string(thread);
+      Checker version = checker;
+      while (!done) {
+        const WorldBody ball{.name = name, .parts = {{Sphere{0.1}, at(0.3, 0.2, 0.5)}}};
+        version = checker.withBody(ball).withRules(CollisionRules().allow("*", name));
+        version = version.withAttached(
+            {.name = "tool", .link = "hand", .parts = {{Sphere{0.02}, at(0, 0, 0.05)}}});
+        Workspace workspace(version);
+        different += version.checkedPairs().size() > checker.checkedPairs().size() ? 0 : 1;
+        ask(version, motions, built++ % kMotions, workspace);
+      }
+    });
+  }
+  threads.clear();
+  EXPECT_EQ(different, 0);
+  EXPECT_GT(built, 0);
+}
+
+TEST(CheckerThreads, BatchesAreTheSameOnAnyNumber) {
+  const Checker checker(parseArm(armUrdf({})), "all", shared(test::clutter(42)));
+  const Motions motions(checker);
+  Workspace workspace(checker);
+  std::vector<Verdict> alone(kMotions);
+  checker.checkStates(motions.to, alone, workspace);
+  std::vector<MotionCertificate> one(kMotions);
+  checker.certifyMotions(motions.from, motions.to, one, MotionQuery::FirstContact, 1);
+  EXPECT_GT(std::ranges::count(alone, Verdict::Collision), 10);
+  EXPECT_GT(std::ranges::count(alone, Verdict::Free), 20);
+  for (const unsigned threads : {0U, 1U, 2U, 3U, 8U}) {
+    std::vector<Verdict> verdicts(kMotions);
+    checker.checkStates(motions.to, verdicts, threads);
+    EXPECT_EQ(verdicts, alone) << threads << " threads";
+    std::vector<MotionCertificate> certificates(kMotions);
+    checker.certifyMotions(motions.from, motions.to, certificates, MotionQuery::FirstContact,
+                           threads);
+    for (int i = 0; i < kMotions; ++i) {
+      const MotionCertificate own =
+          checker.certifyMotion(motions.begin(i), motions.end(i), workspace);
+      for (const MotionCertificate* other : {&one[i], &certificates[i]}) {
+        EXPECT_EQ(other->verdict, own.verdict);
+        EXPECT_EQ(other->freeUntil, own.freeUntil);
+        EXPECT_EQ(other->undecidedAt, own.undecidedAt);
+        EXPECT_EQ(other->effort.distances, own.effort.distances);
+        ASSERT_EQ(other->witness.has_value(), own.witness.has_value());
+        if (own.witness) {
+          EXPECT_EQ(other->witness->t, own.witness->t);
+          EXPECT_EQ(other->witness->pointA, own.witness->pointA);
+          EXPECT_EQ(other->witness->bodyB, own.witness->bodyB);
+        }
+      }
+    }
+  }
+}
+
+TEST(CheckerThreads, BatchesOfTheWrongSizeAreErrors) {
+  const Checker checker(parseArm(armUrdf({})), "all", shared({}));
+  const std::vector<double> states(6);
+  std::vector<Verdict> two(2);
+  EXPECT_EQ(test::messageOf([&] { checker.checkStates(states, two); }),
+            "Checker: 2 states of group 'all' have 4 values, not 6");
+  std::vector<MotionCertificate> three(3);
+  const std::vector<double> few(4);
+  EXPECT_EQ(test::messageOf([&] { checker.certifyMotions(states, few, three); }),
+            "Checker: 3 states of group 'all' have 6 values, not 4");
+  std::vector<Verdict> none;
+  checker.checkStates(std::span<const double>(), none);
+}
+
+}  // namespace
+}  // namespace swept
