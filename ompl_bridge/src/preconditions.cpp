@@ -22,6 +22,11 @@ void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space)
 std::shared_ptr<const Checker> requireChecker(std::shared_ptr<const Checker> checker,
                                               const ompl::base::StateSpace& space) {
   if (!checker) throw std::invalid_argument("no checker given");
+  if (!checker->world().obstacles().empty()) {
+    throw std::invalid_argument("the checker's world has a moving obstacle, `" +
+                                checker->world().obstacles().front().name +
+                                "`, and states of the space have no time");
+  }
   requireSpaceOf(*checker, space);
   return checker;
 }
