@@ -77,6 +77,19 @@ void addModelOptions(CLI::App& app, Arguments& args) {
   app.add_option("--margin", args.margin, "m; free means: more than this apart (default 0)")
       ->type_name("M")
       ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--pad", args.pads,
+                 "a link or body of the world reaches so many m farther; in names * stands for any "
+                 "characters (repeatable)")
+      ->type_name("NAME=M")
+      ->allow_extra_args(false);
+  app.add_option("--scale", args.scales,
+                 "a link or body of the world is so many times as large (repeatable)")
+      ->type_name("NAME=FACTOR")
+      ->allow_extra_args(false);
+  app.add_option("--allow", args.allowed,
+                 "two links, or a link and a body of the world, may collide (repeatable)")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
   app.add_option("--tolerance", args.tolerance,
                  "m; motions that keep more than margin + tolerance are decided (default 0.001)")
       ->type_name("M")
@@ -247,6 +260,11 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
   auto* edges = bench->add_subcommand("edges", "Time per motion, over a list of motions");
   for (CLI::App* sub : {info, check, motion, plan, edges}) addModelOptions(*sub, args);
   for (CLI::App* sub : {info, check, motion, plan}) addSceneOption(*sub, args);
+  info->add_option("--explain", args.explained,
+                   "why two links, or a link and a body of the world, are checked or not "
+                   "(repeatable; needs --group)")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
   check->add_option("states", args.states, "states to check")->type_name("STATE");
   motion->add_option("states", args.states, "two states or more")->type_name("STATE");
   plan->add_option("states", args.states, "start and goal")

@@ -20,6 +20,10 @@ struct Arguments {
   std::string scene;
   std::string group;
   std::vector<std::string> packages;      ///< NAME=DIR
+  std::vector<std::string> pads;          ///< NAME=METRES
+  std::vector<std::string> scales;        ///< NAME=FACTOR
+  std::vector<std::string> allowed;       ///< A,B
+  std::vector<std::string> explained;     ///< A,B
   double margin = 0.0;                    ///< m
   double tolerance = tolerance::kMotion;  ///< m
   bool json = false;

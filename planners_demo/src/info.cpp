@@ -2,8 +2,11 @@
 #include "info.hpp"
 
 #include <iostream>
+#include <stdexcept>
 
 #include "commands.hpp"
+#include "exit_code.hpp"
+#include "rules.hpp"
 
 namespace swept {
 
@@ -25,6 +28,19 @@ std::string_view toString(JointType type) {
   return "unknown";
 }
 
+std::vector<std::string> explanations(const Arguments& args, const Checker& checker) {
+  std::vector<std::string> sentences;
+  for (const std::string& text : args.explained) {
+    const auto [a, b] = namesOfPair("--explain", text);
+    try {
+      sentences.push_back(checker.explain(a, b));
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(error.what());
+    }
+  }
+  return sentences;
+}
+
 ExitCode runInfo(const Arguments& args) {
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
@@ -32,6 +48,8 @@ ExitCode runInfo(const Arguments& args) {
   if (!args.group.empty())
     checker =
         makeChecker(args, model, chooseGroup(*model.robot, args.group), model.world, warnings);
+  if (!args.explained.empty() && checker == nullptr)
+    throw UsageError("--explain needs --group: which pairs are checked depends on what moves");
   if (args.json) {
     std::cout << infoJson(args, model, checker.get()).dump(2) << '\n';
   } else {

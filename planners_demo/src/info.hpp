@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "task.hpp"
 #include "text_output.hpp"
@@ -10,6 +11,9 @@
 namespace swept {
 
 std::string_view toString(JointType type);
+
+/// One sentence for each --explain. Throws UsageError for a name that is not there.
+std::vector<std::string> explanations(const Arguments& args, const Checker& checker);
 
 /// What `info` says. `checker` is null when no group was asked for.
 std::string infoText(const Arguments& args, const Model& model, const Checker* checker);

@@ -115,7 +115,10 @@ Json worldJson(const World& world) {
 Json pairsJson(const std::vector<Checker::Pair>& pairs) {
   Json array = Json::array();
   for (const Checker::Pair& pair : pairs) {
-    Json entry = {{"body_a", pair.bodyA}, {"body_b", pair.bodyB}, {"self", pair.selfPair}};
+    Json entry = {{"body_a", pair.bodyA},
+                  {"body_b", pair.bodyB},
+                  {"self", pair.selfPair},
+                  {"margin", pair.margin}};
     if (!pair.reason.empty()) entry["reason"] = pair.reason;
     array.push_back(std::move(entry));
   }
@@ -141,7 +144,8 @@ Json infoJson(const Arguments& args, const Model& model, const Checker* checker)
     json["group"] = {{"name", checker->group().name},
                      {"checked_pairs", pairsJson(checker->checkedPairs())},
                      {"skipped_pairs", pairsJson(checker->skippedPairs())},
-                     {"standing_contacts", pairsJson(checker->standingContacts())}};
+                     {"standing_contacts", pairsJson(checker->standingContacts())},
+                     {"explained", explanations(args, *checker)}};
   return json;
 }
 

@@ -124,6 +124,12 @@ std::string pairText(const Checker& checker) {
                      std::to_string(checker.checkedPairs().size() - selfPairs) +
                      " of a link with a world body, " + std::to_string(selfPairs) +
                      " of two links\n";
+  std::map<double, std::vector<std::string>> byMargin;
+  for (const Checker::Pair& pair : checker.checkedPairs())
+    byMargin[pair.margin].push_back(pair.bodyA + " - " + pair.bodyB);
+  for (const auto& [margin, pairs] : byMargin)
+    text += "checked, more than " + shortNumber(margin) + " m apart (" +
+            std::to_string(pairs.size()) + "): " + joined(pairs) + "\n";
   std::map<std::string, std::vector<std::string>> byReason;
   for (const Checker::Pair& pair : checker.skippedPairs())
     byReason[shortReason(pair.reason)].push_back(pair.bodyA + " - " + pair.bodyB);
@@ -154,7 +160,10 @@ std::string infoText(const Arguments& args, const Model& model, const Checker* c
   if (!args.scene.empty())
     text += "\nscene " + args.scene + ": " + count(model.world->bodies().size(), "body", "bodies") +
             "\n" + worldTable(*model.world);
-  if (checker != nullptr) text.append("\n").append(pairText(*checker));
+  if (checker == nullptr) return text;
+  text.append("\n").append(pairText(*checker));
+  for (const std::string& sentence : explanations(args, *checker))
+    text.append(sentence).append("\n");
   return text;
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 
 #include "exit_code.hpp"
+#include "rules.hpp"
 #include "states.hpp"
 #include "text_output.hpp"
 
@@ -115,8 +117,13 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
   CheckerOptions options;
   options.margin = args.margin;
   options.tolerance = args.tolerance;
-  auto checker =
-      std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
+  options.rules = rulesOf(args);
+  std::shared_ptr<const Checker> checker;
+  try {
+    checker = std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
   if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
   return checker;
 }

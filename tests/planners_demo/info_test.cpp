@@ -52,7 +52,8 @@ TEST(Info, SaysWhatIsThere) {
                 "post        box 0.2 x 0.2 x 0.2 m\n"
                 "\n"
                 "group both checks 1 pair: 1 of a link with a world body, "
-                "0 of two links\n");
+                "0 of two links\n"
+                "checked, more than 0 m apart (1): cube - post\n");
 }
 
 TEST(Info, JsonHoldsTheSame) {
@@ -147,6 +148,49 @@ TEST(Info, NamesStandingContacts) {
   EXPECT_THAT(standing.err,
               EndsWith("swept: warning: in contact whatever group 'all' does, and left out of the "
                        "verdicts: foot - floor\n"));
+}
+
+TEST(Info, SaysWhyPairsAreCheckedAndHowFarApart) {
+  const std::string rook = std::string(SWEPT_MODELS_DIR) + "/robots/rook7/rook7.urdf";
+  const std::string shelf = std::string(SWEPT_MODELS_DIR) + "/scenes/shelf.yaml";
+  const Outcome plain = runSwept({"info", rook, "--group", "arm", "--scene", shelf});
+  EXPECT_EQ(plain.exitCode, 0);
+  EXPECT_THAT(plain.out, HasSubstr("checked, more than 0 m apart ("));
+  EXPECT_THAT(plain.out, HasSubstr("not checked, adjacent ("));
+
+  const Outcome changed = runSwept({"info", rook, "--group", "arm", "--scene", shelf, "--margin",
+                                    "0.01", "--pad", "hand=0.02", "--allow", "*,board_1",
+                                    "--explain", "hand,board_2", "--explain", "board_1,hand"});
+  EXPECT_EQ(changed.exitCode, 0) << changed.err;
+  EXPECT_THAT(changed.out, HasSubstr("checked, more than 0.01 m apart ("));
+  EXPECT_THAT(changed.out, HasSubstr("checked, more than 0.03 m apart ("));
+  EXPECT_THAT(changed.out, HasSubstr("not checked, allowed: --allow ("));
+  EXPECT_THAT(changed.out, HasSubstr("hand - board_2: checked, keeps more than 0.03 m (margin 0.01 "
+                                     "m, padding of hand 0.02 m)\n"));
+  EXPECT_THAT(changed.out, HasSubstr("board_1 - hand: not checked, allowed: --allow\n"));
+}
+
+TEST(Info, RulesThatMakeNoSenseAreUsageErrors) {
+  const std::string rook = std::string(SWEPT_MODELS_DIR) + "/robots/rook7/rook7.urdf";
+  const auto error = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"info", rook, "--group", "arm", "--quiet"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Outcome run = runSwept(command);
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  };
+  EXPECT_THAT(error({"--pad", "hand"}), HasSubstr("--pad 'hand': expected NAME=NUMBER"));
+  EXPECT_THAT(error({"--pad", "hand=much"}), HasSubstr("--pad 'hand=much': expected NAME=NUMBER"));
+  EXPECT_THAT(error({"--pad", "hand=-1"}),
+              HasSubstr("the padding of 'hand', -1.000000 m, must be"));
+  EXPECT_THAT(error({"--scale", "hand=0"}), HasSubstr("the scale of 'hand', 0.000000, must be"));
+  EXPECT_THAT(error({"--allow", "hand"}), HasSubstr("--allow 'hand': expected two names, A,B"));
+  EXPECT_THAT(error({"--pad", "paw=1"}), HasSubstr("a rule names 'paw', which is no link"));
+  EXPECT_THAT(error({"--explain", "hand,sun"}), HasSubstr("'sun' is no link, attached body"));
+  const Outcome noGroup = runSwept({"info", rook, "--explain", "hand,board_1", "--quiet"});
+  EXPECT_EQ(noGroup.exitCode, 3);
+  EXPECT_THAT(noGroup.err, HasSubstr("--explain needs --group"));
 }
 
 }  // namespace
