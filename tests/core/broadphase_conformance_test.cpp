@@ -153,6 +153,100 @@ TYPED_TEST(BroadphaseConformance, BoundsShrinkAndNeverGrow) {
             kInfinity);
 }
 
+/// Two rows of cubes side by side; what is in a box is taken to be 0.2 m behind its faces.
+TYPED_TEST(BroadphaseConformance, NearestPairOfWhatIsInTheBoxes) {
+  TypeParam other;
+  for (int i = 0; i < 40; ++i) {
+    this->manager_.registerBox(cube(3.0 * i, 0, 0));
+    other.registerBox(cube(3.0 * i, 1.5 + 0.25 * std::abs(i - 30), 0));
+  }
+  std::vector<PairVisit> visited;
+  const double bound =
+      this->manager_.distance(other, this->scratch_, [&](BoxHandle a, BoxHandle b, double d) {
+        visited.push_back({d, a, b});
+        return d + 0.4;
+      });
+  EXPECT_NEAR(bound, 0.9, 1e-12);
+  ASSERT_EQ(visited.size(), 3u);  // 0.5, then 0.75 twice; 1.0 is not nearer
+  EXPECT_EQ(visited[0].a, 30u);
+  EXPECT_EQ(visited[0].b, 30u);
+  EXPECT_EQ(visited[1].a, 29u);
+  EXPECT_EQ(visited[2].a, 31u);
+  // Among themselves all neighbours are equally near.
+  EXPECT_EQ(nearestPairsOf<TypeParam>(this->manager_, nullptr, 39, this->scratch_).back().b, 39u);
+  visited.clear();
+  EXPECT_NEAR(this->manager_.distance(this->scratch_,
+                                      [&](BoxHandle a, BoxHandle b, double d) {
+                                        visited.push_back({d, a, b});
+                                        if (a == 0) return 6.0;
+                                        return a == 1 ? kNan : 7.0;
+                                      }),
+              6.0, 0.0);
+  ASSERT_EQ(visited.size(), 39u + 38u);  // 2 m and 5 m; not 8 m
+  EXPECT_EQ(visited[38].a, 38u);
+  EXPECT_EQ(visited[39].a, 0u);
+  EXPECT_EQ(visited[39].b, 2u);
+}
+
+TYPED_TEST(BroadphaseConformance, NearestPairsOfNothing) {
+  const auto never = [](BoxHandle, BoxHandle, double) -> double {
+    ADD_FAILURE();
+    return 0.0;
+  };
+  TypeParam other;
+  EXPECT_EQ(this->manager_.distance(this->scratch_, never), kInfinity);
+  EXPECT_EQ(this->manager_.distance(other, this->scratch_, never), kInfinity);
+  this->manager_.registerBox(cube(0, 0, 0));
+  EXPECT_EQ(this->manager_.distance(this->scratch_, never), kInfinity);
+  EXPECT_EQ(this->manager_.distance(other, this->scratch_, never), kInfinity);
+  EXPECT_EQ(other.distance(this->manager_, this->scratch_, never), kInfinity);
+  this->manager_.unregisterBox(0);
+  EXPECT_EQ(this->manager_.distance(this->scratch_, never), kInfinity);
+  // Against itself, each box also meets itself.
+  this->manager_.registerBox(cube(0, 0, 0));
+  EXPECT_EQ(nearestPairsOf(this->manager_, &this->manager_, 5, this->scratch_),
+            (std::vector<PairVisit>{{0.0, 0, 0}}));
+}
+
+/// All pairs of every kind of world, also of one kind against another.
+TYPED_TEST(BroadphaseConformance, NearestPairsOfAllWorlds) {
+  std::mt19937 random(7);
+  std::size_t overlapping = 0, all = 0;
+  for (const World world : kWorlds) {
+    for (const World second : {world, World::Hostile, World::Grid}) {
+      Reference reference, others;
+      TypeParam manager, other;
+      for (const Aabb& box : randomBoxes(random, world, 60, 2.0))
+        reference.boxes[manager.registerBox(box)] = box;
+      for (const Aabb& box : randomBoxes(random, second, 40, 2.0))
+        others.boxes[other.registerBox(box)] = box;
+      // Some far from where they were, so that they are in the other tree.
+      for (const BoxHandle moved : {3U, 8U, 11U, 30U, 31U}) {
+        const Aabb box = shifted(reference.boxes[moved], Vector3d(9.0, -1.0, 0.5));
+        reference.boxes[moved] = box;
+        manager.update(moved, box);
+      }
+      const auto among =
+          nearestPairsOf(manager, static_cast<TypeParam*>(nullptr), 9999, this->scratch_);
+      EXPECT_EQ(among, nearestPairsOf(reference, nullptr, 9999));
+      EXPECT_EQ(nearestPairsOf(manager, &other, 9999, this->scratch_),
+                nearestPairsOf(reference, &others, 9999));
+      for (const PairVisit& visit : among) overlapping += visit.distance > 0.0 ? 0 : 1;
+      all += among.size();
+      // What overlaps comes as in `collide`.
+      const Pairs pairs = pairsOf(manager);
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        EXPECT_EQ(among[i], (PairVisit{0.0, pairs[i].first, pairs[i].second}));
+      if (pairs.size() < among.size()) {
+        EXPECT_GT(among[pairs.size()].distance, 0.0);
+      }
+    }
+  }
+  EXPECT_EQ(all, kWorlds.size() * 3 * 60 * 59 / 2);
+  EXPECT_GT(overlapping, all / 20);
+  EXPECT_LT(overlapping, all / 2);
+}
+
 TYPED_TEST(BroadphaseConformance, WrongCallsChangeNothing) {
   std::mt19937 random(3);
   const std::vector<Aabb> boxes = randomBoxes(random, World::Even, 30, 1.0);
@@ -220,12 +314,16 @@ TYPED_TEST(BroadphaseConformance, OrderTellsNothingOfTheHistory) {
     const Aabb query = cube(0.5, 0.5, 0.5);
     const Pairs pairs = pairsOf(atOnce);
     const auto near = nearestOf(atOnce, query, 50, this->scratch_);
+    const auto nearPairs = nearestPairsOf<TypeParam>(atOnce, nullptr, 999, this->scratch_);
+    const auto nearOthers = nearestPairsOf(atOnce, &atOnce, 999, this->scratch_);
     EXPECT_FALSE(pairs.empty());
     for (const TypeParam* same : {&oneByOne, &moved, &churned}) {
       EXPECT_EQ(pairsOf(*same), pairs);
       EXPECT_EQ(overlappingOf(*same, query, this->scratch_),
                 overlappingOf(atOnce, query, this->scratch_));
       EXPECT_EQ(nearestOf(*same, query, 50, this->scratch_), near);
+      EXPECT_EQ(nearestPairsOf<TypeParam>(*same, nullptr, 999, this->scratch_), nearPairs);
+      EXPECT_EQ(nearestPairsOf(*same, &atOnce, 999, this->scratch_), nearOthers);
     }
   }
 }

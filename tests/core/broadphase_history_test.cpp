@@ -36,6 +36,9 @@ class History {
   std::size_t looks() const { return looks_; }
   std::size_t hits() const { return hits_; }
   std::size_t queries() const { return queries_; }
+  std::size_t nearPairs() const { return nearPairs_; }
+  std::size_t apart() const { return apart_; }
+  std::size_t nearQueries() const { return nearQueries_; }
   std::size_t registered() const { return registered_; }
   std::size_t updated() const { return updated_; }
 
@@ -56,8 +59,10 @@ class History {
       comparePairs();
     else if (what < 0.92)
       compareQuery();
-    else
+    else if (what < 0.98)
       compareNearest();
+    else
+      compareNearestPairs();
   }
 
   BoxHandle anyHandle() {
@@ -83,8 +88,10 @@ class History {
       ASSERT_TRUE(reference_.boxes.emplace(handles[i], boxes[i]).second);
     registered_ += count;
   }
+  /// At times down to one box; mostly so in small worlds, which soon grow again.
   void shrink() {
-    const int count = chance(random_, 0.05) ? static_cast<int>(reference_.boxes.size()) - 1 : 1;
+    const bool nearlyAll = chance(random_, 2.0 / static_cast<double>(most_));
+    const int count = nearlyAll ? static_cast<int>(reference_.boxes.size()) - 1 : 1;
     for (int i = 0; i < count; ++i) {
       const BoxHandle handle = anyHandle();
       manager_.unregisterBox(handle);
@@ -147,6 +154,23 @@ class History {
     if (expected.size() > most) expected.resize(most);
     ASSERT_EQ(nearestOf(manager_, query, most, scratch_), expected);
   }
+  /// Up to all of them, against itself or some other boxes.
+  void compareNearestPairs() {
+    Reference other;
+    Manager others;
+    const bool among = chance(random_, 0.5);
+    for (int i = 0; i < 20 && !among; ++i) {
+      const Aabb box = randomBox(random_, world_, reach_);
+      other.boxes[others.registerBox(box)] = box;
+    }
+    const auto most = static_cast<std::size_t>(std::pow(10.0, uniform(random_, 0.0, 3.5)));
+    const auto expected = nearestPairsOf(reference_, among ? nullptr : &other, most);
+    ASSERT_EQ(nearestPairsOf(manager_, among ? nullptr : &others, most, scratch_), expected);
+    if (expected.empty()) return;
+    nearPairs_ += expected.size();
+    apart_ += expected.back().distance > 0.0 ? 1 : 0;
+    ++nearQueries_;
+  }
 
   World world_;
   std::size_t most_;
@@ -155,6 +179,7 @@ class History {
   Manager manager_;
   Reference reference_;
   BroadphaseScratch scratch_;
+  std::size_t nearPairs_ = 0, apart_ = 0, nearQueries_ = 0;
   std::size_t pairs_ = 0, looks_ = 0, hits_ = 0, queries_ = 0, registered_ = 0, updated_ = 0;
 };
 
@@ -174,6 +199,9 @@ TYPED_TEST(BroadphaseHistory, AgreesWithAllPairs) {
     EXPECT_GT(perBox, 0.1) << static_cast<int>(world);
     EXPECT_LT(perBox, world == World::Identical ? 30.0 : 12.0) << static_cast<int>(world);
     EXPECT_GT(history.hits(), history.queries() / 10) << static_cast<int>(world);
+    EXPECT_GT(history.nearQueries(), static_cast<std::size_t>(steps) / 100);
+    EXPECT_GT(history.nearPairs(), 10 * history.nearQueries()) << static_cast<int>(world);
+    EXPECT_GT(history.apart(), history.nearQueries() / 10) << static_cast<int>(world);
     EXPECT_GT(history.registered(), static_cast<std::size_t>(steps) / 50);
     EXPECT_GT(history.updated(), static_cast<std::size_t>(steps) * 3 / 2);
   }
@@ -207,10 +235,19 @@ TEST(BoxDistance, IsALowerBoundAndClose) {
     const double bound = boxDistance(scaled(a), scaled(b));
     EXPECT_LE(bound, truth);
     EXPECT_GE(bound, truth * (1.0 - 1e-14) - 1e-300);
+    EXPECT_EQ(bound == 0.0, scaled(a).overlaps(scaled(b)));
     EXPECT_EQ(bound, boxDistance(scaled(b), scaled(a)));
     apart += truth > 0.0 ? 1 : 0;
   }
   EXPECT_GT(apart, 10000);
+  // By the least that doubles can tell.
+  for (const double x : {0.0, 1e-310, 1e-300, 1.0}) {
+    const double next = std::nextafter(x, 2.0);
+    const Aabb below{Vector3d::Constant(-1.0), Vector3d(1.0, 1.0, x)};
+    const Aabb above{Vector3d(-1.0, -1.0, next), Vector3d::Constant(2.0)};
+    EXPECT_GT(boxDistance(below, above), 0.0) << x;
+    EXPECT_LE(boxDistance(below, above), next - x) << x;
+  }
 }
 
 }  // namespace

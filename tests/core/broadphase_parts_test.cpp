@@ -5,6 +5,7 @@
 #include <set>
 
 #include "broadphase/box_forest.hpp"
+#include "broadphase/nearest_pairs.hpp"
 #include "broadphase/pair_set.hpp"
 #include "broadphase/partner_lists.hpp"
 #include "broadphase/room.hpp"
@@ -139,6 +140,38 @@ TEST(BoxForest, LargeBoxesDoNotSpoilTheSmallOnes) {
   }
   EXPECT_LE(large, 102);  // 800 large boxes, 8 a block, and where the two sorts meet
   EXPECT_GE(large, 100);
+}
+
+/// Blocks looked at, per box, for the first 32 pairs: spread-out boxes of two sizes must not take
+/// much more when there are more of them.
+TEST(NearestPairs, SpreadOutBoxesAreNotAllCompared) {
+  double least = kInfinity, most = 0.0;
+  for (const std::uint32_t count : {1000U, 4000U, 16'000U, 64'000U}) {
+    std::mt19937 random(6);
+    const double side = std::cbrt(static_cast<double>(count));
+    std::vector<Aabb> boxes;
+    std::vector<detail::FloatBox> rooms;
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double half = i % 50 == 0 ? 1.0 : 0.1;
+      boxes.push_back(around(uniformPoint(random, 0.5 * side), Vector3d::Constant(half)));
+      rooms.push_back(detail::floatBox(boxes.back()));
+      numbers.push_back(i);
+    }
+    detail::BoxForest forest;
+    forest.build(numbers, rooms);
+    const detail::PlacedForest placed{forest, boxes, numbers};
+    std::vector<BroadphaseScratch::Pair> pairs;
+    const std::size_t looked = detail::findNearestPairs(
+        placed, nullptr, {0.0, 0xFFFFFFFF, 0xFFFFFFFF}, kInfinity, 32, pairs);
+    EXPECT_EQ(pairs.size(), 32u);
+    EXPECT_LE(pairs.capacity(), 64u);
+    const double perBox = static_cast<double>(looked) / count;
+    least = std::min(least, perBox);
+    most = std::max(most, perBox);
+  }
+  EXPECT_LT(most, 2.0 * least);
+  EXPECT_LT(most, 4.0);
 }
 
 }  // namespace

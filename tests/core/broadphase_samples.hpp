@@ -183,4 +183,37 @@ std::vector<Visit> nearestOf(const Manager& manager, const Aabb& box, std::size_
   return found;
 }
 
+using PairVisit = BroadphaseScratch::Pair;
+
+/// The `most` nearest pairs; of one manager, or of it against `other`.
+template <typename Manager>
+std::vector<PairVisit> nearestPairsOf(const Manager& manager, const Manager* other,
+                                      std::size_t most, BroadphaseScratch& scratch) {
+  std::vector<PairVisit> found;
+  const auto visit = [&](BoxHandle a, BoxHandle b, double distance) {
+    found.push_back({distance, a, b});
+    return found.size() < most ? kInfinity : (most % 2 == 0 ? 0.0 : -kInfinity);
+  };
+  const double bound = other == nullptr ? manager.distance(scratch, visit)
+                                        : manager.distance(*other, scratch, visit);
+  EXPECT_EQ(bound == kInfinity, found.size() < most);
+  return found;
+}
+
+/// What `nearestPairsOf` should give.
+inline std::vector<PairVisit> nearestPairsOf(const Reference& first, const Reference* second,
+                                             std::size_t most) {
+  std::vector<PairVisit> all;
+  for (const auto& [a, boxA] : first.boxes) {
+    for (const auto& [b, boxB] : (second == nullptr ? first : *second).boxes) {
+      if (second == nullptr && a >= b) continue;
+      all.push_back({boxDistance(Reference::meaning(boxA), Reference::meaning(boxB)), a, b});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const PairVisit& x, const PairVisit& y) { return x.distance < y.distance; });
+  if (all.size() > most) all.resize(most);
+  return all;
+}
+
 }  // namespace swept::test

@@ -65,7 +65,7 @@ TEST(SweepAndPrune, AllocatesNothingInSteadyState) {
   const std::vector<BoxHandle> handles = manager.registerBoxes(start);
   some.reserve(kCount);
   BroadphaseScratch scratch;
-  std::size_t pairs = 0, hits = 0, changes = 0, before = 0;
+  std::size_t pairs = 0, hits = 0, changes = 0, before = 0, nearPairs = 0;
   const auto step = [&](int at) {
     for (std::size_t i = 0; i < kCount; ++i) boxes[i] = onItsWay(start[i], i, at);
     if (at % 3 == 0)
@@ -81,6 +81,13 @@ TEST(SweepAndPrune, AllocatesNothingInSteadyState) {
     manager.collide(boxes[0], scratch, [&](BoxHandle) { return ++hits == 0; });
     manager.distance(boxes[1], scratch, [](BoxHandle, double d) { return d > 0.1 ? 0.0 : 1.0; });
     manager.collide(manager, scratch, [](BoxHandle, BoxHandle) { return false; });
+    std::size_t visits = 0;
+    const auto nearPair = [&](BoxHandle, BoxHandle, double d) {
+      return ++visits < 100 || d == 0.0 ? 1.0 : d;
+    };
+    manager.distance(scratch, nearPair);
+    if (at % 7 == 0) manager.distance(manager, scratch, nearPair);
+    nearPairs += visits;
     if (at % 7 == 0) {
       manager.unregisterBox(5);
       manager.unregisterBox(9);
@@ -106,6 +113,7 @@ TEST(SweepAndPrune, AllocatesNothingInSteadyState) {
   EXPECT_GT(pairs, kCount / 5);
   EXPECT_GT(changes, 400u);
   EXPECT_GT(hits, 100u);
+  EXPECT_GT(nearPairs, 500u * 1000u);
 }
 
 TEST(SweepAndPrune, TellsItsMemory) {

@@ -18,18 +18,23 @@ double gap(double lowerA, double upperA, double lowerB, double upperB) {
 
 /// Differences and the final rounding to double are off by half an epsilon each, the long sums and
 /// the root by less. Each step is monotonous in the gaps and so is the result: a box within
-/// another is not nearer, whatever the rounding.
+/// another is not nearer, whatever the rounding. Doubles that differ do so by the least denormal at
+/// least, and so do boxes that do not overlap.
 double boxDistance(const Aabb& a, const Aabb& b) {
   long double sum = 0.0L;
+  int apart = 0;
   for (int k = 0; k < 3; ++k) {
-    const long double apart = gap(a.lower[k], a.upper[k], b.lower[k], b.upper[k]);
-    sum += apart * apart;
+    const long double length = gap(a.lower[k], a.upper[k], b.lower[k], b.upper[k]);
+    apart |= static_cast<int>(length > 0.0L);
+    sum += length * length;
   }
   constexpr double kShrink = 1.0 - 8.0 * std::numeric_limits<double>::epsilon();
   const long double bound =
       std::sqrt(sum) * kShrink - static_cast<long double>(std::numeric_limits<double>::min());
   constexpr double kMost = std::numeric_limits<double>::max();
-  if (!(bound > 0.0L)) return 0.0;
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  if (apart == 0) return 0.0;
+  if (!(bound > static_cast<long double>(kLeast))) return kLeast;
   return bound < kMost ? static_cast<double>(bound) : kMost;
 }
 

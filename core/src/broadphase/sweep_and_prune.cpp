@@ -151,4 +151,16 @@ bool SweepAndPrune::nextNearest(const Aabb& box, double bound, BroadphaseScratch
   return false;
 }
 
+void SweepAndPrune::findNearestPairs(const SweepAndPrune* other,
+                                     const BroadphaseScratch::Pair& after, double bound,
+                                     std::size_t most, BroadphaseScratch& scratch) const {
+  const detail::PlacedForest a = state_->placed();
+  if (other == nullptr) {
+    detail::findNearestPairs(a, nullptr, after, bound, most, scratch.pairs);
+  } else {
+    const detail::PlacedForest b = other->state_->placed();
+    detail::findNearestPairs(a, &b, after, bound, most, scratch.pairs);
+  }
+}
+
 }  // namespace swept

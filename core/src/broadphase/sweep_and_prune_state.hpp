@@ -7,6 +7,7 @@
 
 #include "broadphase/box_forest.hpp"
 #include "broadphase/handles.hpp"
+#include "broadphase/nearest_pairs.hpp"
 #include "broadphase/pair_set.hpp"
 #include "broadphase/partner_lists.hpp"
 #include "broadphase/stamps.hpp"
@@ -33,6 +34,7 @@ class SweepAndPrune::State {
   const Aabb& boxAt(Number number) const { return boxes_[number]; }
   BoxHandle handleAt(Number number) const { return owners_[number]; }
   const detail::BoxForest& forest() const { return forest_; }
+  detail::PlacedForest placed() const { return {forest_, boxes_, owners_}; }
   const detail::PairSet& pairs() const { return pairs_; }
   std::size_t bytes() const;
 

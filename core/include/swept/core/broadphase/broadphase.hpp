@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +28,8 @@ inline Aabb boundedOrEverywhere(const Aabb& box) {
   return {-all, all};
 }
 
-/// m. Lower bound of the distance of two boxes, proven, and off by a few roundings; 0 if they
-/// overlap. Of what does not fit into a double: the largest one.
+/// m. Lower bound of the distance of two boxes, proven, and off by a few roundings; 0 exactly if
+/// they overlap. Of what does not fit into a double: the largest one.
 double boxDistance(const Aabb& a, const Aabb& b);
 
 /// Memory that queries use again; one for each thread. Its content never matters.
@@ -37,8 +38,14 @@ struct BroadphaseScratch {
     double distance;      ///< m
     std::uint64_t order;  ///< at the same distance: blocks first, then boxes by handle
   };
+  struct Pair {
+    double distance;  ///< m
+    BoxHandle a, b;
+    auto operator<=>(const Pair&) const = default;
+  };
   std::vector<BoxHandle> handles;
   std::vector<Candidate> nearest;
+  std::vector<Pair> pairs;
 };
 
 /// Boxes that come, move and go, and which of them overlap. Touching counts.
@@ -56,6 +63,11 @@ struct BroadphaseScratch {
 /// - `distance(box, scratch, visitor)`: `visitor(a, d)`, nearest first, and by handle if equally
 ///   near; d is `boxDistance`, m. What the visitor returns is a bound, m: from then on only boxes
 ///   nearer than the least bound so far are visited. Returns that, or infinity.
+/// - `distance(scratch, visitor)`: `visitor(a, b, d)` for pairs, a < b, nearest first, and
+///   lexicographic if equally near, so pairs that overlap come as in `collide`. What the visitor
+///   returns is a bound of the same kind: the exact distance of what is in the boxes makes the
+///   least one the exact distance of the nearest pair of all
+/// - `distance(other, scratch, visitor)`: the same, a of this one and b of the other
 ///
 /// A handle that is not in use, or a number of boxes that does not fit: std::invalid_argument, and
 /// nothing has changed.
@@ -64,7 +76,8 @@ concept Broadphase = requires(Manager manager, const Manager fixed, const Aabb b
                               BoxHandle handle, std::span<const BoxHandle> handles,
                               std::span<const Aabb> boxes, BroadphaseScratch& scratch,
                               bool (*one)(BoxHandle), bool (*two)(BoxHandle, BoxHandle),
-                              double (*near)(BoxHandle, double)) {
+                              double (*near)(BoxHandle, double),
+                              double (*nearPair)(BoxHandle, BoxHandle, double)) {
   { manager.registerBox(box) } -> std::same_as<BoxHandle>;
   { manager.registerBoxes(boxes) } -> std::same_as<std::vector<BoxHandle>>;
   manager.unregisterBox(handle);
@@ -78,6 +91,8 @@ concept Broadphase = requires(Manager manager, const Manager fixed, const Aabb b
   { fixed.collide(box, scratch, one) } -> std::same_as<bool>;
   { fixed.collide(fixed, scratch, two) } -> std::same_as<bool>;
   { fixed.distance(box, scratch, near) } -> std::same_as<double>;
+  { fixed.distance(scratch, nearPair) } -> std::same_as<double>;
+  { fixed.distance(fixed, scratch, nearPair) } -> std::same_as<double>;
 };
 
 }  // namespace swept

@@ -71,9 +71,43 @@ class BruteForce {
     return bound;
   }
 
+  template <typename Visitor>
+  double distance(BroadphaseScratch& scratch, Visitor&& visitor) const {
+    scratch.pairs.clear();
+    for (BoxHandle a = 0; a < boxes_.size(); ++a) {
+      for (BoxHandle b = a + 1; b < boxes_.size(); ++b)
+        if (contains(a) && contains(b)) addPair(a, b, *boxes_[b], scratch);
+    }
+    return visitPairs(scratch, visitor);
+  }
+
+  template <typename Visitor>
+  double distance(const BruteForce& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    scratch.pairs.clear();
+    for (BoxHandle a = 0; a < boxes_.size(); ++a) {
+      for (BoxHandle b = 0; b < other.boxes_.size(); ++b)
+        if (contains(a) && other.contains(b)) addPair(a, b, *other.boxes_[b], scratch);
+    }
+    return visitPairs(scratch, visitor);
+  }
+
  private:
   void require(BoxHandle handle) const;
   void sortByDistance(const Aabb& box, BroadphaseScratch& scratch) const;
+  void addPair(BoxHandle a, BoxHandle b, const Aabb& boxB, BroadphaseScratch& scratch) const {
+    scratch.pairs.push_back({boxDistance(*boxes_[a], boxB), a, b});
+  }
+  template <typename Visitor>
+  static double visitPairs(BroadphaseScratch& scratch, Visitor&& visitor) {
+    std::sort(scratch.pairs.begin(), scratch.pairs.end());
+    double bound = std::numeric_limits<double>::infinity();
+    for (const BroadphaseScratch::Pair& next : scratch.pairs) {
+      if (!(next.distance < bound)) break;
+      const double enough = visitor(next.a, next.b, next.distance);
+      if (enough < bound) bound = enough;
+    }
+    return bound;
+  }
 
   std::vector<std::optional<Aabb>> boxes_;
 };

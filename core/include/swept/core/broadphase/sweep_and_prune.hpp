@@ -94,6 +94,25 @@ class SweepAndPrune {
     return bound;
   }
 
+  /// Pairs that overlap take no memory; the others up to eight times that of those visited.
+  template <typename Visitor>
+  double distance(BroadphaseScratch& scratch, Visitor&& visitor) const {
+    double bound = std::numeric_limits<double>::infinity();
+    collide([&](BoxHandle a, BoxHandle b) { return !visitNear({0.0, a, b}, bound, visitor); });
+    visitApart(nullptr, bound, scratch, visitor);
+    return bound;
+  }
+
+  template <typename Visitor>
+  double distance(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    double bound = std::numeric_limits<double>::infinity();
+    collide(other, scratch, [&](BoxHandle a, BoxHandle b) {
+      return !visitNear({0.0, a, b}, bound, visitor);
+    });
+    visitApart(&other, bound, scratch, visitor);
+    return bound;
+  }
+
  private:
   class State;
   /// `sorted` but for `changed`, whose pairs overlap exactly if they are not in `sorted`.
@@ -109,12 +128,37 @@ class SweepAndPrune {
   static bool visit(std::uint64_t pair, Visitor&& visitor) {
     return visitor(static_cast<BoxHandle>(pair >> 32), static_cast<BoxHandle>(pair));
   }
+  /// Whether to go on with pairs as near as this one.
+  template <typename Visitor>
+  static bool visitNear(const BroadphaseScratch::Pair& pair, double& bound, Visitor&& visitor) {
+    const double enough = visitor(pair.a, pair.b, pair.distance);
+    if (enough < bound) bound = enough;
+    return pair.distance < bound;
+  }
+  /// The pairs that do not overlap; `other` null: of these boxes among themselves. More at a time
+  /// the more there have been, since each search starts anew.
+  template <typename Visitor>
+  void visitApart(const SweepAndPrune* other, double& bound, BroadphaseScratch& scratch,
+                  Visitor&& visitor) const {
+    constexpr BoxHandle kLast = std::numeric_limits<BoxHandle>::max();
+    BroadphaseScratch::Pair after{0.0, kLast, kLast};
+    for (std::size_t most = 32; 0.0 < bound; most *= 8) {
+      findNearestPairs(other, after, bound, most, scratch);
+      for (const BroadphaseScratch::Pair& pair : scratch.pairs)
+        if (!(pair.distance < bound) || !visitNear(pair, bound, visitor)) return;
+      if (scratch.pairs.size() < most) return;
+      after = scratch.pairs.back();
+    }
+  }
   Pairs pairs() const;
   BoxHandle handleEnd() const;  ///< all handles in use are below
   void findOverlapping(const Aabb& box, BroadphaseScratch& scratch) const;
   void startNearest(BroadphaseScratch& scratch) const;
   /// The next box that is nearer than the bound; false if there is none.
   bool nextNearest(const Aabb& box, double bound, BroadphaseScratch& scratch, Near& near) const;
+  /// The first `most` pairs after this one that are nearer than the bound, in their order.
+  void findNearestPairs(const SweepAndPrune* other, const BroadphaseScratch::Pair& after,
+                        double bound, std::size_t most, BroadphaseScratch& scratch) const;
 
   std::unique_ptr<State> state_;
 };

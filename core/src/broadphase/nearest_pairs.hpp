@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "broadphase/box_forest.hpp"
+#include "swept/core/broadphase/broadphase.hpp"
+
+namespace swept::detail {
+
+/// The boxes of one manager, by number, and the forest that holds boxes around them.
+struct PlacedForest {
+  const BoxForest& forest;
+  std::span<const Aabb> boxes;        ///< m
+  std::span<const BoxHandle> owners;  ///< handles
+};
+
+/// The first pairs after `after` that are nearer than `bound` (m), at most `most` of them, in their
+/// order. `b` null: the pairs of a's boxes among themselves. Memory is that of the result. Returns
+/// the number of pairs of blocks that were looked at.
+std::size_t findNearestPairs(const PlacedForest& a, const PlacedForest* b,
+                             const BroadphaseScratch::Pair& after, double bound, std::size_t most,
+                             std::vector<BroadphaseScratch::Pair>& pairs);
+
+}  // namespace swept::detail
