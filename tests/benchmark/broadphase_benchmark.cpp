@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes that move: the time to follow them and to visit all pairs that overlap, one
 // step at a time.
-// An argument N stops at N boxes.
+// Arguments: N stops at N boxes; then, "coherent", "teleporting" or "robots" for these alone, and
+// after it a share that moves, in %.
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "broadphase_bullet.hpp"
 #include "broadphase_fcl.hpp"
+#include "broadphase_robots.hpp"
 #include "broadphase_worlds.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
 #include "timing.hpp"
@@ -22,6 +24,8 @@ namespace {
 constexpr double kHopeless = 50.0, kPatience = 0.05;
 /// s. Of one library in one round; steps not done by then are left out.
 constexpr double kEnough = 4.0, kEnoughWarmUp = 10.0;
+/// s. For robots that fold, of one library in a process of its own.
+constexpr unsigned kFoldingPatience = 20;
 /// Steps before the measured ones: from standing still to what goes on.
 constexpr int kWarmUp = 10;
 
@@ -37,13 +41,13 @@ double clockSeconds() {
 
 class SweptBroadphase : public BroadphasePeer {
  public:
-  explicit SweptBroadphase(const MovingBoxes& boxes) { manager_.registerBoxes(boxes.boxes()); }
+  explicit SweptBroadphase(const BoxWorld& boxes) { manager_.registerBoxes(boxes.boxes()); }
 
-  void prepare(const MovingBoxes& boxes) override {
+  void prepare(const BoxWorld& boxes) override {
     moved_.clear();
     for (const std::uint32_t i : boxes.moving()) moved_.push_back(boxes.boxes()[i]);
   }
-  std::size_t step(const MovingBoxes& boxes) override {
+  std::size_t step(const BoxWorld& boxes) override {
     if (boxes.moving().size() == boxes.boxes().size())
       manager_.updateAll(boxes.boxes());
     else
@@ -63,11 +67,11 @@ class SweptBroadphase : public BroadphasePeer {
 
 struct Library {
   std::string name;
-  std::unique_ptr<BroadphasePeer> (*make)(const MovingBoxes&);
+  std::unique_ptr<BroadphasePeer> (*make)(const BoxWorld&);
 };
 
 template <typename Peer>
-std::unique_ptr<BroadphasePeer> make(const MovingBoxes& boxes) {
+std::unique_ptr<BroadphasePeer> make(const BoxWorld& boxes) {
   return std::make_unique<Peer>(boxes);
 }
 
@@ -93,6 +97,10 @@ struct Setting {
   double movingShare;
   BoxMotion motion;
 
+  std::unique_ptr<BoxWorld> world() const {
+    if (motion == BoxMotion::Folding) return std::make_unique<FoldingRobots>(count, 7);
+    return std::make_unique<MovingBoxes>(count, movingShare, motion, 7);
+  }
   int steps() const { return count <= 1000 ? 200 : count <= 10000 ? 80 : 40; }
   int rounds() const { return count <= 10000 ? 3 : 2; }
 };
@@ -120,20 +128,23 @@ struct Run {
 };
 
 void oneRound(const Setting& setting, const Library& library, Run& run) {
-  MovingBoxes boxes(setting.count, setting.movingShare, setting.motion, 7);
+  const std::unique_ptr<BoxWorld> world = setting.world();
+  BoxWorld& boxes = *world;
   const double clock = clockSeconds();
   double start = cpuSeconds();
   const std::unique_ptr<BroadphasePeer> peer = library.make(boxes);
   run.registering = cpuSeconds() - start;
   for (int i = -kWarmUp; i < setting.steps(); ++i) {
     boxes.step();
+    if (i < 0 && cpuSeconds() - start > kEnoughWarmUp) continue;
     peer->prepare(boxes);
     const double before = cpuSeconds();
     const std::size_t pairs = peer->step(boxes);
     const double seconds = cpuSeconds() - before - clock;
-    if (i >= 0) run.add(static_cast<std::size_t>(i), seconds, pairs);
-    if (i == 0) start = cpuSeconds();
-    if (cpuSeconds() - start > (i < 0 ? kEnoughWarmUp : kEnough)) break;
+    if (i < 0) continue;
+    if (i == 0) start = before;
+    run.add(static_cast<std::size_t>(i), seconds, pairs);
+    if (cpuSeconds() - start > kEnough) break;
   }
 }
 
@@ -141,12 +152,12 @@ class Table {
  public:
   explicit Table(BoxMotion motion) : motion_(motion) {}
 
-  void measure(std::size_t most) {
+  void measure(std::size_t most, const std::vector<double>& shares) {
     std::vector<std::string> head{"boxes", "moving", "pairs"};
     for (const Library& library : libraries_) head.push_back(library.name);
     head.push_back("swept / best");
     const MarkdownTable table(head);
-    for (const double share : {0.01, 0.1, 1.0}) {
+    for (const double share : shares) {
       std::vector<bool> hopeless(libraries_.size(), false);
       for (std::size_t count = 1000; count <= most; count *= 10)
         table.row(row({count, share, motion_}, hopeless));
@@ -180,6 +191,12 @@ class Table {
   /// `hopeless`: which libraries are left out; more for the next size.
   std::vector<std::string> row(const Setting& setting, std::vector<bool>& hopeless) {
     std::vector<Run> runs(libraries_.size());
+    std::vector<std::string> mishaps(libraries_.size());
+    for (std::size_t i = 0; setting.motion == BoxMotion::Folding && i < runs.size(); ++i) {
+      if (hopeless[i]) continue;
+      mishaps[i] = mishapOf([&] { oneRound(setting, libraries_[i], runs[i]); }, kFoldingPatience);
+      hopeless[i] = !mishaps[i].empty();
+    }
     for (int round = 0; round < setting.rounds(); ++round) {
       for (std::size_t i = 0; i < libraries_.size(); ++i)
         if (!hopeless[i]) oneRound(setting, libraries_[i], runs[i]);
@@ -191,7 +208,10 @@ class Table {
                                    std::to_string(ours.pairs.back())};
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      cells.push_back(runs[i].seconds.empty() ? "-" : number(1e6 * runs[i].mean()));
+      if (runs[i].seconds.empty())
+        cells.push_back(mishaps[i].empty() ? "-" : mishaps[i]);
+      else
+        cells.push_back(number(1e6 * runs[i].mean()));
       if (i > 0) best = std::min(best, runs[i].mean());
       check(setting, libraries_[i].name, ours, runs[i]);
     }
@@ -225,10 +245,13 @@ class Table {
   bool agree_ = true;
 };
 
-bool measure(const char* title, BoxMotion motion, std::size_t most) {
+/// `only`: empty, or the one to be measured. Whether all libraries agree.
+bool measure(const std::string& only, const std::string& name, const char* title, BoxMotion motion,
+             std::size_t most, const std::vector<double>& shares) {
+  if (!only.empty() && only != name) return true;
   std::printf("\n%s: us per step\n\n", title);
   Table table(motion);
-  table.measure(most);
+  table.measure(most, shares);
   table.printGrowth(most);
   return table.agree();
 }
@@ -238,9 +261,14 @@ bool measure(const char* title, BoxMotion motion, std::size_t most) {
 
 int main(int argc, char** argv) {
   using swept::benchmark::BoxMotion;
+  using swept::benchmark::measure;
   const std::size_t most = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100'000;
-  const bool coherent =
-      swept::benchmark::measure("Coherent, up to 10 mm along each axis", BoxMotion::Coherent, most);
-  const bool teleporting = swept::benchmark::measure("Teleporting", BoxMotion::Teleporting, most);
-  return coherent && teleporting ? EXIT_SUCCESS : EXIT_FAILURE;
+  const std::string only = argc > 2 ? argv[2] : "";
+  std::vector<double> shares{0.01, 0.1, 1.0};
+  if (argc > 3) shares = {0.01 * std::strtod(argv[3], nullptr)};
+  bool agree = measure(only, "coherent", "Coherent, up to 10 mm along each axis",
+                       BoxMotion::Coherent, most, shares);
+  agree &= measure(only, "teleporting", "Teleporting", BoxMotion::Teleporting, most, shares);
+  agree &= measure(only, "robots", "Robots that fold", BoxMotion::Folding, most, {0.5});
+  return agree ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -22,7 +22,7 @@ namespace swept::benchmark {
 /// to be found.
 class BulletBroadphase : public BroadphasePeer {
  public:
-  BulletBroadphase(std::unique_ptr<btBroadphaseInterface> broadphase, const MovingBoxes& boxes)
+  BulletBroadphase(std::unique_ptr<btBroadphaseInterface> broadphase, const BoxWorld& boxes)
       : broadphase_(std::move(broadphase)) {
     for (const Aabb& box : boxes.boxes()) {
       proxies_.push_back(broadphase_->createProxy(vector(box.lower), vector(box.upper), 0, nullptr,
@@ -38,7 +38,7 @@ class BulletBroadphase : public BroadphasePeer {
   BulletBroadphase(const BulletBroadphase&) = delete;
   BulletBroadphase& operator=(const BulletBroadphase&) = delete;
 
-  std::size_t step(const MovingBoxes& boxes) override {
+  std::size_t step(const BoxWorld& boxes) override {
     for (const std::uint32_t i : boxes.moving()) {
       const Aabb& box = boxes.boxes()[i];
       broadphase_->setAabb(proxies_[i], vector(box.lower), vector(box.upper), nullptr);
@@ -64,11 +64,11 @@ class BulletBroadphase : public BroadphasePeer {
   std::vector<btBroadphaseProxy*> proxies_;
 };
 
-inline std::unique_ptr<BroadphasePeer> bulletTrees(const MovingBoxes& boxes) {
+inline std::unique_ptr<BroadphasePeer> bulletTrees(const BoxWorld& boxes) {
   return std::make_unique<BulletBroadphase>(std::make_unique<btDbvtBroadphase>(), boxes);
 }
 
-inline std::unique_ptr<BroadphasePeer> bulletAxisSweep(const MovingBoxes& boxes) {
+inline std::unique_ptr<BroadphasePeer> bulletAxisSweep(const BoxWorld& boxes) {
   const auto low = static_cast<btScalar>(-2.0), high = static_cast<btScalar>(boxes.side() + 2.0);
   const auto most = static_cast<unsigned>(boxes.boxes().size() + 2);
   auto sweep = std::make_unique<bt32BitAxisSweep3>(

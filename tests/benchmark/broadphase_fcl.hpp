@@ -10,16 +10,26 @@
 
 namespace swept::benchmark {
 
-/// A manager of FCL over box geometries that do not turn, whose boxes are then the given ones.
+/// Placed by its box in the world, which is all that managers look at.
+class FclPlacedBox : public fcl::CollisionObjectd {
+ public:
+  explicit FclPlacedBox(const Aabb& box)
+      : fcl::CollisionObjectd(std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0)) {
+    place(box);
+  }
+  void place(const Aabb& box) {
+    aabb.min_ = box.lower;
+    aabb.max_ = box.upper;
+  }
+};
+
+/// A manager of FCL.
 template <typename Manager>
 class FclBroadphase : public BroadphasePeer {
  public:
-  explicit FclBroadphase(const MovingBoxes& boxes) {
-    for (std::size_t i = 0; i < boxes.boxes().size(); ++i) {
-      const Eigen::Vector3d size = 2.0 * boxes.half(i);
-      objects_.push_back(std::make_unique<fcl::CollisionObjectd>(
-          std::make_shared<fcl::Boxd>(size), Eigen::Matrix3d::Identity(), boxes.center(i)));
-      objects_.back()->computeAABB();
+  explicit FclBroadphase(const BoxWorld& boxes) {
+    for (const Aabb& box : boxes.boxes()) {
+      objects_.push_back(std::make_unique<FclPlacedBox>(box));
       all_.push_back(objects_.back().get());
     }
     for (const std::uint32_t i : boxes.moving()) moving_.push_back(all_[i]);
@@ -27,14 +37,11 @@ class FclBroadphase : public BroadphasePeer {
     manager_.setup();
   }
 
-  void prepare(const MovingBoxes& boxes) override {
-    for (const std::uint32_t i : boxes.moving()) {
-      objects_[i]->setTranslation(boxes.center(i));
-      objects_[i]->computeAABB();
-    }
+  void prepare(const BoxWorld& boxes) override {
+    for (const std::uint32_t i : boxes.moving()) objects_[i]->place(boxes.boxes()[i]);
   }
 
-  std::size_t step(const MovingBoxes&) override {
+  std::size_t step(const BoxWorld&) override {
     if (moving_.size() == all_.size())
       manager_.update();
     else
@@ -48,7 +55,7 @@ class FclBroadphase : public BroadphasePeer {
   }
 
  private:
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
+  std::vector<std::unique_ptr<FclPlacedBox>> objects_;
   std::vector<fcl::CollisionObjectd*> all_, moving_;
   Manager manager_;
 };

@@ -13,12 +13,29 @@
 
 #include "swept/core/bv/aabb.hpp"
 
-/// Boxes that move, one step at a time, at one box per cubic metre however many there are.
+/// Boxes that move, one step at a time.
 namespace swept::benchmark {
 
-enum class BoxMotion { Coherent, Teleporting };
+class BoxWorld {
+ public:
+  virtual ~BoxWorld() = default;
+  virtual void step() = 0;
 
-class MovingBoxes {
+  const std::vector<Aabb>& boxes() const { return boxes_; }
+  /// The same ones in every step, in ascending order.
+  const std::vector<std::uint32_t>& moving() const { return moving_; }
+  double side() const { return side_; }  ///< m
+
+ protected:
+  std::vector<Aabb> boxes_;
+  std::vector<std::uint32_t> moving_;
+  double side_ = 0.0;  ///< m
+};
+
+enum class BoxMotion { Coherent, Teleporting, Folding };
+
+/// At one box per cubic metre however many there are.
+class MovingBoxes : public BoxWorld {
  public:
   /// m. Centres are multiples of this and half extents lie a quarter above such, so that the sums
   /// and single-precision copies that the libraries make of them are exact, and no boxes touch
@@ -27,7 +44,8 @@ class MovingBoxes {
   static constexpr double kLongestStep = 0.01;  ///< m, along an axis; boxes measure 0.25 to 1 m
 
   MovingBoxes(std::size_t count, double movingShare, BoxMotion motion, std::uint64_t seed)
-      : motion_(motion), side_(std::cbrt(static_cast<double>(count))), random_(seed) {
+      : motion_(motion), random_(seed) {
+    side_ = std::cbrt(static_cast<double>(count));
     for (std::size_t i = 0; i < count; ++i) {
       half_.push_back(vector(0.125, 0.5).array() + 0.25 * kQuantum);
       center_.push_back(vector(0.0, side_));
@@ -43,7 +61,7 @@ class MovingBoxes {
       velocity_.push_back(vector(-kLongestStep, kLongestStep));
   }
 
-  void step() {
+  void step() override {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       Eigen::Vector3d& center = center_[moving_[i]];
       if (motion_ == BoxMotion::Teleporting)
@@ -56,13 +74,6 @@ class MovingBoxes {
     }
   }
 
-  const std::vector<Aabb>& boxes() const { return boxes_; }
-  /// The same ones in every step, in ascending order.
-  const std::vector<std::uint32_t>& moving() const { return moving_; }
-  double side() const { return side_; }  ///< m
-  const Eigen::Vector3d& center(std::size_t i) const { return center_[i]; }
-  const Eigen::Vector3d& half(std::size_t i) const { return half_[i]; }
-
  private:
   Eigen::Vector3d vector(double low, double high) {
     std::uniform_real_distribution<double> uniform(low, high);
@@ -73,11 +84,8 @@ class MovingBoxes {
   Aabb box(std::size_t i) const { return {center_[i] - half_[i], center_[i] + half_[i]}; }
 
   BoxMotion motion_;
-  double side_;
   std::mt19937_64 random_;
   std::vector<Eigen::Vector3d> half_, center_, velocity_;
-  std::vector<Aabb> boxes_;
-  std::vector<std::uint32_t> moving_;
 };
 
 /// One library's way to follow the boxes and to enumerate all pairs that overlap.
@@ -85,9 +93,9 @@ class BroadphasePeer {
  public:
   virtual ~BroadphasePeer() = default;
   /// Not timed: what a library wants of its own objects before it is told that they moved.
-  virtual void prepare(const MovingBoxes&) {}
+  virtual void prepare(const BoxWorld&) {}
   /// Timed: follow the boxes that moved, then visit every pair. Returns how many there are.
-  virtual std::size_t step(const MovingBoxes& boxes) = 0;
+  virtual std::size_t step(const BoxWorld& boxes) = 0;
 };
 
 }  // namespace swept::benchmark
