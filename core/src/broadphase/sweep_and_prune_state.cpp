@@ -117,10 +117,12 @@ void SweepAndPrune::State::stage(Number number, const Aabb& box) {
   boxes_[number] = moved;
 }
 
-/// Calls `act` for each number in order, a while after it has asked for the memory of its partners:
-/// these may be anywhere, and waiting for them would take most of the time.
-template <typename Act>
-void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Act& act) {
+/// Calls `act` for each number in order, a while after it has asked for the memory of its partners
+/// but those to be skipped: these may be anywhere, and waiting for them would take most of the
+/// time.
+template <typename Skip, typename Act>
+void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Skip& skip,
+                                   const Act& act) {
   const auto at = [&](std::size_t i, const auto& ask) {
     if (i < numbers.size()) ask(numbers[i]);
   };
@@ -129,7 +131,7 @@ void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Act& a
     at(i + 2 * kAhead, [&](Number number) { partners_.prefetch(number); });
     at(i + kAhead, [&](Number number) {
       for (const detail::PartnerLists::Partner& partner : partners_.of(number))
-        prefetch(boxes_[partner.box]);
+        if (!skip(number, partner.box)) prefetch(boxes_[partner.box]);
     });
     act(numbers[i]);
   }
@@ -141,7 +143,7 @@ void SweepAndPrune::State::look(Number number, const Skip& skip) {
   const std::span<const detail::PartnerLists::Partner> list = partners_.of(number);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Number other = list[i].box;
-    if (skip(other)) continue;
+    if (skip(number, other)) continue;
     const bool overlaps = overlap(box, boxes_[other]);
     if (overlaps == (list[i].overlaps != 0)) continue;
     partners_.setOverlap(number, static_cast<std::uint32_t>(i), overlaps);
@@ -173,34 +175,38 @@ void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<
   }
   if (manyLeft()) return rebuild();
   toggled_.clear();
-  forEach(changed_, [&](Number number) {
-    look(number, [&](Number other) { return other < number && moved_.contains(other); });
-  });
+  const auto isSeen = [&](Number number, Number other) {
+    return other < number && moved_.contains(other);
+  };
+  forEach(changed_, isSeen, [&](Number number) { look(number, isSeen); });
   for (const Number number : left_) forest_.move(number, rooms_[number]);
   settle();
 }
 
 void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   detail::Handles::requireAsMany(handles_.live(), boxes.size());
-  // Which of the boxes a handle's is.
-  counts_.resize(handles_.end());
+  // Which of the boxes a handle's is; itself if none is free, which spares a look.
+  const bool dense = handles_.live() == handles_.end();
+  counts_.resize(dense ? 0 : handles_.end());
   std::uint32_t next = 0;
-  for (BoxHandle handle = 0; handle < handles_.end(); ++handle)
+  for (BoxHandle handle = 0; handle < counts_.size(); ++handle)
     counts_[handle] = handles_.contains(handle) ? next++ : next;
+  const auto boxOf = [&](BoxHandle handle) -> const Aabb& {
+    return boxes[dense ? handle : counts_[handle]];
+  };
   left_.clear();
   changed_.clear();
   for (Number number = 0; number < owners_.size(); ++number) {
     const Number ahead = number + kAhead;
-    if (ahead < owners_.size() && owners_[ahead] != kNobody)
-      prefetch(boxes[counts_[owners_[ahead]]]);
+    if (ahead < owners_.size() && owners_[ahead] != kNobody) prefetch(boxOf(owners_[ahead]));
     if (owners_[number] == kNobody) continue;
-    stage(number, boxes[counts_[owners_[number]]]);
+    stage(number, boxOf(owners_[number]));
     changed_.push_back(number);
   }
   if (manyLeft()) return rebuild();
   toggled_.clear();
-  forEach(changed_,
-          [&](Number number) { look(number, [number](Number other) { return other < number; }); });
+  const auto isSeen = [](Number number, Number other) { return other < number; };
+  forEach(changed_, isSeen, [&](Number number) { look(number, isSeen); });
   for (const Number number : left_) forest_.move(number, rooms_[number]);
   settle();
 }
@@ -213,7 +219,8 @@ void SweepAndPrune::State::settle() {
   for (const Number number : left_) keys_.push_back(PairKey{forest_.rank(number)} << 32 | number);
   if (owners_.size() > kManyBoxes) detail::sortPairs(keys_, 0, forest_.rankBits(), scratch_);
   for (std::size_t i = 0; i < keys_.size(); ++i) left_[i] = static_cast<Number>(keys_[i]);
-  forEach(left_, [&](Number number) { relink(number); });
+  const auto none = [](Number, Number) { return false; };
+  forEach(left_, none, [&](Number number) { relink(number); });
   pairs_.toggle(toggled_, handleBits());
 }
 

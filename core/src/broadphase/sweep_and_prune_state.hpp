@@ -47,8 +47,8 @@ class SweepAndPrune::State {
   bool manyLeft() const;
   detail::PairKey key(Number a, Number b) const { return detail::pairKey(owners_[a], owners_[b]); }
   int handleBits() const;
-  template <typename Act>
-  void forEach(std::span<const Number> numbers, const Act& act);
+  template <typename Skip, typename Act>
+  void forEach(std::span<const Number> numbers, const Skip& skip, const Act& act);
   template <typename Skip>
   void look(Number number, const Skip& skip);
   void settle();
