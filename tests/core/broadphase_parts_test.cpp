@@ -149,18 +149,18 @@ TEST(NearestPairs, SpreadOutBoxesAreNotAllCompared) {
   for (const std::uint32_t count : {1000U, 4000U, 16'000U, 64'000U}) {
     std::mt19937 random(6);
     const double side = std::cbrt(static_cast<double>(count));
-    std::vector<Aabb> boxes;
+    std::vector<detail::PlacedBox> boxes;
     std::vector<detail::FloatBox> rooms;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < count; ++i) {
       const double half = i % 50 == 0 ? 1.0 : 0.1;
-      boxes.push_back(around(uniformPoint(random, 0.5 * side), Vector3d::Constant(half)));
-      rooms.push_back(detail::floatBox(boxes.back()));
+      boxes.push_back({around(uniformPoint(random, 0.5 * side), Vector3d::Constant(half)), i});
+      rooms.push_back(detail::floatBox(boxes.back().box));
       numbers.push_back(i);
     }
     detail::BoxForest forest;
     forest.build(numbers, rooms);
-    const detail::PlacedForest placed{forest, boxes, numbers};
+    const detail::PlacedForest placed{forest, boxes};
     std::vector<BroadphaseScratch::Pair> pairs;
     const std::size_t looked = detail::findNearestPairs(
         placed, nullptr, {0.0, 0xFFFFFFFF, 0xFFFFFFFF}, kInfinity, 32, pairs);

@@ -136,8 +136,8 @@ class PairSearch {
   }
 
   void consider(const Node& a, std::uint32_t numberA, const Node& b, std::uint32_t numberB) {
-    Pair pair{boxDistance(a.side->boxes[numberA], b.side->boxes[numberB]), a.side->owners[numberA],
-              b.side->owners[numberB]};
+    const PlacedBox &boxA = a.side->boxes[numberA], &boxB = b.side->boxes[numberB];
+    Pair pair{boxDistance(boxA.box, boxB.box), boxA.owner, boxB.owner};
     if (!(pair.distance < bound_)) return;
     if (among_ && pair.a > pair.b) std::swap(pair.a, pair.b);
     if (!(after_ < pair)) return;

@@ -10,11 +10,16 @@
 
 namespace swept::detail {
 
+/// A box and its handle; in a cache line of its own, since boxes are looked at in any order.
+struct alignas(64) PlacedBox {
+  Aabb box;  ///< m
+  BoxHandle owner;
+};
+
 /// The boxes of one manager, by number, and the forest that holds boxes around them.
 struct PlacedForest {
   const BoxForest& forest;
-  std::span<const Aabb> boxes;        ///< m
-  std::span<const BoxHandle> owners;  ///< handles
+  std::span<const PlacedBox> boxes;
 };
 
 /// The first pairs after `after` that are nearer than `bound` (m), at most `most` of them, in their

@@ -79,7 +79,7 @@ void PairSet::toggle(std::vector<PairKey>& keys, int bits) {
   symmetricDifference(changed_, keys, scratch_);
   changed_.swap(scratch_);
   // The root balances the work of keeping the short list against that of keeping the long one.
-  const double few = 32.0 + std::sqrt(static_cast<double>(sorted_.size()));
+  const double few = 32.0 + 4.0 * std::sqrt(static_cast<double>(sorted_.size()));
   if (static_cast<double>(changed_.size()) <= few) return;
   symmetricDifference(sorted_, changed_, scratch_);
   sorted_.swap(scratch_);

@@ -38,13 +38,13 @@ void prefetch(const Aabb& box) {
 }  // namespace
 
 SweepAndPrune::State::Number SweepAndPrune::State::takeNumber(BoxHandle handle) {
-  auto number = static_cast<Number>(owners_.size());
+  auto number = static_cast<Number>(placed_.size());
   if (free_.empty()) {
-    owners_.push_back(handle);
+    placed_.push_back({{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, handle});
   } else {
     number = free_.back();
     free_.pop_back();
-    owners_[number] = handle;
+    placed_[number].owner = handle;
   }
   numbers_.resize(handles_.end());
   numbers_[handle] = number;
@@ -52,8 +52,7 @@ SweepAndPrune::State::Number SweepAndPrune::State::takeNumber(BoxHandle handle) 
 }
 
 void SweepAndPrune::State::resize() {
-  const std::size_t count = owners_.size();
-  boxes_.resize(count);
+  const std::size_t count = placed_.size();
   rooms_.resize(count);
   moved_.resize(count);
   kept_.resize(count);
@@ -78,8 +77,8 @@ std::vector<BoxHandle> SweepAndPrune::State::add(std::span<const Aabb> boxes) {
   }
   resize();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    boxes_[left_[i]] = boundedOrEverywhere(boxes[i]);
-    rooms_[left_[i]] = detail::floatBox(boxes_[left_[i]]);
+    placed_[left_[i]].box = boundedOrEverywhere(boxes[i]);
+    rooms_[left_[i]] = detail::floatBox(placed_[left_[i]].box);
   }
   if (manyLeft()) {
     rebuild();
@@ -103,7 +102,7 @@ void SweepAndPrune::State::remove(BoxHandle handle) {
   forest_.erase(number);
   forest_.tidy(rooms_);
   handles_.giveBack(handle);
-  owners_[number] = kNobody;
+  placed_[number].owner = kNobody;
   free_.push_back(number);
   pairs_.toggle(toggled_, handleBits());
 }
@@ -111,10 +110,10 @@ void SweepAndPrune::State::remove(BoxHandle handle) {
 void SweepAndPrune::State::stage(Number number, const Aabb& box) {
   const Aabb moved = boundedOrEverywhere(box);
   if (!rooms_[number].contains(moved)) {
-    rooms_[number] = detail::roomFor(boxes_[number], moved, number);
+    rooms_[number] = detail::roomFor(placed_[number].box, moved, number);
     left_.push_back(number);
   }
-  boxes_[number] = moved;
+  placed_[number].box = moved;
 }
 
 /// Calls `act` for each number in order, a while after it has asked for the memory of its partners
@@ -131,7 +130,7 @@ void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Skip& 
     at(i + 2 * kAhead, [&](Number number) { partners_.prefetch(number); });
     at(i + kAhead, [&](Number number) {
       for (const detail::PartnerLists::Partner& partner : partners_.of(number))
-        if (!skip(number, partner.box)) prefetch(boxes_[partner.box]);
+        if (!skip(number, partner.box)) hwy::Prefetch(&placed_[partner.box]);
     });
     act(numbers[i]);
   }
@@ -139,12 +138,12 @@ void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Skip& 
 
 template <typename Skip>
 void SweepAndPrune::State::look(Number number, const Skip& skip) {
-  const Aabb& box = boxes_[number];
+  const Aabb& box = placed_[number].box;
   const std::span<const detail::PartnerLists::Partner> list = partners_.of(number);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Number other = list[i].box;
     if (skip(number, other)) continue;
-    const bool overlaps = overlap(box, boxes_[other]);
+    const bool overlaps = overlap(box, placed_[other].box);
     if (overlaps == (list[i].overlaps != 0)) continue;
     partners_.setOverlap(number, static_cast<std::uint32_t>(i), overlaps);
     toggled_.push_back(key(number, other));
@@ -157,15 +156,15 @@ void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<
   keys_.clear();
   for (std::size_t i = 0; i < handles.size(); ++i)
     keys_.push_back(PairKey{numbers_[handles[i]]} << 32 | i);
-  if (owners_.size() > kManyBoxes)
-    detail::sortPairs(keys_, 0, static_cast<int>(std::bit_width(owners_.size())), scratch_);
+  if (placed_.size() > kManyBoxes)
+    detail::sortPairs(keys_, 0, static_cast<int>(std::bit_width(placed_.size())), scratch_);
   left_.clear();
   changed_.clear();
   moved_.clear();
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     if (i + kAhead < keys_.size()) {
       const auto ahead = static_cast<Number>(keys_[i + kAhead] >> 32);
-      prefetch(boxes_[ahead]);
+      hwy::Prefetch(&placed_[ahead]);
       hwy::Prefetch(&rooms_[ahead]);
     }
     const auto number = static_cast<Number>(keys_[i] >> 32);
@@ -196,11 +195,12 @@ void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   };
   left_.clear();
   changed_.clear();
-  for (Number number = 0; number < owners_.size(); ++number) {
+  for (Number number = 0; number < placed_.size(); ++number) {
     const Number ahead = number + kAhead;
-    if (ahead < owners_.size() && owners_[ahead] != kNobody) prefetch(boxOf(owners_[ahead]));
-    if (owners_[number] == kNobody) continue;
-    stage(number, boxOf(owners_[number]));
+    if (ahead < placed_.size() && placed_[ahead].owner != kNobody)
+      prefetch(boxOf(placed_[ahead].owner));
+    if (placed_[number].owner == kNobody) continue;
+    stage(number, boxOf(placed_[number].owner));
     changed_.push_back(number);
   }
   if (manyLeft()) return rebuild();
@@ -217,7 +217,7 @@ void SweepAndPrune::State::settle() {
   // In the order of the trees, so that searches find in the cache what the last ones needed.
   keys_.clear();
   for (const Number number : left_) keys_.push_back(PairKey{forest_.rank(number)} << 32 | number);
-  if (owners_.size() > kManyBoxes) detail::sortPairs(keys_, 0, forest_.rankBits(), scratch_);
+  if (placed_.size() > kManyBoxes) detail::sortPairs(keys_, 0, forest_.rankBits(), scratch_);
   for (std::size_t i = 0; i < keys_.size(); ++i) left_[i] = static_cast<Number>(keys_[i]);
   const auto none = [](Number, Number) { return false; };
   forEach(left_, none, [&](Number number) { relink(number); });
@@ -225,7 +225,7 @@ void SweepAndPrune::State::settle() {
 }
 
 void SweepAndPrune::State::link(Number a, Number b) {
-  const bool overlaps = overlap(boxes_[a], boxes_[b]);
+  const bool overlaps = overlap(placed_[a].box, placed_[b].box);
   partners_.add(a, b, overlaps);
   if (overlaps) toggled_.push_back(key(a, b));
 }
@@ -251,22 +251,19 @@ void SweepAndPrune::State::relink(Number number) {
 /// Numbers are slots of the tree from then on.
 void SweepAndPrune::State::renumber() {
   left_.clear();
-  for (Number number = 0; number < owners_.size(); ++number)
-    if (owners_[number] != kNobody) left_.push_back(number);
+  for (Number number = 0; number < placed_.size(); ++number)
+    if (placed_[number].owner != kNobody) left_.push_back(number);
   forest_.build(left_, rooms_);
   const std::vector<Number>& order = forest_.tree(0).owners();
   renumbered_.clear();
-  changed_.clear();
   for (const Number number : order) {
-    renumbered_.push_back(boxes_[number]);
-    changed_.push_back(owners_[number]);
+    renumbered_.push_back(placed_[number]);
   }
-  boxes_.swap(renumbered_);
-  owners_.swap(changed_);
+  placed_.swap(renumbered_);
   free_.clear();
   resize();
-  for (Number number = 0; number < owners_.size(); ++number) {
-    numbers_[owners_[number]] = number;
+  for (Number number = 0; number < placed_.size(); ++number) {
+    numbers_[placed_[number].owner] = number;
     rooms_[number] = forest_.tree(0).box(number);
   }
   forest_.ownBySlot();
@@ -276,8 +273,8 @@ void SweepAndPrune::State::renumber() {
 void SweepAndPrune::State::rebuild() {
   renumber();
   keys_.clear();
-  counts_.assign(owners_.size(), 0);
-  for (Number number = 0; number < owners_.size(); ++number) {
+  counts_.assign(placed_.size(), 0);
+  for (Number number = 0; number < placed_.size(); ++number) {
     found_.clear();
     forest_.findOverlaps(rooms_[number], found_);
     counts_[number] = static_cast<std::uint32_t>(found_.size() - 1);
@@ -294,12 +291,11 @@ void SweepAndPrune::State::rebuild() {
 
 std::size_t SweepAndPrune::State::bytes() const {
   const std::size_t keys = toggled_.capacity() + keys_.capacity() + scratch_.capacity();
-  const std::size_t numbers = numbers_.capacity() + owners_.capacity() + free_.capacity() +
-                              changed_.capacity() + left_.capacity() + found_.capacity() +
-                              counts_.capacity();
+  const std::size_t numbers = numbers_.capacity() + free_.capacity() + changed_.capacity() +
+                              left_.capacity() + found_.capacity() + counts_.capacity();
   return sizeof(State) + handles_.bytes() + moved_.bytes() + kept_.bytes() + forest_.bytes() +
          partners_.bytes() + pairs_.bytes() + keys * sizeof(PairKey) + numbers * sizeof(Number) +
-         (boxes_.capacity() + renumbered_.capacity()) * sizeof(Aabb) +
+         (placed_.capacity() + renumbered_.capacity()) * sizeof(detail::PlacedBox) +
          rooms_.capacity() * sizeof(detail::FloatBox);
 }
 

@@ -30,11 +30,11 @@ class SweepAndPrune::State {
   void updateAll(std::span<const Aabb> boxes);
 
   const detail::Handles& handles() const { return handles_; }
-  const Aabb& box(BoxHandle handle) const { return boxes_[numbers_[handle]]; }
-  const Aabb& boxAt(Number number) const { return boxes_[number]; }
-  BoxHandle handleAt(Number number) const { return owners_[number]; }
+  const Aabb& box(BoxHandle handle) const { return placed_[numbers_[handle]].box; }
+  const Aabb& boxAt(Number number) const { return placed_[number].box; }
+  BoxHandle handleAt(Number number) const { return placed_[number].owner; }
   const detail::BoxForest& forest() const { return forest_; }
-  detail::PlacedForest placed() const { return {forest_, boxes_, owners_}; }
+  detail::PlacedForest placed() const { return {forest_, placed_}; }
   const detail::PairSet& pairs() const { return pairs_; }
   std::size_t bytes() const;
 
@@ -45,7 +45,9 @@ class SweepAndPrune::State {
   void resize();
   void stage(Number number, const Aabb& box);
   bool manyLeft() const;
-  detail::PairKey key(Number a, Number b) const { return detail::pairKey(owners_[a], owners_[b]); }
+  detail::PairKey key(Number a, Number b) const {
+    return detail::pairKey(placed_[a].owner, placed_[b].owner);
+  }
   int handleBits() const;
   template <typename Skip, typename Act>
   void forEach(std::span<const Number> numbers, const Skip& skip, const Act& act);
@@ -58,10 +60,9 @@ class SweepAndPrune::State {
   void renumber();
 
   detail::Handles handles_;
-  std::vector<Number> numbers_;          ///< by handle
-  std::vector<BoxHandle> owners_;        ///< by number, as is all below
-  std::vector<Aabb> boxes_;              ///< m
-  std::vector<detail::FloatBox> rooms_;  ///< m
+  std::vector<Number> numbers_;            ///< by handle
+  std::vector<detail::PlacedBox> placed_;  ///< by number, as is all below
+  std::vector<detail::FloatBox> rooms_;    ///< m
   detail::Stamps moved_, kept_;
   std::vector<Number> free_;
   detail::BoxForest forest_;
@@ -71,7 +72,7 @@ class SweepAndPrune::State {
   std::vector<Number> changed_, left_, found_;
   std::vector<detail::PairKey> toggled_, keys_, scratch_;
   std::vector<std::uint32_t> counts_;
-  std::vector<Aabb> renumbered_;
+  std::vector<detail::PlacedBox> renumbered_;
 };
 
 }  // namespace swept
