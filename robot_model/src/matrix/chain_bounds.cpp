@@ -17,10 +17,9 @@ constexpr double kOutward = 1.0 + 1e-9;
 
 ChainBounds::ChainBounds(const LinkChain& chain) : chain_(chain) {
   const std::size_t count = chain.joints().size();
-  for (auto* values : {&half_, &chord_, &reachA_, &reachB_, &free_, &costA_, &costB_})
-    values->assign(count, 0.0);
-  totalA_.assign(count + 1, 0.0);
-  totalB_.assign(count + 1, 0.0);
+  for (auto* values : {&half_, &chord_, &tilt_, &cost_, &bestCost_}) values->assign(count, 0.0);
+  effectA_.resize(count);
+  effectB_.resize(count);
   shares_.assign(chain.variables().size(), 0.0);
 }
 
@@ -33,78 +32,80 @@ void ChainBounds::setBox(const JointBox& box, const LinkChain::Place& place) {
   }
 }
 
-void ChainBounds::findReaches(const Ball& a, const Ball& b) {
-  const std::size_t count = half_.size();
-  const auto reach = [&](std::size_t j, const Ball& ball, double moved) {
-    if (chain_.joints()[j].slides) return 1.0;
-    const LinkChain::Place::Axis& axis = place_->axes[j];
-    return axis.direction.cross(ball.center - axis.point).norm() + moved + ball.radius;
-  };
-  double moved = 0.0;
-  for (std::size_t j = 0; j < count; ++j) {
-    reachA_[j] = reach(j, a, moved);
-    moved += chord_[j] * reachA_[j];
-  }
-  moved = 0.0;
-  for (std::size_t j = count; j-- > 0;) {
-    reachB_[j] = reach(j, b, moved);
-    moved += chord_[j] * reachB_[j];
-  }
-  for (std::size_t j = 0; j < count; ++j) free_[j] = chord_[j] * std::min(reachA_[j], reachB_[j]);
+double ChainBounds::reach(std::size_t j, const Ball& ball) const {
+  if (chain_.joints()[j].slides) return 1.0;
+  const LinkChain::Place::Axis& axis = place_->axes[j];
+  return axis.direction.cross(ball.center - axis.point).norm() + ball.radius;
 }
 
 double ChainBounds::approach(const Ball& a, const Ball& b) {
-  findReaches(a, b);
-  std::ranges::fill(shares_, 0.0);
+  // All joints after C; then C goes from one end to the other.
+  const std::size_t count = half_.size();
   double total = 0.0;
-  for (std::size_t j = 0; j < free_.size(); ++j) {
-    shares_[chain_.joints()[j].variable] += free_[j];
-    total += free_[j];
+  for (std::size_t j = 0; j < count; ++j) {
+    effectA_[j].any = chord_[j] * reach(j, a);
+    effectB_[j].any = chord_[j] * reach(j, b);
+    total += effectB_[j].any;
   }
-  return total * kOutward;
-}
-
-void ChainBounds::sum(const Vector3d& n, const Ball& ball, bool fromA) {
-  const std::size_t count = half_.size();
-  const std::vector<double>& reach = fromA ? reachA_ : reachB_;
-  std::vector<double>& cost = fromA ? costA_ : costB_;
-  std::vector<double>& total = fromA ? totalA_ : totalB_;
-  double distal = 0.0;  // sum of e_k r_k over D so far
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t j = fromA ? i : count - 1 - i;
-    const LinkChain::Place::Axis& axis = place_->axes[j];
-    double directed;
-    if (chain_.joints()[j].slides) {
-      directed = half_[j] * std::abs(n.dot(axis.direction));
-    } else {
-      const double slope = std::abs(n.dot(axis.direction.cross(ball.center - axis.point))) +
-                           n.cross(axis.direction).norm() * ball.radius;
-      directed = half_[j] * (slope + 0.5 * half_[j] * reach[j] + distal);
-    }
-    if (directed < free_[j]) distal += half_[j] * reach[j];
-    cost[j] = std::min(directed, free_[j]);
-    sum += cost[j];
-    total[i + 1] = sum;
-  }
-}
-
-double ChainBounds::approachAlong(const Vector3d& n, const Ball& a, const Ball& b) {
-  findReaches(a, b);
-  sum(n, a, true);
-  sum(n, b, false);
-  const std::size_t count = half_.size();
+  double least = total;
   std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t s = 0; s <= count; ++s) {
-    const double total = totalA_[s] + totalB_[count - s];
+  for (std::size_t before = 1; before <= count; ++before) {
+    total = 0.0;
+    for (std::size_t j = 0; j < count; ++j) total += j < before ? effectA_[j].any : effectB_[j].any;
     if (!(total < least)) continue;
     least = total;
-    best = s;
+    best = before;
   }
   std::ranges::fill(shares_, 0.0);
   for (std::size_t j = 0; j < count; ++j)
-    shares_[chain_.joints()[j].variable] += j < best ? costA_[j] : costB_[j];
+    shares_[chain_.joints()[j].variable] += j < best ? effectA_[j].any : effectB_[j].any;
+  return least * kOutward;
+}
+
+ChainBounds::Effect ChainBounds::effect(std::size_t j, const Vector3d& n, const Ball& ball,
+                                        double sign) const {
+  const Vector3d& w = place_->axes[j].direction;
+  if (chain_.joints()[j].slides) return {half_[j], half_[j] * std::abs(n.dot(w))};
+  const Vector3d arm = ball.center - place_->axes[j].point;
+  const Vector3d turned = w.cross(arm);
+  const double across = n.cross(w).norm() * ball.radius;
+  const double slope = std::abs(n.dot(turned)) + across;
+  const double along = std::max(0.0, sign * (n.dot(arm) - n.dot(w) * w.dot(arm)) + across);
+  return {chord_[j] * (turned.norm() + ball.radius),
+          std::min(half_[j], 1.0) * slope + std::min(0.5 * half_[j] * half_[j], 2.0) * along};
+}
+
+double ChainBounds::sum(std::size_t before, double most) {
+  const std::size_t count = half_.size();
+  double total = 0.0, tilt = 0.0;  // f_j
+  const auto add = [&](std::size_t j, const Effect& effect) {
+    cost_[j] = std::min(effect.directed + std::min(tilt, 2.0) * effect.any, effect.any);
+    total += cost_[j];
+    tilt += tilt_[j];
+  };
+  for (std::size_t j = before; j-- > 0 && total < most;) add(j, effectA_[j]);
+  tilt = 0.0;
+  for (std::size_t j = before; j < count && total < most; ++j) add(j, effectB_[j]);
+  return total;
+}
+
+double ChainBounds::approachAlong(const Vector3d& n, const Ball& a, const Ball& b) {
+  const std::size_t count = half_.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    tilt_[j] =
+        chain_.joints()[j].slides ? 0.0 : chord_[j] * n.cross(place_->axes[j].direction).norm();
+    effectA_[j] = effect(j, n, a, -1.0);
+    effectB_[j] = effect(j, n, b, 1.0);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t before = 0; before <= count; ++before) {
+    const double total = sum(before, least);
+    if (!(total < least)) continue;
+    least = total;
+    bestCost_ = cost_;
+  }
+  std::ranges::fill(shares_, 0.0);
+  for (std::size_t j = 0; j < count; ++j) shares_[chain_.joints()[j].variable] += bestCost_[j];
   return least * kOutward;
 }
 

@@ -13,28 +13,31 @@ namespace swept::detail {
 ///
 /// Lemma. Let the joints between two bodies A and B be numbered from A to B, joint j within e_j of
 /// the middle of its range (rad or m). Fix a point a of A and b of B, and let the middle mean all
-/// joints in the middle of their ranges.
-/// 1. Reach. When a joint turns by at most e, a point at distance r from its axis moves by at most
-///    c r, c = min(e, 2): an arc is no shorter than its chord, a chord no longer than the diameter;
-///    when it slides, by at most e. The distance of b from axis j depends on the joints after j
-///    alone, so by moving these one after the other, it is within the box at most
-///      r_j(b) = (in the middle) + sum over k > j of (c_k r_k(b), or e_k where k slides).
-///    Likewise r_j(a), with the joints before j.
-/// 2. Any direction. Moving joint j alone carries all on B's side of it relative to A's side, so
-///    |ab| changes by at most s_j = c_j min(r_j(a), r_j(b)), or e_j where j slides.
-/// 3. One direction. Let n = (b - a) / |ab| in the middle, and C a body of the chain. In C's frame
-///    |ab| >= n . (b - a), in which b depends on the joints after C only and a on those before. For
-///    x = b, let D be some of the joints after C. While these move and the others keep the middle,
-///    Taylor's theorem bounds the change of n . x by
-///      sum over D of (e_j |m_j| + e_j^2 r_j(x) / 2 + e_j sum over k in D, k > j, of e_k r_k(x)),
-///    since dx/dq_j = w_j x (x - o_j) =: m_j along n, and d2x/dq_j dq_k = w_j x (w_k x (x - o_k))
-///    is no longer than r_k(x). Where j slides, m_j = n . w_j and there is no second derivative
-///    with respect to j and those after it; where k slides, r_k is replaced by 1. The joints that
-///    are not in D move afterwards, for s_j each. a likewise.
-/// Which C is best, and which joints are in D, is chosen anew for each pair of points; whatever is
-/// chosen holds. For all points of balls around a and b, r_j grows by the ball's radius, and |m_j|
-/// for a given n by |n x w_j| times it. A joint that occurs twice in a mechanism (mimics) counts as
-/// several that are free: that bounds more than can happen.
+/// joints in the middle of their ranges, where w_j is the axis of joint j, o_j a point on it.
+/// 1. One joint. Let joint j alone leave the middle, by t, and carry a point x along. Where it
+///    turns, with p the part of x - o_j across w_j and r_j = |p|, x moves by
+///      d_j = sin(t) w_j x p - (1 - cos t) p,
+///    no farther than c_j r_j, c_j = min(e_j, 2): an arc is no shorter than its chord, a chord no
+///    longer than the diameter. Where it slides, d_j = t w_j; let r_j be 1 there, and c_j = e_j.
+/// 2. One direction. Let C be a body of the chain and n a unit vector in the middle. In C's frame
+///    |ab| >= n . (b - a), in which b depends on the joints after C only and a on those before. Let
+///    x be either, and 1, ..., m the joints from C towards it. With the first j of them at their
+///    values and the others in the middle, joint j has just moved x by Q_j d_j: Q_j is the product
+///    of the turns of the joints before it about their axes in the middle. So all of them move n .
+///    x by the sum of
+///      (Q_j d_j) . n = d_j . n + d_j . (Q_j^T n - n), and
+///      |Q_j^T n - n| <= sum over k < j that turn of c_k |w_k x n| =: f_j,
+///    for turns leave lengths as they are, so that each of them counts for what it does to n alone.
+///    Each summand is no more than c_j r_j either. The approach is what n . b falls and n . a
+///    rises, so of the part of d_j along p only one sign counts.
+/// 3. Any direction. As n is any, |ab| changes by at most the sum of c_j r_j(a) over the joints
+///    before C and of c_j r_j(b) over those after it.
+/// All r_j are those in the middle, however large the box: this is why each point has one side of
+/// the chain (with the lesser of r_j(a) and r_j(b) at each joint, they would have to grow by what
+/// the joints on both sides do). Which C is best is chosen for each pair of points; any holds. For
+/// all points of balls around a and b, r_j and |n . p| grow by the ball's radius, and
+/// |n . (w_j x p)| by |n x w_j| times it. A joint that occurs twice in a mechanism (mimics) counts
+/// as several that are free: that bounds more than can happen.
 /// Roundings: sums of positive terms in doubles, raised by 1e-9 of them; poses in the middle are
 /// off by what the caller adds to the distance to be kept.
 class ChainBounds {
@@ -58,17 +61,22 @@ class ChainBounds {
   std::span<const double> shares() const { return shares_; }
 
  private:
-  void findReaches(const Ball& a, const Ball& b);
-  /// What the joints from one end of the chain up to each joint cost, that one next to C.
-  void sum(const Eigen::Vector3d& n, const Ball& ball, bool fromA);
+  /// What one joint does to the points of a ball; m.
+  struct Effect {
+    double any;       ///< c_j r_j
+    double directed;  ///< of n . d_j, as far as it brings the two together
+  };
+  double reach(std::size_t j, const Ball& ball) const;
+  Effect effect(std::size_t j, const Eigen::Vector3d& n, const Ball& ball, double sign) const;
+  /// With so many joints before C; m. Gives up beyond `most`.
+  double sum(std::size_t before, double most);
 
   const LinkChain& chain_;
   const LinkChain::Place* place_ = nullptr;
-  std::vector<double> half_, chord_;     ///< e_j, c_j (e_j where j slides)
-  std::vector<double> reachA_, reachB_;  ///< r_j(a), r_j(b); 1 where j slides
-  std::vector<double> free_;             ///< s_j
-  std::vector<double> costA_, costB_;    ///< of each joint
-  std::vector<double> totalA_, totalB_;  ///< of the first joints; of the last ones
+  std::vector<double> half_, chord_;       ///< e_j, c_j
+  std::vector<double> tilt_;               ///< c_j |w_j x n|; 0 where j slides
+  std::vector<Effect> effectA_, effectB_;  ///< of each joint
+  std::vector<double> cost_, bestCost_;    ///< m, of each joint
   std::vector<double> shares_;
 };
 

@@ -15,7 +15,7 @@ constexpr std::int64_t kExactEffort = 100;
 
 /// Balls are replaced by their children while their radius is more than this times the approach:
 /// before, halving the box gains more.
-constexpr double kRefineAt = 2.0;
+constexpr double kRefineAt = 4.0;
 
 /// m. A box in which open pairs approach by less is not halved any more.
 constexpr double kFinestApproach = 1e-6;
