@@ -7,10 +7,19 @@
 
 namespace swept::detail {
 
+namespace {
+
+/// m. Nearer to the best than this a plane need not be.
+constexpr double kPlaneTolerance = 1e-5;
+
+}  // namespace
+
 LinkPieces piecesOf(const Robot& robot, const KinematicModel& model, int link) {
   LinkPieces result;
   for (const CollisionGeometry& geometry : robot.links()[link].collision) {
-    LinkPieces::Piece piece{geometry.shape, model.body_from_link[link] * geometry.link_from_shape,
+    const auto* mesh = std::get_if<TriangleMesh>(&geometry.shape);
+    LinkPieces::Piece piece{geometry.shape, mesh ? Shape(mesh->hull()) : geometry.shape,
+                            model.body_from_link[link] * geometry.link_from_shape,
                             boundingSphere(geometry.shape), -1};
     piece.ball.center = piece.body_from_shape * piece.ball.center;
     result.reach = std::max(result.reach, piece.ball.center.norm() + piece.ball.radius);
@@ -53,6 +62,18 @@ LinkDistance linkDistance(const LinkPieces& a, const LinkPieces& b, const LinkCh
     }
   }
   return result;
+}
+
+PiecePlane planeBetween(const LinkPieces::Piece& a, const LinkPieces::Piece& b,
+                        const LinkChain::Place& place, double least) {
+  const Eigen::Isometry3d base_from_first = place.base_from_a * a.body_from_shape;
+  DistanceOptions options;
+  options.contact = least;
+  options.tolerance = std::max(least, kPlaneTolerance);
+  const DistanceResult found = distance(
+      a.hull, b.hull, base_from_first.inverse() * place.base_from_b * b.body_from_shape, options);
+  if (!(found.normal.squaredNorm() > 0.5)) return {Eigen::Vector3d::Zero(), 0.0};
+  return {base_from_first.linear() * found.normal, found.lower};
 }
 
 }  // namespace swept::detail

@@ -17,6 +17,7 @@ namespace swept::detail {
 struct LinkPieces {
   struct Piece {
     Shape shape;
+    Shape hull;  ///< of the shape, where that is a mesh; else the shape itself
     Eigen::Isometry3d body_from_shape;
     BoundingSphere ball;  ///< body frame
     int root = -1;        ///< its cover's first ball; -1: it has none
@@ -45,5 +46,15 @@ struct LinkDistance {
 /// apart are known (m).
 LinkDistance linkDistance(const LinkPieces& a, const LinkPieces& b, const LinkChain::Place& place,
                           double enough, double contact);
+
+/// A plane between two pieces at one place of the chain: n . (b - a) >= gap for all points a of the
+/// first and b of the second, proven for the poses as they are rounded.
+struct PiecePlane {
+  Eigen::Vector3d normal;  ///< unit, base frame
+  double gap;              ///< m; not positive: none is known
+};
+/// Gives up where two points at most `least` apart (m) are known.
+PiecePlane planeBetween(const LinkPieces::Piece& a, const LinkPieces::Piece& b,
+                        const LinkChain::Place& place, double least);
 
 }  // namespace swept::detail

@@ -12,6 +12,8 @@ namespace {
 
 /// What one distance on exact geometry counts for in the effort.
 constexpr std::int64_t kExactEffort = 100;
+/// And one plane between hulls.
+constexpr std::int64_t kPlaneEffort = 20;
 
 /// Balls are replaced by their children while their radius is more than this times the approach:
 /// before, halving the box gains more.
@@ -73,7 +75,7 @@ void NeverProof::look(const Box& box) {
   bounds_.setBox(box.values, place_);
   collectOpen(box);
   if (contact_) return;
-  if (asked_) dropFar();
+  if (arena_.size() > firstOpen_) dropFar();
   if (arena_.size() == firstOpen_) {
     share_ += box.share;
   } else {
@@ -82,7 +84,6 @@ void NeverProof::look(const Box& box) {
 }
 
 void NeverProof::collectOpen(const Box& box) {
-  forgetWorst();
   asked_ = false;
   // What later boxes had appended is done with.
   arena_.resize(box.first + box.count);
@@ -107,7 +108,7 @@ void NeverProof::refine(BallPair pair) {
         work_.push_back(ofA ? BallPair{i, pair.b} : BallPair{pair.a, i});
       continue;
     }
-    keepOpen(pair, approach, gap);
+    arena_.push_back(pair);
     // What overlaps deeply has many such pairs; the first of them is enough to see it. Leaves that
     // are just apart are no exception: around a corner of a box where they touch, no halving helps.
     if (leaves && !asked_) askExact(pair);
@@ -126,8 +127,7 @@ bool NeverProof::isApart(const BallPair& pair, double& approach, double& gap) {
   return gap > approach;  // false for NaN
 }
 
-void NeverProof::keepOpen(const BallPair& pair, double approach, double gap) {
-  arena_.push_back(pair);
+void NeverProof::keepWorst(double approach, double gap) {
   if (approach - gap <= worst_.lack) return;
   worst_.lack = approach - gap;
   worst_.approach = approach;
@@ -148,24 +148,46 @@ void NeverProof::askExact(const BallPair& leaves) {
 }
 
 void NeverProof::dropFar() {
-  forgetWorst();
+  worst_.lack = -std::numeric_limits<double>::infinity();
+  planes_.assign(a_.pieces.size() * b_.pieces.size(), std::nullopt);
   const std::size_t end = arena_.size();
-  const double gap = exactDistance_ - required_;
   std::size_t kept = firstOpen_;
   // Pairs are kept in place: none is written before it is read.
   for (std::size_t i = firstOpen_; i < end; ++i) {
-    ++effort_;
     const BallPair pair = arena_[i];
-    const double approach = bounds_.approach(ballA(pair.a, a_.balls[pair.a].radius),
-                                             ballB(pair.b, b_.balls[pair.b].radius));
-    if (gap > approach) continue;
-    arena_[kept++] = pair;
-    if (approach - gap <= worst_.lack) continue;
-    worst_.lack = approach - gap;
-    worst_.approach = approach;
-    worst_.shares.assign(bounds_.shares().begin(), bounds_.shares().end());
+    if (!isFar(pair)) arena_[kept++] = pair;
   }
   arena_.resize(kept);
+}
+
+bool NeverProof::isFar(const BallPair& pair) {
+  ++effort_;
+  const ChainBounds::Ball a = ballA(pair.a, a_.balls[pair.a].radius);
+  const ChainBounds::Ball b = ballB(pair.b, b_.balls[pair.b].radius);
+  const PiecePlane& plane = planeOf(pair);
+  if (plane.gap > required_) {
+    const double across = bounds_.approachAlong(plane.normal, a, b);
+    const double gap = plane.gap - required_;
+    if (gap > across) return true;
+    keepWorst(across, gap);
+  }
+  // In any direction; where exact geometry was not asked, for the choice of what to halve alone.
+  const double approach = bounds_.approach(a, b);
+  const double gap = asked_ ? exactDistance_ - required_ : 0.0;
+  if (gap > approach) return true;
+  if (!(plane.gap > required_)) keepWorst(approach, gap);
+  return false;
+}
+
+const PiecePlane& NeverProof::planeOf(const BallPair& pair) {
+  const int first = a_.balls[pair.a].piece, second = b_.balls[pair.b].piece;
+  auto& plane = planes_[static_cast<std::size_t>(first) * b_.pieces.size() +
+                        static_cast<std::size_t>(second)];
+  if (!plane) {
+    plane = planeBetween(a_.pieces[first], b_.pieces[second], place_, required_);
+    effort_ += kPlaneEffort;
+  }
+  return *plane;
 }
 
 void NeverProof::split(const Box& box) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "matrix/chain_bounds.hpp"
@@ -17,10 +18,11 @@ namespace swept::detail {
 /// leaves, or of ancestors in their place, is: centres farther apart than the radii, the margin,
 /// the rounding of poses and what ChainBounds says that they approach. What a box proved apart
 /// holds in its parts too, so these inherit only the pairs of balls that are still open; their
-/// number falls as boxes get smaller. Where leaves are open, exact geometry is asked for its
-/// distance in the middle: a pair of balls within which points approach by less is proven apart as
-/// well. If pairs are left, the box is halved across the variable that contributes most to the
-/// approach of the worst pair.
+/// number falls as boxes get smaller. Where pairs are open, exact geometry is asked for planes
+/// between the hulls of the links' pieces in the middle, and where leaves are, for the distance: a
+/// pair of balls within which points approach by less, across the plane or in any direction, is
+/// proven apart as well. If pairs are left, the box is halved across the variable that contributes
+/// most to the approach of the worst pair.
 ///
 /// Boxes are taken depth first: the list of open pairs of balls is a stack then.
 class NeverProof {
@@ -69,12 +71,14 @@ class NeverProof {
   void refine(BallPair pair);
   /// Whether the pair is proven apart in the box; both in m, without margin and rounding.
   bool isApart(const BallPair& pair, double& approach, double& gap);
-  void keepOpen(const BallPair& pair, double approach, double gap);
   void askExact(const BallPair& leaves);
-  /// Takes the pairs out of the arena that the exact distance proves.
+  /// Takes the open pairs out of the arena that planes or the exact distance prove.
   void dropFar();
+  bool isFar(const BallPair& pair);
+  /// Remembers the last answer of the bounds where it is the worst so far.
+  void keepWorst(double approach, double gap);
+  const PiecePlane& planeOf(const BallPair& pair);
   void split(const Box& box);
-  void forgetWorst() { worst_.lack = -std::numeric_limits<double>::infinity(); }
   ChainBounds::Ball ballA(int i, double radius) const;
   ChainBounds::Ball ballB(int i, double radius) const;
 
@@ -89,8 +93,9 @@ class NeverProof {
   std::vector<BallPair> arena_, work_;
   std::size_t firstOpen_ = 0;
   Worst worst_;
-  bool asked_ = false;          ///< exact geometry, in this box
-  double exactDistance_ = 0.0;  ///< m, lower bound, in the middle
+  bool asked_ = false;                             ///< exact geometry, in this box
+  double exactDistance_ = 0.0;                     ///< m, lower bound, in the middle
+  std::vector<std::optional<PiecePlane>> planes_;  ///< of two pieces, in this box
   std::int64_t effort_ = 0;
   double share_ = 0.0;
   bool stuck_ = false;
