@@ -25,7 +25,7 @@ struct SelfCase {
   std::filesystem::path files;      ///< URDF and SRDF, without their endings
   std::vector<std::string> groups;  ///< of the SRDF; moved together
   /// Pairs of links that are not checked either, besides the SRDF's.
-  std::vector<std::pair<std::string, std::string>> apart;
+  std::vector<std::pair<std::string, std::string>> apart = {};
 };
 
 inline std::vector<SelfCase> selfCases(const std::filesystem::path& data) {
