@@ -11,6 +11,7 @@
 
 #include "input_files.hpp"
 #include "matrix_robots.hpp"
+#include "swept/robot_model/checker.hpp"
 
 namespace swept {
 namespace {
@@ -131,6 +132,51 @@ TEST(CollisionMatrix, KnownByConstruction) {
   EXPECT_EQ(reportOf(*robot, reports, "core", "tab").variables.size(),
             1u);  // what turns both is none
   EXPECT_EQ(statusOf(*robot, "base", "core", {.samples = 0}), PairStatus::Default);
+}
+
+/// What a checker of all pairs says at the witnesses; a pair that nothing moves is among its
+/// standing contacts.
+int witnessesFound(const std::shared_ptr<const Robot>& robot,
+                   const std::vector<LinkPairReport>& reports) {
+  const Checker checker(robot, robot->groups().front().name, std::make_shared<const World>());
+  Workspace workspace(checker);
+  int witnesses = 0;
+  for (const LinkPairReport& report : reports) {
+    if (!report.witness) continue;
+    ++witnesses;
+    const std::string& a = robot->links()[report.linkA].name;
+    const std::string& b = robot->links()[report.linkB].name;
+    const auto isPair = [&](const auto& pair) {
+      return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
+    };
+    const std::vector<double> q(report.witness->begin(), report.witness->end());
+    const StateReport state = checker.reportState(q, workspace);
+    EXPECT_TRUE(
+        std::ranges::any_of(state.contacts, isPair) ||
+        (report.variables.empty() && std::ranges::any_of(checker.standingContacts(), isPair)))
+        << a << " - " << b;
+  }
+  return witnesses;
+}
+
+TEST(CollisionMatrix, ACheckerFindsTheWitnesses) {
+  std::mt19937 random(5);
+  int onChains = 0;
+  for (int i = 0; i < 5; ++i) {
+    const auto robot = robotOf(matrix_test::randomChain(random));
+    onChains += witnessesFound(robot, collisionMatrix(*robot, {.budget = 1000, .samples = 100}));
+  }
+  EXPECT_GT(onChains, 5);
+  for (const char* name : {"rook6", "rook7"}) {
+    const std::string files = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+    const auto robot = Robot::load(files + ".urdf");
+    EXPECT_GT(witnessesFound(robot, collisionMatrix(*robot, {.budget = 1000, .samples = 100})), 8);
+  }
+  const auto rigid = robotOf(
+      linkText("a", ball(0.1)) + linkText("b", "") + linkText("c", ball(0.1)) +
+      jointText("one", "fixed", "a", "b", "", "0.15 0 0") + jointText("two", "fixed", "b", "c") +
+      linkText("d", "") + jointText("three", "continuous", "a", "d"));
+  EXPECT_EQ(witnessesFound(rigid, collisionMatrix(*rigid, {.budget = 1000, .samples = 0})), 1);
 }
 
 TEST(CollisionMatrix, RigidlyAttachedContactsAreAlways) {

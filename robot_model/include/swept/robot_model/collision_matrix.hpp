@@ -51,7 +51,8 @@ struct LinkPairReport {
   std::vector<int> variables;
   /// A configuration of all variables within their limits at which the two are in contact; those
   /// not in `variables` have their value in Robot::defaultState(). Engaged exactly for MayCollide,
-  /// Default and Always.
+  /// Default and Always. A Checker of all pairs finds the contact there; that of two links attached
+  /// rigidly to each other among its standing contacts alone.
   std::optional<Eigen::VectorXd> witness;
   /// Share, by volume, of the box of joint values that is proven free of contact: 1 under Never, 0
   /// under Adjacent and where the proof was not tried.
