@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "certify/body_compile.hpp"
+#include "certify/near_pairs.hpp"
 #include "certify/pair_compile.hpp"
 
 namespace swept::detail {
@@ -32,6 +33,7 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
   if (!model->options.reference) model->options.reference = model->robot->defaultState();
   compileBodies(like, *model);
   compilePairs(*model);
+  model->boxes = compileBoxes(*model, like);
   model->lanes = compileLanes(*model, like);
   return model;
 }

@@ -13,6 +13,7 @@
 #include "kinematics/shared_array.hpp"
 #include "lanes/lane_model.hpp"
 #include "lanes/lane_scratch.hpp"
+#include "swept/core/broadphase/sweep_and_prune.hpp"
 #include "swept/core/separation.hpp"
 #include "swept/core/sphere_cover.hpp"
 #include "swept/robot_model/checker.hpp"
@@ -112,7 +113,15 @@ struct CheckerModel {
   SharedArray<RobotGeometry> robotGeometry;
   std::vector<WorldGeometry> worldGeometry;
   std::vector<TravelSlot> travels;
-  std::vector<GeometryPair> pairs;
+  std::vector<GeometryPair> pairs;  ///< with the world first, by robot geometry, ascending
+  /// Per robot geometry, and one more: of its pairs with the world, the first.
+  std::vector<std::uint32_t> firstWorldPair;
+  std::uint32_t firstSelfPair = 0;
+  double largestMargin = 0.0;    ///< m, of the pairs
+  double largestRounding = 0.0;  ///< m, likewise
+  /// The world's boxes, for the exact tier; null for a world with few. Handles are indices into
+  /// worldGeometry.
+  std::shared_ptr<const SweepAndPrune> boxes;
   LaneModel lanes;
   std::vector<BodyPair> bodyPairs;  ///< of the world first
   std::shared_ptr<PairLists> lists = std::make_shared<PairLists>();
@@ -182,6 +191,7 @@ struct WorkspaceData {
   std::vector<PendingInterval> pending;
   std::vector<std::uint32_t> pendingArena;
   std::vector<PendingPart> parts;
+  BroadphaseScratch boxes;
   /// Whole configurations: see KinematicModel. Empty without moving obstacles.
   std::vector<double> from, to;
   std::vector<Passage> passages;  ///< of the current motion, in order

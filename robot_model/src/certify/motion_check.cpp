@@ -62,7 +62,7 @@ class MotionProver {
         model_.lanes.usable && model_.options.maxIntervals >= kLanes &&
         compileLaneMotion(model_.lanes, model_.kinematics, from, to, workspace_.lanes);
     if (!fits) {
-      takeAll(model_, workspace_);
+      if (judge_.start()) takeAll(model_, query_, workspace_);
       return false;
     }
     const LaneGoal goal =

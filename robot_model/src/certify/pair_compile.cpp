@@ -38,7 +38,12 @@ class PairCompiler {
     for (const RobotGeometry& geometry : model_.robotGeometry) ++firstOf_[geometry.carrier + 1];
     std::partial_sum(firstOf_.begin(), firstOf_.end(), firstOf_.begin());
     pairWithWorld();
+    indexWorldPairs();
     pairCarriers();
+    for (const GeometryPair& pair : model_.pairs) {
+      model_.largestMargin = std::max(model_.largestMargin, pair.margin);
+      model_.largestRounding = std::max(model_.largestRounding, pair.rounding);
+    }
   }
 
  private:
@@ -116,6 +121,14 @@ class PairCompiler {
           pairWithPart(i, static_cast<int>(j),
                        model_.bodyPairs[base + model_.worldGeometry[j].body]);
     }
+  }
+
+  void indexWorldPairs() {
+    model_.firstWorldPair.assign(model_.robotGeometry.size() + 1, 0);
+    for (const GeometryPair& pair : model_.pairs) ++model_.firstWorldPair[pair.a + 1];
+    std::partial_sum(model_.firstWorldPair.begin(), model_.firstWorldPair.end(),
+                     model_.firstWorldPair.begin());
+    model_.firstSelfPair = static_cast<std::uint32_t>(model_.pairs.size());
   }
 
   void pairWithPart(int a, int b, BodyPair& bodies) {

@@ -85,16 +85,33 @@ const Isometry3d& PairQuery::pose(int geometry) {
   return placed.world_from_shape;
 }
 
-double PairQuery::rounding(const GeometryPair& pair) const {
-  // Planar and floating joints move the coordinates' magnitude; the rest is known at compile time.
+/// Planar and floating joints move the coordinates' magnitude; the rest is known at compile time.
+double PairQuery::wanderRounding() const {
   const double joints = static_cast<double>(model_.kinematics.bodies.size() + 2);
-  return pair.rounding + tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander;
+  return tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander;
+}
+
+double PairQuery::rounding(const GeometryPair& pair) const {
+  return pair.rounding + wanderRounding();
+}
+
+double PairQuery::largestRounding() const {
+  return model_.largestRounding + wanderRounding();
 }
 
 double PairQuery::travel(const GeometryPair& pair, double half) {
   double speed = bound(pair.travelA).speed;
   if (pair.travelB >= 0) speed += bound(pair.travelB).speed;
   return half * speed * (1.0 + kVelocityRounding);
+}
+
+Aabb PairQuery::ballBox(int geometry, double half) {
+  // Of a geometry with pairs in the world, whose first travel is in the model frame.
+  const GeometryPair& pair = model_.pairs[model_.firstWorldPair[geometry]];
+  const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) +
+                       model_.largestMargin + largestRounding();
+  const Vector3d all = Vector3d::Constant(reach * (1.0 + kVelocityRounding));
+  return {center(geometry) - all, center(geometry) + all};
 }
 
 Vector3d PairQuery::relativeVelocity(const GeometryPair& pair) {

@@ -50,6 +50,12 @@ class PairQuery {
   /// m. Lower bound from bounding volumes alone, kinematic rounding included.
   double coarseDistance(const GeometryPair& pair);
 
+  /// m, model frame: holds the geometry, grown by the largest margin and rounding of all pairs, on
+  /// [t - half, t + half].
+  Aabb ballBox(int geometry, double half);
+  /// m. Of every pair's relative pose, for any point, in this motion.
+  double largestRounding() const;
+
   Witness witness(std::uint32_t pair, double t, const PairAnswer& answer) const;
 
  private:
@@ -59,6 +65,7 @@ class PairQuery {
   const Eigen::Vector3d& center(int geometry);
   const Eigen::Isometry3d& pose(int geometry);
   double rounding(const GeometryPair& pair) const;
+  double wanderRounding() const;
   /// What the containing balls and boxes say.
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };
   /// `towards` becomes the unit direction from the first to the second that they were compared

@@ -2,8 +2,9 @@
 #include "certify/pending_intervals.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
+
+#include "certify/near_pairs.hpp"
 
 namespace swept::detail {
 
@@ -19,11 +20,12 @@ void listParts(WorkspaceData& workspace) {
 
 }  // namespace
 
-void takeAll(const CheckerModel& model, WorkspaceData& workspace) {
+void takeAll(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   workspace.pending.clear();
-  workspace.pendingArena.resize(model.pairs.size());
-  std::iota(workspace.pendingArena.begin(), workspace.pendingArena.end(), 0U);
-  if (!model.pairs.empty()) workspace.pending.push_back({0.0, 1.0, 0, model.pairs.size()});
+  query.moveTo(0.5);
+  NearPairs(model, query, workspace).collect(0.5, workspace.pendingArena);
+  if (!workspace.pendingArena.empty())
+    workspace.pending.push_back({0.0, 1.0, 0, workspace.pendingArena.size()});
 }
 
 void takeRest(WorkspaceData& workspace) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "certify/checker_model.hpp"
+#include "certify/pair_query.hpp"
 
 namespace swept::detail {
 
@@ -11,8 +11,8 @@ namespace swept::detail {
 ///
 /// Intervals come from bisections of [0, 1], so two of them are disjoint or one contains the other.
 
-/// Every pair of the checker, on the whole motion.
-void takeAll(const CheckerModel& model, WorkspaceData& workspace);
+/// Every pair whose boxes, swept over the whole motion that the query holds, come near each other.
+void takeAll(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace);
 
 /// What the lane search could not settle.
 void takeRest(WorkspaceData& workspace);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "certify/lane_witness.hpp"
+#include "certify/near_pairs.hpp"
 #include "certify/obstacle_clock.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
@@ -17,12 +17,8 @@ namespace swept::detail {
 
 namespace {
 
-/// Of these pairs, by exact geometry.
-Verdict checkPairs(const CheckerModel& model, std::span<const double> q,
-                   std::span<const std::uint32_t> pairs, WorkspaceData& workspace) {
-  PairQuery query(model, workspace);
-  if (!query.start(q, q)) return Verdict::Undecided;
-  query.moveTo(0.0);
+/// Of these pairs, by exact geometry, at the state that the query is at.
+Verdict provePairs(PairQuery& query, std::span<const std::uint32_t> pairs) {
   bool proven = true;
   for (const std::uint32_t pair : pairs) {
     const PairAnswer answer = query.prove(pair, 0.0);
@@ -32,11 +28,24 @@ Verdict checkPairs(const CheckerModel& model, std::span<const double> q,
   return proven ? Verdict::Free : Verdict::Undecided;
 }
 
+bool startAt(PairQuery& query, std::span<const double> q) {
+  if (!query.start(q, q)) return false;
+  query.moveTo(0.0);
+  return true;
+}
+
+Verdict checkPairs(const CheckerModel& model, std::span<const double> q,
+                   std::span<const std::uint32_t> pairs, WorkspaceData& workspace) {
+  PairQuery query(model, workspace);
+  return startAt(query, q) ? provePairs(query, pairs) : Verdict::Undecided;
+}
+
 Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
                       WorkspaceData& workspace) {
-  workspace.arena.resize(model.pairs.size());
-  std::iota(workspace.arena.begin(), workspace.arena.end(), 0U);
-  return checkPairs(model, q, workspace.arena, workspace);
+  PairQuery query(model, workspace);
+  if (!startAt(query, q)) return Verdict::Undecided;
+  NearPairs(model, query, workspace).collect(0.0, workspace.arena);
+  return provePairs(query, workspace.arena);
 }
 
 /// What the lane tier found out in one lane, and exact geometry about the rest.
@@ -91,15 +100,17 @@ namespace {
 /// Least distance over the pairs at the current state; a pair farther than the best so far is given
 /// up as soon as that is proven.
 template <typename Visitor>
-double leastDistance(const CheckerModel& model, PairQuery& query, const Visitor& nearer) {
+double leastDistance(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace,
+                     const Visitor& nearer) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < model.pairs.size(); ++i) {
-    if (query.coarseDistance(model.pairs[i]) >= least) continue;
-    const PairDistance distance = query.measure(i, least, tolerance::kDistance);
-    if (!(distance.lower < least)) continue;
-    least = distance.lower;
-    nearer(i);
-  }
+  NearPairs(model, query, workspace).forNearest([&](std::uint32_t pair) {
+    const PairDistance distance = query.measure(pair, least, tolerance::kDistance);
+    if (distance.lower < least) {
+      least = distance.lower;
+      nearer(pair);
+    }
+    return least;
+  });
   return least;
 }
 
@@ -109,9 +120,8 @@ double stateClearance(const CheckerModel& model, std::span<const double> configu
                       WorkspaceData& workspace) {
   const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
-  if (!query.start(q, q)) return 0.0;
-  query.moveTo(0.0);
-  return leastDistance(model, query, [](std::uint32_t) {});
+  if (!startAt(query, q)) return 0.0;
+  return leastDistance(model, query, workspace, [](std::uint32_t) {});
 }
 
 StateReport reportState(const CheckerModel& model, std::span<const double> configuration,
@@ -128,11 +138,11 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
     }
   }
   PairQuery query(model, workspace);
-  if (!query.start(q, q)) return report;
-  query.moveTo(0.0);
+  if (!startAt(query, q)) return report;
+  NearPairs(model, query, workspace).collect(0.0, workspace.arena);
   bool proven = true;
   std::set<std::pair<std::string, std::string>> reported;
-  for (std::uint32_t i = 0; i < model.pairs.size(); ++i) {
+  for (const std::uint32_t i : workspace.arena) {
     const PairAnswer answer = query.prove(i, 0.0);
     proven = proven && answer.status == Separation::Separated;
     if (answer.status != Separation::Contact) continue;
@@ -141,7 +151,7 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
       report.contacts.push_back(std::move(witness));
     }
   }
-  report.clearance = leastDistance(model, query, [&](std::uint32_t i) {
+  report.clearance = leastDistance(model, query, workspace, [&](std::uint32_t i) {
     report.nearestA = model.nameOfA(model.pairs[i]);
     report.nearestB = model.nameOfB(model.pairs[i]);
   });

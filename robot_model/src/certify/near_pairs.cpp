@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certify/near_pairs.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Rounded outward; infinite where the geometry is.
+Aabb boxOf(const WorldGeometry& geometry) {
+  const Eigen::Isometry3d world_from_box = geometry.box_from_world.inverse();
+  const Vector3d center = world_from_box.translation();
+  Vector3d half = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  if (geometry.halfExtents.allFinite())
+    half = (world_from_box.linear().cwiseAbs() * geometry.halfExtents).array() +
+           1e-12 * geometry.magnitude;
+  return {center - half, center + half};
+}
+
+}  // namespace
+
+std::shared_ptr<const SweepAndPrune> compileBoxes(const CheckerModel& model,
+                                                  const CheckerModel* like) {
+  if (model.worldGeometry.size() < kFewestBoxes) return nullptr;
+  const bool same = like != nullptr && like->world == model.world &&
+                    std::ranges::equal(like->worldGeometry, model.worldGeometry, {},
+                                       &WorldGeometry::scale, &WorldGeometry::scale);
+  if (same) return like->boxes;
+  std::vector<Aabb> boxes;
+  boxes.reserve(model.worldGeometry.size());
+  for (const WorldGeometry& geometry : model.worldGeometry) boxes.push_back(boxOf(geometry));
+  auto manager = std::make_shared<SweepAndPrune>();
+  manager->registerBoxes(boxes);
+  return manager;
+}
+
+std::optional<std::uint32_t> NearPairs::pairOf(std::size_t geometry, BoxHandle other) const {
+  const std::span<const GeometryPair> pairs = worldPairs(geometry);
+  const auto found = std::ranges::lower_bound(pairs, static_cast<int>(other), {}, &GeometryPair::b);
+  if (found == pairs.end() || found->b != static_cast<int>(other)) return std::nullopt;
+  return static_cast<std::uint32_t>(&*found - model_.pairs.data());
+}
+
+void NearPairs::collect(double half, std::vector<std::uint32_t>& pairs) {
+  pairs.clear();
+  if (model_.boxes == nullptr) {
+    pairs.resize(model_.pairs.size());
+    std::iota(pairs.begin(), pairs.end(), 0U);
+    return;
+  }
+  for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
+    if (worldPairs(i).empty()) continue;
+    model_.boxes->collide(query_.ballBox(static_cast<int>(i), half), workspace_.boxes,
+                          [&](BoxHandle other) {
+                            if (const auto pair = pairOf(i, other)) pairs.push_back(*pair);
+                            return false;
+                          });
+  }
+  for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
+    pairs.push_back(pair);
+}
+
+}  // namespace swept::detail
