@@ -204,5 +204,20 @@ TEST_F(Gantry, RefusesASpaceOfAnotherGroup) {
                std::invalid_argument);
 }
 
+TEST_F(Gantry, MovingObstaclesNeedTimeThatStatesDoNotHave) {
+  MovingObstacle ball{.name = "drone", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
+  ball.waypoints.push_back({0.0, Eigen::Isometry3d::Identity()});
+  const auto moving = std::make_shared<const Checker>(checker_->withObstacle(ball));
+  try {
+    const ValidityChecker validity(si_, moving);
+    ADD_FAILURE() << "nothing thrown";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "the checker's world has a moving obstacle, `drone`, and states of the space have "
+                 "no time");
+  }
+  EXPECT_THROW(CertifiedMotionValidator(si_, moving), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace swept::test

@@ -65,7 +65,7 @@ class WorkspacePool;
 class ValidityChecker : public ompl::base::StateValidityChecker {
  public:
   /// Throws std::invalid_argument unless si's space is built as makeStateSpace does for the
-  /// checker's group.
+  /// checker's group, and for a world with moving obstacles.
   ValidityChecker(const ompl::base::SpaceInformationPtr& si,
                   std::shared_ptr<const Checker> checker);
   ~ValidityChecker() override;
@@ -88,7 +88,7 @@ class ValidityChecker : public ompl::base::StateValidityChecker {
 class CertifiedMotionValidator : public ompl::base::MotionValidator {
  public:
   /// Throws std::invalid_argument unless si's space is built as makeStateSpace does for the
-  /// checker's group.
+  /// checker's group, and for a world with moving obstacles.
   CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si,
                            std::shared_ptr<const Checker> checker);
   ~CertifiedMotionValidator() override;
