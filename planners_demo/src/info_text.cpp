@@ -124,12 +124,13 @@ std::string pairText(const Checker& checker) {
                      std::to_string(checker.checkedPairs().size() - selfPairs) +
                      " of a link with a world body, " + std::to_string(selfPairs) +
                      " of two links\n";
-  std::map<double, std::vector<std::string>> byMargin;
+  std::map<std::pair<double, std::string>, std::vector<std::string>> byMargin;
   for (const Checker::Pair& pair : checker.checkedPairs())
-    byMargin[pair.margin].push_back(pair.bodyA + " - " + pair.bodyB);
-  for (const auto& [margin, pairs] : byMargin)
-    text += "checked, more than " + shortNumber(margin) + " m apart (" +
-            std::to_string(pairs.size()) + "): " + joined(pairs) + "\n";
+    byMargin[{pair.margin, pair.reason}].push_back(pair.bodyA + " - " + pair.bodyB);
+  for (const auto& [how, pairs] : byMargin)
+    text += "checked, more than " + shortNumber(how.first) + " m apart" +
+            (how.second.empty() ? "" : ", " + how.second) + " (" + std::to_string(pairs.size()) +
+            "): " + joined(pairs) + "\n";
   std::map<std::string, std::vector<std::string>> byReason;
   for (const Checker::Pair& pair : checker.skippedPairs())
     byReason[shortReason(pair.reason)].push_back(pair.bodyA + " - " + pair.bodyB);

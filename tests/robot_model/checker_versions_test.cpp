@@ -144,7 +144,10 @@ TEST(CheckerVersions, ExplainsEveryPairOfNames) {
   EXPECT_EQ(checker.explain("body1", "moon"),
             "body1 - moon: not checked, both belong to the world");
   EXPECT_EQ(checker.explain("hand", "hand"), "hand - hand: not checked, one body");
-  EXPECT_EQ(checker.explain("hand", "base"), "hand - base: checked, keeps more than 0 m");
+  EXPECT_EQ(checker.explain("hand", "upper"), "hand - upper: checked, keeps more than 0 m");
+  EXPECT_EQ(checker.explain("hand", "base"),
+            "hand - base: checked, keeps more than 0 m; never: proven apart within the joints' "
+            "limits");
   EXPECT_EQ(messageOf([&] { (void)checker.explain("hand", "sun"); }),
             "Checker: 'sun' is no link, attached body or body of the world");
 }

@@ -154,6 +154,11 @@ inline const std::vector<Named>& robotsWithTables() {
   return robots;
 }
 
+/// A table over joints: not of two bodies that never meet.
+inline bool hasCells(const detail::LaneBodyPair& bodies) {
+  return bodies.table != nullptr && bodies.table->joints > 0;
+}
+
 /// Poses of both bodies at these values of the table's joints, all others at rest.
 class Poses {
  public:

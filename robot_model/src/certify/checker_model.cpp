@@ -5,6 +5,7 @@
 
 #include "certify/body_compile.hpp"
 #include "certify/near_pairs.hpp"
+#include "certify/never_compile.hpp"
 #include "certify/pair_compile.hpp"
 
 namespace swept::detail {
@@ -33,6 +34,7 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
   if (!model->options.reference) model->options.reference = model->robot->defaultState();
   compileBodies(like, *model);
   compilePairs(*model);
+  findNever(like, *model);
   model->boxes = compileBoxes(*model, like);
   model->lanes = compileLanes(*model, like);
   return model;

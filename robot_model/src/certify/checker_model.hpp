@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -85,9 +86,15 @@ struct BodyPair {
   int b = 0;              ///< index into World::bodies(), or of the second carrier
   bool carriers = false;  ///< two carriers
   bool touching = false;  ///< of those that do not move: in contact
+  /// Of checked links: proven apart within the limits of the joints, so that they are looked at
+  /// outside of these alone.
+  bool never = false;
   PairReason reason = PairReason::Checked;
   double margin = 0.0;  ///< m
 };
+
+/// m, per pair of links (the smaller index first): that they are proven to keep.
+using NeverMargins = std::map<std::pair<int, int>, double>;
 
 /// For people to read; made when it is first asked for.
 struct PairLists {
@@ -123,7 +130,8 @@ struct CheckerModel {
   /// worldGeometry.
   std::shared_ptr<const SweepAndPrune> boxes;
   LaneModel lanes;
-  std::vector<BodyPair> bodyPairs;  ///< of the world first
+  std::vector<BodyPair> bodyPairs;                   ///< of the world first
+  std::shared_ptr<const NeverMargins> neverMargins;  ///< what the first version has proven
   std::shared_ptr<PairLists> lists = std::make_shared<PairLists>();
 
   std::string nameOfA(const GeometryPair& pair) const;

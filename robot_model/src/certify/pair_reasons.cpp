@@ -41,7 +41,7 @@ std::string reasonOf(const CheckerModel& model, const BodyPair& pair,
                      const std::map<CarrierPair, std::string>& disabled) {
   switch (pair.reason) {
     case PairReason::Checked:
-      break;
+      return pair.never ? "never: proven apart within the joints' limits" : "";
     case PairReason::Allowed: {
       const auto* rule = model.options.rules.find(
           CollisionRules::Kind::Allow, model.carriers[pair.a].name, nameOfB(model, pair));
@@ -145,7 +145,8 @@ std::string explainPair(const CheckerModel& model, std::string_view bodyA, std::
   };
   const auto checked = std::ranges::find_if(lists.checked, isIt);
   if (checked != lists.checked.end())
-    return both + "checked, keeps more than " + marginText(model, *checked);
+    return both + "checked, keeps more than " + marginText(model, *checked) +
+           (checked->reason.empty() ? "" : "; " + checked->reason);
   const auto skipped = std::ranges::find_if(lists.skipped, isIt);
   std::string text = both + "not checked, " + skipped->reason;
   if (std::ranges::any_of(lists.standing, isIt)) text += "; in contact";

@@ -2,6 +2,7 @@
 #include "lanes/joint_table.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace swept::detail {
 
@@ -21,6 +22,14 @@ int cellsEnd(int end) {
 }
 
 }  // namespace
+
+JointTable JointTable::allApart(Pairs pairs) {
+  JointTable table;
+  table.open.assign(4, 0);
+  table.cells.resize(1);
+  table.pairs = std::move(pairs);
+  return table;
+}
 
 bool JointTable::find(const Values& lower, const Values& upper, Range& range) const {
   for (int k = 0; k < joints; ++k) {

@@ -8,7 +8,8 @@
 namespace swept::detail {
 
 /// For two bodies whose relative pose depends on one or two joints that turn: the cells of joint
-/// values in which all pairs of their geometry are proven apart.
+/// values in which all pairs of their geometry are proven apart. And for two that are proven apart
+/// for all values of all joints within their limits: a single cell, of no joint.
 ///
 /// Neighbours but one along an arm come within millimetres of each other in most of their range,
 /// and little else in it changes; proving that once is worth more than proving it in each motion.
@@ -24,7 +25,7 @@ struct JointTable {
     int cells = 1;
   };
   std::array<Axis, kMostJoints> axes;
-  int joints = 0;  ///< 0: no table
+  int joints = 0;  ///< 0: never in contact
   /// Cells not proven, with smaller or equal indices: [i * (axes[1].cells + 1) + j] counts those of
   /// [0, i) x [0, j).
   std::vector<std::uint32_t> open;
@@ -49,7 +50,8 @@ struct JointTable {
     int b = 0;
     double margin = 0.0;  ///< m, that they are proven to keep
   };
-  std::vector<Geometries> pairs;
+  using Pairs = std::vector<Geometries>;
+  Pairs pairs;
 
   /// In a body's solid.
   struct InnerBall {
@@ -63,6 +65,9 @@ struct JointTable {
     std::int32_t pair = 0;  ///< of `pairs`
   };
   std::vector<Meeting> meetings;
+
+  /// Of two bodies that are never in contact.
+  static JointTable allApart(Pairs pairs);
 
   /// The cell with these values; null outside and where it is coarse.
   const Cell* cellAt(const Values& values) const;

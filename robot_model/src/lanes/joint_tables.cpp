@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -68,6 +69,26 @@ void share(std::vector<Task>& tasks, int most, const Done& done, const Work& wor
   }
 }
 
+/// Per pair of bodies: all pairs of its geometry if none of them ever meets, else none.
+std::vector<JointTable::Pairs> neverPairs(const CheckerModel& model, const LaneModel& lanes) {
+  std::set<std::pair<int, int>> never;
+  for (const BodyPair& pair : model.bodyPairs)
+    if (pair.never) never.emplace(pair.a, pair.b);
+  std::vector<JointTable::Pairs> pairs(lanes.bodyPairs.size());
+  std::vector<char> meets(lanes.bodyPairs.size(), 0);
+  for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
+    const LanePairSource& source = lanes.sources[i];
+    if (source.obstacle >= 0) continue;
+    const std::pair carriers{model.robotGeometry[source.geometry].carrier,
+                             model.robotGeometry[source.other].carrier};
+    if (!never.contains(carriers)) meets[source.bodyPair] = 1;
+    pairs[source.bodyPair].push_back({source.geometry, source.other, model.pairs[i].margin});
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (meets[i] != 0) pairs[i].clear();
+  return pairs;
+}
+
 bool sameGeometry(const RobotGeometry& a, const RobotGeometry& b) {
   return a.cover == b.cover && a.cover != nullptr;
 }
@@ -86,9 +107,18 @@ bool holdsFor(const CheckerModel& model, const JointTables& tables, const JointT
 
 std::shared_ptr<const JointTables> buildJointTables(const CheckerModel& model,
                                                     const LaneModel& lanes) {
+  auto tables = std::make_shared<JointTables>();
+  tables->geometry = model.robotGeometry;
   std::vector<Task> tasks;
+  const std::vector<JointTable::Pairs> never = neverPairs(model, lanes);
   for (std::size_t i = 0; i < lanes.bodyPairs.size(); ++i) {
     const LaneBodyPair& bodies = lanes.bodyPairs[i];
+    if (!never[i].empty()) {
+      tables->entries.push_back(
+          {bodies.bodyA, bodies.bodyB,
+           std::make_shared<const JointTable>(JointTable::allApart(never[i]))});
+      continue;
+    }
     const std::optional<TableMotion> motion = TableMotion::between(model, lanes, bodies);
     if (!motion) continue;
     Task& task = tasks.emplace_back();
@@ -101,8 +131,6 @@ std::shared_ptr<const JointTables> buildJointTables(const CheckerModel& model,
   share(
       tasks, kMostPartWork, [](const TableBuilder& builder) { return builder.refined(); },
       [](TableBuilder& builder, int& work) { builder.refine(work); });
-  auto tables = std::make_shared<JointTables>();
-  tables->geometry = model.robotGeometry;
   for (Task& task : tasks) {
     const LaneBodyPair& bodies = lanes.bodyPairs[task.bodies];
     if (auto table = task.builder->finish())

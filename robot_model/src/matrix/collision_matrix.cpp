@@ -6,7 +6,6 @@
 #include <cmath>
 #include <exception>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <thread>
 
@@ -27,20 +26,13 @@ using detail::NeverProof;
 /// pairs are far apart.
 constexpr std::int64_t kFirstProof = 16;
 
-/// Apart for every variable of the robot, whatever group moves it.
-KinematicModel wholeRobot(const Robot& robot) {
-  Group all;
-  for (std::size_t j = 0; j < robot.joints().size(); ++j)
-    if (robot.joints()[j].firstVariable >= 0) all.joints.push_back(static_cast<int>(j));
-  all.variables.resize(robot.variables().size());
-  std::iota(all.variables.begin(), all.variables.end(), 0);
-  return detail::compileKinematics(robot, all, robot.defaultState());
-}
-
 class Examiner {
  public:
   Examiner(const Robot& robot, const CollisionMatrixOptions& options)
-      : robot_(robot), options_(options), model_(wholeRobot(robot)), start_(robot.defaultState()) {
+      : robot_(robot),
+        options_(options),
+        model_(detail::wholeKinematics(robot)),
+        start_(robot.defaultState()) {
     for (std::size_t i = 0; i < robot.links().size(); ++i)
       pieces_.push_back(detail::piecesOf(robot, model_, static_cast<int>(i)));
     for (std::size_t j = 0; j < robot.joints().size(); ++j) {
@@ -135,10 +127,7 @@ void Examiner::prove(const LinkChain& chain, LinkChain::Place& place, ContactSea
   }
   const LinkPieces& a = pieces_[report.linkA];
   const LinkPieces& b = pieces_[report.linkB];
-  const auto covered = [](const LinkPieces::Piece& piece) { return piece.root >= 0; };
-  const bool provable = chain.bounded() && std::ranges::all_of(a.pieces, covered) &&
-                        std::ranges::all_of(b.pieces, covered);
-  if (!provable) {
+  if (!chain.bounded() || !a.covered() || !b.covered()) {
     if (const auto found = search.descend({})) contact(chain, *found, report);
     return;
   }

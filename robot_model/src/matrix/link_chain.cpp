@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "swept/core/tolerances.hpp"
 
@@ -15,6 +16,15 @@ namespace {
 constexpr double kFarthest = 1000.0;
 
 }  // namespace
+
+KinematicModel wholeKinematics(const Robot& robot) {
+  Group all;
+  for (std::size_t j = 0; j < robot.joints().size(); ++j)
+    if (robot.joints()[j].firstVariable >= 0) all.joints.push_back(static_cast<int>(j));
+  all.variables.resize(robot.variables().size());
+  std::iota(all.variables.begin(), all.variables.end(), 0);
+  return compileKinematics(robot, all, robot.defaultState());
+}
 
 LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB)
     : model_(model), bodyA_(bodyA), bodyB_(bodyB) {

@@ -10,6 +10,9 @@
 
 namespace swept::detail {
 
+/// All of the robot's variables move, whatever groups there are.
+KinematicModel wholeKinematics(const Robot& robot);
+
 /// A range of values for each variable of a chain.
 struct JointBox {
   std::vector<double> lower;  ///< rad or m

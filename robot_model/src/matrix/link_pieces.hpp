@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -32,6 +33,11 @@ struct LinkPieces {
   std::vector<Piece> pieces;
   std::vector<Ball> balls;
   double reach = 0.0;  ///< m, no point is farther from the body's origin
+
+  /// Each piece has a cover.
+  bool covered() const {
+    return std::ranges::all_of(pieces, [](const Piece& piece) { return piece.root >= 0; });
+  }
 };
 
 LinkPieces piecesOf(const Robot& robot, const KinematicModel& model, int link);

@@ -56,8 +56,9 @@ struct StateReport {
   /// Variables (names) outside their limits. Says nothing about geometry; a planner refuses both.
   std::vector<std::string> outsideLimits;
   std::vector<Witness> contacts;  ///< one per violating pair, in the checker's pair order
-  double clearance =
-      0.0;  ///< m, proven lower bound of the least distance over all pairs; infinity: no pairs
+  /// m. Proven lower bound of the least distance over all pairs; margins and paddings are not taken
+  /// off. Infinity: no pairs.
+  double clearance = 0.0;
   std::string nearestA, nearestB;  ///< the pair that gave `clearance`; empty without pairs
 };
 
@@ -202,8 +203,10 @@ class Checker {
     std::string bodyB;      ///< likewise, or a world body
     bool selfPair = false;  ///< both are links or attached bodies
     double margin = 0.0;    ///< m, what they have to keep where they are checked
-    std::string
-        reason;  ///< empty when checked: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ...
+    /// Of a pair that is left out: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ... Of a
+    /// checked one `never` if it is proven, once for all, for all values within the joints' limits;
+    /// else empty.
+    std::string reason;
   };
   const std::vector<Pair>& checkedPairs() const;
   const std::vector<Pair>& skippedPairs() const;
