@@ -32,6 +32,7 @@ class CoverCompiler {
     rootOfGeometry_.assign(model_.robotGeometry.size(), -1);
     rootOfBody_.assign(bodies, -1);
     for (std::size_t body = 0; body < bodies; ++body) addBodyCover(body, geometriesOf[body]);
+    addChildren();
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       addInnerBalls(static_cast<int>(i));
       addProbes(static_cast<int>(i));
@@ -41,6 +42,7 @@ class CoverCompiler {
     lanes_.rootOfGeometry = SharedArray(std::move(rootOfGeometry_));
     lanes_.rootOfBody = SharedArray(std::move(rootOfBody_));
     lanes_.nodes = SharedArray(std::move(nodes_));
+    lanes_.children = SharedArray(std::move(children_));
     lanes_.innerBalls = SharedArray(std::move(innerBalls_));
     lanes_.probes = SharedArray(std::move(probes_));
     lanes_.probesOf = SharedArray(std::move(probesOf_));
@@ -122,6 +124,22 @@ class CoverCompiler {
     }
   }
 
+  void addChildren() {
+    for (LaneNode& node : nodes_) {
+      node.childRow = static_cast<std::int32_t>(children_.size());
+      for (std::int32_t i = 0; i < node.childCount; i += kLanes) {
+        LaneModel::Children& eight = children_.emplace_back();
+        for (std::int32_t lane = 0; lane < kLanes; ++lane) {
+          const LaneNode& child = nodes_[node.firstChild + std::min(i + lane, node.childCount - 1)];
+          eight.x.lane[lane] = child.center[0];
+          eight.y.lane[lane] = child.center[1];
+          eight.z.lane[lane] = child.center[2];
+          eight.radius.lane[lane] = child.radius;
+        }
+      }
+    }
+  }
+
   void addInnerBalls(int index) {
     const RobotGeometry& geometry = model_.robotGeometry[index];
     innerBalls_.push_back({static_cast<std::int32_t>(nodes_.size()), 0});
@@ -172,6 +190,7 @@ class CoverCompiler {
   std::vector<int> geometryBody_;
   std::vector<std::int32_t> rootOfGeometry_, rootOfBody_;
   std::vector<LaneNode> nodes_;
+  std::vector<LaneModel::Children> children_;
   std::vector<LaneModel::InnerBalls> innerBalls_, probesOf_;
   std::vector<LaneModel::Probes> probes_;
 };

@@ -105,6 +105,7 @@ void shareLaneBodies(const LaneModel& like, LaneModel& lanes) {
   lanes.parentLaneFromParent = like.parentLaneFromParent;
   lanes.bodyFromLane = like.bodyFromLane;
   lanes.nodes = like.nodes;
+  lanes.children = like.children;
   lanes.rootOfBody = like.rootOfBody;
   lanes.rootOfGeometry = like.rootOfGeometry;
   lanes.innerBalls = like.innerBalls;

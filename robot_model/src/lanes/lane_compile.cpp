@@ -9,6 +9,7 @@
 #include "lanes/lane_bodies.hpp"
 #include "lanes/lane_model.hpp"
 #include "lanes/lane_references.hpp"
+#include "lanes/root_rows.hpp"
 #include "lanes/single.hpp"
 
 namespace swept::detail {
@@ -29,6 +30,7 @@ class LaneCompiler {
     addPairs();
     addReferences(sameBodies);
     addMargins();
+    lanes_.rootRows = compileRootRows(lanes_);
     addTables();
     lanes_.obstacles = compileObstacles(model_.worldGeometry, lanes_.reach, reachIsBounded(),
                                         lanes_.obstacleExtras,

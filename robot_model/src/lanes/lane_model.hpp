@@ -46,6 +46,7 @@ struct LaneNode {
   float beyond = 0.0F;   ///< m, how far the ball reaches beyond the link
   std::int32_t firstChild = 0;
   std::int32_t childCount = 0;
+  std::int32_t childRow = 0;   ///< of LaneModel::children, the first of as many as they fill
   std::int32_t geometry = -1;  ///< index into CheckerModel::robotGeometry; -1: several
 };
 
@@ -77,6 +78,16 @@ struct LaneBodyPair {
   float extra = 0.0F;                       ///< m, most that a pair of them keeps beyond the margin
 };
 
+/// A body with eight consecutive ones, as far as pairs of them are checked.
+struct LaneRootRow {
+  Row radii;                        ///< m, sums of those of the balls around all of their geometry
+  Row keep;                         ///< m, what the pairs have to keep
+  std::int32_t pairs[kLanes] = {};  ///< index into LaneModel::bodyPairs
+  std::uint32_t checked = 0;        ///< lanes that are a pair
+  int body = 0;
+  int eight = 0;  ///< with bodies 8 eight, 8 eight + 1, ...
+};
+
 /// What a pair of the model is here.
 struct LanePairSource {
   int geometry = 0;
@@ -93,6 +104,12 @@ struct LaneModel {
   SharedArray<Eigen::Matrix3d> parentLaneFromParent;
   SharedArray<Eigen::Matrix3d> bodyFromLane;  ///< per body, KinematicModel's frame from this one
   SharedArray<LaneNode> nodes;
+  /// Eight children of a node; the last one is repeated to fill up a row.
+  struct Children {
+    Row x, y, z;  ///< m, in the body's frame
+    Row radius;   ///< m
+  };
+  SharedArray<Children> children;
   SharedArray<std::int32_t> rootOfBody;      ///< -1: no geometry
   SharedArray<std::int32_t> rootOfGeometry;  ///< -1: none
   /// Per geometry: balls inside it, as nodes without children.
@@ -113,6 +130,7 @@ struct LaneModel {
   std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
   SharedArray<LaneReference> references;  ///< [0]: the model frame
   std::vector<LaneBodyPair> bodyPairs;
+  std::vector<LaneRootRow> rootRows;  ///< of all of bodyPairs
   LaneObstacles obstacles;
   /// Index of the pair of a geometry and a world geometry: [geometry * obstacles + obstacle]; -1:
   /// not checked.

@@ -128,6 +128,26 @@ struct LaneScratch {
     std::uint32_t lanes = 0;
   };
   std::vector<SelfVisit> selfVisits;
+  /// Two balls of one state that are not proven apart.
+  struct BallPair {
+    std::int32_t nodeA = 0;
+    std::int32_t nodeB = 0;
+    float atA[3] = {};     ///< m
+    float atB[3] = {};     ///< m
+    float squared = 0.0F;  ///< m^2, of the distance of their centres
+  };
+  /// Those that a state's walk is going to look at more closely.
+  struct StateVisit {
+    int bodyPair = 0;
+    std::uint32_t pair = 0;
+    BallPair balls;
+  };
+  std::vector<StateVisit> stateVisits;
+  /// Eight bodies in one state: the centres of the balls around all of their geometry.
+  struct Roots {
+    Row at[3];  ///< m
+  };
+  std::vector<Roots> rootsOfEight;
   std::vector<LaneQuery> queries;
   float rounding = 0.0F;      ///< m, of this motion
   bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds

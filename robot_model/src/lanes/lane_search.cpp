@@ -275,6 +275,7 @@ LaneScratch::LaneScratch(const LaneModel& model) {
   block.slide.resize(3 * model.bodies.size(), Row{});
   block.states.resize(model.bodies.size());
   block.roots.resize(model.bodies.size());
+  rootsOfEight.resize((model.bodies.size() + kLanes - 1) / kLanes);
   restBase(model);
   block.openLanes.resize(model.sources.size());
   block.finalLanes.resize(model.sources.size());

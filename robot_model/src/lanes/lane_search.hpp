@@ -58,7 +58,8 @@ LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, LaneGoal goal,
                         LaneScratch& scratch);
 /// Of states: of the motion's begin in all lanes (LaneMode::State), or of eight (States). What is
 /// found is in scratch.block: a lane is free if it is neither in `contactLanes` nor has open pairs.
-/// Under LaneMode::State the search ends with the first contact.
+/// Under LaneMode::State the search ends with the first contact, in any lane, and pairs of two links
+/// are left open in the first lane alone.
 void searchStates(const LaneModel& model, LaneMode mode, bool contacts, LaneScratch& scratch);
 /// Puts the open pairs of a lane into scratch.restArena.
 void takeOpen(int lane, LaneScratch& scratch);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lanes/self_walk.hpp"
 
-#include <bit>
+#include "lanes/ball_split.hpp"
+#include "lanes/state_walk.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lanes/self_walk.cpp"  // compiled once for each instruction set
@@ -11,18 +12,11 @@
 #include "lanes/f8.hpp"
 #include "lanes/placed_ball.hpp"
 #include "lanes/self_contacts.hpp"
-#include "lanes/table_lanes.hpp"
+#include "lanes/self_tables.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
-
-/// Pairs of balls that are split per pair of links: two links so close that this does not prove
-/// them apart are cheaper to compare exactly.
-constexpr int kMostLooks = 16;
-
-/// m. As good a guess as any for a contact in a cell of a table.
-constexpr float kLikelyDepth = 0.01F;
 
 class SelfWalk {
  public:
@@ -30,7 +24,7 @@ class SelfWalk {
       : model_(model),
         scratch_(scratch),
         block_(scratch.block),
-        tables_(scratch),
+        tables_(model, scratch),
         contacts_(model, scratch, states_),
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == LaneMode::Motion) {}
@@ -48,10 +42,10 @@ class SelfWalk {
         lanes ^= tables_.proven(table);
         if (lanes == 0) continue;
         start(bodies);
-        if (meets(table, lanes)) return true;
+        if (tables_.meets(table, states_, contacts_, lanes)) return true;
         lanes &= ~block_.contactLanes;
         // Where the table knows of no proof, covers have none either.
-        lanes = openByTable(table, lanes);
+        lanes = tables_.leaveOpenOf(table, lanes);
         if (lanes == 0) continue;
       }
       start(bodies);
@@ -79,58 +73,6 @@ class SelfWalk {
   }
 
  private:
-  /// Looks where the table suggests a contact.
-  bool meets(const JointTable& table, Lanes lanes) {
-    if (!block_.stopAtContact) return false;
-    std::int32_t last = -1;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const JointTable::Cell* cell = tables_.cellOf(table, std::countr_zero(lanes));
-      if (cell == nullptr || cell->meeting < 0 || cell->meeting == last) continue;
-      last = cell->meeting;
-      const JointTable::Meeting& meeting = table.meetings[static_cast<std::size_t>(last)];
-      const std::int32_t pair = pairOf(table.pairs[static_cast<std::size_t>(meeting.pair)]);
-      if (pair < 0) continue;
-      if (contacts_.touches(static_cast<std::uint32_t>(pair), meeting.a.inside,
-                            place(meeting.a, *states_.a), meeting.b.inside,
-                            place(meeting.b, *states_.b), lanes))
-        return true;
-    }
-    return false;
-  }
-
-  /// -1: not checked. The table may be older than the rule that says so.
-  std::int32_t pairOf(const JointTable::Geometries& pair) const {
-    return model_.pairOfGeometries[pair.a * model_.geometryBody.size() + pair.b];
-  }
-
-  /// Leaves open what the table does; returns the lanes that it knows nothing of.
-  Lanes openByTable(const JointTable& table, Lanes lanes) {
-    // A bit for many pairs would open them all.
-    if (table.pairs.size() > JointTable::kPairBits) return lanes;
-    Lanes outside = 0;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const int lane = std::countr_zero(lanes);
-      JointTable::Values lower;
-      JointTable::Values upper;
-      tables_.boxOf(table, lane, lane + 1, lower, upper);
-      const JointTable::Cell* cell = tables_.cellOf(table, lane);
-      if (cell == nullptr) {
-        outside |= 1U << lane;
-        continue;
-      }
-      const std::uint8_t bits = table.openPairs(lower, upper);
-      for (std::size_t k = 0; k < table.pairs.size(); ++k) {
-        const std::int32_t pair = pairOf(table.pairs[k]);
-        if ((bits >> k & 1U) == 0 || pair < 0) continue;
-        // A contact seen in the cell is likely here, and the deeper the farther from where it ends.
-        const bool likely = cell->touching && (cell->openPairs >> k & 1U) != 0;
-        leaveOpen(block_, static_cast<std::uint32_t>(pair), 1U << lane, true,
-                  set(likely ? kLikelyDepth : 0.0F));
-      }
-    }
-    return outside;
-  }
-
   void start(const LaneBodyPair& bodies) {
     const LaneReference& reference = model_.references[bodies.reference];
     const LaneBounds& bounds = scratch_.bounds[bodies.reference];
@@ -185,8 +127,7 @@ class SelfWalk {
       lanes &= ~block_.contactLanes;
       if (lanes == 0) return false;
     }
-    const bool splitA = a.geometry < 0 || (b.geometry >= 0 && a.childCount > 0 &&
-                                           (b.childCount == 0 || a.radius >= b.radius));
+    const bool splitA = splitsFirst(a, b);
     const LaneNode& parent = splitA ? a : b;
     const bool coarse = a.beyond + b.beyond > 0.5F * largestLane(extra_);
     if (known && (!coarse || parent.childCount == 0 || --looks_ < 0)) {
@@ -211,7 +152,7 @@ class SelfWalk {
   const LaneModel& model_;
   LaneScratch& scratch_;
   LaneBlock& block_;
-  const TableLanes tables_;
+  const SelfTables tables_;
   SelfContacts contacts_;
   const F8 half_;
   const bool moving_;
@@ -244,6 +185,7 @@ HWY_EXPORT(All);
 HWY_EXPORT(One);
 
 bool walkSelf(const LaneModel& model, LaneScratch& scratch) {
+  if (scratch.block.mode == LaneMode::State) return walkState(model, scratch);
   return HWY_DYNAMIC_DISPATCH(All)(model, scratch);
 }
 
