@@ -140,6 +140,7 @@ struct LaneScratch {
   struct StateVisit {
     int bodyPair = 0;
     std::uint32_t pair = 0;
+    float spread = 0.0F;  ///< square of the distance of the centres by the sum of the radii
     BallPair balls;
   };
   std::vector<StateVisit> stateVisits;

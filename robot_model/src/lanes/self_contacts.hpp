@@ -41,28 +41,21 @@ class SelfContacts {
     lanes &= below(squared, set(near * near));
     if (lanes == 0) return false;
     const int lane = lowestLane(squared, lanes);
-    for (std::int32_t j = 0; j < std::min(ofB.count, kProbeRows); ++j) {
-      Row centers[3];
+    const std::int32_t rowsA = std::min(ofA.count, kProbeRows);
+    const std::int32_t rowsB = std::min(ofB.count, kProbeRows);
+    V3 atRowA[kProbeRows];
+    for (std::int32_t i = 0; i < rowsA; ++i)
+      atRowA[i] = placedAt(*states_.a, lane, model_.probes[ofA.first + i]);
+    for (std::int32_t j = 0; j < rowsB; ++j) {
       const LaneModel::Probes& eightB = model_.probes[ofB.first + j];
+      Row centers[3];
       store3(placedAt(*states_.b, lane, eightB), centers);
-      for (std::int32_t i = 0; i < std::min(ofA.count, kProbeRows); ++i) {
+      for (std::int32_t i = 0; i < rowsA; ++i) {
         const LaneModel::Probes& eightA = model_.probes[ofA.first + i];
-        const V3 x = placedAt(*states_.a, lane, eightA);
-        for (int k = 0; k < kLanes; ++k) {
-          const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - x;
-          const float inB = eightB.inside.lane[k] - 2.0F * scratch_.rounding;
-          const F8 reach = load(eightA.inside) + set(inB - 2.0F * scratch_.rounding);
-          const Lanes found = below(dot(to, to), set(kMeeting) * reach * reach);
-          if (found == 0) continue;
-          const int which = std::countr_zero(found);
-          const float inA = eightA.inside.lane[which] - 2.0F * scratch_.rounding;
-          if (!(inA > 0.0F && inB > 0.0F)) continue;
-          Row point[3];
-          store3(along(x, set(inA / (inA + inB)), to), point);
-          return claim(block_, pair, 1U << lane,
-                       set3({point[0].lane[which], point[1].lane[which], point[2].lane[which]}),
-                       0.0F);
-        }
+        float meeting[3];
+        if (anyMeets(atRowA[i], eightA, centers, eightB) &&
+            meets(atRowA[i], eightA, centers, eightB, meeting))
+          return claim(block_, pair, 1U << lane, set3(meeting), 0.0F);
       }
     }
     return false;
@@ -88,6 +81,40 @@ class SelfContacts {
   static constexpr std::int32_t kProbeRows = 2;
   /// Of the sum of the radii around two links: balls inside farther apart hardly meet.
   static constexpr float kProbeShare = 0.75F;
+
+  /// Whether any two of eight by eight balls seem to meet, with no regard to roundings and with no
+  /// branch: most often none do.
+  HWY_INLINE static bool anyMeets(const V3& atA, const LaneModel::Probes& eightA,
+                                  const Row (&centers)[3], const LaneModel::Probes& eightB) {
+    const F8 insideA = load(eightA.inside);
+    F8 least = set(1.0F);
+    for (int k = 0; k < kLanes; ++k) {
+      const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - atA;
+      const F8 reach = insideA + set(eightB.inside.lane[k]);
+      least = smaller(least, subtractProduct(dot(to, to), reach, reach));
+    }
+    return below(least, set(0.0F)) != 0;
+  }
+
+  /// Whether any two of them do meet, and in which point, m.
+  bool meets(const V3& atA, const LaneModel::Probes& eightA, const Row (&centers)[3],
+             const LaneModel::Probes& eightB, float (&meeting)[3]) const {
+    for (int k = 0; k < kLanes; ++k) {
+      const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - atA;
+      const float inB = eightB.inside.lane[k] - 2.0F * scratch_.rounding;
+      const F8 reach = load(eightA.inside) + set(inB - 2.0F * scratch_.rounding);
+      const Lanes found = below(dot(to, to), set(kMeeting) * reach * reach);
+      if (found == 0) continue;
+      const int which = std::countr_zero(found);
+      const float inA = eightA.inside.lane[which] - 2.0F * scratch_.rounding;
+      if (!(inA > 0.0F && inB > 0.0F)) continue;
+      Row point[3];
+      store3(along(atA, set(inA / (inA + inB)), to), point);
+      for (int i = 0; i < 3; ++i) meeting[i] = point[i].lane[which];
+      return true;
+    }
+    return false;
+  }
 
   const LaneModel& model_;
   LaneScratch& scratch_;

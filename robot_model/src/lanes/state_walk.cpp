@@ -41,6 +41,8 @@ class StateWalk {
     gatherRoots();
     for (const LaneRootRow& row : model_.rootRows)
       if (roots(row)) return true;
+    // Those whose first balls overlap most are in contact most often.
+    std::ranges::sort(scratch_.stateVisits, {}, &LaneScratch::StateVisit::spread);
     for (const LaneScratch::StateVisit& later : scratch_.stateVisits) {
       start(later.bodyPair);
       pair_ = later.pair;
@@ -130,7 +132,9 @@ class StateWalk {
     if (contacts_.probe(static_cast<std::uint32_t>(pair), a, {set3(balls.atA), zero}, b,
                         {set3(balls.atB), zero}, kFirst))
       return true;
-    scratch_.stateVisits.push_back({bodyPair_, static_cast<std::uint32_t>(pair), balls});
+    const float radii = a.radius + b.radius;
+    scratch_.stateVisits.push_back(
+        {bodyPair_, static_cast<std::uint32_t>(pair), balls.squared / (radii * radii), balls});
     return false;
   }
 
