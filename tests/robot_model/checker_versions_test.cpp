@@ -144,7 +144,7 @@ TEST(CheckerVersions, ExplainsEveryPairOfNames) {
   EXPECT_EQ(checker.explain("body1", "moon"),
             "body1 - moon: not checked, both belong to the world");
   EXPECT_EQ(checker.explain("hand", "hand"), "hand - hand: not checked, one body");
-  EXPECT_EQ(checker.explain("hand", "upper"), "hand - upper: checked, keeps more than 0 m");
+  EXPECT_EQ(checker.explain("hand", "body1"), "hand - body1: checked, keeps more than 0 m");
   EXPECT_EQ(checker.explain("hand", "base"),
             "hand - base: checked, keeps more than 0 m; never: proven apart within the joints' "
             "limits");

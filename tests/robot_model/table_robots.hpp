@@ -126,7 +126,12 @@ struct Named {
 inline std::vector<Named> buildRobotsWithTables() {
   const auto compile = [](std::shared_ptr<const Robot> robot, const char* group) {
     const Group& known = *robot->findGroup(group);
-    return detail::compileChecker(robot, known, std::make_shared<World>(), {});
+    const auto model = detail::compileChecker(robot, known, std::make_shared<World>(), {});
+    // Tables of bodies that never meet, too.
+    const auto all = std::make_shared<CheckerModel>(*model);
+    for (detail::BodyPair& pair : all->bodyPairs) pair.never = false;
+    all->lanes = detail::compileLanes(*all);
+    return std::shared_ptr<const CheckerModel>(all);
   };
   const std::string folder = std::string(SWEPT_MODELS_DIR) + "/robots/";
   const auto load = [&](const std::string& name) {
@@ -152,11 +157,6 @@ inline std::vector<Named> buildRobotsWithTables() {
 inline const std::vector<Named>& robotsWithTables() {
   static const std::vector<Named> robots = buildRobotsWithTables();
   return robots;
-}
-
-/// A table over joints: not of two bodies that never meet.
-inline bool hasCells(const detail::LaneBodyPair& bodies) {
-  return bodies.table != nullptr && bodies.table->joints > 0;
 }
 
 /// Poses of both bodies at these values of the table's joints, all others at rest.
