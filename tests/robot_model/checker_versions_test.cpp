@@ -130,6 +130,26 @@ TEST(CheckerVersions, AMeshInTheWorldIsShared) {
   EXPECT_EQ(verdictsOf(second, 4), verdictsOf(Checker(robot, "all", shared(world)), 4));
 }
 
+TEST(CheckerVersions, BodiesWithoutGeometryChangeNothing) {
+  const auto robot = parseArm(armUrdf({}));
+  const Checker first(robot, "all", shared(test::clutter(28)));
+  const Checker held = first.withAttached({.name = "nothing", .link = "hand"});
+  EXPECT_EQ(verdictsOf(held, 5), verdictsOf(first, 5));
+  EXPECT_EQ(verdictsOf(held.withoutAttached("nothing"), 5), verdictsOf(first, 5));
+  MovingObstacle ghost{.name = "ghost"};
+  ghost.waypoints.push_back({0.0, at(0.0, 0.0, 1.0)});
+  const Checker haunted = held.withObstacle(ghost);
+  ASSERT_EQ(haunted.dimension(), 3);
+  Workspace workspace(haunted);
+  Workspace own(first);
+  std::mt19937 random(6);
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<double> q = test::randomConfiguration(first, random);
+    const std::vector<double> timed{q[0], q[1], 0.5};
+    EXPECT_EQ(haunted.checkState(timed, workspace), first.checkState(q, own));
+  }
+}
+
 TEST(CheckerVersions, ExplainsEveryPairOfNames) {
   const auto robot = parseArm(armUrdf({}), test::armSrdf({{"base", "fore"}}));
   World world = test::clutter(27);

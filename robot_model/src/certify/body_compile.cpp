@@ -57,8 +57,10 @@ class BodyCompiler {
     for (const AttachedBody& body : model_.options.attached) addAttached(body);
     addObstacles();
     for (std::size_t i = 0; i < model_.carriers.size(); ++i) addGeometry(static_cast<int>(i));
+    // Frames that carry no geometry count as well.
     const bool same = like_ != nullptr && kept_ == geometry_.size() &&
-                      like_->robotGeometry.size() == geometry_.size();
+                      like_->robotGeometry.size() == geometry_.size() &&
+                      like_->kinematics.bodies.size() == model_.kinematics.bodies.size();
     model_.robotGeometry = same ? like_->robotGeometry : SharedArray(std::move(geometry_));
     addWorld();
   }
