@@ -136,7 +136,8 @@ class Checker {
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
   /// In another world. Rules that name a body that was in the world, and is no more, are dropped.
-  /// Throws std::invalid_argument for null, and a body with the name of a link or an attached one.
+  /// Throws std::invalid_argument for null, a body with the name of an attached one, and a moving
+  /// obstacle with that of a link.
   Checker withWorld(std::shared_ptr<const World> world) const;
   /// The world with one more body, or without one. Throws as World::add, and for a name that is not
   /// there.
