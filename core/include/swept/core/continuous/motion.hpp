@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "swept/core/shapes.hpp"
+
+namespace swept {
+
+/// Velocity of a rigid body, per unit of t.
+struct Twist {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< m, world frame, of the reference point
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad, world frame
+};
+
+/// What the velocities of a body do not exceed during an interval, per unit of t.
+struct MotionRates {
+  double speed = 0.0;                ///< m, of the reference point
+  double acceleration = 0.0;         ///< m, of the reference point
+  double angularSpeed = 0.0;         ///< rad
+  double angularAcceleration = 0.0;  ///< rad
+};
+
+/// How far the points of a ball that moves with a body can get during an interval [m - h, m + h].
+///
+/// Every point p of the ball moves along a fixed unit vector n by at most h |n . v(c)| + h |n x w|
+/// r
+/// + curvature from where it is at m: c and r are the ball's centre and radius, v and w velocities
+/// at m (see ApproachBound).
+struct MotionBound {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();  ///< m, world frame, h v(c)
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();    ///< rad, world frame, h w
+  double radius = 0.0;                               ///< m
+  double curvature = 0.0;                            ///< m, h^2 / 2 times the largest acceleration
+  double travel = 0.0;                               ///< m, h times the largest speed
+
+  /// m. No point gets farther than this along the unit vector n (world frame), or against it.
+  double along(const Eigen::Vector3d& n) const;
+  /// m, >= along(n) for every n.
+  double most() const;
+};
+
+/// Where a rigid body is at each t in [0, 1]. Its velocity changes without jumps.
+///
+/// Implementations are const and may be used by any number of threads. What they promise is about
+/// the motion as real numbers; at() and velocity() may round it by up to `rounding()`.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+
+  /// world_from_body. A non-finite t gives a non-finite pose.
+  virtual Eigen::Isometry3d at(double t) const = 0;
+  virtual Twist velocity(double t) const = 0;
+  /// Upper bounds over [from, to].
+  virtual MotionRates rates(double from, double to) const = 0;
+
+  /// m, body frame: the point that Twist::linear and MotionRates speak of.
+  const Eigen::Vector3d& reference() const { return reference_; }
+  /// m. Bound on how far a point within `reach` (m) of the body's origin is from where at() says it
+  /// is, and velocity() from the truth, per unit of t.
+  virtual double rounding(double reach) const = 0;
+
+  /// Of a ball in the body's frame, over [from, to]. Infinite `most` for a ball of infinite radius,
+  /// unless the body does not turn.
+  MotionBound bound(const BoundingSphere& ball, double from, double to) const;
+
+ protected:
+  explicit Motion(Eigen::Vector3d reference) : reference_(std::move(reference)) {}
+  Motion(const Motion&) = default;
+  Motion(Motion&&) = default;
+  Motion& operator=(const Motion&) = default;
+  Motion& operator=(Motion&&) = default;
+
+ private:
+  Eigen::Vector3d reference_;
+};
+
+}  // namespace swept

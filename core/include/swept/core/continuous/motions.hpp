@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "swept/core/continuous/motion.hpp"
+
+namespace swept {
+
+/// A point of the body goes straight, at constant speed, while the body turns about an axis of
+/// fixed direction at constant angular speed: what is left still, translation, linear interpolation
+/// with slerp, and screws are all of this kind.
+///
+/// Each function throws std::invalid_argument for a pose or vector that is not finite, or whose
+/// linear part is farther than 1e-6 from a rotation; what is closer becomes the nearest rotation.
+class UniformMotion : public Motion {
+ public:
+  /// Stays where it is.
+  static UniformMotion still(const Eigen::Isometry3d& pose);
+  /// `displacement`: m, world frame.
+  static UniformMotion translation(const Eigen::Isometry3d& start,
+                                   const Eigen::Vector3d& displacement);
+  /// From one pose to another: the reference point (m, body frame) goes straight, the rotation is
+  /// slerp along the shorter way.
+  static UniformMotion interpolation(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
+                                     const Eigen::Vector3d& reference = Eigen::Vector3d::Zero());
+  /// From one pose to another as one screw: turning about, and sliding along, one fixed axis
+  /// (Chasles). A screw that hardly turns is a translation.
+  static UniformMotion screw(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
+  /// `turn`: rad, a rotation vector in the world frame, of any length; `displacement`: m, of the
+  /// reference point, world frame.
+  static UniformMotion turning(const Eigen::Isometry3d& start, const Eigen::Vector3d& turn,
+                               const Eigen::Vector3d& displacement,
+                               const Eigen::Vector3d& reference = Eigen::Vector3d::Zero());
+
+  Eigen::Isometry3d at(double t) const override;
+  Twist velocity(double t) const override;
+  MotionRates rates(double from, double to) const override;
+  double rounding(double reach) const override;
+
+ private:
+  UniformMotion(const Eigen::Isometry3d& start, const Eigen::Vector3d& turn,
+                const Eigen::Vector3d& displacement, const Eigen::Vector3d& reference);
+  Eigen::Matrix3d rotation_;      ///< at t = 0
+  Eigen::Vector3d position_;      ///< m, of the reference point at t = 0
+  Eigen::Vector3d displacement_;  ///< m
+  Eigen::Vector3d axis_;          ///< unit, world frame; zero if the body does not turn
+  double angle_ = 0.0;            ///< rad
+};
+
+/// A pose on its way, as a Bézier curve or spline has it: the position of the body's origin (m) and
+/// a rotation vector (rad) that turns the start's orientation, R(t) = exp(rotation(t)) R(start).
+struct ControlPose {
+  Eigen::Vector3d position;  ///< m, world frame
+  Eigen::Vector3d rotation;  ///< rad, world frame
+};
+
+/// Piecewise Bézier curves in position and rotation vector, with a continuous first derivative.
+class SplineMotion : public Motion {
+ public:
+  /// One Bézier curve with the control poses given, at least two and at most eight.
+  static SplineMotion bezier(const Eigen::Matrix3d& orientation,
+                             std::span<const ControlPose> control);
+  /// The uniform cubic B-spline of four or more control poses, each four of which in turn make a
+  /// span of equal duration. With four it is FCL's SplineMotion.
+  static SplineMotion uniformCubic(const Eigen::Matrix3d& orientation,
+                                   std::span<const ControlPose> control);
+
+  Eigen::Isometry3d at(double t) const override;
+  Twist velocity(double t) const override;
+  MotionRates rates(double from, double to) const override;
+  double rounding(double reach) const override;
+
+ private:
+  SplineMotion(const Eigen::Matrix3d& orientation, std::vector<ControlPose> control, int degree);
+  Eigen::Matrix3d orientation_;
+  std::vector<ControlPose> control_;  ///< degree_ + 1 of each span, one span after the other
+  int degree_;
+};
+
+/// A part [from, to] of another motion as a motion of its own, from 0 to 1. Refers to the other.
+class MotionPart : public Motion {
+ public:
+  /// Throws std::invalid_argument unless 0 <= from <= to <= 1.
+  MotionPart(const Motion& whole, double from, double to);
+
+  Eigen::Isometry3d at(double t) const override;
+  Twist velocity(double t) const override;
+  MotionRates rates(double from, double to) const override;
+  double rounding(double reach) const override;
+
+ private:
+  const Motion& whole_;
+  double from_;
+  double length_;
+};
+
+}  // namespace swept
