@@ -26,7 +26,8 @@ class UniformMotion : public Motion {
   static UniformMotion interpolation(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
                                      const Eigen::Vector3d& reference = Eigen::Vector3d::Zero());
   /// From one pose to another as one screw: turning about, and sliding along, one fixed axis
-  /// (Chasles). A screw that hardly turns is a translation.
+  /// (Chasles). Below 1e-8 rad it is the interpolation, from which it differs by less than 2e-9 of
+  /// the displacement.
   static UniformMotion screw(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
   /// `turn`: rad, a rotation vector in the world frame, of any length; `displacement`: m, of the
   /// reference point, world frame.
@@ -77,6 +78,9 @@ class SplineMotion : public Motion {
   Eigen::Matrix3d orientation_;
   std::vector<ControlPose> control_;  ///< degree_ + 1 of each span, one span after the other
   int degree_;
+  int spans_;
+  double reach_ = 0.0;  ///< m, the longest position
+  double turn_ = 0.0;   ///< rad, the longest rotation vector
 };
 
 /// A part [from, to] of another motion as a motion of its own, from 0 to 1. Refers to the other.

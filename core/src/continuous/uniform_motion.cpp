@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "continuous/motion_input.hpp"
+#include "swept/core/continuous/motions.hpp"
+#include "swept/core/tolerances.hpp"
+
+namespace swept {
+
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// rad. Below it a screw's axis is so far away that its place is lost to rounding.
+constexpr double kHardlyTurns = 1e-8;
+
+/// The rotation vector, of the least length, that turns one orientation into another.
+Vector3d turnBetween(const Matrix3d& start, const Matrix3d& end) {
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(Matrix3d(end * start.transpose())).normalized());
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+UniformMotion::UniformMotion(const Isometry3d& start, const Vector3d& turn,
+                             const Vector3d& displacement, const Vector3d& reference)
+    : Motion(reference),
+      rotation_(start.linear()),
+      position_(start * reference),
+      displacement_(displacement),
+      axis_(turn.stableNormalized()),
+      angle_(turn.stableNorm()) {}
+
+UniformMotion UniformMotion::still(const Isometry3d& pose) {
+  return translation(pose, Vector3d::Zero());
+}
+
+UniformMotion UniformMotion::translation(const Isometry3d& start, const Vector3d& displacement) {
+  return turning(start, Vector3d::Zero(), displacement);
+}
+
+UniformMotion UniformMotion::interpolation(const Isometry3d& start, const Isometry3d& end,
+                                           const Vector3d& reference) {
+  const Isometry3d from = detail::checkedPose(start, "start");
+  const Isometry3d to = detail::checkedPose(end, "end");
+  detail::requireFinite(reference, "reference");
+  return {from, turnBetween(from.linear(), to.linear()), to * reference - from * reference,
+          reference};
+}
+
+// Chasles: with the displacement d of the origin and the turn by theta about u, a point of the axis
+// is the origin's middle plus (u x d) / (2 tan(theta / 2)).
+UniformMotion UniformMotion::screw(const Isometry3d& start, const Isometry3d& end) {
+  const Isometry3d from = detail::checkedPose(start, "start");
+  const Isometry3d to = detail::checkedPose(end, "end");
+  const Vector3d turn = turnBetween(from.linear(), to.linear());
+  const double angle = turn.norm();
+  const Vector3d displacement = to.translation() - from.translation();
+  if (!(angle > kHardlyTurns)) return {from, turn, displacement, Vector3d::Zero()};
+  const Vector3d axis = turn / angle;
+  const Vector3d along = axis.dot(displacement) * axis;
+  const Vector3d across = displacement - along;
+  const Vector3d toAxis = 0.5 * across + axis.cross(across) / (2.0 * std::tan(0.5 * angle));
+  return {from, turn, along, from.linear().transpose() * toAxis};
+}
+
+UniformMotion UniformMotion::turning(const Isometry3d& start, const Vector3d& turn,
+                                     const Vector3d& displacement, const Vector3d& reference) {
+  detail::requireFinite(turn, "turn");
+  detail::requireFinite(displacement, "displacement");
+  detail::requireFinite(reference, "reference");
+  return {detail::checkedPose(start, "start"), turn, displacement, reference};
+}
+
+Isometry3d UniformMotion::at(double t) const {
+  Isometry3d pose;
+  if (angle_ > 0.0) {
+    pose.linear() = Eigen::AngleAxisd(t * angle_, axis_).toRotationMatrix() * rotation_;
+  } else {
+    pose.linear() = rotation_;
+  }
+  pose.translation() = position_ + t * displacement_ - pose.linear() * reference();
+  pose.makeAffine();
+  return pose;
+}
+
+Twist UniformMotion::velocity(double /*t*/) const {
+  return {displacement_, angle_ * axis_};
+}
+
+MotionRates UniformMotion::rates(double /*from*/, double /*to*/) const {
+  return {displacement_.norm() * (1.0 + 1e-15), 0.0, angle_ * (1.0 + 1e-15), 0.0};
+}
+
+// An angle of many turns is known to an ulp of itself only.
+double UniformMotion::rounding(double reach) const {
+  return tolerance::kRoundingPerJoint *
+         ((1.0 + angle_) * (reach + reference().norm()) + position_.norm() + displacement_.norm());
+}
+
+}  // namespace swept
