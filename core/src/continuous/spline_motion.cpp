@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -112,10 +113,15 @@ Vector3d leftJacobian(const Vector3d& rotation, const Vector3d& rate) {
 /// `most` 0: any number.
 void requireControl(std::span<const ControlPose> control, std::size_t least, std::size_t most) {
   if (control.size() < least || (most > 0 && control.size() > most)) {
-    const std::string allowed =
-        std::to_string(least) + (most > 0 ? " to " + std::to_string(most) : " or more");
-    throw std::invalid_argument("motion: " + std::to_string(control.size()) +
-                                " control poses, where " + allowed + " are needed");
+    std::ostringstream what;
+    what << "motion: " << control.size() << " control poses, where " << least;
+    if (most > 0) {
+      what << " to " << most;
+    } else {
+      what << " or more";
+    }
+    what << " are needed";
+    throw std::invalid_argument(what.str());
   }
   for (std::size_t i = 0; i < control.size(); ++i) {
     const std::string which = "control pose " + std::to_string(i);

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/continuous/continuous_collide.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuous/relative_motion.hpp"
+#include "continuous/slice_descent.hpp"
+#include "narrowphase/convex_pair.hpp"
+#include "swept/core/distance.hpp"
+
+namespace swept {
+
+namespace {
+
+/// An interval and the pairs that are open in it: [begin, end) of the workspace's.
+struct Interval {
+  double from;
+  double to;
+  std::size_t begin;
+  std::size_t end;
+};
+
+}  // namespace
+
+struct ContinuousWorkspace::Data {
+  std::vector<detail::OpenPair> open;
+  std::vector<Interval> waiting;  ///< the earliest last
+};
+
+ContinuousWorkspace::ContinuousWorkspace() : data_(std::make_unique<Data>()) {}
+ContinuousWorkspace::ContinuousWorkspace(ContinuousWorkspace&&) noexcept = default;
+ContinuousWorkspace& ContinuousWorkspace::operator=(ContinuousWorkspace&&) noexcept = default;
+ContinuousWorkspace::~ContinuousWorkspace() = default;
+
+namespace {
+
+using detail::MotionSlice;
+using detail::OpenPair;
+using detail::Side;
+using detail::SliceDescent;
+using Eigen::Isometry3d;
+
+/// Share of the tolerance left to distances.
+constexpr double kQueryShare = 1.0 / 16.0;
+
+/// In units of t. Shorter intervals have no middle.
+constexpr double kShortest = 1e-15;
+
+/// Enforced cap on the intervals that stay unproven before a contact is looked for no further.
+constexpr int kMaxGrazing = 256;
+
+/// The earliest intervals first, each with what is left open of the one it is part of.
+class TimeSearch {
+ public:
+  TimeSearch(const Shape& a, const Motion& motionA, const Shape& b, const Motion& motionB,
+             const ContinuousOptions& options, ContinuousWorkspace::Data& data)
+      : shapeA_(a),
+        shapeB_(b),
+        a_(Side::of(a)),
+        b_(Side::of(b)),
+        motionA_(motionA),
+        motionB_(motionB),
+        motion_(boundingSphere(a), motionA, boundingSphere(b), motionB),
+        options_(options),
+        open_(data.open),
+        waiting_(data.waiting) {}
+
+  ContinuousResult run() {
+    if (!(options_.margin >= 0.0) || !std::isfinite(options_.margin)) return result_;
+    if (touchesAtStart()) return result_;
+    open_.assign(1, OpenPair{});
+    waiting_.assign(1, Interval{0.0, 1.0, 0, 1});
+    while (!waiting_.empty()) {
+      const Interval next = waiting_.back();
+      waiting_.pop_back();
+      if (result_.effort.intervals >= options_.maxIntervals || grazed_ >= kMaxGrazing) {
+        stopAt(next.from);
+        break;
+      }
+      if (!examine(next)) break;
+    }
+    result_.freeUntil = std::min(result_.freeUntil, firstUnproven_);
+    const bool all = !contact_ && firstUnproven_ > 1.0;
+    if (contact_) result_.verdict = Verdict::Collision;
+    if (all) result_.verdict = Verdict::Free;
+    return result_;
+  }
+
+ private:
+  bool touchesAtStart() {
+    const Isometry3d world_from_a = motionA_.at(0.0);
+    const Isometry3d a_from_b = world_from_a.inverse() * motionB_.at(0.0);
+    if (!world_from_a.matrix().allFinite() || !a_from_b.matrix().allFinite()) return true;
+    if (!(options_.margin > 0.0) && collide(shapeA_, shapeB_, a_from_b) != Contact::Touching) {
+      return false;
+    }
+    DistanceOptions options;
+    options.enough = options.contact = options_.margin;
+    options.tolerance = kQueryShare * options_.tolerance;
+    const DistanceResult found = distance(shapeA_, shapeB_, a_from_b, options);
+    if (!(found.upper <= options_.margin)) return false;
+    noteContact(0.0, world_from_a, found.pointA, found.pointB);
+    result_.verdict = Verdict::Collision;
+    return true;
+  }
+
+  void noteContact(double t, const Isometry3d& world_from_a, const Eigen::Vector3d& pointA,
+                   const Eigen::Vector3d& pointB) {
+    contact_ = true;
+    result_.contactBy = t;
+    result_.pointA = world_from_a * pointA;
+    result_.pointB = world_from_a * pointB;
+  }
+
+  void stopAt(double t) { firstUnproven_ = std::min(firstUnproven_, t); }
+
+  /// False: nothing more to find out.
+  bool examine(const Interval& interval) {
+    open_.resize(interval.end);
+    const MotionSlice slice = motion_.over(interval.from, interval.to, options_.margin);
+    if (!slice.finite) {
+      stopAt(interval.from);
+      return false;
+    }
+    ++result_.effort.intervals;
+    SliceDescent descent(a_, b_, slice, options_.margin, kQueryShare * options_.tolerance, open_,
+                         result_.effort);
+    for (std::size_t i = interval.begin; i < interval.end; ++i) {
+      const OpenPair pair = open_[i];
+      descent.look(pair);
+    }
+    const std::size_t end = open_.size();
+    if (descent.contact()) {
+      noteContact(slice.middle, slice.world_from_a, descent.contact()->pointA,
+                  descent.contact()->pointB);
+      waiting_.clear();
+      push({interval.from, slice.middle, interval.end, end});
+      return true;
+    }
+    if (end == interval.end) {
+      result_.freeUntil = interval.to;
+      return true;
+    }
+    if (isShort(interval, descent.approach())) {
+      stopAt(interval.from);
+      ++grazed_;
+      return !contact_;
+    }
+    const double proven = std::max(0.0, descent.proven() * slice.half() - kShortest);
+    push({slice.middle + proven, interval.to, interval.end, end});
+    push({interval.from, slice.middle - proven, interval.end, end});
+    return true;
+  }
+
+  void push(const Interval& interval) {
+    if (interval.from < interval.to) waiting_.push_back(interval);
+  }
+
+  bool isShort(const Interval& interval, double approach) const {
+    const double length = interval.to - interval.from;
+    return 2.0 * approach <= options_.tolerance || length <= options_.timeTolerance ||
+           length <= kShortest;
+  }
+
+  const Shape& shapeA_;
+  const Shape& shapeB_;
+  const Side a_;
+  const Side b_;
+  const Motion& motionA_;
+  const Motion& motionB_;
+  const detail::RelativeMotion motion_;
+  const ContinuousOptions& options_;
+  std::vector<OpenPair>& open_;
+  std::vector<Interval>& waiting_;
+  ContinuousResult result_;
+  double firstUnproven_ = 2.0;  ///< beyond every t: none
+  int grazed_ = 0;
+  bool contact_ = false;
+};
+
+}  // namespace
+
+ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
+                                   const Motion& motionB, const ContinuousOptions& options,
+                                   ContinuousWorkspace& workspace) {
+  return TimeSearch(a, motionA, b, motionB, options, workspace.data()).run();
+}
+
+ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
+                                   const Motion& motionB, const ContinuousOptions& options) {
+  ContinuousWorkspace workspace;
+  return continuousCollide(a, motionA, b, motionB, options, workspace);
+}
+
+}  // namespace swept

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "continuous/relative_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "swept/core/tolerances.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// Relative: the sums and products of norms below are of fewer than fifty terms, none negative.
+constexpr double kUp = 1.0 + 1e-13;
+/// Relative: velocities and what is made of them here, as vectors, are sums of fewer than fifty
+/// products.
+constexpr double kVelocityRounding = 1e-13;
+
+/// 0 where either is, even if the other is infinite: a body of any size that does not turn.
+double times(double a, double b) {
+  return a > 0.0 && b > 0.0 ? a * b : 0.0;
+}
+
+/// One of the bodies during an interval, in the world frame.
+struct Body {
+  Isometry3d pose;
+  Twist twist;
+  MotionRates rates;
+  Vector3d reference;         ///< m
+  Vector3d center;            ///< m, of its ball
+  double radius = 0.0;        ///< m, of its ball
+  double speed = 0.0;         ///< m per unit of t, of no point of the ball more
+  double acceleration = 0.0;  ///< m per unit of t squared, of no point of the ball more
+
+  Body(const Motion& motion, const BoundingSphere& ball, double from, double to, double middle)
+      : pose(motion.at(middle)),
+        twist(motion.velocity(middle)),
+        rates(motion.rates(from, to)),
+        reference(pose * motion.reference()),
+        center(pose * ball.center),
+        radius(ball.radius) {
+    const double arm = (center - reference).norm() + radius;
+    speed = (rates.speed + times(rates.angularSpeed, arm)) * kUp;
+    acceleration =
+        (rates.acceleration +
+         times(rates.angularAcceleration + rates.angularSpeed * rates.angularSpeed, arm)) *
+        kUp;
+  }
+  bool isStill() const { return !(rates.speed > 0.0) && !(rates.angularSpeed > 0.0); }
+  /// Of the body's motion, taken on to a point of the world.
+  Vector3d velocityAt(const Vector3d& point) const {
+    return twist.linear + twist.angular.cross(point - reference);
+  }
+};
+
+/// How the two approach, for some observer, in the world frame; see ApproachBound.
+struct Approach {
+  Vector3d linear = Vector3d::Zero();
+  Vector3d spinA = Vector3d::Zero();
+  Vector3d spinB = Vector3d::Zero();
+  double curvature = 0.0;
+  double travel = 0.0;
+
+  double most(const Body& a, const Body& b) const {
+    return std::min(travel, linear.norm() + times(spinA.norm(), a.radius) +
+                                times(spinB.norm(), b.radius) + curvature);
+  }
+};
+
+Approach forTheWorld(const Body& a, const Body& b, double half) {
+  Approach seen;
+  seen.linear = half * (b.velocityAt(b.center) - a.velocityAt(a.center));
+  seen.spinA = half * a.twist.angular;
+  seen.spinB = half * b.twist.angular;
+  seen.curvature = 0.5 * half * half * (a.acceleration + b.acceleration) * kUp;
+  seen.travel = half * (a.speed + b.speed) * kUp;
+  return seen;
+}
+
+/// For an observer who moves with one body and sees the other's ball pass by.
+///
+/// Lemma: a point P of the other has, for the observer, the velocity u = v(P) - f(P), with f the
+/// observer's own velocity taken on to P, and, written in the observer's frame, the acceleration
+/// u' - w x u. There u' is the difference of v'(P) and of the derivative of f along P's way,
+///   x'' + w' x (P - x) + w x (v(P) - x'),
+/// x the observer's reference point. The vectors' lengths follow from those at the middle by what
+/// their derivatives allow in half an interval.
+struct Passing {
+  Vector3d linear;  ///< m, of the ball's centre
+  Vector3d spin;    ///< rad
+  double curvature;
+  double travel;
+};
+Passing passing(const Body& observer, const Body& other, double half) {
+  const MotionRates& own = observer.rates;
+  const Vector3d u = other.velocityAt(other.center) - observer.velocityAt(other.center);
+  const Vector3d spin = other.twist.angular - observer.twist.angular;
+  const Vector3d drift = other.velocityAt(other.center) - observer.twist.linear;
+  const double distance =
+      (other.center - observer.reference).norm() + other.radius + half * (other.speed + own.speed);
+  const double fastest = drift.norm() + times(other.twist.angular.norm(), other.radius) +
+                         half * (other.acceleration + own.acceleration);
+  const double change = other.acceleration + own.acceleration +
+                        times(own.angularAcceleration, distance) + times(own.angularSpeed, fastest);
+  const double speed = u.norm() + times(spin.norm(), other.radius) + half * change;
+  const double acceleration = change + times(own.angularSpeed, speed);
+  return {half * u, half * spin, 0.5 * half * half * acceleration * kUp, half * speed * kUp};
+}
+
+/// The observer who sees the least of a motion proves the most: one body may carry the other about.
+/// Where either stands still, that one is the world.
+Approach least(const Body& a, const Body& b, double half) {
+  Approach best = forTheWorld(a, b, half);
+  if (a.isStill() || b.isStill()) return best;
+  const auto keepBetter = [&](const Approach& seen) {
+    if (seen.most(a, b) < best.most(a, b)) best = seen;
+  };
+  const Passing ofB = passing(a, b, half);
+  keepBetter({ofB.linear, Vector3d::Zero(), ofB.spin, ofB.curvature, ofB.travel});
+  const Passing ofA = passing(b, a, half);
+  keepBetter({-ofA.linear, ofA.spin, Vector3d::Zero(), ofA.curvature, ofA.travel});
+  return best;
+}
+
+/// m. How far from a body's origin its rounding matters: as far as the body goes, or, where that is
+/// anywhere, as the other.
+double reachOf(const BoundingSphere& ball, const Body& body, const Body& other) {
+  if (std::isfinite(ball.radius)) return ball.center.norm() + ball.radius;
+  if (!std::isfinite(other.radius)) return ball.center.norm();
+  return (other.center - body.pose.translation()).norm() + other.radius;
+}
+
+}  // namespace
+
+RelativeMotion::RelativeMotion(const BoundingSphere& ballA, const Motion& a,
+                               const BoundingSphere& ballB, const Motion& b)
+    : a_(a), b_(b), ballA_(ballA), ballB_(ballB) {}
+
+MotionSlice RelativeMotion::over(double from, double to, double margin) const {
+  MotionSlice slice;
+  slice.from = from;
+  slice.to = to;
+  slice.middle = from + 0.5 * (to - from);
+  const double half = std::max(slice.middle - from, to - slice.middle) * kUp;
+  const Body a(a_, ballA_, from, to, slice.middle);
+  const Body b(b_, ballB_, from, to, slice.middle);
+  slice.world_from_a = a.pose;
+  slice.a_from_b = a.pose.inverse() * b.pose;
+  slice.finite = slice.world_from_a.matrix().allFinite() && slice.a_from_b.matrix().allFinite();
+
+  const Approach seen = least(a, b, half);
+  const Eigen::Matrix3d a_from_world = a.pose.linear().transpose();
+  ApproachBound& bound = slice.approach;
+  bound.travel = seen.travel;
+  bound.curvature = seen.curvature;
+  bound.linear = a_from_world * seen.linear;
+  bound.spinA = a_from_world * seen.spinA;
+  bound.spinB = a_from_world * seen.spinB;
+  bound.ballA = {ballA_.center, bound.spinA.isZero(0.0) ? 0.0 : a.radius};
+  bound.ballB = {slice.a_from_b * ballB_.center, bound.spinB.isZero(0.0) ? 0.0 : b.radius};
+  const double moved = bound.most();
+  // Either motion rounds its poses and velocities, and so does one pose in terms of the other.
+  const double poses = a_.rounding(reachOf(ballA_, a, b)) + b_.rounding(reachOf(ballB_, b, a));
+  const double product =
+      tolerance::kRoundingPerJoint * (a.pose.translation().norm() + b.pose.translation().norm());
+  bound.required = margin + (1.0 + half) * poses + product +
+                   (std::isfinite(moved) ? kVelocityRounding * moved : 0.0);
+  return slice;
+}
+
+}  // namespace swept::detail

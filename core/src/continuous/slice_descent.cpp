@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "continuous/slice_descent.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "narrowphase/convex_pair.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// No unit. Pieces smaller than this times their approach are left to shorter intervals.
+constexpr double kSmall = 1.0;
+
+double diameterOf(const Piece& piece) {
+  const auto& half = piece.box.half;
+  return 2.0 *
+         std::sqrt(static_cast<double>(half[0]) * half[0] + static_cast<double>(half[1]) * half[1] +
+                   static_cast<double>(half[2]) * half[2]);
+}
+
+}  // namespace
+
+SliceDescent::SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, double margin,
+                           double accuracy, std::vector<OpenPair>& open, ContinuousEffort& effort)
+    : slice_(slice),
+      margin_(margin),
+      accuracy_(accuracy),
+      motions_(a, b, slice.a_from_b, &slice.approach),
+      pieces_(a, b, slice.a_from_b),
+      open_(open),
+      begin_(open.size()),
+      effort_(effort) {}
+
+void SliceDescent::look(const OpenPair& pair) {
+  if (contact_) {
+    open_.push_back(pair);
+    return;
+  }
+  descend(part(true, pieces_.piece(true, pair.placeA)),
+          part(false, pieces_.piece(false, pair.placeB)), Vector3d::Zero());
+}
+
+void SliceDescent::leaveOpen(const Piece& a, const Piece& b, double proven, double approach) {
+  open_.push_back({a.place, b.place});
+  proven_ = std::min(proven_, proven);
+  approach_ = std::max(approach_, approach);
+}
+
+void SliceDescent::descend(const Part& a, const Part& b, const Vector3d& guess) {
+  const PartApproach approach(slice_.approach, a.motion, b.motion);
+  if (a.piece.isLeaf() && b.piece.isLeaf()) {
+    testLeaves(a, b, approach, guess);
+    return;
+  }
+  const PiecePair::Split split = pieces_.split(a.piece, b.piece);
+  const double moved = approach.most() - slice_.approach.required;
+  if (moved * kSmall > diameterOf(split.ofA ? a.piece : b.piece)) {
+    leaveOpen(a.piece, b.piece, 0.0, moved);
+    return;
+  }
+  descendInto(split, split.ofA ? b : a, approach.most(), guess);
+}
+
+void SliceDescent::descendInto(const PiecePair::Split& split, const Part& other, double beyond,
+                               const Vector3d& guess) {
+  PiecePair::Bounds lower;
+  pieces_.boundChildren(split, other.piece, beyond, lower);
+  ++effort_.volumeTests;
+  std::array<int, WideNode::kLanes> order;
+  int count = 0;
+  for (int lane = 0; lane < split.node->count; ++lane) {
+    if (lower[lane] > beyond) continue;
+    int at = count++;
+    for (; at > 0 && lower[order[at - 1]] > lower[lane]; --at) order[at] = order[at - 1];
+    order[at] = lane;
+  }
+  for (int i = 0; i < count; ++i) {
+    const int lane = order[i];
+    const Piece piece = PiecePair::child(split, lane);
+    if (contact_) {
+      open_.push_back({split.ofA ? piece.place : other.piece.place,
+                       split.ofA ? other.piece.place : piece.place});
+      continue;
+    }
+    const Part child = part(split.ofA, piece);
+    Vector3d direction = guess;
+    if (isApart(child, split.ofA, other, lower[lane], direction)) continue;
+    if (split.ofA) {
+      descend(child, other, direction);
+    } else {
+      descend(other, child, direction);
+    }
+  }
+}
+
+/// By the pieces' boxes: in any direction, or along the best of their own axes, which `direction`
+/// receives (from a to b).
+bool SliceDescent::isApart(const Part& child, bool ofA, const Part& other, double lower,
+                           Vector3d& direction) {
+  const PartApproach approach(slice_.approach, (ofA ? child : other).motion,
+                              (ofA ? other : child).motion);
+  if (lower > approach.most()) return true;
+  if (!(lower > 0.0)) return false;
+  const BoxGap gap = pieces_.gap(child.piece, ofA, other.piece);
+  if (!(gap.value > 0.0)) return false;
+  direction = gap.direction;
+  return gap.value > approach.along(direction);
+}
+
+// Lemma: what PartApproach adds to `required` shrinks with the interval at least in proportion. A
+// gap along n that exceeds `required` and a share s of the rest is therefore enough for the share s
+// of the interval around its middle.
+void SliceDescent::testLeaves(const Part& a, const Part& b, const PartApproach& approach,
+                              const Vector3d& guess) {
+  ++effort_.leafTests;
+  PiecePair::Leaves leaves;
+  pieces_.place(a.piece, b.piece, leaves);
+  const GjkResult found = convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, Goal(approach),
+                                     margin_, accuracy_, GjkMode::Exact);
+  if (found.satisfied) return;
+  const double required = slice_.approach.required;
+  const double moved = approach.most() - required;
+  const double rest = approach.along(found.normal) - required;
+  const double spare = found.lower - required;
+  leaveOpen(a.piece, b.piece, spare > 0.0 && rest > spare ? spare / rest * (1.0 - 1e-12) : 0.0,
+            moved);
+  if (!(found.upper <= margin_)) return;
+  contact_ = Contact{found.pointA + leaves.centerA, found.pointB + leaves.centerA};
+  std::swap(open_[begin_], open_.back());
+}
+
+}  // namespace swept::detail

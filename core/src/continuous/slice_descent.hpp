@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "continuous/relative_motion.hpp"
+#include "narrowphase/gjk.hpp"
+#include "narrowphase/piece_motions.hpp"
+#include "narrowphase/piece_pair.hpp"
+#include "swept/core/continuous/continuous_collide.hpp"
+
+namespace swept::detail {
+
+/// Two pieces by their places in the hierarchies, not yet proven apart.
+struct OpenPair {
+  int placeA = -1;
+  int placeB = -1;
+};
+
+/// Looks at pairs of pieces during one interval of a motion: each is proven apart for all of it,
+/// divided, or put on the list of those that shorter intervals start from (the front list of Pan,
+/// Chitta, Manocha 2012, section IV, here carried from an interval to its parts).
+///
+/// A pair is divided as long as its pieces are not small beside how far they approach: where they
+/// are, a shorter interval proves more than smaller pieces do. Bounds are directional, with the
+/// motion of each node by itself (as in C2A: Tang, Kim, Manocha 2009).
+class SliceDescent {
+ public:
+  /// Refers to all of them. `open` is added to. `accuracy`: m, of distances.
+  SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, double margin,
+               double accuracy, std::vector<OpenPair>& open, ContinuousEffort& effort);
+
+  void look(const OpenPair& pair);
+
+  /// Two points (m, a's frame) at most the margin apart at the middle. Pairs looked at afterwards
+  /// are put on the list as they are; the pair in contact comes first of those added.
+  struct Contact {
+    Eigen::Vector3d pointA;
+    Eigen::Vector3d pointB;
+  };
+  const std::optional<Contact>& contact() const { return contact_; }
+  /// All pairs are apart during this share of the interval around its middle.
+  double proven() const { return proven_; }
+  /// m. No pair left open approaches by more within half the interval.
+  double approach() const { return approach_; }
+
+ private:
+  struct Part {
+    Piece piece;
+    PartMotion motion;
+  };
+  Part part(bool ofA, const Piece& piece) const { return {piece, motions_.of(ofA, piece)}; }
+  void descend(const Part& a, const Part& b, const Eigen::Vector3d& guess);
+  void descendInto(const PiecePair::Split& split, const Part& other, double beyond,
+                   const Eigen::Vector3d& guess);
+  bool isApart(const Part& child, bool ofA, const Part& other, double lower,
+               Eigen::Vector3d& direction);
+  void testLeaves(const Part& a, const Part& b, const PartApproach& approach,
+                  const Eigen::Vector3d& guess);
+  void leaveOpen(const Piece& a, const Piece& b, double proven, double approach);
+
+  const MotionSlice& slice_;
+  double margin_;
+  double accuracy_;
+  const PieceMotions motions_;
+  const PiecePair pieces_;
+  std::vector<OpenPair>& open_;
+  std::size_t begin_;
+  ContinuousEffort& effort_;
+  std::optional<Contact> contact_;
+  double proven_ = 1.0;
+  double approach_ = 0.0;
+};
+
+}  // namespace swept::detail
