@@ -50,6 +50,16 @@ constexpr double kShortest = 1e-15;
 /// Enforced cap on the intervals that stay unproven before a contact is looked for no further.
 constexpr int kMaxGrazing = 256;
 
+/// Quick to find, if not the least: what moves node by node has bounds of its own anyway.
+BoundingSphere ballAround(const Side& side, const Shape& shape) {
+  if (side.isConvex()) return boundingSphere(shape);
+  const detail::OrientedBox& box = side.bvh->rootBox();
+  const double half = std::sqrt(static_cast<double>(box.half[0]) * box.half[0] +
+                                static_cast<double>(box.half[1]) * box.half[1] +
+                                static_cast<double>(box.half[2]) * box.half[2]);
+  return {box.center, half * (1.0 + 1e-6)};
+}
+
 /// The earliest intervals first, each with what is left open of the one it is part of.
 class TimeSearch {
  public:
@@ -61,7 +71,7 @@ class TimeSearch {
         b_(Side::of(b)),
         motionA_(motionA),
         motionB_(motionB),
-        motion_(boundingSphere(a), motionA, boundingSphere(b), motionB),
+        motion_(ballAround(a_, a), motionA, ballAround(b_, b), motionB),
         options_(options),
         open_(data.open),
         waiting_(data.waiting) {}
@@ -118,6 +128,7 @@ class TimeSearch {
   /// False: nothing more to find out.
   bool examine(const Interval& interval) {
     open_.resize(interval.end);
+    result_.freeUntil = interval.from;
     const MotionSlice slice = motion_.over(interval.from, interval.to, options_.margin);
     if (!slice.finite) {
       stopAt(interval.from);
@@ -135,14 +146,13 @@ class TimeSearch {
       noteContact(slice.middle, slice.world_from_a, descent.contact()->pointA,
                   descent.contact()->pointB);
       waiting_.clear();
-      push({interval.from, slice.middle, interval.end, end});
-      return true;
+      return bracket(interval.from, slice, descent.approach(), interval.end, end);
     }
     if (end == interval.end) {
       result_.freeUntil = interval.to;
       return true;
     }
-    if (isShort(interval, descent.approach())) {
+    if (isShort(interval.to - interval.from, descent.approach())) {
       stopAt(interval.from);
       ++grazed_;
       return !contact_;
@@ -153,12 +163,31 @@ class TimeSearch {
     return true;
   }
 
+  /// Looks for an earlier contact than that at the middle of a slice. What is proven before ends,
+  /// as a rule, just before the first contact, because it was found by the gap and the speed there:
+  /// a short interval comes first.
+  bool bracket(double from, const MotionSlice& slice, double approach, std::size_t begin,
+               std::size_t end) {
+    const double length = slice.middle - from;
+    // The approach shrinks with the interval at least in proportion.
+    if (isShort(length, 0.5 * approach)) {
+      stopAt(from);
+      return false;
+    }
+    const double few =
+        4.0 * std::max(length * options_.tolerance / approach, options_.timeTolerance);
+    const double cut = few < 0.25 * length ? from + few : from;
+    push({cut, slice.middle, begin, end});
+    push({from, cut, begin, end});
+    return true;
+  }
+
   void push(const Interval& interval) {
     if (interval.from < interval.to) waiting_.push_back(interval);
   }
 
-  bool isShort(const Interval& interval, double approach) const {
-    const double length = interval.to - interval.from;
+  /// `approach`: m, in half of it.
+  bool isShort(double length, double approach) const {
     return 2.0 * approach <= options_.tolerance || length <= options_.timeTolerance ||
            length <= kShortest;
   }
