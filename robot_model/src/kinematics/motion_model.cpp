@@ -260,19 +260,23 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
   return true;
 }
 
-void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
-                  int body, std::span<BodyState> states) {
-  const MovingBody& moving = model.bodies[body];
-  const JointMotion& joint = motion[body];
-  const BodyState& parent = states[moving.parent];
-  const Isometry3d world_from_joint = parent.world_from_body * moving.parent_from_joint;
-  BodyState& state = states[body];
-  state.world_from_body = world_from_joint * jointTransform(moving, joint, t);
+BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
+                 const BodyState& parent) {
+  const Isometry3d world_from_joint = parent.world_from_body * body.parent_from_joint;
+  BodyState state;
+  state.world_from_body = world_from_joint * jointTransform(body, joint, t);
   const Vector3d spin = world_from_joint.linear() * joint.spin;
   state.angular = parent.angular + spin;
   // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
   state.linear = parent.linear + world_from_joint.linear() * joint.rate -
                  spin.cross(state.world_from_body.translation());
+  return state;
+}
+
+void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
+                  int body, std::span<BodyState> states) {
+  const MovingBody& moving = model.bodies[body];
+  states[body] = bodyAt(moving, motion[body], t, states[moving.parent]);
 }
 
 void interpolateMotion(const KinematicModel& model, std::span<const double> from,

@@ -96,6 +96,9 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
                    std::span<const double> to, std::span<JointMotion> motion);
 
 /// Frame and velocity of a body at t, from its parent's.
+BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
+                 const BodyState& parent);
+/// The same, of a model's body.
 void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
                   int body, std::span<BodyState> states);
 

@@ -100,4 +100,21 @@ class MotionPart : public Motion {
   double length_;
 };
 
+/// A frame that is fixed in a moving body: a shape beside a link's origin, say. Refers to the
+/// body's motion.
+class AttachedFrame : public Motion {
+ public:
+  /// Throws std::invalid_argument as UniformMotion does.
+  AttachedFrame(const Motion& body, const Eigen::Isometry3d& body_from_frame);
+
+  Eigen::Isometry3d at(double t) const override;
+  Twist velocity(double t) const override;
+  MotionRates rates(double from, double to) const override;
+  double rounding(double reach) const override;
+
+ private:
+  const Motion& body_;
+  Eigen::Isometry3d body_from_frame_;
+};
+
 }  // namespace swept

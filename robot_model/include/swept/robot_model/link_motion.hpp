@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "swept/core/continuous/motion.hpp"
+#include "swept/robot_model/robot.hpp"
+
+namespace swept {
+
+namespace detail {
+struct LinkPath;
+}
+
+/// One link's motion while its robot goes from one configuration of a group to another, as Checker
+/// has it: cyclic variables the shorter way, floating orientations by slerp, mimicking joints
+/// following. The world frame is the model's; the body frame is the link's, and its origin the
+/// reference point. For `continuousCollide` of a single link.
+class LinkMotion : public Motion {
+ public:
+  /// `reference` has a value for each variable of the robot; those outside the group keep it.
+  /// Default: Robot::defaultState(). Throws std::invalid_argument for a group or link that is not
+  /// there, a span of the wrong size, a value that is not finite, a quaternion without direction,
+  /// and a prismatic value outside its limits.
+  LinkMotion(const Robot& robot, std::string_view group, std::string_view link,
+             std::span<const double> from, std::span<const double> to,
+             const std::optional<Eigen::VectorXd>& reference = {});
+
+  Eigen::Isometry3d at(double t) const override;
+  Twist velocity(double t) const override;
+  /// The same for any part of the motion.
+  MotionRates rates(double from, double to) const override;
+  double rounding(double reach) const override;
+
+ private:
+  std::shared_ptr<const detail::LinkPath> path_;
+};
+
+}  // namespace swept

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/link_motion.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kinematics/lever_arms.hpp"
+#include "kinematics/motion_model.hpp"
+#include "swept/core/tolerances.hpp"
+
+namespace swept {
+
+namespace detail {
+
+/// The joints between the model frame and a link, in motion.
+struct LinkPath {
+  std::vector<MovingBody> bodies;  ///< from the model frame to the link
+  std::vector<JointMotion> joints;
+  Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();
+  MotionRates rates;
+  double reach = 0.0;    ///< m, of the link's origin from the model frame's
+  double perUnit = 0.0;  ///< 1 + the sum of the joints' rates, rad and m per unit of t
+
+  BodyState at(double t) const {
+    BodyState state;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      state = bodyAt(bodies[i], joints[i], t, state);
+    }
+    return state;
+  }
+};
+
+}  // namespace detail
+
+namespace {
+
+using detail::JointMotion;
+using detail::KinematicModel;
+using detail::LinkPath;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("LinkMotion: " + what);
+}
+
+void requireSize(std::size_t size, std::size_t expected, const std::string& what) {
+  if (size == expected) return;
+  refuse(what + " has " + std::to_string(size) + " values instead of " + std::to_string(expected));
+}
+
+// Lemma: the angular velocity is the sum of the joints' spins, each of which turns with the joints
+// before it, at most as fast as these turn together.
+MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& levers,
+                    const std::vector<JointMotion>& motion) {
+  const detail::TravelBound travel = detail::travelBound(kinematics, levers, 0, motion);
+  MotionRates rates;
+  rates.speed = travel.speed;
+  rates.acceleration = travel.acceleration;
+  for (const int body : levers.path) {
+    const double spin = motion[static_cast<std::size_t>(body)].spinSpeed;
+    rates.angularAcceleration += rates.angularSpeed * spin;
+    rates.angularSpeed += spin;
+  }
+  constexpr double kOutward = 1.0 + 1e-12;
+  rates.angularSpeed *= kOutward;
+  rates.angularAcceleration *= kOutward;
+  return rates;
+}
+
+}  // namespace
+
+LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_view link,
+                       std::span<const double> from, std::span<const double> to,
+                       const std::optional<Eigen::VectorXd>& reference)
+    : Motion(Vector3d::Zero()) {
+  const Group* const moved = robot.findGroup(group);
+  if (moved == nullptr) {
+    refuse("robot '" + robot.name() + "' has no group '" + std::string(group) + "'");
+  }
+  const std::optional<int> index = robot.findLink(link);
+  if (!index) refuse("robot '" + robot.name() + "' has no link '" + std::string(link) + "'");
+  requireSize(from.size(), moved->variables.size(), "the first configuration");
+  requireSize(to.size(), moved->variables.size(), "the last configuration");
+  const Eigen::VectorXd held = reference.value_or(robot.defaultState());
+  requireSize(static_cast<std::size_t>(held.size()), robot.variables().size(), "the reference");
+  if (!held.allFinite()) refuse("the reference has a value that is not finite");
+
+  const KinematicModel kinematics = detail::compileKinematics(robot, *moved, held);
+  std::vector<JointMotion> motion(kinematics.bodies.size());
+  if (!detail::compileMotion(kinematics, from, to, motion)) {
+    refuse(
+        "a value is not finite, a quaternion has no direction, or a prismatic value is outside its "
+        "limits");
+  }
+  auto path = std::make_shared<LinkPath>();
+  const auto linkIndex = static_cast<std::size_t>(*index);
+  path->body_from_link = kinematics.body_from_link[linkIndex];
+  const detail::LeverArms levers = detail::leverArms(kinematics, kinematics.bodyOfLink[linkIndex],
+                                                     path->body_from_link.translation(), 0.0);
+  path->reach = levers.reach;
+  path->perUnit = 1.0;
+  for (const int body : levers.path) {
+    const JointMotion& joint = motion[static_cast<std::size_t>(body)];
+    path->bodies.push_back(kinematics.bodies[static_cast<std::size_t>(body)]);
+    path->joints.push_back(joint);
+    path->reach += joint.wander;
+    path->perUnit += joint.speed + joint.spinSpeed;
+  }
+  path->rates = ratesOf(kinematics, levers, motion);
+  path_ = std::move(path);
+}
+
+Isometry3d LinkMotion::at(double t) const {
+  return path_->at(t).world_from_body * path_->body_from_link;
+}
+
+Twist LinkMotion::velocity(double t) const {
+  const detail::BodyState state = path_->at(t);
+  const Vector3d origin = state.world_from_body * path_->body_from_link.translation();
+  return {state.linear + state.angular.cross(origin), state.angular};
+}
+
+MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
+  return path_->rates;
+}
+
+double LinkMotion::rounding(double reach) const {
+  const double joints = static_cast<double>(path_->bodies.size() + 2);
+  return tolerance::kRoundingPerJoint * joints * path_->perUnit * (path_->reach + reach);
+}
+
+}  // namespace swept
