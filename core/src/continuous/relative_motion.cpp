@@ -110,18 +110,22 @@ Passing passing(const Body& observer, const Body& other, double half) {
   return {half * u, half * spin, 0.5 * half * half * acceleration * kUp, half * speed * kUp};
 }
 
-/// The observer who sees the least of a motion proves the most: one body may carry the other about.
-/// Where either stands still, that one is the world.
+/// The observer who sees the least of a motion proves the most: one body may carry the other about,
+/// and a large one that turns beside a small one sees that move slowly. To one that stands still
+/// the world does.
 Approach least(const Body& a, const Body& b, double half) {
   Approach best = forTheWorld(a, b, half);
-  if (a.isStill() || b.isStill()) return best;
   const auto keepBetter = [&](const Approach& seen) {
     if (seen.most(a, b) < best.most(a, b)) best = seen;
   };
-  const Passing ofB = passing(a, b, half);
-  keepBetter({ofB.linear, Vector3d::Zero(), ofB.spin, ofB.curvature, ofB.travel});
-  const Passing ofA = passing(b, a, half);
-  keepBetter({-ofA.linear, ofA.spin, Vector3d::Zero(), ofA.curvature, ofA.travel});
+  if (!a.isStill()) {
+    const Passing ofB = passing(a, b, half);
+    keepBetter({ofB.linear, Vector3d::Zero(), ofB.spin, ofB.curvature, ofB.travel});
+  }
+  if (!b.isStill()) {
+    const Passing ofA = passing(b, a, half);
+    keepBetter({-ofA.linear, ofA.spin, Vector3d::Zero(), ofA.curvature, ofA.travel});
+  }
   return best;
 }
 
