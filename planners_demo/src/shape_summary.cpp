@@ -46,8 +46,10 @@ struct Text {
            std::to_string(mesh.hull().vertices().size()) + " points";
   }
   std::string operator()(const PointCloud& cloud) const {
-    return "cloud of " + std::to_string(cloud.points().size()) + " points of radius " +
-           shortNumber(cloud.radius()) + " m";
+    const std::string largest = shortNumber(cloud.largestRadius());
+    const std::string text = "cloud of " + std::to_string(cloud.points().size()) + " points of ";
+    if (cloud.leastRadius() == cloud.largestRadius()) return text + "radius " + largest + " m";
+    return text + "radii " + shortNumber(cloud.leastRadius()) + " to " + largest + " m";
   }
 
  private:
@@ -103,7 +105,10 @@ struct Facts {
             {"hull_points", mesh.hull().vertices().size()}};
   }
   Json operator()(const PointCloud& cloud) const {
-    return {{"kind", "point cloud"}, {"points", cloud.points().size()}, {"radius", cloud.radius()}};
+    return {{"kind", "point cloud"},
+            {"points", cloud.points().size()},
+            {"least_radius", cloud.leastRadius()},
+            {"largest_radius", cloud.largestRadius()}};
   }
 };
 

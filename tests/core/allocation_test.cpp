@@ -7,6 +7,8 @@
 
 #include "mesh_samples.hpp"
 #include "swept/core/contacts.hpp"
+#include "swept/core/continuous/continuous_collide.hpp"
+#include "swept/core/continuous/motions.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/separation.hpp"
 #include "swept/core/signed_distance.hpp"
@@ -96,6 +98,37 @@ TEST(Queries, AllocateNothing) {
   }
   EXPECT_GT(touching, total / 5);
   EXPECT_LT(touching, total * 9 / 10);
+}
+
+/// Once its memory has grown to what it is used for.
+TEST(ContinuousCollide, AllocatesNothingTheSecondTime) {
+  const std::vector<Shape> shapes = everyKind();
+  ContinuousWorkspace workspace;
+  ContinuousOptions options;
+  options.tolerance = 1e-5;
+  int hits = 0, total = 0;
+  const auto round = [&] {
+    std::mt19937 random(3);
+    hits = total = 0;
+    for (const Shape& a : shapes) {
+      for (const Shape& b : shapes) {
+        const auto motion = [&] {
+          return UniformMotion::turning(test::randomPose(random, 2.5),
+                                        3.0 * test::unitVector(random),
+                                        4.0 * test::unitVector(random));
+        };
+        const UniformMotion first = motion(), second = motion();
+        const ContinuousResult found = continuousCollide(a, first, b, second, options, workspace);
+        hits += found.verdict == Verdict::Collision && found.contactBy > 0.0 ? 1 : 0;
+        ++total;
+      }
+    }
+  };
+  round();
+  const long before = allocations;
+  round();
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(hits, total / 5);
 }
 
 }  // namespace

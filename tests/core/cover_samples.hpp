@@ -101,8 +101,9 @@ struct DistanceOf {
   }
   double operator()(const PointCloud& s) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& point : s.points()) nearest = std::min(nearest, (p - point).norm());
-    return std::max(0.0, nearest - s.radius());
+    for (std::size_t i = 0; i < s.points().size(); ++i)
+      nearest = std::min(nearest, (p - s.points()[i]).norm() - s.radii()[i]);
+    return std::max(0.0, nearest);
   }
   /// The library's own query, which shares nothing with covers.
   template <typename Other>
@@ -169,7 +170,7 @@ class SampleOf {
     return repeat([&] {
       const auto index =
           std::uniform_int_distribution<std::size_t>(0, s.points().size() - 1)(random_);
-      return Eigen::Vector3d(s.points()[index] + s.radius() * inBall());
+      return Eigen::Vector3d(s.points()[index] + s.radii()[index] * inBall());
     });
   }
   Points operator()(const TriangleMesh& s) const {

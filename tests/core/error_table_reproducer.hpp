@@ -21,6 +21,11 @@ class Reproducer {
     return text + ";\n";
   }
 
+  static std::string numbers(const std::vector<double>& values) {
+    std::string text = "{";
+    for (const double value : values) text += number(value) + ", ";
+    return text + "}";
+  }
   static std::string number(double x) {
     char buffer[40];
     std::snprintf(buffer, sizeof buffer, "%.17g", x);
@@ -86,7 +91,7 @@ class Reproducer {
     }
     std::string operator()(const swept::PointCloud& s) const {
       return "PointCloud::build(std::vector<Vector3d>" + list(s.points()) + ", " +
-             number(s.radius()) + ")";
+             "std::vector<double>" + numbers(s.radii()) + ")";
     }
   };
 

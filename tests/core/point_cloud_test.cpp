@@ -27,6 +27,20 @@ std::vector<Vector3d> randomPoints(std::mt19937& random, int count) {
   return points;
 }
 
+/// One in four is a point, the others reach up to `most`.
+std::vector<double> randomRadii(std::mt19937& random, int count, double most) {
+  std::vector<double> radii;
+  for (int i = 0; i < count; ++i) {
+    radii.push_back(i % 4 == 0 ? 0.0 : std::uniform_real_distribution<double>(0.0, most)(random));
+  }
+  return radii;
+}
+
+PointCloud randomCloud(std::mt19937& random, int count, double most) {
+  const auto points = randomPoints(random, count);
+  return PointCloud::build(points, randomRadii(random, count, most));
+}
+
 std::vector<Shape> partners(std::mt19937& random) {
   const test::Soup blob = test::blobSoup(random, 8, 10);
   return {makeSphere(0.1),
@@ -40,7 +54,7 @@ std::vector<Shape> partners(std::mt19937& random) {
           makePlane({0.0, 0.6, 0.8}, 0.2),
           makeHalfSpace({0.0, 0.6, 0.8}, -0.6),
           TriangleMesh::build(blob.vertices, blob.triangles),
-          PointCloud::build(randomPoints(random, 70), 0.01)};
+          randomCloud(random, 70, 0.03)};
 }
 
 Isometry3d fromPoint(const Isometry3d& cloud_from_b, const Vector3d& point) {
@@ -53,8 +67,9 @@ Isometry3d fromPoint(const Isometry3d& cloud_from_b, const Vector3d& point) {
 DistanceResult byBalls(const PointCloud& cloud, const Shape& b, const Isometry3d& cloud_from_b) {
   DistanceResult least;
   least.lower = std::numeric_limits<double>::infinity();
-  for (const Vector3d& point : cloud.points()) {
-    const DistanceResult one = distance(Sphere{cloud.radius()}, b, fromPoint(cloud_from_b, point));
+  for (std::size_t i = 0; i < cloud.points().size(); ++i) {
+    const DistanceResult one =
+        distance(Sphere{cloud.radii()[i]}, b, fromPoint(cloud_from_b, cloud.points()[i]));
     least.lower = std::min(least.lower, one.lower);
     least.upper = std::min(least.upper, one.upper);
   }
@@ -64,32 +79,38 @@ DistanceResult byBalls(const PointCloud& cloud, const Shape& b, const Isometry3d
 TEST(PointCloud, HoldsEveryPointOnceAndKnowsWhereItWas) {
   std::mt19937 random(1);
   const auto given = randomPoints(random, 1000);
-  const PointCloud cloud = PointCloud::build(given, 0.02);
+  const auto radii = randomRadii(random, 1000, 0.02);
+  const PointCloud cloud = PointCloud::build(given, radii);
   ASSERT_EQ(cloud.points().size(), given.size());
   std::set<int> seen;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const int source = cloud.sourceIndices()[i];
     EXPECT_EQ(cloud.points()[i], given[source]);
+    EXPECT_EQ(cloud.radii()[i], radii[source]);
     seen.insert(source);
   }
   EXPECT_EQ(seen.size(), given.size());
+  EXPECT_EQ(cloud.leastRadius(), 0.0);
+  EXPECT_EQ(cloud.largestRadius(), *std::max_element(radii.begin(), radii.end()));
 }
 
 TEST(PointCloud, BoundsContainEveryBall) {
   std::mt19937 random(2);
-  const PointCloud cloud = PointCloud::build(randomPoints(random, 300), 0.05);
+  const PointCloud cloud = randomCloud(random, 300, 0.05);
   const BoundingSphere ball = boundingSphere(cloud);
   const Aabb box = boundingBox(cloud);
-  for (const Vector3d& point : cloud.points()) {
-    EXPECT_LE((point - ball.center).norm() + 0.05, ball.radius);
-    EXPECT_TRUE(((point.array() - 0.05) >= box.lower.array()).all());
-    EXPECT_TRUE(((point.array() + 0.05) <= box.upper.array()).all());
+  for (std::size_t i = 0; i < cloud.points().size(); ++i) {
+    const Vector3d& point = cloud.points()[i];
+    const double radius = cloud.radii()[i];
+    EXPECT_LE((point - ball.center).norm() + radius, ball.radius);
+    EXPECT_TRUE(((point.array() - radius) >= box.lower.array()).all());
+    EXPECT_TRUE(((point.array() + radius) <= box.upper.array()).all());
   }
 }
 
 TEST(PointCloud, DistanceIsThatOfItsNearestBall) {
   std::mt19937 random(3);
-  const PointCloud cloud = PointCloud::build(randomPoints(random, 120), 0.01);
+  const PointCloud cloud = randomCloud(random, 120, 0.05);
   int touching = 0, total = 0;
   for (const Shape& partner : partners(random)) {
     for (int i = 0; i < 60; ++i) {
@@ -144,7 +165,7 @@ TEST(PointCloud, OneBallInsideAMeshIsAContact) {
 
 TEST(PointCloud, AgreesWithTheOtherBackend) {
   std::mt19937 random(4);
-  const PointCloud cloud = PointCloud::build(randomPoints(random, 15), 0.02);
+  const PointCloud cloud = randomCloud(random, 15, 0.1);
   DistanceOptions other;
   other.backend = Backend::Libccd;
   for (const Shape& partner : partners(random)) {
@@ -159,15 +180,16 @@ TEST(PointCloud, AgreesWithTheOtherBackend) {
 
 TEST(PointCloud, SignedDistanceHoldsTheDepthOfItsDeepestBall) {
   std::mt19937 random(5);
-  const PointCloud cloud = PointCloud::build(randomPoints(random, 40), 0.05);
+  const PointCloud cloud = randomCloud(random, 40, 0.1);
   int deep = 0;
   for (int i = 0; i < 300; ++i) {
     const Isometry3d pose = test::randomPose(random, 0.6);
     const SignedDistanceResult found = signedDistance(cloud, makeSphere(0.1), pose);
     // Every ball has to come out, so the deepest one bounds the depth from below.
     double deepest = std::numeric_limits<double>::infinity();
-    for (const Vector3d& point : cloud.points()) {
-      deepest = std::min(deepest, (point - pose.translation()).norm() - 0.15);
+    for (std::size_t k = 0; k < cloud.points().size(); ++k) {
+      const double apart = (cloud.points()[k] - pose.translation()).norm();
+      deepest = std::min(deepest, apart - 0.1 - cloud.radii()[k]);
     }
     EXPECT_LE(found.lower, deepest + 1e-12);
     if (deepest >= 0.0) {
@@ -183,12 +205,12 @@ TEST(PointCloud, SignedDistanceHoldsTheDepthOfItsDeepestBall) {
 
 TEST(PointCloud, ContactsNameTheBalls) {
   std::mt19937 random(6);
-  const PointCloud cloud = PointCloud::build(randomPoints(random, 200), 0.03);
+  const PointCloud cloud = randomCloud(random, 200, 0.06);
   const Box box{{0.2, 0.2, 0.2}};
   int expected = 0;
-  for (const Vector3d& point : cloud.points()) {
-    const Isometry3d pose = fromPoint(Isometry3d::Identity(), point);
-    expected += collide(Sphere{0.03}, box, pose) == Contact::Touching ? 1 : 0;
+  for (std::size_t i = 0; i < cloud.points().size(); ++i) {
+    const Isometry3d pose = fromPoint(Isometry3d::Identity(), cloud.points()[i]);
+    expected += collide(Sphere{cloud.radii()[i]}, box, pose) == Contact::Touching ? 1 : 0;
   }
   std::vector<ContactPoint> contacts;
   const ContactsResult result = findContacts(cloud, box, Isometry3d::Identity(), 1000, contacts);
@@ -199,7 +221,7 @@ TEST(PointCloud, ContactsNameTheBalls) {
   EXPECT_EQ(contacts.size(), static_cast<std::size_t>(expected));
   for (const ContactPoint& contact : contacts) {
     const Vector3d& center = cloud.points()[contact.pieceA];
-    EXPECT_NEAR((contact.pointA - center).norm(), 0.03, 1e-9);
+    EXPECT_NEAR((contact.pointA - center).norm(), cloud.radii()[contact.pieceA], 1e-9);
     EXPECT_EQ(contact.pieceB, -1);
   }
 }
@@ -242,6 +264,24 @@ TEST(PointCloud, BadInputIsNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(messageOf({Vector3d::Zero(), {0.0, nan, 1.0}}, 0.1),
               HasSubstr("point 1 of the point cloud is (  0 nan   1)"));
+}
+
+TEST(PointCloud, BadRadiiAreNamed) {
+  const std::vector<Vector3d> points{Vector3d::Zero(), Vector3d::UnitX()};
+  const auto messageOf = [&](const std::vector<double>& radii) {
+    try {
+      PointCloud::build(points, radii);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(messageOf({0.0, 0.1}), "accepted");
+  EXPECT_EQ(messageOf({0.1}), "point cloud has 2 points, but 1 radii");
+  EXPECT_EQ(messageOf({0.1, -0.5}),
+            "radius 1 of the point cloud is -0.5; allowed: finite and not negative");
+  EXPECT_EQ(messageOf({std::numeric_limits<double>::infinity(), 0.1}),
+            "radius 0 of the point cloud is inf; allowed: finite and not negative");
 }
 
 }  // namespace

@@ -20,6 +20,9 @@ std::vector<Shape> everyBoundedKind() {
   std::vector<Vector3d> points;
   for (int i = 0; i < 60; ++i)
     points.push_back(Vector3d(0.3, 0.1, -0.2) + 0.5 * test::unitVector(random));
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    radii.push_back(0.01 * static_cast<double>(i % 7));
   return {makeSphere(0.4),
           makeBox({0.5, 0.6, 0.7}),
           makeCylinder(0.3, 0.8),
@@ -29,7 +32,7 @@ std::vector<Shape> everyBoundedKind() {
           ConvexHull::of(points),
           makeTriangle({0, 0, 0}, {0.5, 0.1, 0}, {0.2, 0.6, 0.3}),
           TriangleMesh::build(blob.vertices, blob.triangles),
-          PointCloud::build(points, 0.05)};
+          PointCloud::build(points, radii)};
 }
 
 double distanceTo(const Shape& shape, const Vector3d& point) {

@@ -43,12 +43,13 @@ double bruteForce(const TriangleMesh& mesh, const LineSegment& segment) {
 
 double bruteForce(const PointCloud& cloud, const LineSegment& segment) {
   double nearest = kInfinity;
-  for (const Vector3d& point : cloud.points()) {
-    nearest = std::min(nearest, leastOn([&](double s) {
-                         return (segment.center + s * segment.half - point).norm();
-                       }));
+  for (std::size_t i = 0; i < cloud.points().size(); ++i) {
+    const Vector3d& point = cloud.points()[i];
+    const double toPoint =
+        leastOn([&](double s) { return (segment.center + s * segment.half - point).norm(); });
+    nearest = std::min(nearest, toPoint - cloud.radii()[i]);
   }
-  return std::max(nearest - cloud.radius(), 0.0);
+  return std::max(nearest, 0.0);
 }
 
 /// Random triangles, a part of them slivers of all widths.
@@ -68,8 +69,12 @@ TriangleMesh triangles(std::mt19937& random, const Vector3d& offset) {
 
 PointCloud points(std::mt19937& random, const Vector3d& offset, double radius) {
   std::vector<Vector3d> points;
-  for (int i = 0; i < 60; ++i) points.push_back(offset + test::uniformPoint(random, 1.0));
-  return PointCloud::build(points, radius);
+  std::vector<double> radii;
+  for (int i = 0; i < 60; ++i) {
+    points.push_back(offset + test::uniformPoint(random, 1.0));
+    radii.push_back(test::uniform(random, 0.0, 1.0) * radius);
+  }
+  return PointCloud::build(points, radii);
 }
 
 /// How far below the truth `radius` may have to be for a proof: a little more than what the boxes

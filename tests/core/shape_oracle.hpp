@@ -52,7 +52,9 @@ struct SupportPoint {
   Vector3d operator()(const swept::HalfSpace& s) const { return s.offset * s.normal; }
   Vector3d operator()(const swept::TriangleMesh& s) const { return farthest(s.vertices(), n); }
   Vector3d operator()(const swept::PointCloud& s) const {
-    return farthest(s.points(), n) + s.radius() * n;
+    std::vector<Vector3d> tips = s.points();
+    for (std::size_t i = 0; i < tips.size(); ++i) tips[i] += s.radii()[i] * n;
+    return farthest(tips, n);
   }
 
  private:
@@ -134,8 +136,9 @@ struct Outside {
   }
   double operator()(const swept::PointCloud& s) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const Vector3d& point : s.points()) least = std::min(least, (p - point).norm());
-    return std::max(0.0, least - s.radius());
+    for (std::size_t i = 0; i < s.points().size(); ++i)
+      least = std::min(least, (p - s.points()[i]).norm() - s.radii()[i]);
+    return std::max(0.0, least);
   }
 };
 

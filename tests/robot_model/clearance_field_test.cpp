@@ -79,8 +79,12 @@ Shape sheets() {
 Shape cloud(double radius) {
   std::mt19937 random(7);
   std::vector<Vector3d> points;
-  for (int i = 0; i < 3000; ++i) points.push_back(0.5 * test::unitVector(random));
-  return PointCloud::build(points, radius);
+  std::vector<double> radii;
+  for (int i = 0; i < 3000; ++i) {
+    points.push_back(0.5 * test::unitVector(random));
+    radii.push_back(i % 3 == 0 ? 0.5 * radius : radius);
+  }
+  return PointCloud::build(points, radii);
 }
 
 std::vector<Scene> scenes() {

@@ -63,7 +63,7 @@ double extentOf(const Shape& shape) {
     return mesh->hull().extent() + mesh->hull().error();
   if (const auto* hull = std::get_if<ConvexHull>(&shape)) return hull->extent() + hull->error();
   if (const auto* cloud = std::get_if<PointCloud>(&shape))
-    return cloud->hull().extent() + cloud->hull().error() + cloud->radius();
+    return cloud->hull().extent() + cloud->hull().error() + cloud->largestRadius();
   const BoundingSphere ball = boundingSphere(shape);
   return ball.center.norm() + ball.radius;
 }

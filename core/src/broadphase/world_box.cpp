@@ -59,7 +59,7 @@ class Placed {
     return ofTree(mesh.bvh());
   }
   Aabb operator()(const PointCloud& cloud) const {
-    if (fit_ == BoxFit::Tight) return ofPoints(cloud.points(), cloud.radius());
+    if (fit_ == BoxFit::Tight) return ofPoints(cloud.points(), cloud.largestRadius());
     return ofTree(cloud.bvh());
   }
   Aabb operator()(const Plane&) const { return everywhere(); }

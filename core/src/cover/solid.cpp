@@ -37,7 +37,9 @@ Solid::Solid(const Shape& shape) {
     mesh_ = *mesh;
   } else if (const auto* cloud = std::get_if<PointCloud>(&shape)) {
     cloud_ = *cloud;
-    inflation_ = cloud->radius();
+    // The points grown by the largest radius contain the shape, and are in it grown by the slack.
+    inflation_ = cloud->largestRadius();
+    slack_ = inflation_ - cloud->leastRadius();
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     usePoints(std::array{Vector3d(Vector3d::Zero())}, sphere->radius);
   } else if (const auto* capsule = std::get_if<Capsule>(&shape);

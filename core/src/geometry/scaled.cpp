@@ -44,7 +44,9 @@ struct Scaling {
     return TriangleMesh::build((*this)(s.vertices()), s.triangles(), s.interior());
   }
   Shape of(const PointCloud& s) const {
-    return PointCloud::build((*this)(s.points()), factor * s.radius());
+    std::vector<double> radii = s.radii();
+    for (double& radius : radii) radius *= factor;
+    return PointCloud::build((*this)(s.points()), radii);
   }
   Shape of(const Plane& s) const { return s; }
   Shape of(const HalfSpace& s) const { return s; }

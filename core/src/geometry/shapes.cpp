@@ -133,7 +133,7 @@ struct SphereOf {
   }
   BoundingSphere operator()(const PointCloud& cloud) const {
     BoundingSphere ball = ballAround(ballCenter(cloud.hull().vertices()), cloud.points());
-    ball.radius = roundedUp(ball.radius + cloud.radius());
+    ball.radius = roundedUp(ball.radius + cloud.largestRadius());
     return ball;
   }
 
@@ -164,7 +164,7 @@ struct BoxOf {
   }
   Aabb operator()(const TriangleMesh& mesh) const { return boxOf(mesh.vertices()); }
   Aabb operator()(const PointCloud& cloud) const {
-    return grown(boxOf(cloud.points()), cloud.radius());
+    return grown(boxOf(cloud.points()), cloud.largestRadius());
   }
 
  private:
@@ -176,8 +176,7 @@ struct BoxOf {
     if (!(by > 0.0)) return box;
     // A sum of opposite signs rounds by its result, which is smaller than the terms; growing by a
     // few epsilons of the coordinates covers it.
-    const double scale =
-        std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+    const double scale = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
     const double reach = roundedUp(by + std::numeric_limits<double>::epsilon() * scale);
     box.lower.array() -= reach;
     box.upper.array() += reach;

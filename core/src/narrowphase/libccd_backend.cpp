@@ -271,12 +271,11 @@ void examineShapes(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_fr
 /// Ball by ball: slow, and nothing that could go wrong with a hierarchy does.
 void examineCloud(const PointCloud& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                   Search& search) {
-  const Shape ball = Sphere{a.radius()};
   Eigen::Isometry3d ball_from_b = a_from_b;
-  for (const Eigen::Vector3d& point : a.points()) {
+  for (std::size_t i = 0; i < a.points().size(); ++i) {
     if (search.done()) return;
-    ball_from_b.translation() = a_from_b.translation() - point;
-    examineShapes(ball, b, ball_from_b, search);
+    ball_from_b.translation() = a_from_b.translation() - a.points()[i];
+    examineShapes(Sphere{a.radii()[i]}, b, ball_from_b, search);
   }
 }
 

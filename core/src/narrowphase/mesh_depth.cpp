@@ -37,8 +37,9 @@ void forEachPart(const Side& side, const Visitor& visit) {
   if (side.isConvex()) {
     visit(side.convex, Vector3d(Vector3d::Zero()));
   } else if (side.cloud != nullptr) {
-    const Convex ball = Convex::of(Sphere{side.cloud->radius()});
-    for (const Vector3d& p : side.cloud->points()) visit(ball, p);
+    for (std::size_t i = 0; i < side.cloud->points().size(); ++i) {
+      visit(Convex::of(Sphere{side.cloud->radii()[i]}), side.cloud->points()[i]);
+    }
   } else {
     for (const ConvexHull& part : side.mesh->convexParts()) {
       visit(Convex::of(part), Vector3d(Vector3d::Zero()));
@@ -54,7 +55,9 @@ void forEachBall(const Side& side, const Visitor& visit) {
     return;
   }
   if (side.cloud != nullptr) {
-    for (const Vector3d& p : side.cloud->points()) visit(Ball{p, side.cloud->radius()});
+    for (std::size_t i = 0; i < side.cloud->points().size(); ++i) {
+      visit(Ball{side.cloud->points()[i], side.cloud->radii()[i]});
+    }
     return;
   }
   const Convex& body = side.convex;

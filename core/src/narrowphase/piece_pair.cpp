@@ -80,9 +80,9 @@ Side Side::of(const Shape& shape) {
           return {&body, nullptr, &body.bvh(), Convex::of(body.hull()), outer, dent};
         } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
           Convex hull = Convex::of(body.hull());
-          hull.radius = body.radius();
+          hull.radius = body.largestRadius();
           Convex outer = grownAround(body.coarseHull());
-          outer.radius += body.radius();
+          outer.radius += body.largestRadius();
           return {nullptr, &body, &body.bvh(), hull, outer, hull.extent};
         } else {
           return {nullptr, nullptr, nullptr, Convex::of(body), {}, 0.0};
@@ -178,7 +178,7 @@ Vector3d PiecePair::placeOne(const Side& side, const Piece& piece, TriangleCorne
     return Vector3d::Zero();
   }
   if (side.cloud != nullptr) {
-    body = Convex::of(Sphere{side.cloud->radius()});
+    body = Convex::of(Sphere{side.cloud->radii()[piece.primitive]});
     return side.cloud->points()[piece.primitive];
   }
   corners = cornersOf(*side.mesh, piece.primitive);

@@ -37,7 +37,7 @@ double sideFor(const TriangleMesh& mesh, const Aabb& window) {
 double sideFor(const PointCloud& cloud) {
   constexpr double kMostMarks = 3e7;
   const double across = std::cbrt(kMostMarks / static_cast<double>(cloud.points().size()));
-  return 2.0 * cloud.radius() / std::max(across - 1.0, 1.0);
+  return 2.0 * cloud.largestRadius() / std::max(across - 1.0, 1.0);
 }
 
 /// m; at least `side`, and such that there are not many more cells.
@@ -91,10 +91,11 @@ std::shared_ptr<const ClearanceField> buildClearanceField(const Shape& shape, co
     return measured(voxels, field);
   }
   if (const auto* cloud = std::get_if<PointCloud>(&shape)) {
-    const Aabb box = Aabb::fit(cloud->points()).inflated(cloud->radius());
+    const Aabb box = Aabb::fit(cloud->points()).inflated(cloud->largestRadius());
     if (!box.overlaps(window)) return nullptr;
     Voxels voxels = layOut(box, window, sideFor(*cloud), cells, field);
-    for (const Vector3d& point : cloud->points()) voxels.mark(point, cloud->radius());
+    for (std::size_t i = 0; i < cloud->points().size(); ++i)
+      voxels.mark(cloud->points()[i], cloud->radii()[i]);
     return measured(voxels, field);
   }
   return nullptr;

@@ -49,8 +49,9 @@ struct SphereCover {
   struct Level {
     double aimed;  ///< m, `beyond` that the level was built for
     int ballCount = 0;
-    double largestOverhang;  ///< m, proven. More than `aimed` only where an open mesh has a pocket
-                             ///< and on inputs so extreme that rounding or the cap on work counts
+    double largestOverhang;  ///< m, proven. More than `aimed` only where an open mesh has a pocket,
+                             ///< around a cloud by what its radii differ, and on inputs so extreme
+                             ///< that rounding or the cap on work counts
   };
 
   std::vector<Node> nodes;  ///< parents before children; node 0 is the root
