@@ -113,9 +113,9 @@ TEST(ContinuousCollide, AllocatesNothingTheSecondTime) {
     for (const Shape& a : shapes) {
       for (const Shape& b : shapes) {
         const auto motion = [&] {
-          return UniformMotion::turning(test::randomPose(random, 2.5),
-                                        3.0 * test::unitVector(random),
-                                        4.0 * test::unitVector(random));
+          const Eigen::Isometry3d start = test::randomPose(random, 1.5);
+          return UniformMotion::turning(start, 2.0 * test::unitVector(random),
+                                        -1.5 * start.translation());
         };
         const UniformMotion first = motion(), second = motion();
         const ContinuousResult found = continuousCollide(a, first, b, second, options, workspace);
