@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A motion of one's own: a pendulum that swings by a sine, and what it hits first. Exits 0 if the
+// first contact is when the pendulum's angle says.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "swept/core/continuous/continuous_collide.hpp"
+#include "swept/core/continuous/motions.hpp"
+
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kPi = std::numbers::pi;
+
+/// Turns about y through the origin by `amplitude` sin(pi t).
+class Pendulum : public swept::Motion {
+ public:
+  explicit Pendulum(double amplitude) : Motion(Vector3d::Zero()), amplitude_(amplitude) {}
+
+  Eigen::Isometry3d at(double t) const override {
+    return Eigen::Isometry3d(Eigen::AngleAxisd(amplitude_ * std::sin(kPi * t), Vector3d::UnitY()));
+  }
+  swept::Twist velocity(double t) const override {
+    return {Vector3d::Zero(), amplitude_ * kPi * std::cos(kPi * t) * Vector3d::UnitY()};
+  }
+  /// Its reference point, the hinge, stands still. No part of the motion is faster than the whole.
+  swept::MotionRates rates(double /*from*/, double /*to*/) const override {
+    const double fastest = std::abs(amplitude_) * kPi * (1.0 + 1e-15);
+    return {0.0, 0.0, fastest, fastest * kPi * (1.0 + 1e-15)};
+  }
+  /// Sine, cosine and the rotation's entries are known to a few ulps each.
+  double rounding(double reach) const override {
+    return 1e-14 * (1.0 + std::abs(amplitude_) * kPi) * reach;
+  }
+
+ private:
+  double amplitude_;  ///< rad
+};
+
+}  // namespace
+
+int main() {
+  const Pendulum swing(1.2);
+  const swept::AttachedFrame bob(swing, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -1.0)));
+  const auto wall = swept::UniformMotion::still(Eigen::Isometry3d::Identity());
+  swept::ContinuousOptions options;
+  options.tolerance = 1e-6;  // m
+  const swept::ContinuousResult found = continuousCollide(
+      swept::makeHalfSpace(Vector3d::UnitX(), -0.6), wall, swept::makeSphere(0.1), bob, options);
+
+  // The bob's centre is at x = -sin(angle), and touches at -0.5.
+  const double expected = std::asin(std::asin(0.5) / 1.2) / kPi;
+  std::printf("%s, free until %.7f, in contact at %.7f, expected at %.7f\n",
+              toString(found.verdict).data(), found.freeUntil, found.contactBy, expected);
+  return found.verdict == swept::Verdict::Collision && found.freeUntil <= expected &&
+                 found.contactBy >= expected && found.contactBy - found.freeUntil < 1e-6
+             ? 0
+             : 1;
+}
