@@ -232,6 +232,24 @@ TEST(ContinuousCollide, CapsEndTheSearch) {
   EXPECT_LT(result.freeUntil, 1.0);
 }
 
+/// A crumb that is far away and moves by many times its size within the tolerance.
+TEST(ContinuousCollide, SmallAndFastBodies) {
+  const Shape crumb = boxMesh({0.01, 0.01, 0.01});
+  const UniformMotion motion =
+      UniformMotion::turning(at(-200, 0, 0), Vector3d(1, 2, 3), Vector3d(400, 0, 0));
+  for (const double tolerance : {1.0, 0.1, 1e-3, 1e-6}) {
+    const Shape plate = makeEllipsoid({1e-4, 10, 10});
+    const auto beside = UniformMotion::still(at(0, 12.0, 0));
+    const ContinuousResult passed = continuousCollide(crumb, motion, plate, beside, to(tolerance));
+    EXPECT_EQ(passed.verdict, Verdict::Free) << tolerance;
+    EXPECT_LT(passed.effort.intervals, 100);
+    const ContinuousResult hit = continuousCollide(crumb, motion, plate, kStill, to(tolerance));
+    EXPECT_NE(hit.verdict, Verdict::Free) << tolerance;
+    EXPECT_NEAR(hit.freeUntil, 0.5, (0.02 + tolerance) / 400.0);
+    EXPECT_LT(hit.effort.intervals, 100);
+  }
+}
+
 /// Planes and half-spaces that turn have no bounded speed of their own; what passes them has.
 TEST(ContinuousCollide, MovingPlanes) {
   const Shape plane = makePlane(Vector3d::UnitZ(), 0.0);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "continuous/relative_motion.hpp"
 #include "continuous/slice_descent.hpp"
@@ -44,6 +45,8 @@ using Eigen::Isometry3d;
 /// Share of the tolerance left to distances.
 constexpr double kQueryShare = 1.0 / 16.0;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// In units of t. Shorter intervals have no middle.
 constexpr double kShortest = 1e-15;
 
@@ -78,7 +81,7 @@ class TimeSearch {
 
   ContinuousResult run() {
     if (!(options_.margin >= 0.0) || !std::isfinite(options_.margin)) return result_;
-    if (touchesAtStart()) return result_;
+    if (decidedAtStart()) return result_;
     open_.assign(1, OpenPair{});
     waiting_.assign(1, Interval{0.0, 1.0, 0, 1});
     while (!waiting_.empty()) {
@@ -98,18 +101,19 @@ class TimeSearch {
   }
 
  private:
-  bool touchesAtStart() {
+  /// True: there is nothing more to find out.
+  bool decidedAtStart() {
     const Isometry3d world_from_a = motionA_.at(0.0);
     const Isometry3d a_from_b = world_from_a.inverse() * motionB_.at(0.0);
     if (!world_from_a.matrix().allFinite() || !a_from_b.matrix().allFinite()) return true;
-    if (!(options_.margin > 0.0) && collide(shapeA_, shapeB_, a_from_b) != Contact::Touching) {
-      return false;
-    }
+    // Whether they touch without a margin is decided exactly; a distance only says how far apart.
+    const bool exact = !(options_.margin > 0.0);
+    if (exact && collide(shapeA_, shapeB_, a_from_b) != Contact::Touching) return false;
     DistanceOptions options;
     options.enough = options.contact = options_.margin;
     options.tolerance = kQueryShare * options_.tolerance;
     const DistanceResult found = distance(shapeA_, shapeB_, a_from_b, options);
-    if (!(found.upper <= options_.margin)) return false;
+    if (!exact && !(found.upper <= options_.margin)) return false;
     noteContact(0.0, world_from_a, found.pointA, found.pointB);
     result_.verdict = Verdict::Collision;
     return true;
@@ -135,8 +139,10 @@ class TimeSearch {
       return false;
     }
     ++result_.effort.intervals;
-    SliceDescent descent(a_, b_, slice, options_.margin, kQueryShare * options_.tolerance, open_,
-                         result_.effort);
+    const bool last = isShort(interval.to - interval.from, kInfinity);
+    const SliceDescent::Goal goal{options_.margin, kQueryShare * options_.tolerance,
+                                  last ? kInfinity : 0.5 * options_.tolerance};
+    SliceDescent descent(a_, b_, slice, goal, open_, result_.effort);
     for (std::size_t i = interval.begin; i < interval.end; ++i) {
       const OpenPair pair = open_[i];
       descent.look(pair);

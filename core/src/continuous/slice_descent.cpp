@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "narrowphase/convex_pair.hpp"
@@ -27,11 +28,12 @@ double diameterOf(const Piece& piece) {
 
 }  // namespace
 
-SliceDescent::SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, double margin,
-                           double accuracy, std::vector<OpenPair>& open, ContinuousEffort& effort)
-    : slice_(slice),
-      margin_(margin),
-      accuracy_(accuracy),
+SliceDescent::SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, const Goal& goal,
+                           std::vector<OpenPair>& open, ContinuousEffort& effort)
+    : a_(a),
+      b_(b),
+      slice_(slice),
+      goal_(goal),
       motions_(a, b, slice.a_from_b, &slice.approach),
       pieces_(a, b, slice.a_from_b),
       open_(open),
@@ -43,8 +45,41 @@ void SliceDescent::look(const OpenPair& pair) {
     open_.push_back(pair);
     return;
   }
-  descend(part(true, pieces_.piece(true, pair.placeA)),
-          part(false, pieces_.piece(false, pair.placeB)), Vector3d::Zero());
+  const Part a = part(true, pieces_.piece(true, pair.placeA));
+  const Part b = part(false, pieces_.piece(false, pair.placeB));
+  Vector3d direction = Vector3d::Zero();
+  if (!a.piece.isLeaf() || !b.piece.isLeaf()) {
+    const PartApproach approach(slice_.approach, a.motion, b.motion);
+    const bool roots = pair.placeA < 0 && pair.placeB < 0;
+    if (roots && areHullsApart(approach)) return;
+    // Children are looked at together; what would be left again may well be far away by now.
+    const bool ofA = !a.piece.isLeaf();
+    if (!roots && isTooFast(a, b, approach) &&
+        areBoxesApart(ofA ? a : b, ofA, ofA ? b : a, approach, direction)) {
+      return;
+    }
+  }
+  descend(a, b, direction);
+}
+
+bool SliceDescent::areHullsApart(const PartApproach& approach) {
+  ++effort_.leafTests;
+  return convexPair(a_.around(), b_.around(), slice_.a_from_b, Vector3d::Zero(),
+                    detail::Goal(approach), goal_.margin, goal_.accuracy, GjkMode::BoundOnly)
+      .satisfied;
+}
+
+/// Whether shorter intervals prove more than smaller pieces: those of the larger node, which is
+/// divided next, or the leaves themselves.
+bool SliceDescent::isTooFast(const Part& a, const Part& b, const PartApproach& approach) const {
+  double diameter = 0.0;
+  if (a.piece.isLeaf() && b.piece.isLeaf()) {
+    diameter = std::max(diameterOf(a.piece), diameterOf(b.piece));
+  } else {
+    diameter = diameterOf(pieces_.split(a.piece, b.piece).ofA ? a.piece : b.piece);
+  }
+  const double moved = approach.most() - slice_.approach.required;
+  return moved > std::max(kFast * diameter, goal_.divideBelow);
 }
 
 void SliceDescent::leaveOpen(const Piece& a, const Piece& b, double proven, double approach) {
@@ -55,17 +90,15 @@ void SliceDescent::leaveOpen(const Piece& a, const Piece& b, double proven, doub
 
 void SliceDescent::descend(const Part& a, const Part& b, const Vector3d& guess) {
   const PartApproach approach(slice_.approach, a.motion, b.motion);
-  if (a.piece.isLeaf() && b.piece.isLeaf()) {
+  const bool whole = a.piece.isWhole() && b.piece.isWhole();
+  if (!whole && isTooFast(a, b, approach)) {
+    leaveOpen(a.piece, b.piece, 0.0, approach.most() - slice_.approach.required);
+  } else if (a.piece.isLeaf() && b.piece.isLeaf()) {
     testLeaves(a, b, approach, guess);
-    return;
+  } else {
+    const PiecePair::Split split = pieces_.split(a.piece, b.piece);
+    descendInto(split, split.ofA ? b : a, approach.most(), guess);
   }
-  const PiecePair::Split split = pieces_.split(a.piece, b.piece);
-  const double moved = approach.most() - slice_.approach.required;
-  if (moved > kFast * diameterOf(split.ofA ? a.piece : b.piece)) {
-    leaveOpen(a.piece, b.piece, 0.0, moved);
-    return;
-  }
-  descendInto(split, split.ofA ? b : a, approach.most(), guess);
 }
 
 void SliceDescent::descendInto(const PiecePair::Split& split, const Part& other, double beyond,
@@ -91,23 +124,17 @@ void SliceDescent::descendInto(const PiecePair::Split& split, const Part& other,
     }
     const Part child = part(split.ofA, piece);
     Vector3d direction = guess;
-    if (isApart(child, split.ofA, other, lower[lane], direction)) continue;
-    if (split.ofA) {
-      descend(child, other, direction);
-    } else {
-      descend(other, child, direction);
-    }
+    const Part &a = split.ofA ? child : other, &b = split.ofA ? other : child;
+    const PartApproach approach(slice_.approach, a.motion, b.motion);
+    if (lower[lane] > approach.most()) continue;
+    if (lower[lane] > 0.0F && areBoxesApart(child, split.ofA, other, approach, direction)) continue;
+    descend(a, b, direction);
   }
 }
 
-/// By the pieces' boxes: in any direction, or along the best of their own axes, which `direction`
-/// receives (from a to b).
-bool SliceDescent::isApart(const Part& child, bool ofA, const Part& other, double lower,
-                           Vector3d& direction) {
-  const PartApproach approach(slice_.approach, (ofA ? child : other).motion,
-                              (ofA ? other : child).motion);
-  if (lower > approach.most()) return true;
-  if (!(lower > 0.0)) return false;
+/// Along the best of the boxes' own axes, which `direction` receives (from a to b).
+bool SliceDescent::areBoxesApart(const Part& child, bool ofA, const Part& other,
+                                 const PartApproach& approach, Vector3d& direction) const {
   const BoxGap gap = pieces_.gap(child.piece, ofA, other.piece);
   if (!(gap.value > 0.0)) return false;
   direction = gap.direction;
@@ -119,24 +146,19 @@ bool SliceDescent::isApart(const Part& child, bool ofA, const Part& other, doubl
 // of the interval around its middle.
 void SliceDescent::testLeaves(const Part& a, const Part& b, const PartApproach& approach,
                               const Vector3d& guess) {
-  const double required = slice_.approach.required;
-  const double moved = approach.most() - required;
-  const bool whole = a.piece.isWhole() || b.piece.isWhole();
-  if (!whole && moved > kFast * std::max(diameterOf(a.piece), diameterOf(b.piece))) {
-    leaveOpen(a.piece, b.piece, 0.0, moved);
-    return;
-  }
   ++effort_.leafTests;
   PiecePair::Leaves leaves;
   pieces_.place(a.piece, b.piece, leaves);
-  const GjkResult found = convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, Goal(approach),
-                                     margin_, accuracy_, GjkMode::Exact);
+  const GjkResult found =
+      convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, detail::Goal(approach), goal_.margin,
+                 goal_.accuracy, GjkMode::Exact);
   if (found.satisfied) return;
+  const double required = slice_.approach.required;
   const double rest = approach.along(found.normal) - required;
   const double spare = found.lower - required;
   leaveOpen(a.piece, b.piece, spare > 0.0 && rest > spare ? spare / rest * (1.0 - 1e-12) : 0.0,
-            moved);
-  if (!(found.upper <= margin_)) return;
+            approach.most() - required);
+  if (!(found.upper <= goal_.margin)) return;
   contact_ = Contact{found.pointA + leaves.centerA, found.pointB + leaves.centerA};
   std::swap(open_[begin_], open_.back());
 }

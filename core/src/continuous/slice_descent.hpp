@@ -27,9 +27,16 @@ struct OpenPair {
 /// motion of each node by itself (as in C2A: Tang, Kim, Manocha 2009).
 class SliceDescent {
  public:
-  /// Refers to all of them. `open` is added to. `accuracy`: m, of distances.
-  SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, double margin,
-               double accuracy, std::vector<OpenPair>& open, ContinuousEffort& effort);
+  struct Goal {
+    double margin;    ///< m
+    double accuracy;  ///< m, of distances
+    /// m. Pairs that approach by less than this are divided in any case, because no shorter
+    /// interval follows.
+    double divideBelow;
+  };
+  /// Refers to all of them. `open` is added to.
+  SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, const Goal& goal,
+               std::vector<OpenPair>& open, ContinuousEffort& effort);
 
   void look(const OpenPair& pair);
 
@@ -51,18 +58,21 @@ class SliceDescent {
     PartMotion motion;
   };
   Part part(bool ofA, const Piece& piece) const { return {piece, motions_.of(ofA, piece)}; }
+  bool areHullsApart(const PartApproach& approach);
+  bool isTooFast(const Part& a, const Part& b, const PartApproach& approach) const;
   void descend(const Part& a, const Part& b, const Eigen::Vector3d& guess);
   void descendInto(const PiecePair::Split& split, const Part& other, double beyond,
                    const Eigen::Vector3d& guess);
-  bool isApart(const Part& child, bool ofA, const Part& other, double lower,
-               Eigen::Vector3d& direction);
+  bool areBoxesApart(const Part& child, bool ofA, const Part& other, const PartApproach& approach,
+                     Eigen::Vector3d& direction) const;
   void testLeaves(const Part& a, const Part& b, const PartApproach& approach,
                   const Eigen::Vector3d& guess);
   void leaveOpen(const Piece& a, const Piece& b, double proven, double approach);
 
+  const Side& a_;
+  const Side& b_;
   const MotionSlice& slice_;
-  double margin_;
-  double accuracy_;
+  const Goal goal_;
   const PieceMotions motions_;
   const PiecePair pieces_;
   std::vector<OpenPair>& open_;
