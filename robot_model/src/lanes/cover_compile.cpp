@@ -8,6 +8,7 @@
 
 #include "certify/checker_model.hpp"
 #include "lanes/lane_model.hpp"
+#include "lanes/meeting_rows.hpp"
 #include "swept/core/sphere_cover.hpp"
 
 namespace swept::detail {
@@ -36,6 +37,7 @@ class CoverCompiler {
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       addInnerBalls(static_cast<int>(i));
       addProbes(static_cast<int>(i));
+      meetingRowsOf_.push_back(addMeetingRows(meetingBalls(static_cast<int>(i)), meetingRows_));
     }
     addHulls();
     lanes_.geometryBody = SharedArray(std::move(geometryBody_));
@@ -46,6 +48,8 @@ class CoverCompiler {
     lanes_.innerBalls = SharedArray(std::move(innerBalls_));
     lanes_.probes = SharedArray(std::move(probes_));
     lanes_.probesOf = SharedArray(std::move(probesOf_));
+    lanes_.meetingRows = SharedArray(std::move(meetingRows_));
+    lanes_.meetingRowsOf = SharedArray(std::move(meetingRowsOf_));
   }
 
  private:
@@ -114,7 +118,7 @@ class CoverCompiler {
     for (std::size_t i = 0; i < cover.size(); ++i) {
       const SphereCover::Node& node = cover[i];
       LaneNode& lane = nodes_[i == 0 ? at : rest + static_cast<std::int32_t>(i) - 1];
-      setCenter(lane, geometry, node.ball.center);
+      setCenter(lane, geometry, node.ball.center.cast<double>());
       lane.radius = node.ball.radius;
       lane.inside = node.inside;
       lane.beyond = node.beyond;
@@ -146,7 +150,7 @@ class CoverCompiler {
     if (geometry.cover == nullptr) return;
     for (const CoverBall& ball : geometry.cover->inner) {
       LaneNode node;
-      setCenter(node, geometry, ball.center);
+      setCenter(node, geometry, ball.center.cast<double>());
       node.radius = node.inside = ball.radius;
       node.geometry = index;
       nodes_.push_back(node);
@@ -170,6 +174,25 @@ class CoverCompiler {
     }
   }
 
+  /// In the frame of LaneNode::center.
+  std::vector<MeetingBall> meetingBalls(int index) const {
+    const RobotGeometry& geometry = model_.robotGeometry[index];
+    std::vector<MeetingBall> balls;
+    const LaneModel::InnerBalls& inner = innerBalls_[index];
+    for (std::int32_t i = inner.first; i < inner.first + inner.count; ++i) {
+      const float(&c)[3] = nodes_[i].center;
+      balls.push_back({{c[0], c[1], c[2]}, nodes_[i].inside});
+    }
+    const auto* mesh = std::get_if<TriangleMesh>(&geometry.shape);
+    if (!balls.empty() || mesh == nullptr) return balls;
+    for (const Vector3d& point : spreadPoints(mesh->vertices(), kMostMeetingBalls)) {
+      LaneNode node;
+      setCenter(node, geometry, point);
+      balls.push_back({Eigen::Vector3f(node.center), 0.0F});
+    }
+    return balls;
+  }
+
   void addHulls() {
     auto hulls = std::make_shared<LaneHulls>();
     for (const RobotGeometry& geometry : model_.robotGeometry)
@@ -178,10 +201,9 @@ class CoverCompiler {
     lanes_.hulls = std::move(hulls);
   }
 
-  void setCenter(LaneNode& node, const RobotGeometry& geometry,
-                 const Eigen::Vector3f& center) const {
-    const Vector3d moved = lanes_.bodyFromLane[geometry.body].transpose() *
-                           (geometry.body_from_shape * center.cast<double>());
+  void setCenter(LaneNode& node, const RobotGeometry& geometry, const Vector3d& center) const {
+    const Vector3d moved =
+        lanes_.bodyFromLane[geometry.body].transpose() * (geometry.body_from_shape * center);
     for (int k = 0; k < 3; ++k) node.center[k] = static_cast<float>(moved[k]);
   }
 
@@ -191,8 +213,8 @@ class CoverCompiler {
   std::vector<std::int32_t> rootOfGeometry_, rootOfBody_;
   std::vector<LaneNode> nodes_;
   std::vector<LaneModel::Children> children_;
-  std::vector<LaneModel::InnerBalls> innerBalls_, probesOf_;
-  std::vector<LaneModel::Probes> probes_;
+  std::vector<LaneModel::InnerBalls> innerBalls_, probesOf_, meetingRowsOf_;
+  std::vector<LaneModel::Probes> probes_, meetingRows_;
 };
 
 }  // namespace

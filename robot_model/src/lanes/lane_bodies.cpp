@@ -111,6 +111,8 @@ void shareLaneBodies(const LaneModel& like, LaneModel& lanes) {
   lanes.innerBalls = like.innerBalls;
   lanes.probes = like.probes;
   lanes.probesOf = like.probesOf;
+  lanes.meetingRows = like.meetingRows;
+  lanes.meetingRowsOf = like.meetingRowsOf;
   lanes.hulls = like.hulls;
   lanes.geometryBody = like.geometryBody;
   lanes.allBodies = like.allBodies;

@@ -125,6 +125,11 @@ struct LaneModel {
   };
   SharedArray<Probes> probes;
   SharedArray<InnerBalls> probesOf;  ///< per geometry, into `probes`
+  /// Per geometry: where another link may be found to meet it. First a row of balls, the i-th
+  /// around all of the i-th row behind it; these, `count` of them, are balls inside the geometry,
+  /// or of a mesh that has none points of its surface.
+  SharedArray<Probes> meetingRows;
+  SharedArray<InnerBalls> meetingRowsOf;  ///< `first` is the row of balls around the others
   std::shared_ptr<const LaneHulls> hulls;
   SharedArray<int> geometryBody;
   std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first

@@ -28,35 +28,33 @@ class SelfContacts {
   SelfContacts(const LaneModel& model, LaneScratch& scratch, const LinkStates& states)
       : model_(model), scratch_(scratch), block_(scratch.block), states_(states) {}
 
-  /// Looks at the largest balls inside two links, in the lane in which they are nearest.
+  /// Looks at balls inside two links, or points of them, in the lane in which they are nearest.
   HWY_INLINE bool probe(std::uint32_t pair, const LaneNode& a, const Segment& atA,
                         const LaneNode& b, const Segment& atB, Lanes lanes) {
     if (!block_.stopAtContact) return false;
-    const LaneModel::InnerBalls& ofA = model_.probesOf[a.geometry];
-    const LaneModel::InnerBalls& ofB = model_.probesOf[b.geometry];
-    if (ofA.count == 0 || ofB.count == 0) return false;
     const V3 between = atB.x - atA.x;
     const F8 squared = dot(between, between);
     const float near = kProbeShare * (a.radius + b.radius);
     lanes &= below(squared, set(near * near));
-    if (lanes == 0) return false;
-    const int lane = lowestLane(squared, lanes);
-    const std::int32_t rowsA = std::min(ofA.count, kProbeRows);
-    const std::int32_t rowsB = std::min(ofB.count, kProbeRows);
-    V3 atRowA[kProbeRows];
-    for (std::int32_t i = 0; i < rowsA; ++i)
-      atRowA[i] = placedAt(*states_.a, lane, model_.probes[ofA.first + i]);
-    for (std::int32_t j = 0; j < rowsB; ++j) {
-      const LaneModel::Probes& eightB = model_.probes[ofB.first + j];
-      Row centers[3];
-      store3(placedAt(*states_.b, lane, eightB), centers);
-      for (std::int32_t i = 0; i < rowsA; ++i) {
-        const LaneModel::Probes& eightA = model_.probes[ofA.first + i];
-        float meeting[3];
-        if (anyMeets(atRowA[i], eightA, centers, eightB) &&
-            meets(atRowA[i], eightA, centers, eightB, meeting))
-          return claim(block_, pair, 1U << lane, set3(meeting), 0.0F);
-      }
+    return lanes != 0 && probe(pair, a.geometry, b.geometry, lowestLane(squared, lanes));
+  }
+
+  /// The same in one lane.
+  bool probe(std::uint32_t pair, std::int32_t geometryA, std::int32_t geometryB, int lane) {
+    const LaneModel::InnerBalls& ofA = model_.meetingRowsOf[geometryA];
+    const LaneModel::InnerBalls& ofB = model_.meetingRowsOf[geometryB];
+    if (ofA.count == 0 || ofB.count == 0) return false;
+    const LaneModel::Probes& aroundA = model_.meetingRows[ofA.first];
+    const LaneModel::Probes& aroundB = model_.meetingRows[ofB.first];
+    const V3 atA = placedAt(*states_.a, lane, aroundA);
+    Row centers[3];
+    store3(placedAt(*states_.b, lane, aroundB), centers);
+    const F8 radiusA = load(aroundA.inside);
+    for (std::int32_t k = 0; k < ofB.count; ++k) {
+      const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - atA;
+      const F8 reach = radiusA + set(aroundB.inside.lane[k]);
+      const Lanes near = below(dot(to, to), reach * reach) & (kAllLanes >> (kLanes - ofA.count));
+      if (near != 0 && probeRows(pair, ofA.first + 1, near, ofB.first + 1 + k, lane)) return true;
     }
     return false;
   }
@@ -77,10 +75,24 @@ class SelfContacts {
   }
 
  private:
-  /// Rows of eight balls inside either link that are looked at.
-  static constexpr std::int32_t kProbeRows = 2;
   /// Of the sum of the radii around two links: balls inside farther apart hardly meet.
   static constexpr float kProbeShare = 0.75F;
+
+  /// A row of eight of one link with some rows of the other's.
+  bool probeRows(std::uint32_t pair, std::int32_t firstA, Lanes rowsA, std::int32_t rowB,
+                 int lane) {
+    const LaneModel::Probes& eightB = model_.meetingRows[rowB];
+    Row centers[3];
+    store3(placedAt(*states_.b, lane, eightB), centers);
+    for (; rowsA != 0; rowsA &= rowsA - 1) {
+      const LaneModel::Probes& eightA = model_.meetingRows[firstA + std::countr_zero(rowsA)];
+      const V3 atA = placedAt(*states_.a, lane, eightA);
+      float meeting[3];
+      if (anyMeets(atA, eightA, centers, eightB) && meets(atA, eightA, centers, eightB, meeting))
+        return claim(block_, pair, 1U << lane, set3(meeting), 0.0F);
+    }
+    return false;
+  }
 
   /// Whether any two of eight by eight balls seem to meet, with no regard to roundings and with no
   /// branch: most often none do.
@@ -97,19 +109,26 @@ class SelfContacts {
   }
 
   /// Whether any two of them do meet, and in which point, m.
+  ///
+  /// Lemma: either centre is off by at most the rounding, so that balls whose centres are nearer
+  /// than the sum of the radii less 4 roundings have a point in common; and so have a ball and a
+  /// point, which is a ball of radius 0. A motion's witness has to be in both links by more than
+  /// roundings: there, points do not count.
   bool meets(const V3& atA, const LaneModel::Probes& eightA, const Row (&centers)[3],
              const LaneModel::Probes& eightB, float (&meeting)[3]) const {
     for (int k = 0; k < kLanes; ++k) {
       const V3 to = set3({centers[0].lane[k], centers[1].lane[k], centers[2].lane[k]}) - atA;
       const float inB = eightB.inside.lane[k] - 2.0F * scratch_.rounding;
       const F8 reach = load(eightA.inside) + set(inB - 2.0F * scratch_.rounding);
-      const Lanes found = below(dot(to, to), set(kMeeting) * reach * reach);
+      const Lanes found =
+          below(dot(to, to), set(kMeeting) * reach * reach) & above(reach, set(0.0F));
       if (found == 0) continue;
       const int which = std::countr_zero(found);
       const float inA = eightA.inside.lane[which] - 2.0F * scratch_.rounding;
-      if (!(inA > 0.0F && inB > 0.0F)) continue;
+      if (block_.mode == LaneMode::Motion && !(inA > 0.0F && inB > 0.0F)) continue;
+      const float share = std::clamp(inA / (inA + inB), 0.0F, 1.0F);
       Row point[3];
-      store3(along(atA, set(inA / (inA + inB)), to), point);
+      store3(along(atA, set(share), to), point);
       for (int i = 0; i < 3; ++i) meeting[i] = point[i].lane[which];
       return true;
     }

@@ -43,16 +43,29 @@ class StateWalk {
       if (roots(row)) return true;
     // Those whose first balls overlap most are in contact most often.
     std::ranges::sort(scratch_.stateVisits, {}, &LaneScratch::StateVisit::spread);
-    for (const LaneScratch::StateVisit& later : scratch_.stateVisits) {
-      start(later.bodyPair);
-      pair_ = later.pair;
+    std::size_t probed = 0;
+    for (; probed < scratch_.stateVisits.size(); ++probed) {
+      const LaneScratch::StateVisit& visit = scratch_.stateVisits[probed];
+      if (visit.spread > kProbeSpread) break;
+      start(visit.bodyPair);
+      if (probe(visit)) return true;
+    }
+    for (std::size_t i = 0; i < scratch_.stateVisits.size(); ++i) {
+      const LaneScratch::StateVisit& visit = scratch_.stateVisits[i];
+      start(visit.bodyPair);
+      pair_ = visit.pair;
       looks_ = kMostLooks;
-      if (deep(later.balls) == Found::Contact) return true;
+      const Found found = deep(visit.balls);
+      if (found == Found::Contact || (found == Found::Open && i >= probed && probe(visit)))
+        return true;
     }
     return false;
   }
 
  private:
+  /// Links with a larger one are hardly in contact: covers are asked first.
+  static constexpr float kProbeSpread = 0.5625F;
+
   enum class Found : std::uint8_t { Apart, Open, Contact };
 
   void gatherRoots() {
@@ -128,14 +141,16 @@ class StateWalk {
     const std::int32_t pair =
         model_.pairOfGeometries[a.geometry * model_.geometryBody.size() + b.geometry];
     if (pair < 0 || (block_.openLanes[pair] & kFirst) != 0) return false;
-    const V3 zero = set3({0.0F, 0.0F, 0.0F});
-    if (contacts_.probe(static_cast<std::uint32_t>(pair), a, {set3(balls.atA), zero}, b,
-                        {set3(balls.atB), zero}, kFirst))
-      return true;
     const float radii = a.radius + b.radius;
     scratch_.stateVisits.push_back(
         {bodyPair_, static_cast<std::uint32_t>(pair), balls.squared / (radii * radii), balls});
     return false;
+  }
+
+  bool probe(const LaneScratch::StateVisit& visit) {
+    return block_.stopAtContact &&
+           contacts_.probe(visit.pair, model_.nodes[visit.balls.nodeA].geometry,
+                           model_.nodes[visit.balls.nodeB].geometry, 0);
   }
 
   /// Two balls of the covers of two pieces of geometry. Open: and nothing more is asked of these.
