@@ -46,6 +46,16 @@ inline constexpr double kLimit = 1e-9;
 /// Enforced cap on the intervals examined in one motion; what is left is Undecided.
 inline constexpr int kMaxIntervals = 1 << 20;
 
+/// Relative to the largest difference of two coordinates of the features. The least tolerance of
+/// vertexFaceImpact() and edgeEdgeImpact(), far above the few dozen roundings of 1.1e-16 that their
+/// proofs and nearest points lose. Smaller: many more intervals, below 1e-14 Undecided. Larger:
+/// contact is seen where there is none.
+inline constexpr double kImpact = 1e-12;
+
+/// Enforced cap on the intervals that one impact of two features is looked for in. The most that a
+/// query of the tests has needed is a tenth of it.
+inline constexpr int kMaxImpactTests = 1 << 16;
+
 /// Enforced cap on the iterations of one convex distance query.
 inline constexpr int kMaxGjkIterations = 128;
 

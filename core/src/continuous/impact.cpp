@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/continuous/impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "continuous/corner_hull.hpp"
+#include "swept/core/tolerances.hpp"
+
+/// Conservative advancement with separating directions that turn.
+///
+/// The differences between points of the two features fill the hull of N corners D_k(t), each of
+/// which moves linearly (corner_hull.hpp).
+///
+/// Lemma (interval). Let n(t) go linearly from n_s at t = s to n_e at t = e, neither longer than 1.
+/// No n(t) is longer than 1 either, and n(t) . D_k(t) is a quadratic polynomial of t, with the
+/// Bernstein coefficients n_s . D_k(s), (n_s . D_k(e) + n_e . D_k(s)) / 2 and n_e . D_k(e). Where
+/// these polynomials exceed the separation for all corners, so does n(t) . x for every x in the
+/// hull, and with it the distance. With a <= 0 or b below, such a polynomial less the separation,
+///   a (1 - r)^2 + 2 b r (1 - r) + c r^2,
+/// is positive on [0, 1] if and only if a > 0, c > 0, and b >= 0 or b^2 < a c.
+///
+/// If n_s and n_e are the directions of the nearest points at s and e, the ends are exact, and what
+/// is lost between them is of second order in e - s, also where a face turns about the nearest
+/// point: n(t) turns with it. So an interval either is proven in one test, or the polynomials'
+/// first root predicts how far it can be; and the time of impact is approached from before, as
+/// Newton's method does, but with every step proven.
+///
+/// Lemma (rounding). Let u = 2^-53 and R be the largest coordinate of the rounded D_k(0), D_k(1).
+/// A difference of inputs rounds by u R; interpolation to t, (1 - t) D_k(0) + t D_k(1) with a
+/// rounded 1 - t, by another 4 u R: each coordinate is within 5.1 u R of the truth, so that for a
+/// vector n no longer than 1 + 8 u, n . D is within 1.74 * 5.1 u R, and rounds by 3.1 * 1.74 u R:
+/// 14.3 u R in all, and the mean of two such by 1.8 u R more. Division by the length of n(t) is by
+/// at most 1 + 8 u. So coefficients above (separation + 32 u R) (1 + 16 u) are proof of more than
+/// the separation. Distances are those of a convex combination, with weights that sum to 1 within
+/// 4 u, of D_k that are known as above: within 16 u R of the distance of two points.
+namespace swept {
+
+namespace {
+
+using detail::Corners;
+using detail::EdgeEdge;
+using detail::lowest;
+using detail::Nearness;
+using detail::VertexFace;
+using Eigen::Vector3d;
+
+constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2.0;
+/// Products of six coordinates have to stay in range.
+constexpr double kLeastSize = 1e-40;
+constexpr double kGreatestSize = 1e40;
+
+/// How much longer the next interval may be than one that was proven.
+constexpr double kGrowth = 8.0;
+
+/// The corners at both ends of the motion.
+struct CornerPaths {
+  Corners start;
+  Corners end;
+};
+
+void setCorner(CornerPaths& paths, int k, const LinearPath& a, const LinearPath& b, double scale) {
+  const Vector3d start = scale * a.start - scale * b.start;
+  const Vector3d end = scale * a.end - scale * b.end;
+  paths.start.x[k] = start.x();
+  paths.start.y[k] = start.y();
+  paths.start.z[k] = start.z();
+  paths.end.x[k] = end.x();
+  paths.end.y[k] = end.y();
+  paths.end.z[k] = end.z();
+}
+
+/// Largest coordinate; NaN or infinite unless all of them are finite.
+double sizeOf(const CornerPaths& paths) {
+  double most = 0.0;
+  double poison = 0.0;
+  for (const Corners* corners : {&paths.start, &paths.end}) {
+    for (int k = 0; k < 4; ++k) {
+      const double x = std::abs(corners->x[k]);
+      const double y = std::abs(corners->y[k]);
+      const double z = std::abs(corners->z[k]);
+      most = std::max(most, std::max(x, std::max(y, z)));
+      poison += 0.0 * x + 0.0 * y + 0.0 * z;
+    }
+  }
+  return most + poison;
+}
+
+void rescale(Corners& corners, double scale) {
+  for (int k = 0; k < 4; ++k) {
+    corners.x[k] *= scale;
+    corners.y[k] *= scale;
+    corners.z[k] *= scale;
+  }
+}
+
+void interpolate(const CornerPaths& paths, double t, Corners& corners) {
+  const double rest = 1.0 - t;
+  for (int k = 0; k < 4; ++k) corners.x[k] = rest * paths.start.x[k] + t * paths.end.x[k];
+  for (int k = 0; k < 4; ++k) corners.y[k] = rest * paths.start.y[k] + t * paths.end.y[k];
+  for (int k = 0; k < 4; ++k) corners.z[k] = rest * paths.start.z[k] + t * paths.end.z[k];
+}
+
+/// Whether all the numbers are above the threshold, or all below its negative.
+bool beyond(const std::array<double, 4>& a, const std::array<double, 4>& b, double threshold) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (int k = 0; k < 4; ++k) {
+    least = std::min(least, std::min(a[k], b[k]));
+    most = std::max(most, std::max(a[k], b[k]));
+  }
+  return least > threshold || most < -threshold;
+}
+
+/// The features at one time.
+struct Instant {
+  double t;
+  Corners corners;
+  Nearness nearness;
+};
+
+template <class Features>
+class ImpactSearch {
+ public:
+  /// `size` of the paths; all lengths in one unit.
+  ImpactSearch(const CornerPaths& paths, double size, double separation, double tolerance)
+      : paths_(paths), size_(size) {
+    threshold_ = (separation + 32.0 * kRounding * size) * (1.0 + 16.0 * kRounding);
+    tolerance_ = std::max(tolerance, tolerance::kImpact * size);
+    contact_ = separation + tolerance_ - 16.0 * kRounding * size;
+    aim_ = separation + 0.5 * tolerance_;
+  }
+
+  Impact until(double before);
+
+ private:
+  void look(double t, Instant& instant) const;
+  /// At t, or at `last` where that is sooner.
+  void lookBefore(double t, double after, const Instant& last, Instant& instant) const;
+  bool missesOnAxis(const Corners& end) const {
+    return beyond(paths_.start.x, end.x, threshold_) || beyond(paths_.start.y, end.y, threshold_) ||
+           beyond(paths_.start.z, end.z, threshold_);
+  }
+  bool separated(const Instant& from, const Instant& to);
+  double contactTime(const Instant& from) const;
+  double shorter(const Instant& from, const Instant& to, int failures) const;
+  bool inContact(const Instant& instant) const { return instant.nearness.distance <= contact_; }
+
+  const CornerPaths& paths_;
+  double size_;
+  double threshold_;  ///< what a proof has to exceed
+  double tolerance_;
+  double contact_;                   ///< distances of at most this are contact
+  double aim_;                       ///< where to look for it
+  std::array<double, 4> fromAtEnd_;  ///< heights of the later corners along the earlier normal
+  std::array<double, 4> toAtStart_;  ///< heights of the earlier corners along the later normal
+};
+
+template <class Features>
+void ImpactSearch<Features>::look(double t, Instant& instant) const {
+  instant.t = t;
+  interpolate(paths_, t, instant.corners);
+  instant.nearness = Features::nearest(instant.corners);
+  const Nearness& found = instant.nearness;
+  if (found.distance <= contact_) return;
+  // A direction that proves half of what is there is good enough to go on with.
+  if (!(lowest(found.heights) - threshold_ >= 0.5 * (found.distance - threshold_))) {
+    instant.nearness = Features::nearestOfAnyShape(instant.corners);
+  }
+}
+
+template <class Features>
+void ImpactSearch<Features>::lookBefore(double t, double after, const Instant& last,
+                                        Instant& instant) const {
+  if (!(t > after)) t = std::nextafter(after, 2.0);
+  if (t < last.t) {
+    look(t, instant);
+  } else {
+    instant = last;
+  }
+}
+
+/// Proof for [from.t, to.t]; the lemma's cases b >= 0 and b^2 < a c, and the directions at both
+/// ends, kept.
+template <class Features>
+bool ImpactSearch<Features>::separated(const Instant& from, const Instant& to) {
+  const std::array<double, 4>& a = from.nearness.heights;
+  const std::array<double, 4>& c = to.nearness.heights;
+  fromAtEnd_ = to.corners.heights(from.nearness.normal);
+  toAtStart_ = from.corners.heights(to.nearness.normal);
+  const bool freeAtStart = lowest(a) > threshold_;
+  const bool freeAtEnd = lowest(c) > threshold_;
+  if (freeAtStart && lowest(fromAtEnd_) > threshold_) return true;
+  if (freeAtEnd && lowest(toAtStart_) > threshold_) return true;
+  if (!(freeAtStart && freeAtEnd)) return false;
+  bool all = true;
+  for (int k = 0; k < 4; ++k) {
+    const double b = 0.5 * (fromAtEnd_[k] + toAtStart_[k]) - threshold_;
+    // The products round by less than six roundings.
+    all &= b >= 0.0 || b * b < (1.0 - 1e-14) * ((a[k] - threshold_) * (c[k] - threshold_));
+  }
+  return all;
+}
+
+/// When the nearest points would meet if they kept the speed at which they approach.
+template <class Features>
+double ImpactSearch<Features>::contactTime(const Instant& from) const {
+  const Nearness& near = from.nearness;
+  const Vector3d velocity =
+      paths_.end.combination(near.weights) - paths_.start.combination(near.weights);
+  const double rate = near.normal.dot(velocity);
+  if (!(rate < 0.0)) return std::numeric_limits<double>::infinity();
+  return from.t - (near.distance - aim_) / rate;
+}
+
+/// An end of the interval that is more likely to be proven: the first root of the polynomials, or
+/// what one of the two directions alone proves. Only the latter is sure to be reached, so that it
+/// is what remains after repeated failures.
+template <class Features>
+double ImpactSearch<Features>::shorter(const Instant& from, const Instant& to, int failures) const {
+  const std::array<double, 4>& a = from.nearness.heights;
+  const std::array<double, 4>& c = to.nearness.heights;
+  double turning = 1.0;
+  double fixed = 1.0;
+  double later = lowest(toAtStart_) > aim_ ? 1.0 : 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const double start = std::max(a[k] - aim_, 0.25 * (a[k] - threshold_));
+    const double b = 0.5 * (fromAtEnd_[k] + toAtStart_[k]) - aim_;
+    const double end = c[k] - aim_;
+    const double discriminant = b * b - start * end;
+    if ((b < 0.0 || end < 0.0) && discriminant >= 0.0) {
+      turning = std::min(turning, start / (start - b + std::sqrt(discriminant)));
+    }
+    const double loss = a[k] - fromAtEnd_[k];
+    if (loss > 0.0) fixed = std::min(fixed, 0.5 * (a[k] - threshold_) / loss);
+    if (end < 0.0) later = std::min(later, (toAtStart_[k] - aim_) / (toAtStart_[k] - c[k]));
+  }
+  double part = std::max(turning, std::max(fixed, later));
+  if (failures > 2) part = std::max(fixed, std::min(part, 0.5));
+  if (failures > 6) part = fixed;
+  if (!(part < 1.0)) part = 0.5;
+  return from.t + part * (to.t - from.t);
+}
+
+template <class Features>
+Impact ImpactSearch<Features>::until(double before) {
+  Corners end;
+  interpolate(paths_, before, end);
+  if (missesOnAxis(end)) return {Verdict::Free, before, 1.0};
+
+  Instant here;
+  look(0.0, here);
+  if (inContact(here)) return {Verdict::Collision, 0.0, 0.0};
+  Instant last;
+  look(before, last);
+  double speed = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    speed = std::max(speed, (paths_.end.corner(k) - paths_.start.corner(k)).squaredNorm());
+  }
+  speed = std::sqrt(speed);
+
+  Instant next = last;
+  int failures = 0;
+  for (int tests = 0; tests < tolerance::kMaxImpactTests; ++tests) {
+    if (separated(here, next)) {
+      if (next.t == before) return {Verdict::Free, before, 1.0};
+      if (inContact(next)) return {Verdict::Collision, next.t, next.t};
+      const double longer = next.t + kGrowth * (next.t - here.t);
+      here = next;
+      failures = 0;
+      const double contact = contactTime(here);
+      if (contact >= before && separated(here, last)) return {Verdict::Free, before, 1.0};
+      lookBefore(std::min(contact, longer), here.t, last, next);
+    } else {
+      if (inContact(next) && (next.t - here.t) * speed <= tolerance_) {
+        return {Verdict::Collision, here.t, next.t};
+      }
+      ++failures;
+      lookBefore(shorter(here, next, failures), here.t, last, next);
+    }
+  }
+  return {Verdict::Undecided, here.t, 1.0};
+}
+
+template <class Features, class Fill>
+Impact impactOf(const Fill& fill, const ImpactOptions& options) {
+  double separation = std::max(0.0, options.separation);
+  double tolerance = std::max(0.0, options.tolerance);
+  if (!std::isfinite(options.separation + 0.0 * options.tolerance + 0.0 * options.before)) {
+    return {};
+  }
+  const double before = std::clamp(options.before, 0.0, 1.0);
+  CornerPaths paths;
+  fill(paths, 1.0);
+  double size = sizeOf(paths);
+  if (!(size >= kLeastSize && size <= kGreatestSize)) {
+    double scale = 1.0;
+    if (!std::isfinite(size)) {
+      // Either an input is not finite, or a difference overflowed.
+      scale = 0.0625;
+      fill(paths, scale);
+      size = sizeOf(paths);
+      if (!std::isfinite(size)) return {};
+    }
+    const double most = std::max(size, scale * separation);
+    if (most > 0.0) {
+      const double more = std::ldexp(1.0, -std::clamp(std::ilogb(most), -1000, 1000));
+      rescale(paths.start, more);
+      rescale(paths.end, more);
+      size *= more;
+      separation *= scale * more;
+      tolerance *= scale * more;
+    }
+  }
+  return ImpactSearch<Features>(paths, size, separation, tolerance).until(before);
+}
+
+}  // namespace
+
+Impact vertexFaceImpact(const LinearPath& vertex, const std::array<LinearPath, 3>& face,
+                        const ImpactOptions& options) {
+  const auto fill = [&](CornerPaths& paths, double scale) {
+    for (int k = 0; k < 4; ++k) setCorner(paths, k, vertex, face[k % 3], scale);
+  };
+  return impactOf<VertexFace>(fill, options);
+}
+
+Impact edgeEdgeImpact(const std::array<LinearPath, 2>& first,
+                      const std::array<LinearPath, 2>& second, const ImpactOptions& options) {
+  const auto fill = [&](CornerPaths& paths, double scale) {
+    for (int k = 0; k < 4; ++k) setCorner(paths, k, first[k % 2], second[k / 2], scale);
+  };
+  return impactOf<EdgeEdge>(fill, options);
+}
+
+}  // namespace swept
