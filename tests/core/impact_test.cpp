@@ -197,6 +197,29 @@ TEST(Impact, AgreesWithSubdivision) {
   EXPECT_LT(collisions, queries * 7 / 10);
 }
 
+/// Coordinates of all magnitudes side by side, whose products underflow: a point of one feature
+/// ends where one of the other does.
+TEST(Impact, MagnitudesMayDiffer) {
+  RandomImpacts random(seed() + 7);
+  const int queries = queriesInAll() / 10;
+  for (int i = 0; i < queries; ++i) {
+    ImpactQuery q = random.draw();
+    for (LinearPath& path : q.points) {
+      for (Vector3d* point : {&path.start, &path.end}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          (*point)[axis] *= std::exp2(std::min(0.0, random.number(300.0)));
+        }
+      }
+    }
+    q.options.tolerance = std::exp2(random.number(200.0) - 200.0);
+    EXPECT_EQ(oracle::complaint(q, ask(q)), "") << oracle::reproducer(q);
+    q.points[0].end = q.points[3].end;
+    const Impact impact = ask(q);
+    ASSERT_EQ(impact.verdict, Verdict::Collision) << oracle::reproducer(q);
+    ASSERT_EQ(oracle::complaint(q, impact), "") << oracle::reproducer(q);
+  }
+}
+
 /// Scaled by powers of two, with separation and tolerance, answers do not change in any bit.
 TEST(Impact, SizeDoesNotMatter) {
   RandomImpacts random(seed() + 4);

@@ -13,14 +13,18 @@ namespace {
 using Eigen::Vector3d;
 using Weights = std::array<double, 4>;
 
+/// m^2. Shorter vectors are no directions: their squares underflow, and with them the length.
+constexpr double kLeastSquare = 1e-280;
+
 /// `normal` of any length and either sign, NaN or zero where the caller knows none.
 Nearness nearness(const Corners& corners, const Weights& weights, const Vector3d& point,
                   const Vector3d& normal) {
   Nearness result;
   result.weights = weights;
   result.distance = point.norm();
+  const double squared = normal.squaredNorm();
   const double side = normal.dot(point) < 0.0 ? -1.0 : 1.0;
-  result.normal = normal * (side / normal.norm());
+  if (squared > kLeastSquare) result.normal = normal * (side / std::sqrt(squared));
   result.heights = corners.heights(result.normal);
   return result;
 }
@@ -57,9 +61,9 @@ class Best {
     result_.weights = weights;
   }
   void offerNormal(const Vector3d& direction) {
-    const double length = direction.norm();
-    if (!(length > 0.0)) return;
-    const Vector3d normal = direction * (1.0 / length);
+    const double squared = direction.squaredNorm();
+    if (!(squared > kLeastSquare)) return;
+    const Vector3d normal = direction * (1.0 / std::sqrt(squared));
     const Weights heights = corners_.heights(normal);
     if (!(lowest(heights) > lowest_)) return;
     lowest_ = lowest(heights);

@@ -43,7 +43,7 @@ inline double lowest(const std::array<double, 4>& h) {
 /// How far the set is from the origin: at most `distance`, at least the lowest of `heights` (both
 /// but for rounding).
 struct Nearness {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit or zero, or NaN at distance zero
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, or zero where none is known
   double distance = 0.0;            ///< m, of a point of the set: upper bound on its distance
   std::array<double, 4> weights{};  ///< of that point: a convex combination of the corners
   std::array<double, 4> heights{};  ///< m, of the corners along the normal
