@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "continuous/corner_hull.hpp"
+#include "continuous/corner_paths.hpp"
 #include "swept/core/tolerances.hpp"
 
 /// Conservative advancement with separating directions that turn.
@@ -18,7 +17,7 @@
 /// No n(t) is longer than 1 either, and n(t) . D_k(t) is a quadratic polynomial of t, with the
 /// Bernstein coefficients n_s . D_k(s), (n_s . D_k(e) + n_e . D_k(s)) / 2 and n_e . D_k(e). Where
 /// these polynomials exceed the separation for all corners, so does n(t) . x for every x in the
-/// hull, and with it the distance. With a <= 0 or b below, such a polynomial less the separation,
+/// hull, and with it the distance. A polynomial with Bernstein coefficients a, b, c,
 ///   a (1 - r)^2 + 2 b r (1 - r) + c r^2,
 /// is positive on [0, 1] if and only if a > 0, c > 0, and b >= 0 or b^2 < a c.
 ///
@@ -29,11 +28,11 @@
 /// Newton's method does, but with every step proven.
 ///
 /// Lemma (plane). Let E(t) = D_1 - D_0 and F(t) = D_2 - D_0. N = E x F is across the whole hull, so
-/// that N . x is the same cubic polynomial p(t) for each of its points. The length of N(t) is at
-/// most the same Bernstein combination of its coefficients' lengths, so that p(t) less the
-/// separation times that is, where its own coefficients are positive, proof; its error does not
-/// grow with the features' size. This proves long intervals where almost coplanar features move
-/// about next to each other.
+/// that N . x is the same cubic polynomial p(t) for each of its points. N(t) is no longer than the
+/// Bernstein combination of its coefficients' lengths. So where p(t) less the separation times that
+/// has positive coefficients, the features keep the separation. Nothing is lost to corners that
+/// move apart from each other: this proves long intervals where almost coplanar features move about
+/// next to each other.
 ///
 /// Lemma (rounding). Let u = 2^-53 and R be the largest coordinate of the rounded D_k(0), D_k(1).
 /// A difference of inputs rounds by u R; interpolation to t, (1 - t) D_k(0) + t D_k(1) with a
@@ -52,6 +51,8 @@ namespace swept {
 
 namespace {
 
+using detail::beyond;
+using detail::CornerPaths;
 using detail::Corners;
 using detail::EdgeEdge;
 using detail::lowest;
@@ -69,65 +70,6 @@ constexpr double kGrowth = 8.0;
 
 /// Tests after which planes are tried as well.
 constexpr int kPatience = 4;
-
-/// The corners at both ends of the motion.
-struct CornerPaths {
-  Corners start;
-  Corners end;
-};
-
-void setCorner(CornerPaths& paths, int k, const LinearPath& a, const LinearPath& b, double scale) {
-  const Vector3d start = scale * a.start - scale * b.start;
-  const Vector3d end = scale * a.end - scale * b.end;
-  paths.start.x[k] = start.x();
-  paths.start.y[k] = start.y();
-  paths.start.z[k] = start.z();
-  paths.end.x[k] = end.x();
-  paths.end.y[k] = end.y();
-  paths.end.z[k] = end.z();
-}
-
-/// Largest coordinate; NaN or infinite unless all of them are finite.
-double sizeOf(const CornerPaths& paths) {
-  double most = 0.0;
-  double poison = 0.0;
-  for (const Corners* corners : {&paths.start, &paths.end}) {
-    for (int k = 0; k < 4; ++k) {
-      const double x = std::abs(corners->x[k]);
-      const double y = std::abs(corners->y[k]);
-      const double z = std::abs(corners->z[k]);
-      most = std::max(most, std::max(x, std::max(y, z)));
-      poison += 0.0 * x + 0.0 * y + 0.0 * z;
-    }
-  }
-  return most + poison;
-}
-
-void rescale(Corners& corners, double scale) {
-  for (int k = 0; k < 4; ++k) {
-    corners.x[k] *= scale;
-    corners.y[k] *= scale;
-    corners.z[k] *= scale;
-  }
-}
-
-void interpolate(const CornerPaths& paths, double t, Corners& corners) {
-  const double rest = 1.0 - t;
-  for (int k = 0; k < 4; ++k) corners.x[k] = rest * paths.start.x[k] + t * paths.end.x[k];
-  for (int k = 0; k < 4; ++k) corners.y[k] = rest * paths.start.y[k] + t * paths.end.y[k];
-  for (int k = 0; k < 4; ++k) corners.z[k] = rest * paths.start.z[k] + t * paths.end.z[k];
-}
-
-/// Whether all the numbers are above the threshold, or all below its negative.
-bool beyond(const std::array<double, 4>& a, const std::array<double, 4>& b, double threshold) {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  for (int k = 0; k < 4; ++k) {
-    least = std::min(least, std::min(a[k], b[k]));
-    most = std::max(most, std::max(a[k], b[k]));
-  }
-  return least > threshold || most < -threshold;
-}
 
 /// The features at one time.
 struct Instant {

@@ -52,8 +52,8 @@ inline constexpr int kMaxIntervals = 1 << 20;
 /// contact is seen where there is none.
 inline constexpr double kImpact = 1e-12;
 
-/// Enforced cap on the intervals that one impact of two features is looked for in. The most that a
-/// query of the tests has needed is a tenth of it.
+/// Enforced cap on the intervals that one impact of two features is looked for in. The most that
+/// one of a million queries of the tests has needed is a sixth of it.
 inline constexpr int kMaxImpactTests = 1 << 16;
 
 /// Enforced cap on the iterations of one convex distance query.
