@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// sweep_refute: tries to prove continuousCollide wrong on random sweeps. Exit code 1 when it did.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "sweeps/campaign.hpp"
+
+int main(int argc, char** argv) {
+  sweeps::CampaignOptions options;
+  std::uint64_t report = 100000;
+  bool code = false;
+  CLI::App app{"Tries to prove continuous collision wrong on random sweeps."};
+  app.add_option("--count", options.count, "how many sweeps");
+  app.add_option("--first", options.first, "index of the first; alone, only this one is run");
+  app.add_option("--seed", options.seed);
+  app.add_option("--symmetries", options.symmetries, "one in so many is asked in other ways too");
+  app.add_option("--report", report, "a line after so many sweeps")->check(CLI::PositiveNumber);
+  app.add_flag("--code", code, "print the first sweep as C++");
+  CLI11_PARSE(app, argc, argv);
+  if (app.count("--first") > 0 && app.count("--count") == 0) {
+    options.count = 1;
+    options.symmetries = 1;
+  }
+  if (code) std::cout << sweeps::makeSweep(options.seed, options.first).code();
+  sweeps::CampaignReport total;
+  const std::uint64_t end = options.first + options.count;
+  for (sweeps::CampaignOptions part = options; part.first < end; part.first += part.count) {
+    part.count = std::min(report, end - part.first);
+    const sweeps::CampaignReport found = runCampaign(part);
+    for (const std::string& failure : found.failures) std::cout << "  " << failure << std::endl;
+    total.add(found);
+    std::cout << summary(total) << std::endl;
+  }
+  return total.failures.empty() ? 0 : 1;
+}
