@@ -52,7 +52,9 @@ Judgement Judge::judge(const ContinuousResult& result, Random& random) {
   if (!found_.faults.empty()) return found_;
   checkKnown(result);
   refute(result.verdict == Verdict::Free ? 1.0 : result.freeUntil, random);
-  if (result.verdict == Verdict::Collision) checkWitness(result);
+  if (result.verdict == Verdict::Collision && !nearlyParallel(result.contactBy)) {
+    checkWitness(result);
+  }
   if (result.verdict == Verdict::Undecided) checkUndecided(result, random);
   if (result.verdict != Verdict::Free && decidable(result)) {
     found_.stop = (gapAt(result.freeUntil) - sweep_.options.margin) / sweep_.options.tolerance;
@@ -92,7 +94,8 @@ void Judge::checkKnown(const ContinuousResult& r) {
     fault(text("MISSED: in contact at ", sweep_.t, " by construction, but free until ",
                free ? 1.0 : r.freeUntil));
   }
-  if (r.verdict != Verdict::Collision || !(sweep_.speed > 0.0)) return;
+  const bool capped = r.effort.intervals >= sweep_.options.maxIntervals;
+  if (r.verdict != Verdict::Collision || !(sweep_.speed > 0.0) || capped) return;
   const double first = sweep_.t - std::max(0.0, sweep_.depth) / sweep_.closing;
   if (first < 0.0) return;
   const double time = r.contactBy - r.freeUntil;
@@ -105,6 +108,13 @@ void Judge::checkKnown(const ContinuousResult& r) {
     fault(text("straight crossing at ", sweep_.t, " found only between ", r.freeUntil, " and ",
                r.contactBy, ": ", *found_.width, " tolerances"));
   }
+}
+
+/// Of two endless surfaces: where they cross is lost to the rounding of their poses.
+bool Judge::nearlyParallel(double t) const {
+  if (!sweep_.a.flat() || !sweep_.b.flat()) return false;
+  const Vector3d n = relative(sweep_.pathA, sweep_.pathB, t).linear() * sweep_.b.normal;
+  return n.cross(sweep_.a.normal).norm() < 1e-6;
 }
 
 void Judge::checkWitness(const ContinuousResult& r) {
