@@ -214,9 +214,14 @@ Body makeBody(Kind kind, double size, Random& random) {
   if (kind == Kind::Cloud) {
     const Vector3d s = sizes(size, random);
     const auto points = scattered(1 + random.below(12), s, random);
-    const double radius = random.chance(0.2) ? 0.0 : random.uniform(0.02, 0.3) * s.maxCoeff();
-    body.shape = swept::PointCloud::build(points, radius);
-    for (const Vector3d& p : points) body.parts.push_back(ofPoints({p}, radius));
+    const double most = random.chance(0.2) ? 0.0 : random.uniform(0.02, 0.3) * s.maxCoeff();
+    const bool alike = random.chance(0.5);
+    std::vector<double> radii;
+    for (const Vector3d& p : points) {
+      radii.push_back(alike ? most : random.uniform(0.0, most));
+      body.parts.push_back(ofPoints({p}, radii.back()));
+    }
+    body.shape = swept::PointCloud::build(points, radii);
   } else if (kind == Kind::ClosedMesh || kind == Kind::OpenMesh || kind == Kind::SurfaceMesh) {
     makeMesh(body, size, random);
   } else {

@@ -78,8 +78,9 @@ struct ShapeCode {
            "}, swept::MeshInterior::" + (solid ? "Solid" : "Surface") + ")";
   }
   std::string operator()(const swept::PointCloud& s) const {
-    return std::string("swept::PointCloud::build(") + vectors(s.points()) + ", " +
-           number(s.radius()) + ")";
+    std::string radii = "std::vector<double>{";
+    for (const double radius : s.radii()) radii += number(radius) + ", ";
+    return std::string("swept::PointCloud::build(") + vectors(s.points()) + ", " + radii + "})";
   }
 };
 
