@@ -77,8 +77,12 @@ TEST(FirstContact, EndsWhereStepsGetShorterThanAnUlp) {
     const auto result = continuousCollide(ball, straight({x, -20.0, 0.0}, {x, 0.0, 0.0}), box,
                                           still, {.tolerance = 1e-12});
     EXPECT_LT(result.effort.intervals, 100000) << gap;
-    if (!(gap > 0.0)) EXPECT_NE(result.verdict, Verdict::Free);
-    if (gap > 1e-10) EXPECT_EQ(result.verdict, Verdict::Free);
+    if (!(gap > 0.0)) {
+      EXPECT_NE(result.verdict, Verdict::Free);
+    }
+    if (gap > 1e-10) {
+      EXPECT_EQ(result.verdict, Verdict::Free);
+    }
   }
 }
 
@@ -138,7 +142,7 @@ TEST(FirstContact, OfATurnThatEndsWhereTheCastIsThin) {
   const UniformMotion turn = UniformMotion::turning(start, std::numbers::pi * Vector3d::UnitX(),
                                                     Vector3d::Zero(), {0.0, 0.0, -0.5});
   const UniformMotion still = UniformMotion::still(
-      placed({0.0, 0.6, -0.5}) *
+      placed({0.0, -0.6, -0.5}) *
       Isometry3d(Eigen::AngleAxisd(std::numbers::pi / 2.0, Vector3d::UnitY())));
   const auto result = continuousCollide(rod, turn, post, still, {.tolerance = 1e-6});
   ASSERT_EQ(result.verdict, Verdict::Collision);
