@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "continuous/deforming_tree.hpp"
+#include "continuous/surface_features.hpp"
+#include "simd/follow_corners.hpp"
+#include "simd/meeting_pairs.hpp"
+#include "swept/core/continuous/deforming_mesh.hpp"
+
+namespace swept {
+
+struct DeformingMesh::Data {
+  Data(std::size_t vertices, std::span<const Triangle> triangles)
+      : vertexCount(vertices), surface(vertices, triangles) {}
+
+  /// Fills in a frame; returns the area of boxes in terms of that of the triangles' boxes.
+  double follow(std::span<const Eigen::Vector3d> vertices, double reach,
+                detail::DeformingFrame& frame);
+  void arrange(std::span<const Eigen::Vector3d> vertices);
+  void arrangeAnew();
+
+  const detail::DeformingFrame& from() const { return still ? end : start; }
+
+  std::size_t vertexCount;
+  detail::SurfaceFeatures surface;
+  detail::TreeOrder order;
+  detail::DeformingFrame start, end;
+  bool still = true;  ///< the step begins where it ends, and `start` is of no use
+  std::vector<detail::FloatPoint> points;  ///< m, scratch: the vertices of the latest frame
+  double areaRatio = 0.0, builtRatio = 0.0;
+  std::size_t rebuilds = 0;
+};
+
+}  // namespace swept

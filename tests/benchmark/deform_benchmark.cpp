@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Deforming meshes: refit, discrete and continuous collision of a scene with itself and of its
+// objects with one another, per frame, after Table IV of Pan, Chitta, Manocha 2012. Arguments: a
+// scene (balls, shatter, large; all without), and of how many frames one is measured.
+#include <cstdlib>
+#include <cstring>
+
+#include "deform_fcl.hpp"
+#include "deform_judge.hpp"
+#include "deform_scenes.hpp"
+#include "timing.hpp"
+
+namespace swept::benchmark {
+namespace {
+
+enum Query { kRefit, kSelf, kSelfContinuous, kRefitObjects, kPairs, kPairsContinuous, kQueries };
+constexpr const char* kNames[kQueries] = {
+    "refit",           "discrete, itself", "continuous, itself", "refit of the objects",
+    "discrete, pairs", "continuous, pairs"};
+
+/// Means over frames, ms; and what was found, to compare.
+struct Costs {
+  double ms[kQueries] = {};
+  double found[kQueries] = {};
+};
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(Costs& costs) : costs_(costs) {}
+  /// The least of two turns. `run` returns the number of pairs it found.
+  template <typename Run>
+  void measure(Query query, const Run& run) {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t found = 0;
+    for (int turn = 0; turn < 2; ++turn) {
+      const double start = cpuSeconds();
+      found = run();
+      least = std::min(least, cpuSeconds() - start);
+    }
+    costs_.ms[query] += 1e3 * least;
+    costs_.found[query] += static_cast<double>(found);
+  }
+
+ private:
+  Costs& costs_;
+};
+
+/// Pairs of objects whose boxes overlap during the step: the broad phase is the same for all.
+std::vector<std::pair<std::size_t, std::size_t>> objectPairs(const std::vector<Points>& from,
+                                                             const std::vector<Points>& to) {
+  std::vector<Eigen::AlignedBox3d> boxes(from.size());
+  for (std::size_t o = 0; o < from.size(); ++o) {
+    for (const auto* points : {&from[o], &to[o]})
+      for (const Eigen::Vector3d& p : *points) boxes[o].extend(p);
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t o = 0; o < boxes.size(); ++o)
+    for (std::size_t p = o + 1; p < boxes.size(); ++p)
+      if (boxes[o].intersects(boxes[p])) pairs.emplace_back(o, p);
+  return pairs;
+}
+
+/// What a step is measured on.
+struct Step {
+  Points allFrom, allTo;
+  std::vector<Points> from, to;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+
+  Step(const DeformScene& scene, int frame)
+      : allFrom(scene.allAt(frame)), allTo(scene.allAt(frame + 1)) {
+    for (std::size_t o = 0; o < scene.objects().size(); ++o) {
+      from.push_back(scene.at(o, frame));
+      to.push_back(scene.at(o, frame + 1));
+    }
+    pairs = objectPairs(from, to);
+  }
+};
+
+class Ours {
+ public:
+  explicit Ours(const DeformScene& scene)
+      : all_(DeformingMesh::build(scene.allAt(0), scene.allTriangles())) {
+    for (std::size_t o = 0; o < scene.objects().size(); ++o)
+      objects_.push_back(DeformingMesh::build(scene.at(o, 0), scene.objects()[o]));
+  }
+
+  void measure(const Step& step, Costs& costs) {
+    Stopwatch watch(costs);
+    // Both turns end where the step begins.
+    watch.measure(kRefit, [&] { return all_.moveTo(step.allFrom), 0; });
+    watch.measure(kSelf, [&] {
+      selfCollide(all_, {kAll}, touching_, workspace_);
+      return touching_.pairs.size();
+    });
+    watch.measure(kRefitObjects, [&] {
+      for (std::size_t o = 0; o < objects_.size(); ++o) objects_[o].moveTo(step.from[o]);
+      return 0;
+    });
+    watch.measure(kPairs, [&] {
+      std::size_t found = 0;
+      for (const auto& [o, p] : step.pairs) {
+        collide(objects_[o], objects_[p], {kAll}, touching_, workspace_);
+        found += touching_.pairs.size();
+      }
+      return found;
+    });
+    all_.moveTo(step.allTo);
+    for (std::size_t o = 0; o < objects_.size(); ++o) objects_[o].moveTo(step.to[o]);
+    watch.measure(kSelfContinuous, [&] {
+      selfCollideContinuous(all_, {}, impacts_, workspace_);
+      return impacts_.impacts.size();
+    });
+    watch.measure(kPairsContinuous, [&] {
+      std::size_t found = 0;
+      for (const auto& [o, p] : step.pairs) {
+        collideContinuous(objects_[o], objects_[p], {}, impacts_, workspace_);
+        found += impacts_.impacts.size();
+      }
+      return found;
+    });
+  }
+  std::size_t rebuilds() const { return all_.rebuilds(); }
+
+ private:
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  DeformingMesh all_;
+  std::vector<DeformingMesh> objects_;
+  DeformingWorkspace workspace_;
+  MeshCollisionResult touching_;
+  DeformingResult impacts_;
+};
+
+#ifdef SWEPT_HAS_FCL
+template <typename Volume>
+class Fcls {
+ public:
+  explicit Fcls(const DeformScene& scene) : all_({scene.allAt(0), scene.allTriangles()}) {
+    for (std::size_t o = 0; o < scene.objects().size(); ++o)
+      objects_.emplace_back(Soup{scene.at(o, 0), scene.objects()[o]});
+  }
+
+  void measure(const Step& step, Costs& costs) {
+    Stopwatch watch(costs);
+    watch.measure(kRefit, [&] { return all_.place(step.allFrom), 0; });
+    watch.measure(kSelf, [&] { return all_.touching(all_).size(); });
+    watch.measure(kRefitObjects, [&] {
+      for (std::size_t o = 0; o < objects_.size(); ++o) objects_[o].place(step.from[o]);
+      return 0;
+    });
+    watch.measure(kPairs, [&] {
+      std::size_t found = 0;
+      for (const auto& [o, p] : step.pairs) found += objects_[o].touching(objects_[p]).size();
+      return found;
+    });
+    for (const bool last : {false, true}) {
+      all_.moveTo(last ? step.allTo : step.allFrom);
+      for (std::size_t o = 0; o < objects_.size(); ++o)
+        objects_[o].moveTo(last ? step.to[o] : step.from[o]);
+    }
+    watch.measure(kSelfContinuous, [&] { return all_.meeting(all_).size(); });
+    watch.measure(kPairsContinuous, [&] {
+      std::size_t found = 0;
+      for (const auto& [o, p] : step.pairs) found += objects_[o].meeting(objects_[p]).size();
+      return found;
+    });
+  }
+
+ private:
+  FclDeforming<Volume> all_;
+  std::vector<FclDeforming<Volume>> objects_;
+};
+#endif
+
+/// Whether nothing was missed.
+bool report(const std::string& name, const DeformScene& scene, int stride, bool judged) {
+  Ours ours(scene);
+  Costs our;
+#ifdef SWEPT_HAS_FCL
+  Fcls<fcl::AABBd> fclAabb(scene);
+  Fcls<fcl::KDOP<double, 16>> fclKdop(scene);
+  Costs aabb, kdop;
+#endif
+  int steps = 0;
+  for (int frame = stride / 2; frame + 1 < scene.frames(); frame += stride, ++steps) {
+    const Step step(scene, frame);
+    ours.measure(step, our);
+#ifdef SWEPT_HAS_FCL
+    fclAabb.measure(step, aabb);
+    fclKdop.measure(step, kdop);
+#endif
+  }
+  const std::size_t triangles = scene.allTriangles().size();
+  std::printf(
+      "\n%s: %zu objects, %zu triangles, %d of %d steps, ms per step; built anew %zu times\n\n",
+      name.c_str(), scene.objects().size(), triangles, steps, scene.frames() - 1, ours.rebuilds());
+  const MarkdownTable table({"query", "swept", "FCL AABB", "FCL k-DOP16", "swept / best",
+                             "pairs: swept", "pairs: FCL AABB"});
+  bool good = true;
+  for (int q = 0; q < kQueries; ++q) {
+    std::vector<std::string> cells{kNames[q], number(our.ms[q] / steps),       "-", "-",
+                                   "-",       number(our.found[q] / steps, 6), "-"};
+#ifdef SWEPT_HAS_FCL
+    cells[2] = number(aabb.ms[q] / steps);
+    cells[3] = number(kdop.ms[q] / steps);
+    cells[4] = number(our.ms[q] / std::min(aabb.ms[q], kdop.ms[q]), 2);
+    cells[6] = number(aabb.found[q] / steps, 6);
+    if ((q == kSelf || q == kPairs) && our.found[q] != aabb.found[q]) good = false;
+#endif
+    table.row(cells);
+  }
+  if (judged) {
+    for (const int frame : {scene.frames() / 3, 2 * scene.frames() / 3})
+      good = judgeStep(scene, frame, 100) && good;
+  }
+  return good;
+}
+
+}  // namespace
+}  // namespace swept::benchmark
+
+int main(int argc, char** argv) {
+  using namespace swept::benchmark;
+  const auto chosen = [&](const char* name) { return argc < 2 || std::strcmp(argv[1], name) == 0; };
+  const auto stride = [&](int usual) { return argc > 2 ? std::max(1, std::atoi(argv[2])) : usual; };
+  bool good = true;
+  if (chosen("balls")) good = report("balls", BallsScene(), stride(10), true) && good;
+  if (chosen("shatter")) good = report("shatter", ShatterScene(6, 9), stride(6), true) && good;
+  if (chosen("large")) good = report("large", ShatterScene(11, 10), stride(15), false) && good;
+  return good ? 0 : 1;
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "deforming_samples.hpp"
+
+namespace {
+
+long allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* memory = nullptr;
+  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), std::max<std::size_t>(size, 1)))
+    throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace swept {
+namespace {
+
+TEST(DeformingMesh, AllocatesNothingOnceItWentThroughItsMotion) {
+  constexpr int kFrames = 10;
+  std::vector<std::vector<Eigen::Vector3d>> frames;
+  for (int f = 0; f < kFrames; ++f) frames.push_back(test::bouncing(0.1 * f, 8).vertices);
+  const test::Soup soup = test::bouncing(0.0, 8);
+  const test::Soup sheet = test::sheetSoup(9, 0.0, 0.2);
+  DeformingMesh mesh = DeformingMesh::build(soup.vertices, soup.triangles);
+  const DeformingMesh still = DeformingMesh::build(sheet.vertices, sheet.triangles);
+  DeformingWorkspace workspace;
+  MeshCollisionResult touching;
+  DeformingResult impacts;
+  std::size_t found = 0;
+  long before = 0;
+  for (int round = 0; round < 3; ++round) {
+    if (round == 1) before = allocations;
+    mesh.place(frames[0]);
+    for (int f = 1; f < kFrames; ++f) {
+      mesh.moveTo(frames[static_cast<std::size_t>(f)]);
+      selfCollide(mesh, {test::kEveryPair}, touching, workspace);
+      found += touching.pairs.size();
+      collide(mesh, still, {test::kEveryPair}, touching, workspace);
+      found += touching.pairs.size();
+      for (const bool firstOnly : {false, true}) {
+        selfCollideContinuous(mesh, {.firstOnly = firstOnly}, impacts, workspace);
+        found += impacts.impacts.size();
+        collideContinuous(mesh, still, {.firstOnly = firstOnly}, impacts, workspace);
+        found += impacts.impacts.size();
+      }
+    }
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(mesh.rebuilds(), 0U);
+  EXPECT_GT(found, 1000U);
+}
+
+}  // namespace
+}  // namespace swept
