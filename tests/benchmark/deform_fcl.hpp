@@ -31,7 +31,7 @@ class FclWithoutNeighbours : public Node {
     if (skipNeighbours) {
       const fcl::Triangle& t = this->tri_indices1[this->model1->getBV(i).primitiveId()];
       const fcl::Triangle& u = this->tri_indices2[this->model2->getBV(j).primitiveId()];
-      for (const std::size_t k : {0, 1, 2}) {
+      for (const int k : {0, 1, 2}) {
         if (t[k] == u[0] || t[k] == u[1] || t[k] == u[2]) return;
       }
     }
