@@ -179,6 +179,21 @@ TEST(DeformingMesh, BuildsAnewWhereTrianglesMixed) {
   EXPECT_GT(after.impacts.size(), 2 * expected.size());
 }
 
+TEST(DeformingMesh, UnfoldsFromAPoint) {
+  const Soup soup = test::bouncing(0.4);
+  const std::vector<Vector3d> point(soup.vertices.size(), Vector3d::Ones());
+  DeformingMesh mesh = DeformingMesh::build(point, soup.triangles);
+  EXPECT_EQ(mesh.growth(), 1.0);
+  mesh.moveTo(point);
+  EXPECT_EQ(mesh.rebuilds(), 0U);
+  mesh.moveTo(soup.vertices);
+  EXPECT_EQ(mesh.rebuilds(), 1U);
+  EXPECT_EQ(discrete(mesh), test::touchingPairs(soup.vertices, soup.triangles));
+  mesh.moveTo(point);
+  mesh.moveTo(soup.vertices);
+  EXPECT_EQ(discrete(mesh), test::touchingPairs(soup.vertices, soup.triangles));
+}
+
 TEST(DeformingMesh, CopiesAreTheirOwn) {
   const Soup soup = test::bouncing(0.4, 8);
   DeformingMesh mesh = DeformingMesh::build(soup.vertices, soup.triangles);

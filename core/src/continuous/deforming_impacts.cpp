@@ -9,9 +9,10 @@
 #include "swept/core/continuous/impact.hpp"
 #include "swept/core/triangle_pair.hpp"
 
-/// Two triangles that move linearly and touch at some time, but not at the start, touch first where
-/// a corner of one meets the other, or where two of their edges meet. For at a time at which they
-/// cross otherwise, they would cross just before, too.
+/// Lemma. The distance of two triangles that do not touch is that of a corner of one from the
+/// other, or of two edges: the least of fifteen distances that change continuously in time. So
+/// triangles that do not touch at the start come within a separation >= 0 no earlier than the first
+/// of these does, and not without it: where they first touch, one of the fifteen distances is zero.
 namespace swept {
 
 namespace {
@@ -63,7 +64,7 @@ class ImpactQuery {
   void run();
 
  private:
-  /// In what order pairs are looked at: what touches at the start is the first contact there is.
+  /// First of all, since nothing comes before a contact at the start.
   void lookAtStart();
   void lookAtStep();
   bool done() const { return options_.firstOnly && result_.contactBy <= 0.0; }

@@ -2,6 +2,7 @@
 #include "swept/core/continuous/deforming_mesh.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -125,7 +126,9 @@ std::size_t DeformingMesh::rebuilds() const {
   return data_->rebuilds;
 }
 double DeformingMesh::growth() const {
-  return data_->builtRatio > 0.0 ? data_->areaRatio / data_->builtRatio : 1.0;
+  if (data_->builtRatio > 0.0) return data_->areaRatio / data_->builtRatio;
+  // Built of points alone, so in no order.
+  return data_->areaRatio > 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
 }
 
 }  // namespace swept

@@ -208,7 +208,8 @@ HWY_EXPORT(FindMeetingFeatures);
 
 void findMeetingFeatures(const MovingTree& a, const MovingTree& b, float margin,
                          std::span<const MeetingPair> pairs, std::vector<std::uint16_t>& features) {
-  features.assign(pairs.size(), 0);
+  features.assign(pairs.size(), margin < kMostMargin ? 0 : FeatureBits::kAll);
+  if (!(margin < kMostMargin)) return;
   HWY_DYNAMIC_DISPATCH(FindMeetingFeatures)
   (a, b, margin, pairs.data(), pairs.size(), features.data());
 }

@@ -13,6 +13,7 @@ namespace swept::detail {
 /// edge j of the second, a corner of the first against the second, a corner of the second against
 /// the first.
 struct FeatureBits {
+  static constexpr std::uint16_t kAll = 0x7FFF;
   static constexpr int edges(int i, int j) { return 3 * i + j; }
   static constexpr int firstCorner(int i) { return 9 + i; }
   static constexpr int secondCorner(int j) { return 12 + j; }

@@ -200,7 +200,13 @@ class Finder {
  public:
   Finder(const MovingTree& a, const MovingTree& b, bool same, float margin,
          std::vector<OpenBlocks>& open, std::vector<MeetingPair>& pairs)
-      : a_(a), b_(b), same_(same), margin_(margin), open_(open), pairs_(pairs) {}
+      : a_(a),
+        b_(b),
+        same_(same),
+        margin_(margin),
+        filtered_(margin < kMostMargin),
+        open_(open),
+        pairs_(pairs) {}
 
   void run() {
     const auto top = [](const MovingTree& tree) {
@@ -313,6 +319,10 @@ class Finder {
       std::uint32_t hits = lanesMeet<kEnds>(boxesB, box) & used;
       if (same_) hits = withoutNeighbours(first, i, second, hits);
       if (hits == 0) continue;
+      if (!filtered_) {
+        append(first, i, second, hits);
+        continue;
+      }
       if (!withNormals) prepareNormals<kEnds>(preparedB);
       withNormals = true;
       hits &= ~keptApart(preparedA_, i, preparedB);
@@ -350,6 +360,7 @@ class Finder {
   const MovingTree& b_;
   bool same_;
   float margin_;
+  bool filtered_;
   std::vector<OpenBlocks>& open_;
   std::vector<MeetingPair>& pairs_;
   Prepared preparedA_;

@@ -42,4 +42,8 @@ void findMeetingPairs(const MovingTree& a, const MovingTree& b, bool same, float
 /// comes from needs no proof.
 inline constexpr double kMeetingRounding = 32.0 * 0x1p-24;
 
+/// m. From this margin on, which is where coordinates may exceed 5e17, boxes alone are compared:
+/// products could leave single precision. Below it none does that counts.
+inline constexpr float kMostMargin = 1e12F;
+
 }  // namespace swept::detail

@@ -15,6 +15,7 @@ namespace swept {
 
 /// Triangles whose vertices move: from one frame to the next each goes straight, at constant speed.
 /// Triangles are surfaces here and may be degenerate; nothing is welded, dropped or renumbered.
+/// Coordinates beyond 1e17 m cost time, for single precision tells little there.
 ///
 /// Holds a hierarchy that follows the vertices in linear time, and builds it anew in the rare case
 /// that deformation made its boxes large. Copies are deep.
@@ -117,7 +118,7 @@ class DeformingWorkspace {
 /// Looks for no more than `maxPairs` of them.
 void selfCollide(const DeformingMesh& mesh, const MeshCollisionOptions& options,
                  MeshCollisionResult& result, DeformingWorkspace& workspace);
-/// Which triangles of two meshes touch at the end of their steps.
+/// Which triangles of two meshes touch at the end of their steps. The same mesh twice is one mesh.
 void collide(const DeformingMesh& a, const DeformingMesh& b, const MeshCollisionOptions& options,
              MeshCollisionResult& result, DeformingWorkspace& workspace);
 
