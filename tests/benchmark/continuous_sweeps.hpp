@@ -52,7 +52,7 @@ inline double fastestPoint(const Motion& motion, std::span<const Eigen::Vector3d
       most = std::max(most, (step * point.homogeneous()).squaredNorm());
     before = after;
   }
-  return 1.01 * kParts * std::sqrt(most);
+  return kParts * std::sqrt(most);
 }
 
 struct Answer {

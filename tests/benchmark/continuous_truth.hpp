@@ -17,9 +17,9 @@ struct Probe {
   std::function<bool(const Eigen::Isometry3d&)> touches;
 };
 
-/// Steps of the distance over the speed cannot pass a contact; where the shapes are closer than
-/// `least` (m), steps of that length might pass one that is shallower. The first contact is then
-/// bisected to the last bit of t.
+/// Steps of the distance over the speed, which may be 1 % too low, cannot pass a contact; where the
+/// shapes are closer than `least` (m), steps of that length might pass one that is shallower. The
+/// first contact is then bisected to the last bit of t.
 inline Truth firstContact(const Probe& probe, const Sweep& sweep, double least) {
   const Eigen::Isometry3d still_from_world = sweep.still->at(0.0).inverse();
   const auto pose = [&](double t) { return still_from_world * sweep.motion->at(t); };
@@ -35,7 +35,7 @@ inline Truth firstContact(const Probe& probe, const Sweep& sweep, double least) 
     if (distance <= 0.0 || probe.touches(here)) return bisected(from, t);
     if (t == 1.0) return {false, 1.0, 1.0};
     from = t;
-    t = std::min(1.0, t + std::max(least, distance) / sweep.speed);
+    t = std::min(1.0, t + std::max(least, 0.99 * distance) / sweep.speed);
   }
 }
 
