@@ -16,13 +16,14 @@ using swept::Verdict;
 
 TEST(SweepRefuter, FindsNothingToRefute) {
   CampaignOptions options;
-  options.count = 1500;
+  constexpr int kCount = 12 * kKinds * kKinds;
+  options.count = kCount;
   const CampaignReport report = runCampaign(options);
   std::cout << summary(report) << std::endl;
   for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
   EXPECT_EQ(report.sweeps, options.count);
   // The suite says something only if it has all kinds of sweeps, and close calls.
-  const auto share = [&](std::uint64_t n) { return static_cast<double>(n) / 1500.0; };
+  const auto share = [&](std::uint64_t n) { return static_cast<double>(n) / kCount; };
   EXPECT_GT(share(report.free), 0.3);
   EXPECT_GT(share(report.collision), 0.3);
   EXPECT_LT(share(report.undecided), 0.2);
@@ -34,9 +35,9 @@ TEST(SweepRefuter, FindsNothingToRefute) {
   EXPECT_GT(report.symmetries, 100u);
   for (const std::uint64_t scene : report.scenes) EXPECT_GT(share(scene), 0.05);
   for (const auto& row : report.pairs)
-    for (const std::uint64_t pairs : row) EXPECT_GE(pairs, 7u);
+    for (const std::uint64_t pairs : row) EXPECT_EQ(pairs, 12u);
   for (const auto& row : report.paths)
-    for (const std::uint64_t paths : row) EXPECT_GE(paths, 8u);
+    for (const std::uint64_t paths : row) EXPECT_GE(paths, 20u);
 }
 
 Sweep firstWith(Scene scene, Verdict verdict, ContinuousResult& result) {
