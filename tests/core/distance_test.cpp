@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh_samples.hpp"
 #include "reference_distance.hpp"
 
 namespace {
@@ -257,6 +258,27 @@ TEST(Distance, NonFinitePosesGiveTheWidestInterval) {
   EXPECT_EQ(result.lower, 0.0);
   EXPECT_TRUE(std::isinf(result.upper));
   EXPECT_EQ(swept::collide(Sphere{1.0}, Sphere{1.0}, pose), Contact::Unknown);
+}
+
+/// They cross far away, where a point is known to an ulp of its coordinates.
+TEST(Distance, PlanesThatAreNearlyParallelMeetWhereItSays) {
+  std::mt19937 random(21);
+  for (const double angle : {1e-3, 1e-6, 1e-9, 1e-11, 2e-12}) {
+    for (int i = 0; i < 50; ++i) {
+      const Isometry3d pose = swept::test::randomPose(random, 1.0);
+      const Vector3d normal = swept::test::unitVector(random);
+      const Vector3d tilted = Eigen::AngleAxisd(angle, normal.unitOrthogonal()) *
+                              Vector3d(i % 2 == 0 ? normal : -normal);
+      const swept::Plane a = swept::makePlane(normal, swept::test::uniform(random, -1.0, 1.0));
+      const swept::Plane b = swept::makePlane(pose.linear().transpose() * tilted, 0.3);
+      const swept::DistanceResult found = swept::distance(a, b, pose);
+      ASSERT_EQ(found.upper, 0.0) << angle;
+      const double size = 1.0 + found.pointA.norm();
+      EXPECT_LE(std::abs(a.normal.dot(found.pointA) - a.offset), 1e-14 * size) << angle;
+      const Vector3d inB = pose.inverse() * found.pointB;
+      EXPECT_LE(std::abs(b.normal.dot(inB) - b.offset), 1e-14 * size) << angle;
+    }
+  }
 }
 
 }  // namespace

@@ -101,10 +101,15 @@ Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, doub
   gap.normal = a.size;
   if (a.size.cross(normalB).norm() > kParallel) {
     gap.endless = true;
-    // A point on both boundaries.
-    const double cosine = a.size.dot(normalB);
+    // A point on both boundaries. What is left of nearly parallel normals is mostly rounding, but
+    // each step takes away all but that share of the error.
     const double sineSquared = a.size.cross(normalB).squaredNorm();
-    gap.pointA += ((offsetB - a.offset * cosine) / sineSquared) * (normalB - cosine * a.size);
+    const Vector3d along = (normalB - a.size.dot(normalB) * a.size) / sineSquared;
+    constexpr int kSteps = 5;
+    for (int step = 0; step < kSteps; ++step) {
+      gap.pointA += (offsetB - normalB.dot(gap.pointA)) * along;
+      gap.pointA += (a.offset - a.size.dot(gap.pointA)) * a.size;
+    }
     gap.pointB = gap.pointA;
     gap.common = gap.pointA;
     return gap;
