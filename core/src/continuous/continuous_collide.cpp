@@ -111,7 +111,7 @@ class TimeSearch {
     if (exact && collide(shapeA_, shapeB_, a_from_b) != Contact::Touching) return false;
     DistanceOptions options;
     options.enough = options.contact = options_.margin;
-    options.tolerance = kQueryShare * options_.tolerance;
+    options.tolerance = exact ? 0.0 : kQueryShare * options_.tolerance;
     const DistanceResult found = distance(shapeA_, shapeB_, a_from_b, options);
     if (!exact && !(found.upper <= options_.margin)) return false;
     noteContact(0.0, world_from_a, found.pointA, found.pointB);
@@ -141,7 +141,7 @@ class TimeSearch {
     ++result_.effort.intervals;
     const bool last = isShort(interval.to - interval.from, kInfinity);
     const SliceDescent::Goal goal{options_.margin, kQueryShare * options_.tolerance,
-                                  last ? kInfinity : 0.5 * options_.tolerance};
+                                  last ? kInfinity : options_.tolerance / 3.0};
     SliceDescent descent(a_, b_, slice, goal, open_, result_.effort);
     for (std::size_t i = interval.begin; i < interval.end; ++i) {
       const OpenPair pair = open_[i];
@@ -161,7 +161,8 @@ class TimeSearch {
     if (isShort(interval.to - interval.from, descent.approach())) {
       stopAt(interval.from);
       ++grazed_;
-      return !contact_;
+      // A contact that is known may be long after this.
+      return !contact_ || !waiting_.empty();
     }
     const double proven = std::max(0.0, descent.proven() * slice.half() - kShortest);
     push({slice.middle + proven, interval.to, interval.end, end});
@@ -192,9 +193,10 @@ class TimeSearch {
     if (interval.from < interval.to) waiting_.push_back(interval);
   }
 
-  /// `approach`: m, in half of it.
+  /// `approach`: m, in half of it. The first contact may lie behind the middle of an interval and
+  /// is found in that of the next one then: both together are as long as is asked for.
   bool isShort(double length, double approach) const {
-    return 2.0 * approach <= options_.tolerance || length <= options_.timeTolerance ||
+    return 3.0 * approach <= options_.tolerance || 1.5 * length <= options_.timeTolerance ||
            length <= kShortest;
   }
 
