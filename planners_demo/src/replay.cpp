@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "replay_cases.hpp"
+#include "swept/core/continuous/continuous_collide.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 #include "text_output.hpp"
@@ -25,11 +26,11 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 enum class Result { Passed, Failed, Skipped };
 
 struct Answer {
-  double lower = kNone;  ///< m, none for PairQuery::Collide
-  double upper = kNone;  ///< m
-  double value = kNone;  ///< m; without meaning for PairQuery::Collide
+  double lower = kNone;  ///< m, or t; none for PairQuery::Collide
+  double upper = kNone;  ///< m, or t
+  double value = kNone;  ///< m, or t; without meaning for PairQuery::Collide
   std::string text = "-";
-  double error = kNone;  ///< m; none for PairQuery::Collide
+  double error = kNone;  ///< m, or t; none for PairQuery::Collide
   double seconds = 0.0;
   Result result = Result::Failed;
   std::string reason;
@@ -69,7 +70,7 @@ void answerNumber(const PairQuestion& question, Answer& answer) {
   answer.upper = found.upper;
   answer.value = middle(found);
   answer.text = std::isnan(answer.value) ? "none" : shortNumber(answer.value);
-  answer.error = std::abs(answer.value - question.distance);
+  answer.error = std::abs(answer.value - question.expected);
   const double slack = question.tolerance + kPoseRounding * question.scale;
   if (answer.error <= slack && std::isfinite(slack))
     answer.result = Result::Passed;
@@ -92,6 +93,31 @@ void answerYesOrNo(const PairQuestion& question, Answer& answer) {
     answer.reason = "wrong";
 }
 
+/// The middle of the times between which the first contact is proven to be.
+void answerFirstContact(const PairQuestion& question, Answer& answer) {
+  ContinuousOptions options;
+  options.timeTolerance = question.tolerance;
+  options.tolerance = kPoseRounding * question.scale;
+  const ContinuousResult found =
+      continuousCollide(question.a, question.motions[0], question.b, question.motions[1], options);
+  const bool hit = found.verdict == Verdict::Collision;
+  answer.text = std::string(toString(found.verdict));
+  if (found.verdict == Verdict::Undecided || hit != question.hits) {
+    answer.reason = "wrong";
+    return;
+  }
+  answer.result = Result::Passed;
+  if (!hit) return;
+  answer.lower = found.freeUntil;
+  answer.upper = found.contactBy;
+  answer.value = 0.5 * (found.freeUntil + found.contactBy);
+  answer.text = shortNumber(answer.value);
+  answer.error = std::abs(answer.value - question.expected);
+  if (answer.error <= question.tolerance) return;
+  answer.result = Result::Failed;
+  answer.reason = "off by more than " + shortNumber(question.tolerance);
+}
+
 Answer answerTo(const PairQuestion& question) {
   using Clock = std::chrono::steady_clock;
   Answer answer;
@@ -99,6 +125,8 @@ Answer answerTo(const PairQuestion& question) {
   try {
     if (question.query == PairQuery::Collide)
       answerYesOrNo(question, answer);
+    else if (question.query == PairQuery::FirstContact)
+      answerFirstContact(question, answer);
     else
       answerNumber(question, answer);
   } catch (const std::exception& error) {
@@ -122,7 +150,8 @@ Answer answerTo(const ReplayCase& item) {
 
 std::string expectedText(const ReplayCase& item) {
   if (!item.question) return "-";
-  if (item.question->query != PairQuery::Collide) return shortNumber(item.question->distance);
+  if (item.question->isNumber()) return shortNumber(item.question->expected);
+  if (item.question->query == PairQuery::FirstContact) return std::string(toString(Verdict::Free));
   if (!item.question->hits) return "either";
   return *item.question->hits ? "yes" : "no";
 }
@@ -140,10 +169,10 @@ std::vector<std::string> rowOf(const ReplayCase& item, const Answer& answer) {
 }
 
 Json jsonOf(const ReplayCase& item, const Answer& answer) {
-  const bool number = item.question && item.question->query != PairQuery::Collide;
+  const bool number = item.question && item.question->isNumber();
   Json json = {{"id", item.id}, {"query", item.query}};
   json["answer"] = number ? finiteOrNull(answer.value) : Json(answer.text);
-  json["expected"] = number ? Json(item.question->distance) : Json(expectedText(item));
+  json["expected"] = number ? Json(item.question->expected) : Json(expectedText(item));
   json["error"] = finiteOrNull(answer.error);
   json["lower"] = finiteOrNull(answer.lower);
   json["upper"] = finiteOrNull(answer.upper);

@@ -24,7 +24,23 @@ const std::map<std::string, PairQuery> kQueries = {
     {"contact", PairQuery::SignedDistance},
     {"distance", PairQuery::Distance},
     {"collide", PairQuery::Collide},
+    {"ccd", PairQuery::FirstContact},
 };
+
+using MakeMotion = UniformMotion (*)(const Eigen::Isometry3d&, const Eigen::Isometry3d&);
+const std::map<std::string, MakeMotion> kInterpolations = {
+    {"linear translation, constant rotation",
+     [](const Eigen::Isometry3d& start, const Eigen::Isometry3d& end) {
+       return UniformMotion::translation(start, end.translation() - start.translation());
+     }},
+    {"linear translation, slerp",
+     [](const Eigen::Isometry3d& start, const Eigen::Isometry3d& end) {
+       return UniformMotion::interpolation(start, end);
+     }},
+    {"screw", [](const Eigen::Isometry3d& start, const Eigen::Isometry3d& end) {
+       return UniformMotion::screw(start, end);
+     }}};
+const std::string kStraight = "linear translation, constant rotation";
 
 Eigen::Matrix4d readTransform(const JsonValue& place) {
   Eigen::Matrix4d matrix;
@@ -79,16 +95,46 @@ std::optional<bool> readHits(const JsonValue& expected) {
   return hits;
 }
 
+std::string interpolationOf(const JsonValue& motion) {
+  return motion.has("interpolation") ? motion.at("interpolation").text() : kStraight;
+}
+
+UniformMotion readMotion(const JsonValue& place) {
+  const std::string interpolation = interpolationOf(place);
+  const Eigen::Isometry3d start(readTransform(place.at("start")));
+  const Eigen::Isometry3d end(readTransform(place.at("end")));
+  if (interpolation == kStraight && !start.linear().isApprox(end.linear(), kOrthonormal))
+    place.at("end").fail("turns, which '" + kStraight + "' does not");
+  return kInterpolations.at(interpolation)(start, end);
+}
+
+PairQuestion readFirstContact(const JsonValue& entry) {
+  const auto shapes = entry.at("shapes").elements();
+  PairQuestion question{.query = PairQuery::FirstContact,
+                        .a = readReplayShape(shapes[0]),
+                        .b = readReplayShape(shapes[1])};
+  question.scale = std::max(extent(question.a), extent(question.b));
+  for (const JsonValue& motion : entry.at("motions").elements(2)) {
+    question.motions.push_back(readMotion(motion));
+    for (const double t : {0.0, 1.0})
+      question.scale = std::max(question.scale, question.motions.back().at(t).translation().norm());
+  }
+  const JsonValue expected = entry.at("expected");
+  question.hits = expected.at("collides").boolean();
+  question.tolerance = expected.at("tolerance").notNegative();
+  if (*question.hits) question.expected = expected.at("time_of_contact").notNegative();
+  return question;
+}
+
 PairQuestion readQuestion(PairQuery query, const JsonValue& entry) {
+  if (query == PairQuery::FirstContact) return readFirstContact(entry);
   const auto shapes = entry.at("shapes").elements();
   const auto transforms = entry.at("transforms").elements(2);
   PairQuestion question{
       .query = query,
       .a = readReplayShape(shapes[0]),
       .b = readReplayShape(shapes[1]),
-      .a_from_b = relativePose(readTransform(transforms[0]), readTransform(transforms[1])),
-      .scale = 0.0,
-      .hits = {}};
+      .a_from_b = relativePose(readTransform(transforms[0]), readTransform(transforms[1]))};
   question.scale = std::max(
       {extent(question.a), extent(question.b), question.a_from_b.translation().stableNorm()});
   const JsonValue expected = entry.at("expected");
@@ -97,7 +143,7 @@ PairQuestion readQuestion(PairQuery query, const JsonValue& entry) {
     return question;
   }
   const double distance = expected.at("signed_distance").number();
-  question.distance = query == PairQuery::Distance ? std::max(0.0, distance) : distance;
+  question.expected = query == PairQuery::Distance ? std::max(0.0, distance) : distance;
   question.tolerance = expected.at("tolerance").notNegative();
   return question;
 }
@@ -109,6 +155,11 @@ std::string unsupported(const std::string& query, const JsonValue& entry) {
   for (const JsonValue& shape : shapes) {
     const std::string type = shape.at("type").text();
     if (!isReplayShape(type)) return "shape " + type;
+  }
+  if (kQueries.at(query) != PairQuery::FirstContact) return {};
+  for (const JsonValue& motion : entry.at("motions").elements(2)) {
+    const std::string interpolation = interpolationOf(motion);
+    if (!kInterpolations.contains(interpolation)) return "interpolation " + interpolation;
   }
   return {};
 }

@@ -43,12 +43,15 @@ TEST(Replay, OurCasesPassAndTheUnknownShapeIsSkipped) {
   const Outcome run = runSwept({"replay", kFile});
   EXPECT_EQ(run.exitCode, 0) << run.out;
   EXPECT_EQ(run.err, "");
-  EXPECT_EQ(lastLine(run.out), "16 passed, 0 failed, 1 skipped");
+  EXPECT_EQ(lastLine(run.out), "19 passed, 0 failed, 1 skipped");
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncubes-overlap +penetration +-0.3 +-0.3 .* ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\nball-in-mesh +distance +0 +0 +0 +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncylinders-crossed +collide +yes +yes +- +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\nballs-clear +collide +no +no +- +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncubes-touching +collide .* either +- +ok\n"));
+  EXPECT_THAT(run.out,
+              testing::ContainsRegex("\nball-through-plate +ccd +0.46875 +0.46875 .* ok\n"));
+  EXPECT_THAT(run.out, testing::ContainsRegex("\nballs-that-pass +ccd +free +free +- +ok\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex(
                            "\ntorus +signed_distance +- +- +- +skipped \\(shape torus\\)\n"));
 }
@@ -57,7 +60,7 @@ TEST(Replay, JsonHasIntervalsAroundTheDistancesByHand) {
   const Outcome run = runSwept({"replay", "--json", kFile});
   const json result = jsonOf(run);
   EXPECT_EQ(run.exitCode, 0);
-  EXPECT_EQ(result["passed"], 16);
+  EXPECT_EQ(result["passed"], 19);
   EXPECT_EQ(result["failed"], 0);
   EXPECT_EQ(result["skipped"], 1);
   const std::map<std::string, double> byHand = {
@@ -73,6 +76,8 @@ TEST(Replay, JsonHasIntervalsAroundTheDistancesByHand) {
       {"cylinder-in-ground", 0.75 - 1.0},
       {"ball-over-terrain", 2.0 - 1.0 - 0.25},
       {"box-among-voxels", 1.5 - 0.5},
+      {"ball-through-plate", (8.0 - 0.25 - 0.25) / 16.0},
+      {"bar-turns-into-ground", 1.0 / 3.0},
   };
   std::size_t found = 0;
   for (const json& item : result["cases"]) {
@@ -103,7 +108,7 @@ TEST(Replay, AWrongDistanceFailsAndARightOneWithinToleranceDoesNot) {
     EXPECT_EQ(run.exitCode, wrong ? 1 : 0);
     EXPECT_EQ(run.err, "");
     EXPECT_EQ(lastLine(run.out),
-              wrong ? "15 passed, 1 failed, 1 skipped" : "16 passed, 0 failed, 1 skipped");
+              wrong ? "18 passed, 1 failed, 1 skipped" : "19 passed, 0 failed, 1 skipped");
     if (wrong) {
       EXPECT_THAT(run.out, testing::ContainsRegex(
                                "\ncubes-overlap .* 0.002 +FAILED \\(off by more than 0.001\\)\n"));
@@ -117,9 +122,34 @@ TEST(Replay, AWrongYesOrNoFails) {
   caseOf(file, "balls-clear")["expected"]["collides"] = true;
   const Outcome run = replay(file);
   EXPECT_EQ(run.exitCode, 1);
-  EXPECT_EQ(lastLine(run.out), "14 passed, 2 failed, 1 skipped");
+  EXPECT_EQ(lastLine(run.out), "17 passed, 2 failed, 1 skipped");
   EXPECT_THAT(run.out, testing::ContainsRegex("\ncylinders-crossed .* FAILED \\(wrong\\)\n"));
   EXPECT_THAT(run.out, testing::ContainsRegex("\nballs-clear .* FAILED \\(wrong\\)\n"));
+}
+
+TEST(Replay, AWrongFirstContactFails) {
+  json file = ourCases();
+  caseOf(file, "ball-through-plate")["expected"]["time_of_contact"] = 0.46875 + 2e-9;
+  caseOf(file, "bar-turns-into-ground")["expected"] = {{"collides", false}, {"tolerance", 1e-9}};
+  caseOf(file, "balls-that-pass")["expected"] = {
+      {"collides", true}, {"time_of_contact", 0.5}, {"tolerance", 1e-9}};
+  const Outcome run = replay(file);
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_EQ(lastLine(run.out), "16 passed, 3 failed, 1 skipped") << run.out;
+  EXPECT_THAT(run.out, testing::ContainsRegex(
+                           "\nball-through-plate .* FAILED \\(off by more than 1e-09\\)\n"));
+  EXPECT_THAT(run.out,
+              testing::ContainsRegex(
+                  "\nbar-turns-into-ground +ccd +collision +free +- +FAILED \\(wrong\\)\n"));
+}
+
+TEST(Replay, AnUnknownInterpolationIsSkipped) {
+  json file = ourCases();
+  caseOf(file, "ball-through-plate")["motions"][0]["interpolation"] = "by hand";
+  const Outcome run = replay(file);
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(lastLine(run.out), "18 passed, 0 failed, 2 skipped");
+  EXPECT_THAT(run.out, HasSubstr("skipped (interpolation by hand)"));
 }
 
 TEST(Replay, OverflowIsAFailureAndNotAnAnswer) {
@@ -130,7 +160,7 @@ TEST(Replay, OverflowIsAFailureAndNotAnAnswer) {
   caseOf(file, "cubes-touching")["expected"] = {{"collides", false}};
   const Outcome run = replay(file);
   EXPECT_EQ(run.exitCode, 1);
-  EXPECT_EQ(lastLine(run.out), "14 passed, 2 failed, 1 skipped") << run.out;
+  EXPECT_EQ(lastLine(run.out), "17 passed, 2 failed, 1 skipped") << run.out;
 }
 
 TEST(Replay, PosesFarFromTheOriginKeepTheirDigits) {
@@ -149,15 +179,15 @@ TEST(Replay, ATerrainInWordsIsFlat) {
   json& shape = caseOf(file, "ball-over-terrain")["shapes"][0];
   shape.erase("base");
   shape["heights"] = "flat, all 1, 9x5 samples, base -1";
-  EXPECT_EQ(lastLine(replay(file).out), "16 passed, 0 failed, 1 skipped");
+  EXPECT_EQ(lastLine(replay(file).out), "19 passed, 0 failed, 1 skipped");
   shape["heights"] = "flat, all 0.5, 9x5 samples, base -1";
-  EXPECT_EQ(lastLine(replay(file).out), "15 passed, 1 failed, 1 skipped");
+  EXPECT_EQ(lastLine(replay(file).out), "18 passed, 1 failed, 1 skipped");
 }
 
 TEST(Replay, AHalfSpaceDoesNotMakeEveryAnswerRight) {
   json file = ourCases();
   caseOf(file, "cylinder-in-ground")["expected"]["signed_distance"] = -0.26;
-  EXPECT_EQ(lastLine(replay(file).out), "15 passed, 1 failed, 1 skipped");
+  EXPECT_EQ(lastLine(replay(file).out), "18 passed, 1 failed, 1 skipped");
 }
 
 TEST(Replay, AnUnknownQueryIsSkippedWithoutReadingTheRest) {
@@ -271,6 +301,17 @@ const Broken kBroken[] = {
      "case 'cubes-touching': expected.collides is missing"},
     {"Contradiction", "cylinders-crossed", "/expected/collides", false,
      "case 'cylinders-crossed': expected.collides contradicts the state"},
+    {"NoMotions", "balls-that-pass", "/motions", nullptr,
+     "case 'balls-that-pass': motions must be a list"},
+    {"NoTime",
+     "ball-through-plate",
+     "/expected",
+     {{"collides", true}, {"tolerance", 1}},
+     "case 'ball-through-plate': expected.time_of_contact is missing"},
+    {"TurnsOnAStraightLine", "bar-turns-into-ground", "/motions/1/interpolation",
+     "linear translation, constant rotation",
+     "case 'bar-turns-into-ground': motions[1].end turns, which 'linear translation, constant "
+     "rotation' does not"},
     {"RepeatedId", "cubes-overlap", "/id", "spheres-apart", "cases[1].id repeats 'spheres-apart'"},
     {"IdIsANumber", "cubes-overlap", "/id", 7, "cases[1].id is 7; it must be text"},
 };
