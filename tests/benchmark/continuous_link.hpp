@@ -129,6 +129,9 @@ class LinkPast {
   const std::vector<Sweep>& hits() const { return hits_; }
   const std::vector<Sweep>& free() const { return free_; }
   double apart() const { return apart_; }
+  double distanceAt(const Sweep& sweep, double t) const {
+    return obbRss_.distance(sweep.still->at(0.0).inverse() * sweep.motion->at(t));
+  }
 
   std::vector<Method> methods() {
     const auto sweptAlong = [this](const Sweep& sweep, const Motion& motion) {
@@ -222,7 +225,8 @@ inline int linkPart() {
         for (std::size_t i = 0; i < scores.size(); ++i) {
           names.push_back(results.back()[i].name);
           for (std::size_t k = 0; k < sweeps->size(); ++k)
-            scores[i].add((*sweeps)[k], results.back()[i].answers[k], kLinkTolerance, 1e-6);
+            scores[i].add((*sweeps)[k], results.back()[i].answers[k], kLinkTolerance, 1e-6,
+                          [&](const Sweep& sweep, double t) { return work.distanceAt(sweep, t); });
         }
       }
       const auto both = [&](std::size_t i) {

@@ -148,12 +148,12 @@ class CurvePicture {
     for (const CurvePoint* point : mine) out_ << x(*point) << ',' << y(*point) << ' ';
     out_ << "\"/>\n";
     for (const CurvePoint* point : mine) marker(x(*point), y(*point), colour, point->missed > 0);
-    for (const CurvePoint* point : {mine.front(), mine.back()}) {
-      const std::string fill = std::string("font-size=\"9\" fill=\"") + colour + '"';
-      const bool first = point == mine.front();
-      label(x(*point) + (first ? -6 : 6), y(*point) + (first ? -5 : 12), first ? "end" : "start",
-            point->setting(), fill.c_str());
-    }
+    // Ours from below its line, theirs from above: the upper left ends are often close together.
+    const std::string fill = std::string("font-size=\"9\" fill=\"") + colour + '"';
+    const double above = library == "swept" ? 12.0 : -7.0;
+    label(x(*mine.front()) - 5, y(*mine.front()) + above, "end", mine.front()->setting(),
+          fill.c_str());
+    label(x(*mine.back()) + 6, y(*mine.back()) + 12, "start", mine.back()->setting(), fill.c_str());
   }
 
   void key() {

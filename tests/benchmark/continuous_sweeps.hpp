@@ -72,6 +72,9 @@ inline Answer ask(const Shape& still, const Shape& moving, const Sweep& sweep, d
           result.freeUntil, result.contactBy};
 }
 
+/// m, at a t of a sweep, from elsewhere.
+using DistanceAt = std::function<double(const Sweep&, double)>;
+
 /// How often a method was right.
 struct Score {
   int sweeps = 0;
@@ -83,8 +86,10 @@ struct Score {
 
   int right() const { return sweeps - missed - falseHits - undecided; }
   int wrong() const { return missed + falseHits + undecided + unsound; }
-  /// `slack`: m, how far off the truth may be.
-  void add(const Sweep& sweep, const Answer& answer, double tolerance, double slack) {
+  /// `slack`: m, how far off the truth may be. `distanceAt`, if given, tells of a contact earlier
+  /// than the truth's whether it is one: the truth may have stepped over a shallow graze.
+  void add(const Sweep& sweep, const Answer& answer, double tolerance, double slack,
+           const DistanceAt& distanceAt = {}) {
     ++sweeps;
     const Truth& truth = sweep.truth;
     if (!answer.decided) {
@@ -92,9 +97,10 @@ struct Score {
     } else if (truth.hit != answer.hit) {
       ++(truth.hit ? missed : falseHits);
     } else if (truth.hit) {
+      const bool early = (truth.from - answer.toc) * sweep.speed > slack &&
+                         !(distanceAt && distanceAt(sweep, answer.toc) <= slack);
       late += (answer.toc - truth.toc) * sweep.speed > tolerance + slack;
-      unsound += (answer.freeUntil - truth.toc) * sweep.speed > slack ||
-                 (truth.from - answer.toc) * sweep.speed > slack;
+      unsound += early || (answer.freeUntil - truth.toc) * sweep.speed > slack;
     }
   }
   Score& operator+=(const Score& other) {
