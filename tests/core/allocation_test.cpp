@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "heap_counter.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/contacts.hpp"
 #include "swept/core/continuous/continuous_collide.hpp"
@@ -12,39 +11,6 @@
 #include "swept/core/distance.hpp"
 #include "swept/core/separation.hpp"
 #include "swept/core/signed_distance.hpp"
-
-namespace {
-
-long allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  void* memory = nullptr;
-  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), std::max<std::size_t>(size, 1)))
-    throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
 
 namespace swept {
 namespace {
@@ -78,7 +44,7 @@ TEST(Queries, AllocateNothing) {
   contacts.reserve(1 << 16);
   SeparationQuery query;
   query.approach.travel = 0.05;
-  const long before = allocations;
+  const long before = test::allocations;
   int touching = 0, total = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     for (std::size_t j = 0; j < shapes.size(); ++j) {
@@ -93,7 +59,7 @@ TEST(Queries, AllocateNothing) {
         contacts.clear();
         findContacts(shapes[i], shapes[j], pose, contacts.capacity(), contacts);
       }
-      ASSERT_EQ(allocations, before) << "kinds " << i << " and " << j;
+      ASSERT_EQ(test::allocations, before) << "kinds " << i << " and " << j;
     }
   }
   EXPECT_GT(touching, total / 5);
@@ -125,9 +91,9 @@ TEST(ContinuousCollide, AllocatesNothingTheSecondTime) {
     }
   };
   round();
-  const long before = allocations;
+  const long before = test::allocations;
   round();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, before);
   EXPECT_GT(hits, total / 5);
 }
 

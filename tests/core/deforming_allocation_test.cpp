@@ -1,43 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "deforming_samples.hpp"
-
-namespace {
-
-long allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  void* memory = nullptr;
-  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), std::max<std::size_t>(size, 1)))
-    throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
+#include "heap_counter.hpp"
 
 namespace swept {
 namespace {
@@ -56,7 +21,7 @@ TEST(DeformingMesh, AllocatesNothingOnceItWentThroughItsMotion) {
   std::size_t found = 0;
   long before = 0;
   for (int round = 0; round < 3; ++round) {
-    if (round == 1) before = allocations;
+    if (round == 1) before = test::allocations;
     mesh.place(frames[0]);
     for (int f = 1; f < kFrames; ++f) {
       mesh.moveTo(frames[static_cast<std::size_t>(f)]);
@@ -72,7 +37,7 @@ TEST(DeformingMesh, AllocatesNothingOnceItWentThroughItsMotion) {
       }
     }
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, before);
   EXPECT_EQ(mesh.rebuilds(), 0U);
   EXPECT_GT(found, 1000U);
 }

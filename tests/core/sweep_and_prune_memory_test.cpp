@@ -1,49 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "broadphase_samples.hpp"
+#include "heap_counter.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
-
-namespace {
-
-long allocations = 0;
-long held = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  const std::size_t padded = std::max<std::size_t>(size, 1);
-  void* memory = nullptr;
-  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), padded)) throw std::bad_alloc();
-  held += static_cast<long>(size);
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t size) noexcept {
-  held -= static_cast<long>(size);
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t size, std::align_val_t) noexcept {
-  held -= static_cast<long>(size);
-  std::free(memory);
-}
 
 namespace swept::test {
 namespace {
@@ -120,7 +82,7 @@ TEST(SweepAndPrune, TellsItsMemory) {
   std::mt19937 random(2);
   std::vector<Aabb> boxes;
   for (int i = 0; i < 10'000; ++i) boxes.push_back(evenBox(random, 8.0));
-  const long before = held;
+  const long before = heldBytes;
   SweepAndPrune manager;
   manager.registerBoxes(boxes);
   for (int step = 0; step < 50; ++step) {
@@ -128,7 +90,7 @@ TEST(SweepAndPrune, TellsItsMemory) {
       boxes[i] = shifted(boxes[i], Vector3d(i % 2 == 0 ? 0.01 : -0.01, 0.0, 0.0));
     manager.updateAll(boxes);
   }
-  const auto grown = static_cast<double>(held - before);
+  const auto grown = static_cast<double>(heldBytes - before);
   EXPECT_NEAR(static_cast<double>(manager.bytes()) / grown, 1.0, 0.01);
   EXPECT_LT(static_cast<double>(manager.bytes()) / 10'000.0, 600.0);  // bytes a box
 }

@@ -1,51 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a version of a checker and a workspace take, in KB of heap.
 #include <gtest/gtest.h>
-#include <malloc.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "heap_counter.hpp"
 #include "version_arms.hpp"
-
-namespace {
-
-std::atomic<long> live{0};  ///< bytes
-
-void* counted(std::size_t size, std::size_t alignment) {
-  void* memory = nullptr;
-  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), std::max<std::size_t>(size, 1)))
-    throw std::bad_alloc();
-  live += static_cast<long>(malloc_usable_size(memory));
-  return memory;
-}
-
-void release(void* memory) {
-  live -= static_cast<long>(malloc_usable_size(memory));
-  std::free(memory);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  release(memory);
-}
 
 namespace swept {
 namespace {
@@ -55,9 +13,9 @@ using test::at;
 /// KB that what `make` returns holds, beyond what there was before.
 template <typename Make>
 double kilobytesOf(const std::string& what, const Make& make) {
-  const long before = live;
+  const long before = test::heldBytes;
   const auto made = make();
-  const double kilobytes = static_cast<double>(live - before) / 1024.0;
+  const double kilobytes = static_cast<double>(test::heldBytes - before) / 1024.0;
   testing::Test::RecordProperty(what, std::to_string(kilobytes));
   std::printf("%s: %.1f KB\n", what.c_str(), kilobytes);
   return kilobytes;
@@ -128,9 +86,9 @@ TEST_F(CheckerMemory, ALongLineOfVersionsDoesNotGrow) {
     return with.withoutAttached("gripped").withoutBody(name);
   };
   Checker version = change(*base_, 0);
-  const long before = live;
+  const long before = test::heldBytes;
   for (int i = 0; i < 50; ++i) version = change(version, i);
-  EXPECT_LT(static_cast<double>(live - before) / 1024.0, 16.0);
+  EXPECT_LT(static_cast<double>(test::heldBytes - before) / 1024.0, 16.0);
 }
 
 }  // namespace
