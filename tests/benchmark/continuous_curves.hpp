@@ -65,7 +65,7 @@ class CurveRun {
     const std::vector<Result> results = compete(methods, work_.sweeps, 5);
     const Result& result = results.front();
     point.workload = work_.name;
-    point.library = result.name;
+    point.contestant = result.name;
     point.meanMicroseconds = 1e6 * result.seconds / static_cast<double>(work_.sweeps.size());
     int found = 0;
     for (std::size_t i = 0; i < work_.sweeps.size(); ++i) {
@@ -105,7 +105,7 @@ inline int errorPart(const CurveFiles& files) {
   const MarkdownTable table({"workload", "library", "tolerance, m, or samples", "mean error, m",
                              "largest, m", "mean, us", "missed contacts"});
   for (const CurvePoint& point : points)
-    table.row({point.workload, point.library, point.setting(), number(point.meanError, 2),
+    table.row({point.workload, point.contestant, point.setting(), number(point.meanError, 2),
                number(point.maxError, 2), number(point.meanMicroseconds),
                std::to_string(point.missed)});
   std::printf("\nswept: %d of %d right, %d late by more than the tolerance, %d unsound times\n\n",

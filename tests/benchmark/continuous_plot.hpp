@@ -15,7 +15,7 @@
 namespace swept::benchmark {
 
 struct CurvePoint {
-  std::string workload, library;
+  std::string workload, contestant;
   double tolerance = 0.0;  ///< m; 0 where there are samples instead
   int samples = 0;
   double meanError = 0.0;  ///< m
@@ -38,7 +38,7 @@ inline void writeCurvesCsv(const std::string& file, const std::vector<CurvePoint
   std::ofstream stream = openForWriting(file);
   stream << "workload,library,tolerance_m,samples,mean_error_m,max_error_m,mean_us,missed\n";
   for (const CurvePoint& point : points) {
-    stream << '"' << point.workload << "\"," << point.library << ','
+    stream << '"' << point.workload << "\"," << point.contestant << ','
            << (point.samples > 0 ? "," + point.setting() : point.setting() + ",") << ','
            << number(point.meanError, 6) << ',' << number(point.maxError, 6) << ','
            << number(point.meanMicroseconds, 6) << ',' << point.missed << '\n';
@@ -139,10 +139,10 @@ class CurvePicture {
          << "\" stroke-width=\"1.5\"/>\n";
   }
 
-  void curve(const std::string& workload, const std::string& library, const char* colour) {
+  void curve(const std::string& workload, const std::string& contestant, const char* colour) {
     std::vector<const CurvePoint*> mine;
     for (const CurvePoint& point : points_)
-      if (point.workload == workload && point.library == library) mine.push_back(&point);
+      if (point.workload == workload && point.contestant == contestant) mine.push_back(&point);
     if (mine.empty()) return;
     out_ << "<polyline fill=\"none\" stroke=\"" << colour << "\" stroke-width=\"1.5\" points=\"";
     for (const CurvePoint* point : mine) out_ << x(*point) << ',' << y(*point) << ' ';
@@ -150,7 +150,7 @@ class CurvePicture {
     for (const CurvePoint* point : mine) marker(x(*point), y(*point), colour, point->missed > 0);
     // Ours from below its line, theirs from above: the upper left ends are often close together.
     const std::string fill = std::string("font-size=\"9\" fill=\"") + colour + '"';
-    const double above = library == "swept" ? 12.0 : -7.0;
+    const double above = contestant == "swept" ? 12.0 : -7.0;
     label(x(*mine.front()) - 5, y(*mine.front()) + above, "end", mine.front()->setting(),
           fill.c_str());
     label(x(*mine.back()) + 6, y(*mine.back()) + 12, "start", mine.back()->setting(), fill.c_str());
