@@ -11,9 +11,8 @@ using swept::Verdict;
 
 namespace {
 
-/// Tolerances. An interval as long as one may hold the first contact after its middle: then the
-/// contact is seen at the middle of the next. What comes before, within the tolerance, is added.
-constexpr double kWidth = 1.5 + 1e-6;
+/// Tolerances.
+constexpr double kWidth = 1.0 + 1e-6;
 
 template <typename... Parts>
 std::string text(const Parts&... parts) {
@@ -56,9 +55,7 @@ Judgement Judge::judge(const ContinuousResult& result, Random& random) {
   if (!found_.faults.empty()) return found_;
   checkKnown(result);
   refute(result.verdict == Verdict::Free ? 1.0 : result.freeUntil, random);
-  if (result.verdict == Verdict::Collision && !nearlyParallel(result.contactBy)) {
-    checkWitness(result);
-  }
+  if (result.verdict == Verdict::Collision) checkWitness(result);
   if (result.verdict == Verdict::Undecided) checkUndecided(result, random);
   if (result.verdict != Verdict::Free && decidable(result)) {
     found_.stop = (gapAt(result.freeUntil) - sweep_.options.margin) / sweep_.options.tolerance;
@@ -113,17 +110,10 @@ void Judge::checkKnown(const ContinuousResult& r) {
   found_.width = std::min(time * sweep_.speed / o.tolerance,
                           o.timeTolerance > 0.0 ? time / o.timeTolerance : INFINITY);
   const double rounding = 4.0 * allowance_ * sweep_.speed / (sweep_.closing * o.tolerance);
-  if (*found_.width > kWidth + sweep_.speed / sweep_.closing + rounding) {
+  if (*found_.width > kWidth + rounding) {
     fault(text("straight crossing at ", sweep_.t, " found only between ", r.freeUntil, " and ",
                r.contactBy, ": ", *found_.width, " tolerances"));
   }
-}
-
-/// Of two endless surfaces: where they cross is lost to the rounding of their poses.
-bool Judge::nearlyParallel(double t) const {
-  if (!sweep_.a.flat() || !sweep_.b.flat()) return false;
-  const Vector3d n = relative(sweep_.pathA, sweep_.pathB, t).linear() * sweep_.b.normal;
-  return n.cross(sweep_.a.normal).norm() < 1e-6;
 }
 
 void Judge::checkWitness(const ContinuousResult& r) {

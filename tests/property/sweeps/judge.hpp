@@ -37,7 +37,6 @@ class Judge {
   double gapAt(double t);
   bool within(double t);
   bool decidable(const swept::ContinuousResult& result) const;
-  bool nearlyParallel(double t) const;
   void checkNumbers(const swept::ContinuousResult& result);
   void checkKnown(const swept::ContinuousResult& result);
   void checkWitness(const swept::ContinuousResult& result);
