@@ -50,9 +50,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// In units of t. Shorter intervals have no middle.
 constexpr double kShortest = 1e-15;
 
-/// Enforced cap on the intervals that stay unproven before a contact is looked for no further.
-constexpr int kMaxGrazing = 256;
-
 /// Quick to find, if not the least: what moves node by node has bounds of its own anyway.
 BoundingSphere ballAround(const Side& side, const Shape& shape) {
   if (side.isConvex()) return boundingSphere(shape);
@@ -87,7 +84,7 @@ class TimeSearch {
     while (!waiting_.empty()) {
       const Interval next = waiting_.back();
       waiting_.pop_back();
-      if (result_.effort.intervals >= options_.maxIntervals || grazed_ >= kMaxGrazing) {
+      if (result_.effort.intervals >= options_.maxIntervals || grazed_ >= tolerance::kMaxGrazing) {
         stopAt(next.from);
         break;
       }

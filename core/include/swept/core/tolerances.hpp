@@ -46,6 +46,10 @@ inline constexpr double kLimit = 1e-9;
 /// Enforced cap on the intervals examined in one motion; what is left is Undecided.
 inline constexpr int kMaxIntervals = 1 << 20;
 
+/// Enforced cap on the intervals of continuousCollide() that stay unproven without a contact: what
+/// grazes for longer is Undecided. Larger: more time on such motions.
+inline constexpr int kMaxGrazing = 256;
+
 /// Relative to the largest difference of two coordinates of the features. The least tolerance of
 /// vertexFaceImpact() and edgeEdgeImpact(), far above the few dozen roundings of 1.1e-16 that their
 /// proofs and nearest points lose. Smaller: many more intervals, below 1e-14 Undecided. Larger:

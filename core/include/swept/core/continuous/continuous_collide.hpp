@@ -65,6 +65,9 @@ class ContinuousWorkspace {
 /// most the margin apart at contactBy. What overlaps at t = 0, however deeply, is in contact at 0.
 /// Solids are solids here as in distance().
 ///
+/// Undecided: the shapes come closer than margin + tolerance from freeUntil on, and no contact was
+/// found in kMaxGrazing intervals like that one, or in maxIntervals.
+///
 /// Never throws on finite input; with a pose or option that is not finite the result is Undecided
 /// with freeUntil where that begins.
 ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
