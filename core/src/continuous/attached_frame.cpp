@@ -20,6 +20,11 @@ Twist AttachedFrame::velocity(double t) const {
   return body_.velocity(t);
 }
 
+MotionState AttachedFrame::state(double t) const {
+  const MotionState body = body_.state(t);
+  return {body.pose * body_from_frame_, body.twist};
+}
+
 MotionRates AttachedFrame::rates(double from, double to) const {
   return body_.rates(from, to);
 }

@@ -23,6 +23,11 @@ Twist MotionPart::velocity(double t) const {
   return {length_ * whole.linear, length_ * whole.angular};
 }
 
+MotionState MotionPart::state(double t) const {
+  const MotionState whole = whole_.state(from_ + t * length_);
+  return {whole.pose, {length_ * whole.twist.linear, length_ * whole.twist.angular}};
+}
+
 MotionRates MotionPart::rates(double from, double to) const {
   const MotionRates whole = whole_.rates(from_ + from * length_, from_ + to * length_);
   const double squared = length_ * length_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuous/moving_ball.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -19,43 +20,6 @@ constexpr double kUp = 1.0 + 1e-13;
 /// products.
 constexpr double kVelocityRounding = 1e-13;
 
-/// 0 where either is, even if the other is infinite: a body of any size that does not turn.
-double times(double a, double b) {
-  return a > 0.0 && b > 0.0 ? a * b : 0.0;
-}
-
-/// One of the bodies during an interval, in the world frame.
-struct Body {
-  Isometry3d pose;
-  Twist twist;
-  MotionRates rates;
-  Vector3d reference;         ///< m
-  Vector3d center;            ///< m, of its ball
-  double radius = 0.0;        ///< m, of its ball
-  double speed = 0.0;         ///< m per unit of t, of no point of the ball more
-  double acceleration = 0.0;  ///< m per unit of t squared, of no point of the ball more
-
-  Body(const Motion& motion, const BoundingSphere& ball, double from, double to, double middle)
-      : pose(motion.at(middle)),
-        twist(motion.velocity(middle)),
-        rates(motion.rates(from, to)),
-        reference(pose * motion.reference()),
-        center(pose * ball.center),
-        radius(ball.radius) {
-    const double arm = (center - reference).norm() + radius;
-    speed = (rates.speed + times(rates.angularSpeed, arm)) * kUp;
-    acceleration =
-        (rates.acceleration +
-         times(rates.angularAcceleration + rates.angularSpeed * rates.angularSpeed, arm)) *
-        kUp;
-  }
-  bool isStill() const { return !(rates.speed > 0.0) && !(rates.angularSpeed > 0.0); }
-  /// Of the body's motion, taken on to a point of the world.
-  Vector3d velocityAt(const Vector3d& point) const {
-    return twist.linear + twist.angular.cross(point - reference);
-  }
-};
-
 /// How the two approach, for some observer, in the world frame; see ApproachBound.
 struct Approach {
   Vector3d linear = Vector3d::Zero();
@@ -64,13 +28,13 @@ struct Approach {
   double curvature = 0.0;
   double travel = 0.0;
 
-  double most(const Body& a, const Body& b) const {
+  double most(const MovingBall& a, const MovingBall& b) const {
     return std::min(travel, linear.norm() + times(spinA.norm(), a.radius) +
                                 times(spinB.norm(), b.radius) + curvature);
   }
 };
 
-Approach forTheWorld(const Body& a, const Body& b, double half) {
+Approach forTheWorld(const MovingBall& a, const MovingBall& b, double half) {
   Approach seen;
   seen.linear = half * (b.velocityAt(b.center) - a.velocityAt(a.center));
   seen.spinA = half * a.twist.angular;
@@ -94,7 +58,7 @@ struct Passing {
   double curvature;
   double travel;
 };
-Passing passing(const Body& observer, const Body& other, double half) {
+Passing passing(const MovingBall& observer, const MovingBall& other, double half) {
   const MotionRates& own = observer.rates;
   const Vector3d u = other.velocityAt(other.center) - observer.velocityAt(other.center);
   const Vector3d spin = other.twist.angular - observer.twist.angular;
@@ -113,7 +77,7 @@ Passing passing(const Body& observer, const Body& other, double half) {
 /// The observer who sees the least of a motion proves the most: one body may carry the other about,
 /// and a large one that turns beside a small one sees that move slowly. To one that stands still
 /// the world does.
-Approach least(const Body& a, const Body& b, double half) {
+Approach least(const MovingBall& a, const MovingBall& b, double half) {
   Approach best = forTheWorld(a, b, half);
   const auto keepBetter = [&](const Approach& seen) {
     if (seen.most(a, b) < best.most(a, b)) best = seen;
@@ -131,7 +95,7 @@ Approach least(const Body& a, const Body& b, double half) {
 
 /// m. How far from a body's origin its rounding matters: as far as the body goes, or, where that is
 /// anywhere, as the other.
-double reachOf(const BoundingSphere& ball, const Body& body, const Body& other) {
+double reachOf(const BoundingSphere& ball, const MovingBall& body, const MovingBall& other) {
   if (std::isfinite(ball.radius)) return ball.center.norm() + ball.radius;
   if (!std::isfinite(other.radius)) return ball.center.norm();
   return (other.center - body.pose.translation()).norm() + other.radius;
@@ -149,8 +113,8 @@ MotionSlice RelativeMotion::over(double from, double to, double margin) const {
   slice.to = to;
   slice.middle = from + 0.5 * (to - from);
   const double half = std::max(slice.middle - from, to - slice.middle) * kUp;
-  const Body a(a_, ballA_, from, to, slice.middle);
-  const Body b(b_, ballB_, from, to, slice.middle);
+  const MovingBall a(a_, ballA_, from, to, slice.middle);
+  const MovingBall b(b_, ballB_, from, to, slice.middle);
   slice.world_from_a = a.pose;
   slice.a_from_b = a.pose.inverse() * b.pose;
   slice.finite = slice.world_from_a.matrix().allFinite() && slice.a_from_b.matrix().allFinite();

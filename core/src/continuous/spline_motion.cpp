@@ -58,6 +58,11 @@ Curve derivative(const Curve& curve) {
   return result;
 }
 
+/// NaN if either is: a bound that is not known is none.
+double larger(double a, double b) {
+  return a > b || std::isnan(a) ? a : b;
+}
+
 /// The longest vectors of a curve's control polygon: no vector of the curve is longer.
 struct Longest {
   double position = 0.0;
@@ -66,8 +71,8 @@ struct Longest {
 Longest longest(const Curve& curve) {
   Longest most;
   for (int i = 0; i <= curve.degree; ++i) {
-    most.position = std::max(most.position, curve.control[i].position.norm());
-    most.rotation = std::max(most.rotation, curve.control[i].rotation.norm());
+    most.position = larger(most.position, curve.control[i].position.norm());
+    most.rotation = larger(most.rotation, curve.control[i].rotation.norm());
   }
   return most;
 }
@@ -221,10 +226,10 @@ MotionRates SplineMotion::rates(double from, double to) const {
     const Curve rate = derivative(curveOf(control_, degree_, span));
     const Longest speed = longestWithin(rate, begin, end);
     const Longest change = longestWithin(derivative(rate), begin, end);
-    most.speed = std::max(most.speed, speed.position);
-    most.acceleration = std::max(most.acceleration, change.position);
-    turnRate = std::max(turnRate, speed.rotation);
-    turnChange = std::max(turnChange, change.rotation);
+    most.speed = larger(most.speed, speed.position);
+    most.acceleration = larger(most.acceleration, change.position);
+    turnRate = larger(turnRate, speed.rotation);
+    turnChange = larger(turnChange, change.rotation);
   }
   const double scale = spans_ * (1.0 + 1e-12), squared = scale * scale;
   most.speed *= scale;

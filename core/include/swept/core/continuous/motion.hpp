@@ -13,6 +13,12 @@ struct Twist {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad, world frame
 };
 
+/// Where a body is and how it moves at one t.
+struct MotionState {
+  Eigen::Isometry3d pose;  ///< world_from_body
+  Twist twist;
+};
+
 /// What the velocities of a body do not exceed during an interval, per unit of t.
 struct MotionRates {
   double speed = 0.0;                ///< m, of the reference point
@@ -51,6 +57,8 @@ class Motion {
   /// world_from_body. A non-finite t gives a non-finite pose.
   virtual Eigen::Isometry3d at(double t) const = 0;
   virtual Twist velocity(double t) const = 0;
+  /// Both at once, for motions to which that is less work.
+  virtual MotionState state(double t) const { return {at(t), velocity(t)}; }
   /// Upper bounds over [from, to].
   virtual MotionRates rates(double from, double to) const = 0;
 

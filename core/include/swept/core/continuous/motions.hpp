@@ -91,6 +91,7 @@ class MotionPart : public Motion {
 
   Eigen::Isometry3d at(double t) const override;
   Twist velocity(double t) const override;
+  MotionState state(double t) const override;
   MotionRates rates(double from, double to) const override;
   double rounding(double reach) const override;
 
@@ -109,6 +110,7 @@ class AttachedFrame : public Motion {
 
   Eigen::Isometry3d at(double t) const override;
   Twist velocity(double t) const override;
+  MotionState state(double t) const override;
   MotionRates rates(double from, double to) const override;
   double rounding(double reach) const override;
 
