@@ -42,6 +42,36 @@ TEST_P(LinkMotions, ArePlacedAsTheOracleSays) {
   }
 }
 
+/// All but one joint of the group stand still, before the one that moves, after it, or both.
+TEST_P(LinkMotions, OfOneJointArePlacedAsTheOracleSays) {
+  const Scenario s = scenario();
+  RandomMotions motions(s, 17, 1.0);
+  std::mt19937_64 random(3);
+  const auto& arm = s.oracle->arm();
+  int moved = 0;
+  std::vector<Eigen::Isometry3d> poses;
+  for (int i = 0; i < 200; ++i) {
+    const auto [from, other] = motions.next();
+    auto to = from;
+    const size_t chosen = random() % to.size();
+    to[chosen] = other[chosen];
+    const auto& link = arm.links()[random() % arm.links().size()];
+    const LinkMotion motion(s.checker->robot(), s.group, link.name, s.groupOf(from), s.groupOf(to));
+    for (const double t : {0.0, 0.3, 1.0}) {
+      arm.poses(arm.between(from, to, t), poses);
+      const auto& expected = poses[static_cast<size_t>(arm.link(link.name))];
+      EXPECT_LT((motion.at(t).matrix() - expected.matrix()).cwiseAbs().maxCoeff(), 1e-10)
+          << link.name << " at " << t;
+      const swept::MotionState state = motion.state(t);
+      EXPECT_EQ(state.pose.matrix(), motion.at(t).matrix());
+      EXPECT_EQ(state.twist.linear, motion.velocity(t).linear);
+      EXPECT_EQ(state.twist.angular, motion.velocity(t).angular);
+    }
+    moved += motion.rates(0, 1).speed > 0 || motion.rates(0, 1).angularSpeed > 0;
+  }
+  EXPECT_GT(moved, 40);
+}
+
 /// Velocities are the derivatives of the poses, and the rates bound both, not by much more than the
 /// arms' folding explains.
 TEST_P(LinkMotions, HaveTheirVelocitiesAndRates) {

@@ -14,11 +14,13 @@ namespace swept {
 
 namespace detail {
 
-/// The joints between the model frame and a link, in motion.
+/// The joints between the model frame and a link that move; those that stand still are part of the
+/// frames between them.
 struct LinkPath {
   std::vector<MovingBody> bodies;  ///< from the model frame to the link
   std::vector<JointMotion> joints;
-  Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();  ///< of the last body
+  std::size_t length = 0;  ///< joints, with those that stand still
   MotionRates rates;
   double reach = 0.0;    ///< m, of the link's origin from the model frame's
   double perUnit = 0.0;  ///< 1 + the sum of the joints' rates, rad and m per unit of t
@@ -39,6 +41,7 @@ namespace {
 using detail::JointMotion;
 using detail::KinematicModel;
 using detail::LinkPath;
+using detail::MovingBody;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
@@ -102,25 +105,39 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
                                                      path->body_from_link.translation(), 0.0);
   path->reach = levers.reach;
   path->perUnit = 1.0;
-  for (const int body : levers.path) {
-    const JointMotion& joint = motion[static_cast<std::size_t>(body)];
-    path->bodies.push_back(kinematics.bodies[static_cast<std::size_t>(body)]);
-    path->joints.push_back(joint);
+  path->length = levers.path.size();
+  detail::BodyState still;  // since the last joint that moves
+  for (const int member : levers.path) {
+    MovingBody body = kinematics.bodies[static_cast<std::size_t>(member)];
+    const JointMotion& joint = motion[static_cast<std::size_t>(member)];
     path->reach += joint.wander;
+    if (joint.speed == 0.0 && joint.spinSpeed == 0.0) {
+      still = detail::bodyAt(body, joint, 0.0, still);
+      continue;
+    }
+    body.parent_from_joint = still.world_from_body * body.parent_from_joint;
+    still = {};
+    path->bodies.push_back(body);
+    path->joints.push_back(joint);
     path->perUnit += joint.speed + joint.spinSpeed;
   }
+  path->body_from_link = still.world_from_body * path->body_from_link;
   path->rates = ratesOf(kinematics, levers, motion);
   path_ = std::move(path);
 }
 
 Isometry3d LinkMotion::at(double t) const {
-  return path_->at(t).world_from_body * path_->body_from_link;
+  return state(t).pose;
 }
 
 Twist LinkMotion::velocity(double t) const {
-  const detail::BodyState state = path_->at(t);
-  const Vector3d origin = state.world_from_body * path_->body_from_link.translation();
-  return {state.linear + state.angular.cross(origin), state.angular};
+  return state(t).twist;
+}
+
+MotionState LinkMotion::state(double t) const {
+  const detail::BodyState body = path_->at(t);
+  const Isometry3d pose = body.world_from_body * path_->body_from_link;
+  return {pose, {body.linear + body.angular.cross(pose.translation()), body.angular}};
 }
 
 MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
@@ -128,7 +145,7 @@ MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
 }
 
 double LinkMotion::rounding(double reach) const {
-  const double joints = static_cast<double>(path_->bodies.size() + 2);
+  const double joints = static_cast<double>(path_->length + 2);
   return tolerance::kRoundingPerJoint * joints * path_->perUnit * (path_->reach + reach);
 }
 

@@ -32,6 +32,7 @@ class LinkMotion : public Motion {
 
   Eigen::Isometry3d at(double t) const override;
   Twist velocity(double t) const override;
+  MotionState state(double t) const override;
   /// The same for any part of the motion.
   MotionRates rates(double from, double to) const override;
   double rounding(double reach) const override;
