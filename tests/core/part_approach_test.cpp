@@ -75,6 +75,7 @@ OrientedBox randomBox(std::mt19937& random, double far) {
 /// corner is looked at.
 TEST(PartApproach, IsTheFastestApproachOfTheCorners) {
   std::mt19937 random(3);
+  int oneWay = 0;
   for (int i = 0; i < 3000; ++i) {
     const Screwing moveA{randomPose(random, 2.0), uniformPoint(random, 0.1),
                          uniform(random, 0.0, 0.5) * unitVector(random)};
@@ -91,7 +92,7 @@ TEST(PartApproach, IsTheFastestApproachOfTheCorners) {
     const PartApproach approach(whole, partA, partB);
     const Vector3d n = unitVector(random);
     const Vector3d inWorld = moveA.middle.linear() * n;
-    double fastest = 0.0;
+    double fastest = 0.0, nearing = 0.0, receding = 0.0;
     for (int corners = 0; corners < 64; ++corners) {
       const auto corner = [&](const OrientedBox& box, int bits) {
         Vector3d p = box.center;
@@ -104,12 +105,24 @@ TEST(PartApproach, IsTheFastestApproachOfTheCorners) {
       const Vector3d relative = moveB.velocityOf(corner(boxB, corners >> 3)) -
                                 moveA.velocityOf(corner(boxA, corners & 7));
       fastest = std::max(fastest, std::abs(inWorld.dot(relative)));
+      nearing = std::max(nearing, -inWorld.dot(relative));
+      receding = std::max(receding, inWorld.dot(relative));
     }
+    const PartApproach::Loss loss = approach.lossAlong(n);
+    const auto isLost = [&](double lost, double speed) {
+      const double alone = lost - whole.curvature;
+      return speed > 0.0 ? alone >= speed && alone <= speed + 1e-5 : alone <= 1e-5;
+    };
+    ASSERT_TRUE(isLost(loss.after, nearing)) << loss.after << ' ' << nearing;
+    ASSERT_TRUE(isLost(loss.before, receding)) << loss.before << ' ' << receding;
+    ASSERT_EQ(std::max(loss.before, loss.after) + whole.required, approach.along(n));
+    oneWay += nearing == 0.0 || receding == 0.0;
     const double bound = approach.along(n) - whole.required - whole.curvature;
     ASSERT_GE(bound, fastest);
     ASSERT_LE(bound, fastest + 1e-5);
     ASSERT_GE(approach.most(), approach.along(n));
   }
+  EXPECT_GT(oneWay, 50);
 }
 
 TEST(PartApproach, WithoutNumbersOnlyTheTravelCounts) {

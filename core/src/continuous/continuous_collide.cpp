@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "continuous/leaf_contact.hpp"
 #include "continuous/relative_motion.hpp"
 #include "continuous/slice_descent.hpp"
 #include "narrowphase/convex_pair.hpp"
@@ -36,6 +37,7 @@ ContinuousWorkspace::~ContinuousWorkspace() = default;
 
 namespace {
 
+using detail::LeafContact;
 using detail::MotionSlice;
 using detail::OpenPair;
 using detail::Side;
@@ -46,6 +48,10 @@ using Eigen::Isometry3d;
 constexpr double kQueryShare = 1.0 / 16.0;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Contacts are looked for as exactly as this share of the tolerance: an interval before one that
+/// is as long as that is short (less than two thirds; see isShort()).
+constexpr double kContactShare = 0.6;
 
 /// In units of t. Shorter intervals have no middle.
 constexpr double kShortest = 1e-15;
@@ -73,6 +79,7 @@ class TimeSearch {
         motionB_(motionB),
         motion_(ballAround(a_, a), motionA, ballAround(b_, b), motionB),
         options_(options),
+        leaves_(a_, b_, motion_, options.margin, kQueryShare * options.tolerance),
         open_(data.open),
         waiting_(data.waiting) {}
 
@@ -88,12 +95,14 @@ class TimeSearch {
         stopAt(next.from);
         break;
       }
-      if (!examine(next)) break;
+      examine(next);
     }
-    result_.freeUntil = std::min(result_.freeUntil, firstUnproven_);
-    const bool all = !contact_ && firstUnproven_ > 1.0;
-    if (contact_) result_.verdict = Verdict::Collision;
-    if (all) result_.verdict = Verdict::Free;
+    result_.freeUntil = std::min(firstUnproven_, result_.contactBy);
+    if (contact_) {
+      result_.verdict = Verdict::Collision;
+    } else if (firstUnproven_ > 1.0) {
+      result_.verdict = Verdict::Free;
+    }
     return result_;
   }
 
@@ -126,14 +135,13 @@ class TimeSearch {
 
   void stopAt(double t) { firstUnproven_ = std::min(firstUnproven_, t); }
 
-  /// False: nothing more to find out.
-  bool examine(const Interval& interval) {
+  void examine(const Interval& interval) {
     open_.resize(interval.end);
-    result_.freeUntil = interval.from;
     const MotionSlice slice = motion_.over(interval.from, interval.to, options_.margin);
     if (!slice.finite) {
       stopAt(interval.from);
-      return false;
+      waiting_.clear();
+      return;
     }
     ++result_.effort.intervals;
     const bool last = isShort(interval.to - interval.from, kInfinity);
@@ -144,46 +152,77 @@ class TimeSearch {
       const OpenPair pair = open_[i];
       descent.look(pair);
     }
-    const std::size_t end = open_.size();
     if (descent.contact()) {
       noteContact(slice.middle, slice.world_from_a, descent.contact()->pointA,
                   descent.contact()->pointB);
-      waiting_.clear();
-      return bracket(interval.from, slice, descent.approach(), interval.end, end);
+      bracket(interval, slice, descent);
+    } else if (open_.size() > interval.end) {
+      divide(interval, slice, descent);
     }
-    if (end == interval.end) {
-      result_.freeUntil = interval.to;
-      return true;
+  }
+
+  /// After a contact at the middle: looks for an earlier one.
+  void bracket(const Interval& interval, const MotionSlice& slice, const SliceDescent& descent) {
+    waiting_.clear();
+    // The approach shrinks with the interval at least in proportion.
+    if (isShort(slice.middle - interval.from, 0.5 * descent.approach())) {
+      stopAt(interval.from);
+      return;
     }
+    LeafContact::Range range = rangeOf(slice, descent);
+    range.from = interval.from;
+    range.to = slice.middle;
+    range.touching = true;
+    lookForContact(open_[interval.end], range);
+    push({interval.from, result_.contactBy, interval.end, open_.size()});
+  }
+
+  /// Goes on with what is not proven of an interval.
+  void divide(const Interval& interval, const MotionSlice& slice, const SliceDescent& descent) {
     if (isShort(interval.to - interval.from, descent.approach())) {
       stopAt(interval.from);
       ++grazed_;
-      // A contact that is known may be long after this.
-      return !contact_ || !waiting_.empty();
+      return;
     }
-    const double proven = std::max(0.0, descent.proven() * slice.half() - kShortest);
-    push({slice.middle + proven, interval.to, interval.end, end});
-    push({interval.from, slice.middle - proven, interval.end, end});
-    return true;
+    const SliceDescent::Proven& proven = descent.proven();
+    Interval before = interval, after = interval;
+    before.begin = after.begin = interval.end;
+    before.end = after.end = open_.size();
+    const double half = slice.half(), middle = slice.middle;
+    before.to = proven.before < 1.0 ? std::min(middle, middle - proven.before * half + kShortest)
+                                    : before.from;
+    after.from =
+        proven.after < 1.0 ? std::max(middle, middle + proven.after * half - kShortest) : after.to;
+    // Of an interval that ends with a contact the pair is known.
+    const bool ends = contact_ && interval.to == result_.contactBy;
+    if (descent.nearest() && !ends && proven.after > 0.0) {
+      LeafContact::Range range = rangeOf(slice, descent);
+      range.from = after.from;
+      range.to = after.to;
+      if (lookForContact(*descent.nearest(), range)) {
+        waiting_.clear();
+        after.to = result_.contactBy;
+      }
+    }
+    push(after);
+    push(before);
   }
 
-  /// Looks for an earlier contact than that at the middle of a slice. What is proven before ends,
-  /// as a rule, just before the first contact, because it was found by the gap and the speed there:
-  /// a short interval comes first.
-  bool bracket(double from, const MotionSlice& slice, double approach, std::size_t begin,
-               std::size_t end) {
-    const double length = slice.middle - from;
-    // The approach shrinks with the interval at least in proportion.
-    if (isShort(length, 0.5 * approach)) {
-      stopAt(from);
-      return false;
-    }
-    const double few =
-        4.0 * std::max(length * options_.tolerance / approach, options_.timeTolerance);
-    const double cut = few < 0.25 * length ? from + few : from;
-    push({cut, slice.middle, begin, end});
-    push({from, cut, begin, end});
-    return true;
+  LeafContact::Range rangeOf(const MotionSlice& slice, const SliceDescent& descent) const {
+    LeafContact::Range range;
+    const double half = slice.half();
+    range.resolution =
+        std::max(kContactShare * std::max(options_.tolerance * half / descent.approach(),
+                                          options_.timeTolerance),
+                 kShortest);
+    range.bend = slice.approach.curvature / (half * half);
+    return range;
+  }
+
+  bool lookForContact(const OpenPair& pair, const LeafContact::Range& range) {
+    const std::optional<LeafContact::Found> found = leaves_.find(pair, range, result_.effort);
+    if (found) noteContact(found->t, found->world_from_a, found->pointA, found->pointB);
+    return found.has_value();
   }
 
   void push(const Interval& interval) {
@@ -205,6 +244,7 @@ class TimeSearch {
   const Motion& motionB_;
   const detail::RelativeMotion motion_;
   const ContinuousOptions& options_;
+  const LeafContact leaves_;
   std::vector<OpenPair>& open_;
   std::vector<Interval>& waiting_;
   ContinuousResult result_;

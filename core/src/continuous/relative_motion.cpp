@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 /// Relative: the sums and products of norms below are of fewer than fifty terms, none negative.
 constexpr double kUp = 1.0 + 1e-13;
 /// Relative: velocities and what is made of them here, as vectors, are sums of fewer than fifty
-/// products.
-constexpr double kVelocityRounding = 1e-13;
+/// products; and half an interval, which they are multiplied by, is rounded up by kUp.
+constexpr double kVelocityRounding = 2e-13;
 
 /// How the two approach, for some observer, in the world frame; see ApproachBound.
 struct Approach {
@@ -137,6 +137,21 @@ MotionSlice RelativeMotion::over(double from, double to, double margin) const {
   bound.required = margin + (1.0 + half) * poses + product +
                    (std::isfinite(moved) ? kVelocityRounding * moved : 0.0);
   return slice;
+}
+
+RelativeState RelativeMotion::at(double t) const {
+  const MotionState a = a_.state(t), b = b_.state(t);
+  const Eigen::Matrix3d a_from_world = a.pose.linear().transpose();
+  const Vector3d origin = a.pose.translation();
+  const auto atOrigin = [&](const MotionState& body, const Vector3d& reference) {
+    return Vector3d(body.twist.linear + body.twist.angular.cross(origin - body.pose * reference));
+  };
+  RelativeState state;
+  state.world_from_a = a.pose;
+  state.a_from_b = a.pose.inverse() * b.pose;
+  state.velocity = a_from_world * (atOrigin(b, b_.reference()) - atOrigin(a, a_.reference()));
+  state.spin = a_from_world * (b.twist.angular - a.twist.angular);
+  return state;
 }
 
 }  // namespace swept::detail

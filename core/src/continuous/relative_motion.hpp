@@ -19,6 +19,20 @@ struct MotionSlice {
   double half() const { return 0.5 * (to - from); }
 };
 
+/// Where two bodies are at one t, and how they move.
+struct RelativeState {
+  Eigen::Isometry3d world_from_a;
+  Eigen::Isometry3d a_from_b;
+  Eigen::Vector3d velocity;  ///< m per unit of t, a's frame: of b past a's origin
+  Eigen::Vector3d spin;      ///< rad per unit of t, a's frame: of b about a
+
+  /// m per unit of t. How fast b comes closer to a against `normal` (from a to b), at a point of
+  /// both (a's frame).
+  double closing(const Eigen::Vector3d& normal, const Eigen::Vector3d& point) const {
+    return -normal.dot(velocity + spin.cross(point));
+  }
+};
+
 /// Two bodies, each in a ball of its own frame, that move on a common clock.
 class RelativeMotion {
  public:
@@ -28,6 +42,7 @@ class RelativeMotion {
 
   /// `margin`: m, what the bodies have to keep.
   MotionSlice over(double from, double to, double margin) const;
+  RelativeState at(double t) const;
 
  private:
   const Motion& a_;

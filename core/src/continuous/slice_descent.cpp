@@ -16,8 +16,11 @@ using Eigen::Vector3d;
 
 /// No unit. Pieces that approach by more than this share of their size are left to shorter
 /// intervals. On the piano in the apartment (Pan, Chitta, Manocha 2012) half and twice this take
-/// 1.4 and 1.1 times as long, and one 20 times.
-constexpr double kFast = 1.0 / 16.0;
+/// 1.36 and 1.14 times as long.
+constexpr double kFast = 1.0 / 32.0;
+
+/// No unit. Of how far whole bodies approach: accuracy of the distance of their hulls.
+constexpr double kHullAccuracy = 0.1;
 
 double diameterOf(const Piece& piece) {
   const auto& half = piece.box.half;
@@ -47,26 +50,44 @@ void SliceDescent::look(const OpenPair& pair) {
   }
   const Part a = part(true, pieces_.piece(true, pair.placeA));
   const Part b = part(false, pieces_.piece(false, pair.placeB));
-  Vector3d direction = Vector3d::Zero();
+  Known known{pair.direction.cast<double>()};
   if (!a.piece.isLeaf() || !b.piece.isLeaf()) {
     const PartApproach approach(slice_.approach, a.motion, b.motion);
     const bool roots = pair.placeA < 0 && pair.placeB < 0;
-    if (roots && areHullsApart(approach)) return;
+    if (roots && areHullsApart(approach, known)) return;
     // Children are looked at together; what would be left again may well be far away by now.
     const bool ofA = !a.piece.isLeaf();
     if (!roots && isTooFast(a, b, approach) &&
-        areBoxesApart(ofA ? a : b, ofA, ofA ? b : a, approach, direction)) {
+        areBoxesApart(ofA ? a : b, ofA, ofA ? b : a, approach, known)) {
       return;
     }
   }
-  descend(a, b, direction);
+  descend(a, b, known);
 }
 
-bool SliceDescent::areHullsApart(const PartApproach& approach) {
+// Lemma: what the interval takes away from a separation shrinks with it at least in proportion. A
+// gap along n that exceeds `required` and a share s of the loss is therefore enough for the share s
+// of half the interval.
+SliceDescent::Proven SliceDescent::provenBy(double gap, const Vector3d& n,
+                                            const PartApproach& approach) const {
+  const double required = slice_.approach.required;
+  if (!(gap > required)) return {0.0, 0.0};
+  const PartApproach::Loss loss = approach.lossAlong(n);
+  const auto share = [&](double lost) {
+    return gap > required + lost ? 1.0 : std::min(1.0, (gap - required) / lost) * (1.0 - 1e-12);
+  };
+  return {share(loss.before), share(loss.after)};
+}
+
+// Without a guess: hulls that overlap, whose direction says nothing, are many.
+bool SliceDescent::areHullsApart(const PartApproach& approach, Known& known) {
   ++effort_.leafTests;
-  return convexPair(a_.around(), b_.around(), slice_.a_from_b, Vector3d::Zero(),
-                    detail::Goal(approach), goal_.margin, goal_.accuracy, GjkMode::BoundOnly)
-      .satisfied;
+  const double accuracy = std::max(goal_.accuracy, kHullAccuracy * approach.most());
+  const GjkResult found =
+      convexPair(a_.around(), b_.around(), slice_.a_from_b, Vector3d::Zero(),
+                 detail::Goal(approach), goal_.margin, accuracy, GjkMode::Exact);
+  known = {found.normal, provenBy(found.lower, found.normal, approach)};
+  return found.satisfied;
 }
 
 /// Whether shorter intervals prove more than smaller pieces: those of the larger node, which is
@@ -82,22 +103,26 @@ bool SliceDescent::isTooFast(const Part& a, const Part& b, const PartApproach& a
   return moved > std::max(kFast * diameter, goal_.divideBelow);
 }
 
-void SliceDescent::leaveOpen(const Piece& a, const Piece& b, double proven, double approach) {
-  open_.push_back({a.place, b.place});
-  proven_ = std::min(proven_, proven);
+void SliceDescent::leaveOpen(const Part& a, const Part& b, const Known& known, double approach) {
+  open_.push_back({a.piece.place, b.piece.place, known.direction.cast<float>()});
   approach_ = std::max(approach_, approach);
+  proven_.before = std::min(proven_.before, known.proven.before);
+  if (!(known.proven.after < proven_.after)) return;
+  proven_.after = known.proven.after;
+  nearest_.reset();
+  if (a.piece.isLeaf() && b.piece.isLeaf()) nearest_ = open_.back();
 }
 
-void SliceDescent::descend(const Part& a, const Part& b, const Vector3d& guess) {
+void SliceDescent::descend(const Part& a, const Part& b, const Known& known) {
   const PartApproach approach(slice_.approach, a.motion, b.motion);
   const bool whole = a.piece.isWhole() && b.piece.isWhole();
   if (!whole && isTooFast(a, b, approach)) {
-    leaveOpen(a.piece, b.piece, 0.0, approach.most() - slice_.approach.required);
+    leaveOpen(a, b, known, approach.most() - slice_.approach.required);
   } else if (a.piece.isLeaf() && b.piece.isLeaf()) {
-    testLeaves(a, b, approach, guess);
+    testLeaves(a, b, approach, known.direction);
   } else {
     const PiecePair::Split split = pieces_.split(a.piece, b.piece);
-    descendInto(split, split.ofA ? b : a, approach.most(), guess);
+    descendInto(split, split.ofA ? b : a, approach.most(), known.direction);
   }
 }
 
@@ -123,27 +148,24 @@ void SliceDescent::descendInto(const PiecePair::Split& split, const Part& other,
       continue;
     }
     const Part child = part(split.ofA, piece);
-    Vector3d direction = guess;
+    Known known{guess};
     const Part &a = split.ofA ? child : other, &b = split.ofA ? other : child;
     const PartApproach approach(slice_.approach, a.motion, b.motion);
     if (lower[lane] > approach.most()) continue;
-    if (lower[lane] > 0.0F && areBoxesApart(child, split.ofA, other, approach, direction)) continue;
-    descend(a, b, direction);
+    if (lower[lane] > 0.0F && areBoxesApart(child, split.ofA, other, approach, known)) continue;
+    descend(a, b, known);
   }
 }
 
-/// Along the best of the boxes' own axes, which `direction` receives (from a to b).
+/// Along the best of the boxes' own axes.
 bool SliceDescent::areBoxesApart(const Part& child, bool ofA, const Part& other,
-                                 const PartApproach& approach, Vector3d& direction) const {
+                                 const PartApproach& approach, Known& known) const {
   const BoxGap gap = pieces_.gap(child.piece, ofA, other.piece);
   if (!(gap.value > 0.0)) return false;
-  direction = gap.direction;
-  return gap.value > approach.along(direction);
+  known = {gap.direction, provenBy(gap.value, gap.direction, approach)};
+  return gap.value > approach.along(gap.direction);
 }
 
-// Lemma: what PartApproach adds to `required` shrinks with the interval at least in proportion. A
-// gap along n that exceeds `required` and a share s of the rest is therefore enough for the share s
-// of the interval around its middle.
 void SliceDescent::testLeaves(const Part& a, const Part& b, const PartApproach& approach,
                               const Vector3d& guess) {
   ++effort_.leafTests;
@@ -153,11 +175,8 @@ void SliceDescent::testLeaves(const Part& a, const Part& b, const PartApproach& 
       convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, detail::Goal(approach), goal_.margin,
                  goal_.accuracy, GjkMode::Exact);
   if (found.satisfied) return;
-  const double required = slice_.approach.required;
-  const double rest = approach.along(found.normal) - required;
-  const double spare = found.lower - required;
-  leaveOpen(a.piece, b.piece, spare > 0.0 && rest > spare ? spare / rest * (1.0 - 1e-12) : 0.0,
-            approach.most() - required);
+  leaveOpen(a, b, {found.normal, provenBy(found.lower, found.normal, approach)},
+            approach.most() - slice_.approach.required);
   if (!(found.upper <= goal_.margin)) return;
   contact_ = Contact{found.pointA + leaves.centerA, found.pointB + leaves.centerA};
   std::swap(open_[begin_], open_.back());

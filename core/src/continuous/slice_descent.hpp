@@ -16,6 +16,8 @@ namespace swept::detail {
 struct OpenPair {
   int placeA = -1;
   int placeB = -1;
+  /// From a to b, a's frame: the best direction known, if not zero.
+  Eigen::Vector3f direction = Eigen::Vector3f::Zero();
 };
 
 /// Looks at pairs of pieces during one interval of a motion: each is proven apart for all of it,
@@ -40,6 +42,12 @@ class SliceDescent {
 
   void look(const OpenPair& pair);
 
+  /// Of half the interval, before its middle and after: for how much of it pairs are apart.
+  struct Proven {
+    double before = 1.0;
+    double after = 1.0;
+  };
+
   /// Two points (m, a's frame) at most the margin apart at the middle. Pairs looked at afterwards
   /// are put on the list as they are; the pair in contact comes first of those added.
   struct Contact {
@@ -47,10 +55,12 @@ class SliceDescent {
     Eigen::Vector3d pointB;
   };
   const std::optional<Contact>& contact() const { return contact_; }
-  /// All pairs are apart during this share of the interval around its middle.
-  double proven() const { return proven_; }
+  /// What is proven of all pairs.
+  const Proven& proven() const { return proven_; }
   /// m. No pair left open approaches by more within half the interval.
   double approach() const { return approach_; }
+  /// The pair whose proof ends first after the middle, if it is one of leaves.
+  const std::optional<OpenPair>& nearest() const { return nearest_; }
 
  private:
   struct Part {
@@ -58,16 +68,23 @@ class SliceDescent {
     PartMotion motion;
   };
   Part part(bool ofA, const Piece& piece) const { return {piece, motions_.of(ofA, piece)}; }
-  bool areHullsApart(const PartApproach& approach);
+  /// What is known of a pair before it is looked at closely.
+  struct Known {
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< from a to b, a's frame; or zero
+    Proven proven{0.0, 0.0};
+  };
+  /// `gap`: m, along the unit vector n at the middle.
+  Proven provenBy(double gap, const Eigen::Vector3d& n, const PartApproach& approach) const;
+  bool areHullsApart(const PartApproach& approach, Known& known);
   bool isTooFast(const Part& a, const Part& b, const PartApproach& approach) const;
-  void descend(const Part& a, const Part& b, const Eigen::Vector3d& guess);
+  void descend(const Part& a, const Part& b, const Known& known);
   void descendInto(const PiecePair::Split& split, const Part& other, double beyond,
                    const Eigen::Vector3d& guess);
   bool areBoxesApart(const Part& child, bool ofA, const Part& other, const PartApproach& approach,
-                     Eigen::Vector3d& direction) const;
+                     Known& known) const;
   void testLeaves(const Part& a, const Part& b, const PartApproach& approach,
                   const Eigen::Vector3d& guess);
-  void leaveOpen(const Piece& a, const Piece& b, double proven, double approach);
+  void leaveOpen(const Part& a, const Part& b, const Known& known, double approach);
 
   const Side& a_;
   const Side& b_;
@@ -79,8 +96,9 @@ class SliceDescent {
   std::size_t begin_;
   ContinuousEffort& effort_;
   std::optional<Contact> contact_;
-  double proven_ = 1.0;
+  Proven proven_;
   double approach_ = 0.0;
+  std::optional<OpenPair> nearest_;
 };
 
 }  // namespace swept::detail

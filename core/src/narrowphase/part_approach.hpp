@@ -42,15 +42,30 @@ class PartApproach {
 
   /// m. A separation of more than this along the unit vector n at m lasts over the whole interval.
   double along(const Eigen::Vector3d& n) const {
-    double directed = std::abs(n.dot(linear_)) + fixed_;
-    for (const Eigen::Vector3d& k : a_.spread) directed += std::abs(n.dot(k));
-    for (const Eigen::Vector3d& k : b_.spread) directed += std::abs(n.dot(k));
-    return whole_.required + std::min(whole_.travel, directed);
+    return whole_.required + std::min(whole_.travel, std::abs(n.dot(linear_)) + spreadAlong(n));
+  }
+  /// m. What a separation along n at m loses, at most, until the interval's end, and has lost since
+  /// its beginning: the parts do not approach both before and after.
+  struct Loss {
+    double before;
+    double after;
+  };
+  Loss lossAlong(const Eigen::Vector3d& n) const {
+    const double receding = n.dot(linear_), spread = spreadAlong(n);
+    return {std::min(whole_.travel, std::max(0.0, receding + spread)),
+            std::min(whole_.travel, std::max(0.0, spread - receding))};
   }
   /// m, >= along(n) for every n.
   double most() const { return most_; }
 
  private:
+  double spreadAlong(const Eigen::Vector3d& n) const {
+    double sum = fixed_;
+    for (const Eigen::Vector3d& k : a_.spread) sum += std::abs(n.dot(k));
+    for (const Eigen::Vector3d& k : b_.spread) sum += std::abs(n.dot(k));
+    return sum;
+  }
+
   const ApproachBound& whole_;
   const PartMotion& a_;
   const PartMotion& b_;
