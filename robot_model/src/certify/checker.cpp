@@ -8,6 +8,7 @@
 #include "certify/checker_model.hpp"
 #include "certify/motion_check.hpp"
 #include "certify/pair_reasons.hpp"
+#include "certify/signed_clearance.hpp"
 #include "certify/state_check.hpp"
 
 namespace swept {
@@ -135,6 +136,13 @@ StateReport Checker::reportState(std::span<const double> q, Workspace& workspace
 double Checker::clearance(std::span<const double> q, Workspace& workspace) const {
   requireSize(q);
   return detail::stateClearance(*model_, q, dataOf(workspace));
+}
+
+SignedClearance Checker::signedClearance(std::span<const double> q, Workspace& workspace,
+                                         std::span<double> gradient) const {
+  requireSize(q);
+  if (!gradient.empty()) requireSize(gradient);
+  return detail::signedClearance(*model_, q, gradient, dataOf(workspace));
 }
 
 MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span<const double> to,

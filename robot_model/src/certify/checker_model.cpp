@@ -50,7 +50,8 @@ WorkspaceData::WorkspaceData(const CheckerModel& model)
       travelStamps(model.travels.size(), -1),
       hints(model.pairs.size(), Eigen::Vector3d::Zero()),
       hintStamps(model.pairs.size(), -1),
-      lanes(model.lanes) {
+      lanes(model.lanes),
+      probe(model.kinematics.dimension) {
   if (model.world->obstacles().empty()) return;
   from.resize(model.kinematics.wholeDimension);
   to.resize(model.kinematics.wholeDimension);

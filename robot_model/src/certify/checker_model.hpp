@@ -202,6 +202,7 @@ struct WorkspaceData {
   BroadphaseScratch boxes;
   /// Whole configurations: see KinematicModel. Empty without moving obstacles.
   std::vector<double> from, to;
+  std::vector<double> probe;      ///< a configuration
   std::vector<Passage> passages;  ///< of the current motion, in order
 };
 

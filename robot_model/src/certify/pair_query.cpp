@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "swept/core/distance.hpp"
+#include "swept/core/signed_distance.hpp"
 
 namespace swept::detail {
 
@@ -245,6 +246,27 @@ PairDistance PairQuery::measure(std::uint32_t index, double enough, double accur
   result.pointA = world_from_a * found.pointA;
   result.pointB = world_from_a * found.pointB;
   return result;
+}
+
+SignedClearance PairQuery::measureSigned(std::uint32_t index, double accuracy) {
+  const GeometryPair& pair = model_.pairs[index];
+  const Isometry3d& world_from_a = pose(pair.a);
+  const SignedDistanceResult found =
+      signedDistance(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
+                     world_from_a.inverse() * poseOfB(pair), accuracy);
+  return {found.lower - rounding(pair), found.upper, world_from_a * found.pointA,
+          world_from_a * found.pointB, world_from_a.linear() * found.normal};
+}
+
+Vector3d PairQuery::velocity(std::uint32_t index, const Vector3d& pointA, const Vector3d& pointB) {
+  const GeometryPair& pair = model_.pairs[index];
+  const BodyState& a = state(model_.robotGeometry[pair.a].body);
+  Vector3d velocity = -(a.linear + a.angular.cross(pointA));
+  if (pair.self) {
+    const BodyState& b = state(model_.robotGeometry[pair.b].body);
+    velocity += b.linear + b.angular.cross(pointB);
+  }
+  return velocity;
 }
 
 Witness PairQuery::witness(std::uint32_t index, double t, const PairAnswer& answer) const {

@@ -41,6 +41,11 @@ class PairQuery {
   PairAnswer prove(std::uint32_t pair, double half);
   /// Distance at t. Stops early when it is proven to exceed `enough` (m).
   PairDistance measure(std::uint32_t pair, double enough, double accuracy);
+  /// The same, negative where they overlap; see signedDistance().
+  SignedClearance measureSigned(std::uint32_t pair, double accuracy);
+  /// m per unit of t, model frame: of a point of b past a point of a, both m, model frame, at t.
+  Eigen::Vector3d velocity(std::uint32_t pair, const Eigen::Vector3d& pointA,
+                           const Eigen::Vector3d& pointB);
   /// m, model frame: of a point in the frame of the first one's body.
   Eigen::Vector3d placed(std::uint32_t pair, const Eigen::Vector3d& point) {
     return state(model_.robotGeometry[model_.pairs[pair].a].body).world_from_body * point;

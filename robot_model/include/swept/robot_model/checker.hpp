@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,6 +95,20 @@ struct MotionClearance {
   double t = 0.0;
 };
 
+/// Signed distance of the checked pair that is nearest or, where some overlap, deepest in each
+/// other, as an interval: minus the length of the shortest translation that separates the two where
+/// they overlap (see signedDistance() for meshes). Margins and paddings are not taken off.
+struct SignedClearance {
+  /// m. Proven for all checked pairs; infinity: there are none; minus infinity: nothing is known.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();  ///< m, of the pair that the rest is of
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();        ///< m, model frame
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, model frame
+  /// Unit vector from a to b, model frame: moving b along it takes the two apart. Zero where no one
+  /// direction is known to (meshes that overlap, contact in one point).
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
 class Checker;
 
 /// Scratch memory for one thread. No result depends on what it held before. It grows when it is
@@ -178,6 +193,13 @@ class Checker {
   /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not
   /// finite.
   double clearance(std::span<const double> q, Workspace& workspace) const;
+  /// Negative in contact; more work than clearance(). `gradient`, if not empty, receives the
+  /// derivatives of the pair's signed distance by the values of the configuration (m per rad, m per
+  /// m, m per s; of a quaternion's components as it is scaled to unit length): zero where `normal`
+  /// is. Where several pairs are equally near, of one of them. Throws std::invalid_argument for a
+  /// gradient that has another size than a configuration.
+  SignedClearance signedClearance(std::span<const double> q, Workspace& workspace,
+                                  std::span<double> gradient = {}) const;
 
   MotionCertificate certifyMotion(std::span<const double> from, std::span<const double> to,
                                   Workspace& workspace,

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certify/signed_clearance.hpp"
+
+#include <algorithm>
+
+#include "certify/near_pairs.hpp"
+#include "certify/obstacle_clock.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// rad or m. Rates are exact for a step of any size but a quaternion's, which this is small for.
+constexpr double kStep = 1e-6;
+
+/// The least so far, and whose it is.
+struct Nearest {
+  SignedClearance clearance;
+  std::uint32_t pair = 0;
+  bool known = false;
+
+  Nearest() {
+    clearance.lower = std::numeric_limits<double>::infinity();
+    clearance.upper = std::numeric_limits<double>::infinity();
+  }
+  void add(std::uint32_t index, const SignedClearance& found) {
+    const double lower = std::min(clearance.lower, found.lower);
+    if (!known || found.upper < clearance.upper) {
+      clearance = found;
+      pair = index;
+      known = true;
+    }
+    clearance.lower = lower;
+  }
+};
+
+SignedClearance apart(const PairDistance& distance) {
+  SignedClearance found{distance.lower, distance.upper, distance.pointA, distance.pointB,
+                        Vector3d::Zero()};
+  const Vector3d between = distance.pointB - distance.pointA;
+  const double length = between.norm();
+  if (length > 0.0) found.normal = between / length;
+  return found;
+}
+
+Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
+  Nearest nearest;
+  NearPairs(model, query, workspace).forNearest([&](std::uint32_t pair) {
+    const double enough = nearest.clearance.lower;
+    const PairDistance distance = query.measure(pair, enough, tolerance::kDistance);
+    if (distance.lower < enough) nearest.add(pair, apart(distance));
+    return nearest.clearance.lower;
+  });
+  return nearest;
+}
+
+/// Of the pairs whose boxes meet; the others are apart.
+Nearest deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
+  Nearest nearest;
+  NearPairs(model, query, workspace).collect(0.0, workspace.arena);
+  for (const std::uint32_t pair : workspace.arena) {
+    if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
+    nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));
+  }
+  return nearest;
+}
+
+/// A step of one value that the joint's limits allow; 0: neither way.
+double stepOf(const KinematicModel& model, std::size_t value, double q) {
+  if (q + kStep <= model.upper[value]) return kStep;
+  return q - kStep >= model.lower[value] ? -kStep : 0.0;
+}
+
+/// The velocity of the pair's points past each other along the normal, for each value of the
+/// configuration.
+void differentiate(const CheckerModel& model, PairQuery& query, std::span<const double> q,
+                   const Nearest& nearest, std::span<double> gradient, WorkspaceData& workspace) {
+  const SignedClearance& found = nearest.clearance;
+  std::ranges::copy(q, workspace.probe.begin());
+  const std::span<const double> from = wholeConfiguration(model, q, workspace.from);
+  for (std::size_t i = 0; i < gradient.size(); ++i) {
+    gradient[i] = 0.0;
+    const double step = stepOf(model.kinematics, i, q[i]);
+    workspace.probe[i] = q[i] + step;
+    const std::span<const double> to = wholeConfiguration(model, workspace.probe, workspace.to);
+    if (step != 0.0 && query.start(from, to)) {
+      query.moveTo(0.0);
+      const Vector3d velocity = query.velocity(nearest.pair, found.pointA, found.pointB);
+      gradient[i] = found.normal.dot(velocity) / step;
+    }
+    workspace.probe[i] = q[i];
+  }
+}
+
+}  // namespace
+
+SignedClearance signedClearance(const CheckerModel& model, std::span<const double> configuration,
+                                std::span<double> gradient, WorkspaceData& workspace) {
+  std::ranges::fill(gradient, 0.0);
+  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
+  PairQuery query(model, workspace);
+  if (!query.start(q, q)) return {};
+  query.moveTo(0.0);
+  Nearest nearest = nearestApart(model, query, workspace);
+  if (!(nearest.clearance.lower > 0.0)) {
+    const Nearest overlap = deepest(model, query, workspace);
+    if (overlap.known) nearest = overlap;
+  }
+  if (nearest.known && !gradient.empty()) {
+    differentiate(model, query, configuration, nearest, gradient, workspace);
+  }
+  return nearest.clearance;
+}
+
+}  // namespace swept::detail
