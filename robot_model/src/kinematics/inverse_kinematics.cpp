@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/inverse_kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "kinematics/lever_arms.hpp"
+#include "kinematics/motion_model.hpp"
+#include "kinematics/rigid_transform.hpp"
+
+namespace swept {
+
+namespace detail {
+
+/// One way a configuration can change: a variable's value, or a turn of a quaternion.
+struct Degree {
+  int variable = 0;     ///< of a turn: the first of the quaternion's four
+  bool turn = false;    ///< of a quaternion
+  bool cyclic = false;  ///< an angle modulo 2 pi
+  bool slides = false;  ///< in m
+  double low = -std::numeric_limits<double>::infinity();  ///< rad or m
+  double high = std::numeric_limits<double>::infinity();  ///< rad or m
+};
+
+/// The moving frames between the model's and a tool's, and what the group's variables mean.
+struct ToolChain {
+  std::shared_ptr<const Robot> robot;
+  const Group* group = nullptr;
+  KinematicModel kinematics;
+  std::vector<int> path;                                             ///< bodies, root first
+  Eigen::Isometry3d body_from_tool = Eigen::Isometry3d::Identity();  ///< of the last body
+  std::vector<Degree> degrees;
+  std::vector<int> degreeOf;     ///< per variable; a quaternion's four have the first turn
+  std::vector<int> quaternions;  ///< the first variable of each
+  double scale = 1.0;            ///< m that count as much as a radian
+};
+
+}  // namespace detail
+
+namespace {
+
+using detail::Degree;
+using detail::MovingBody;
+using detail::ToolChain;
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kShortestQuaternion = 1e-6;  // compileJoint refuses shorter ones
+constexpr const char* kUnusable =
+    "a value is not finite, a quaternion has no direction, or a prismatic value is outside its "
+    "limits";
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("InverseKinematics: " + what);
+}
+
+void requireSize(std::size_t size, std::size_t expected, const std::string& what) {
+  if (size == expected) return;
+  refuse(what + " has " + std::to_string(size) + " values instead of " + std::to_string(expected));
+}
+
+void requireRigid(const Isometry3d& pose, const std::string& what) {
+  if (!detail::isRigid(pose)) refuse(what + " is not a rigid transform");
+}
+
+/// The rotation vector (rad) of a rotation, at most half a turn long.
+Vector3d rotationVector(const Matrix3d& rotation) {
+  Quaterniond q(rotation);
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const double sine = q.vec().norm();
+  // Half the vector is the sine where that rounds to the angle.
+  if (sine < 1e-12) return 2.0 * q.vec();
+  return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
+}
+
+Quaterniond turned(const Vector3d& rotation, const Quaterniond& from) {
+  const double angle = rotation.norm();
+  if (!(angle > 0.0)) return from;
+  return (Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * from).normalized();
+}
+
+void addVariable(ToolChain& chain, int value) {
+  const Variable& variable = chain.robot->variables()[chain.group->variables[value]];
+  const Joint& joint = chain.robot->joints()[variable.joint];
+  const int place = chain.group->variables[value] - joint.firstVariable;
+  const bool rotates = joint.type == JointType::Floating && place >= 3;
+  if (rotates && place > 3) {
+    chain.degreeOf.push_back(chain.degreeOf.back());
+    return;
+  }
+  chain.degreeOf.push_back(static_cast<int>(chain.degrees.size()));
+  Degree degree;
+  degree.variable = value;
+  degree.turn = rotates;
+  degree.cyclic = variable.cyclic;
+  degree.slides = joint.type == JointType::Prismatic ||
+                  (joint.type == JointType::Planar && place < 2) ||
+                  (joint.type == JointType::Floating && !rotates);
+  if (!rotates && !variable.cyclic) {
+    degree.low = variable.lower;
+    degree.high = variable.upper;
+  }
+  chain.degrees.insert(chain.degrees.end(), rotates ? 3 : 1, degree);
+  if (rotates) chain.quaternions.push_back(value);
+}
+
+/// Metres are compared with radians at the longest lever of the chain.
+double scaleOf(const detail::LeverArms& levers) {
+  const double longest = *std::max_element(levers.arms.begin(), levers.arms.end());
+  return longest > 0.0 && std::isfinite(longest) ? longest : 1.0;
+}
+
+/// Goes along the chain and shows each joint's frame and that of its body. False for what
+/// compileJoint refuses.
+template <typename Visit>
+bool walk(const ToolChain& chain, std::span<const double> q, const Visit& visit) {
+  detail::BodyState state;
+  detail::JointMotion still;
+  for (std::size_t i = 0; i < chain.path.size(); ++i) {
+    const MovingBody& body = chain.kinematics.bodies[chain.path[i]];
+    if (!detail::compileJoint(chain.kinematics, body, q, q, still)) return false;
+    const Isometry3d world_from_joint = state.world_from_body * body.parent_from_joint;
+    state = detail::bodyAt(body, still, 0.0, state);
+    visit(i, world_from_joint, state.world_from_body);
+  }
+  return true;
+}
+
+bool allFinite(std::span<const double> q) {
+  return std::all_of(q.begin(), q.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Column of a joint whose body turns about an axis through `center`, and of one that slides; p is
+/// the tool's origin, all in the model frame.
+Vector6 turningColumn(const Vector3d& axis, const Vector3d& center, const Vector3d& p) {
+  Vector6 column;
+  column << axis.cross(p - center), axis;
+  return column;
+}
+
+Vector6 slidingColumn(const Vector3d& direction) {
+  Vector6 column;
+  column << direction, Vector3d::Zero();
+  return column;
+}
+
+/// Adds what one joint contributes; several may follow one variable.
+void addColumns(const ToolChain& chain, const MovingBody& body, const Matrix3d& axes,
+                const Vector3d& center, const Vector3d& p, Jacobian& jacobian) {
+  const int first = chain.degreeOf[body.variable];
+  switch (body.type) {
+    case JointType::Revolute:
+    case JointType::Continuous:
+      jacobian.col(first) += turningColumn(body.multiplier * (axes * body.axis), center, p);
+      break;
+    case JointType::Prismatic:
+      jacobian.col(first) += slidingColumn(body.multiplier * (axes * body.axis));
+      break;
+    case JointType::Planar: {
+      const Matrix3d plane = axes * body.planarBasis;
+      jacobian.col(first) += slidingColumn(plane.col(0));
+      jacobian.col(first + 1) += slidingColumn(plane.col(1));
+      jacobian.col(first + 2) += turningColumn(plane.col(2), center, p);
+      break;
+    }
+    case JointType::Floating:
+      for (int i = 0; i < 3; ++i) {
+        jacobian.col(first + i) += slidingColumn(axes.col(i));
+        jacobian.col(first + 3 + i) += turningColumn(axes.col(i), center, p);
+      }
+      break;
+    case JointType::Fixed:
+      break;
+  }
+}
+
+}  // namespace
+
+PoseError poseError(const Isometry3d& actual, const Isometry3d& wanted) {
+  return {(wanted.translation() - actual.translation()).norm(),
+          rotationVector(wanted.linear() * actual.linear().transpose()).norm()};
+}
+
+InverseKinematics::Workspace::Workspace(const InverseKinematics& kinematics)
+    : candidate_(kinematics.chain_->degreeOf.size()),
+      world_from_joint_(kinematics.chain_->path.size()),
+      world_from_body_(kinematics.chain_->path.size()),
+      jacobian_(6, kinematics.degreesOfFreedom()),
+      step_(kinematics.degreesOfFreedom()) {}
+
+InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, std::string_view group,
+                                     std::string_view link,
+                                     const std::optional<Eigen::VectorXd>& reference,
+                                     const Isometry3d& link_from_tool) {
+  if (!robot) refuse("no robot given");
+  const std::string of = "robot '" + robot->name() + "'";
+  auto chain = std::make_shared<ToolChain>();
+  chain->group = robot->findGroup(group);
+  if (chain->group == nullptr) refuse(of + " has no group '" + std::string(group) + "'");
+  const std::optional<int> index = robot->findLink(link);
+  if (!index) refuse(of + " has no link '" + std::string(link) + "'");
+  const Eigen::VectorXd held = reference.value_or(robot->defaultState());
+  requireSize(static_cast<std::size_t>(held.size()), robot->variables().size(), "the reference");
+  if (!held.allFinite()) refuse("the reference has a value that is not finite");
+  requireRigid(link_from_tool, "the tool");
+
+  chain->robot = std::move(robot);
+  chain->kinematics = detail::compileKinematics(*chain->robot, *chain->group, held);
+  chain->body_from_tool = chain->kinematics.body_from_link[*index] * link_from_tool;
+  const detail::LeverArms levers =
+      detail::leverArms(chain->kinematics, chain->kinematics.bodyOfLink[*index],
+                        chain->body_from_tool.translation(), 0.0);
+  if (levers.path.empty()) {
+    refuse("group '" + chain->group->name + "' does not move link '" + std::string(link) + "'");
+  }
+  chain->path = levers.path;
+  chain->scale = scaleOf(levers);
+  for (int i = 0; i < chain->kinematics.dimension; ++i) addVariable(*chain, i);
+  chain_ = std::move(chain);
+}
+
+InverseKinematics::InverseKinematics(std::shared_ptr<const ToolChain> chain)
+    : chain_(std::move(chain)) {}
+
+InverseKinematics InverseKinematics::within(std::span<const double> lower,
+                                            std::span<const double> upper) const {
+  requireSize(lower.size(), chain_->degreeOf.size(), "the lower limit");
+  requireSize(upper.size(), chain_->degreeOf.size(), "the upper limit");
+  auto chain = std::make_shared<ToolChain>(*chain_);
+  for (Degree& degree : chain->degrees) {
+    if (degree.turn || degree.cyclic) continue;
+    const double low = lower[degree.variable], high = upper[degree.variable];
+    degree.low = std::max(degree.low, low);
+    degree.high = std::min(degree.high, high);
+    if (!(low <= high) || !(degree.low <= degree.high)) {
+      refuse("the limits leave no value to variable '" +
+             robot().variables()[group().variables[degree.variable]].name + "'");
+    }
+  }
+  return InverseKinematics(std::move(chain));
+}
+
+const Robot& InverseKinematics::robot() const {
+  return *chain_->robot;
+}
+
+const Group& InverseKinematics::group() const {
+  return *chain_->group;
+}
+
+int InverseKinematics::dimension() const {
+  return static_cast<int>(chain_->degreeOf.size());
+}
+
+int InverseKinematics::degreesOfFreedom() const {
+  return static_cast<int>(chain_->degrees.size());
+}
+
+std::optional<Isometry3d> InverseKinematics::findPose(std::span<const double> q) const {
+  requireSize(q.size(), chain_->degreeOf.size(), "the configuration");
+  if (!allFinite(q)) return {};
+  Isometry3d world_from_body;
+  const auto keep = [&](std::size_t, const Isometry3d&, const Isometry3d& body) {
+    world_from_body = body;
+  };
+  if (!walk(*chain_, q, keep)) return {};
+  return world_from_body * chain_->body_from_tool;
+}
+
+Isometry3d InverseKinematics::pose(std::span<const double> q) const {
+  const std::optional<Isometry3d> found = findPose(q);
+  if (!found) refuse(kUnusable);
+  return *found;
+}
+
+namespace {
+
+/// The Jacobian of the tool from the frames along its chain.
+void fillJacobian(const ToolChain& chain, const std::vector<Isometry3d>& world_from_joint,
+                  const std::vector<Isometry3d>& world_from_body, Jacobian& jacobian) {
+  const Vector3d p = world_from_body.back() * chain.body_from_tool.translation();
+  jacobian.setZero();
+  for (std::size_t i = 0; i < chain.path.size(); ++i) {
+    addColumns(chain, chain.kinematics.bodies[chain.path[i]], world_from_joint[i].linear(),
+               world_from_body[i].translation(), p, jacobian);
+  }
+}
+
+/// Onto the limits, into [-pi, pi], to unit length.
+void putInPlace(const ToolChain& chain, std::span<double> q) {
+  for (const Degree& degree : chain.degrees) {
+    if (degree.turn) continue;
+    double& value = q[degree.variable];
+    if (degree.cyclic) {
+      if (std::abs(value) > kPi) value = std::remainder(value, 2.0 * kPi);
+    } else {
+      value = std::clamp(value, degree.low, degree.high);
+    }
+  }
+  for (const int first : chain.quaternions) Eigen::Map<Eigen::Vector4d>(&q[first]).normalize();
+}
+
+void requireSeed(const ToolChain& chain, std::span<const double> q) {
+  requireSize(q.size(), chain.degreeOf.size(), "the seed");
+  if (!allFinite(q)) refuse("the seed has a value that is not finite");
+  for (const int first : chain.quaternions) {
+    if (!(Eigen::Map<const Eigen::Vector4d>(&q[first]).norm() > kShortestQuaternion)) {
+      refuse("the seed has a quaternion without direction");
+    }
+  }
+}
+
+void requireSensible(const InverseKinematicsOptions& options) {
+  if (!(options.positionTolerance > 0.0)) refuse("the position tolerance is not positive");
+  if (!(options.orientationTolerance > 0.0)) refuse("the orientation tolerance is not positive");
+  if (options.maxIterations < 0) refuse("the number of iterations is negative");
+}
+
+}  // namespace
+
+Jacobian InverseKinematics::jacobian(std::span<const double> q) const {
+  requireSize(q.size(), chain_->degreeOf.size(), "the configuration");
+  Workspace workspace(*this);
+  const auto keep = [&](std::size_t i, const Isometry3d& joint, const Isometry3d& body) {
+    workspace.world_from_joint_[i] = joint;
+    workspace.world_from_body_[i] = body;
+  };
+  if (!allFinite(q) || !walk(*chain_, q, keep)) refuse(kUnusable);
+  fillJacobian(*chain_, workspace.world_from_joint_, workspace.world_from_body_,
+               workspace.jacobian_);
+  return workspace.jacobian_;
+}
+
+/// From one seed downhill in the squared error, lengths divided by the chain's scale.
+///
+/// A step is J^T (J J^T + damping 1)^-1 e over the degrees that are free: those that are not at a
+/// limit beyond which the error would fall. It is cut off at the limits. Steps that do not lower
+/// the error are taken back and damped more; with enough damping they follow the projected
+/// gradient, so that only a stationary point has none that does.
+class InverseKinematics::Search {
+ public:
+  Search(const ToolChain& chain, const Isometry3d& wanted, std::span<double> q,
+         const InverseKinematicsOptions& options, Workspace& workspace)
+      : chain_(chain), wanted_(wanted), q_(q), options_(options), workspace_(workspace) {
+    const double position = std::isfinite(options.positionTolerance) ? 1.0 : 0.0;
+    const double rotation = std::isfinite(options.orientationTolerance) ? 1.0 : 0.0;
+    counts_ << position, position, position, rotation, rotation, rotation;
+    putInPlace(chain_, q_);
+    error_ = errorAt(q_);
+  }
+
+  bool run() {
+    double damping = kFirstDamping;
+    bool moved = true;
+    for (int i = 0; i < options_.maxIterations && !arrived(); ++i) {
+      if (moved) linearise();
+      propose(damping);
+      const Vector6 next = errorAt(workspace_.candidate_);
+      moved = next.squaredNorm() < error_.squaredNorm();
+      if (moved) {
+        std::copy(workspace_.candidate_.begin(), workspace_.candidate_.end(), q_.begin());
+        error_ = next;
+        damping = std::max(damping * kTrustMore, kLeastDamping);
+      } else {
+        damping *= kTrustLess;
+        if (damping > kMostDamping) break;
+      }
+    }
+    return arrived();
+  }
+
+ private:
+  // Relative to squared lever arms of at most about 1 each. Less damping than the least would only
+  // amplify rounding where the chain has lost a direction; with more than the most, steps are
+  // shorter than 1e-8 of the error.
+  static constexpr double kFirstDamping = 1e-2;
+  static constexpr double kLeastDamping = 1e-8;
+  static constexpr double kMostDamping = 1e8;
+  static constexpr double kTrustMore = 0.1;
+  static constexpr double kTrustLess = 5.0;
+
+  /// Also leaves the frames along the chain in the workspace.
+  Vector6 errorAt(std::span<const double> q) {
+    const auto keep = [this](std::size_t i, const Isometry3d& joint, const Isometry3d& body) {
+      workspace_.world_from_joint_[i] = joint;
+      workspace_.world_from_body_[i] = body;
+    };
+    walk(chain_, q, keep);  // refuses nothing that is in place
+    const Isometry3d actual = workspace_.world_from_body_.back() * chain_.body_from_tool;
+    Vector6 error;
+    error << (wanted_.translation() - actual.translation()) / chain_.scale,
+        rotationVector(wanted_.linear() * actual.linear().transpose());
+    return error.cwiseProduct(counts_);
+  }
+
+  bool arrived() const {
+    return error_.head<3>().norm() * chain_.scale <= options_.positionTolerance &&
+           error_.tail<3>().norm() <= options_.orientationTolerance;
+  }
+
+  /// The scaled Jacobian at q_, whose frames are in the workspace; columns that are not free are 0.
+  void linearise() {
+    Jacobian& jacobian = workspace_.jacobian_;
+    fillJacobian(chain_, workspace_.world_from_joint_, workspace_.world_from_body_, jacobian);
+    jacobian.topRows<3>() /= chain_.scale;
+    for (std::size_t i = 0; i < chain_.degrees.size(); ++i) {
+      const Degree& degree = chain_.degrees[i];
+      auto column = jacobian.col(static_cast<Eigen::Index>(i));
+      column = column.cwiseProduct(counts_).eval();
+      if (degree.slides) column *= chain_.scale;
+      if (degree.turn) continue;
+      const double wish = column.dot(error_);
+      const double value = q_[degree.variable];
+      if ((wish < 0.0 && value <= degree.low) || (wish > 0.0 && value >= degree.high)) {
+        column.setZero();
+      }
+    }
+  }
+
+  void propose(double damping) {
+    const Jacobian& jacobian = workspace_.jacobian_;
+    Matrix6 normal = damping * Matrix6::Identity();
+    for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+      normal.noalias() += jacobian.col(i) * jacobian.col(i).transpose();
+    }
+    const Vector6 pull = normal.ldlt().solve(error_);
+    for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+      workspace_.step_[i] = jacobian.col(i).dot(pull);
+    }
+    takeStep();
+  }
+
+  void takeStep() {
+    const std::span<double> candidate(workspace_.candidate_);
+    std::copy(q_.begin(), q_.end(), candidate.begin());
+    for (std::size_t i = 0; i < chain_.degrees.size(); ++i) {
+      const Degree& degree = chain_.degrees[i];
+      const double unit = degree.slides ? chain_.scale : 1.0;
+      if (!degree.turn) candidate[degree.variable] += unit * workspace_.step_[i];
+    }
+    for (const int first : chain_.quaternions) {
+      const Vector3d rotation = workspace_.step_.segment<3>(chain_.degreeOf[first]);
+      const Quaterniond from(&q_[first]);
+      Eigen::Map<Quaterniond> to(&candidate[first]);
+      to = turned(rotation, from);
+    }
+    putInPlace(chain_, candidate);
+  }
+
+  const ToolChain& chain_;
+  const Isometry3d& wanted_;
+  const std::span<double> q_;
+  const InverseKinematicsOptions& options_;
+  Workspace& workspace_;
+  Vector6 counts_;  ///< 1, or 0 for what has no tolerance to keep
+  Vector6 error_;   ///< rad; at q_
+};
+
+bool InverseKinematics::solve(const Isometry3d& model_from_tool, std::span<double> q,
+                              const InverseKinematicsOptions& options, Workspace& workspace) const {
+  requireRigid(model_from_tool, "the target");
+  requireSeed(*chain_, q);
+  requireSensible(options);
+  if (workspace.world_from_body_.size() != chain_->path.size() ||
+      workspace.candidate_.size() != chain_->degreeOf.size() ||
+      workspace.step_.size() != degreesOfFreedom()) {
+    refuse("the workspace is of another object");
+  }
+  return Search(*chain_, model_from_tool, q, options, workspace).run();
+}
+
+}  // namespace swept
