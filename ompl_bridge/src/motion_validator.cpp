@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "preconditions.hpp"
-#include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/motion_validator.hpp"
 #include "workspace_pool.hpp"
 
 namespace swept {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/state_space.hpp"
 
 namespace swept::detail {
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "state_layout.hpp"
-#include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/state_space.hpp"
 
 namespace swept {
 namespace ob = ompl::base;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/state_space.hpp"
 
 namespace swept::detail {
 

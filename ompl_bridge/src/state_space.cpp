@@ -5,14 +5,20 @@
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
+#include <sstream>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "state_layout.hpp"
-#include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/state_space.hpp"
+#include "tip_projection.hpp"
 
 namespace swept {
 namespace ob = ompl::base;
@@ -22,20 +28,96 @@ namespace {
 
 constexpr double kUnboundedTranslation = 10.0;  // m
 
-ob::RealVectorBounds boundsOf(const Robot& robot, std::span<const int> variables) {
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("state space: " + what);
+}
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::pair<double, double> limitsOf(const Variable& variable, const StateSpaceOptions& options) {
+  double lower = variable.lower, upper = variable.upper;
+  const auto narrower = options.limits.find(variable.name);
+  if (narrower != options.limits.end()) {
+    const auto [low, high] = narrower->second;
+    if (!(low < high) || !std::isfinite(low) || !std::isfinite(high) || low < lower ||
+        high > upper) {
+      refuse("limits [" + text(low) + ", " + text(high) + "] of `" + variable.name +
+             "` are not within the robot's [" + text(lower) + ", " + text(upper) + "]");
+    }
+    return narrower->second;
+  }
+  if (!std::isfinite(lower)) {
+    lower = std::isfinite(upper) ? upper - 2.0 * kUnboundedTranslation : -kUnboundedTranslation;
+  }
+  if (!std::isfinite(upper)) upper = lower + 2.0 * kUnboundedTranslation;
+  return {lower, upper};
+}
+
+ob::RealVectorBounds boundsOf(const Robot& robot, std::span<const int> variables,
+                              const StateSpaceOptions& options) {
   ob::RealVectorBounds bounds(static_cast<unsigned int>(variables.size()));
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const Variable& variable = robot.variables()[variables[i]];
-    double lower = variable.lower, upper = variable.upper;
-    if (!std::isfinite(lower)) {
-      lower = std::isfinite(upper) ? upper - 2.0 * kUnboundedTranslation : -kUnboundedTranslation;
-    }
-    if (!std::isfinite(upper)) upper = lower + 2.0 * kUnboundedTranslation;
+    const auto [lower, upper] = limitsOf(robot.variables()[variables[i]], options);
     bounds.low[i] = lower;
     bounds.high[i] = upper;
   }
   return bounds;
 }
+
+double weightOf(const Robot& robot, int joint, const StateSpaceOptions& options) {
+  const auto given = options.weights.find(robot.joints()[joint].name);
+  return given == options.weights.end() ? 1.0 : given->second;
+}
+
+/// Joints with limits, each with a factor in the distance.
+class JointSpace : public ob::RealVectorStateSpace {
+ public:
+  explicit JointSpace(std::vector<double> weights)
+      : RealVectorStateSpace(static_cast<unsigned int>(weights.size())),
+        weights_(std::move(weights)) {}
+
+  double distance(const ob::State* a, const ob::State* b) const override {
+    const double* from = a->as<StateType>()->values;
+    const double* to = b->as<StateType>()->values;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      const double difference = weights_[i] * (to[i] - from[i]);
+      sum += difference * difference;
+    }
+    return std::sqrt(sum);
+  }
+  double getMaximumExtent() const override {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      const double range = weights_[i] * (bounds_.high[i] - bounds_.low[i]);
+      sum += range * range;
+    }
+    return std::sqrt(sum);
+  }
+
+ private:
+  std::vector<double> weights_;
+};
+
+/// A whole group's space. OMPL registers projections of its own, or none, whenever a space is set
+/// up; the group's comes after them.
+template <typename Space>
+class GroupSpace : public Space {
+ public:
+  using Space::Space;
+  void setProjection(ob::ProjectionEvaluatorPtr projection) { projection_ = std::move(projection); }
+  void registerProjections() override {
+    Space::registerProjections();
+    this->registerDefaultProjection(projection_);
+  }
+
+ private:
+  ob::ProjectionEvaluatorPtr projection_;
+};
 
 void nameDimensions(const Robot& robot, std::span<const int> variables, ob::StateSpace& space) {
   auto* realVector = space.as<ob::RealVectorStateSpace>();
@@ -45,30 +127,42 @@ void nameDimensions(const Robot& robot, std::span<const int> variables, ob::Stat
   }
 }
 
-ob::StateSpacePtr spaceOf(const Robot& robot, const JointRun& run) {
+std::vector<double> weightsOf(const Robot& robot, const JointRun& run,
+                              const StateSpaceOptions& options) {
+  std::vector<double> weights;
+  for (const int joint : run.joints) weights.push_back(weightOf(robot, joint, options));
+  return weights;
+}
+
+void limitJoints(const Robot& robot, const JointRun& run, const StateSpaceOptions& options,
+                 JointSpace& space) {
+  space.setBounds(boundsOf(robot, run.variables, options));
+  nameDimensions(robot, run.variables, space);
+}
+
+ob::StateSpacePtr spaceOf(const Robot& robot, const JointRun& run,
+                          const StateSpaceOptions& options) {
   const std::span<const int> variables(run.variables);
   switch (run.kind) {
     case SubspaceKind::SO2:
       return std::make_shared<ob::SO2StateSpace>();
     case SubspaceKind::SE2: {
       auto space = std::make_shared<ob::SE2StateSpace>();
-      space->setBounds(boundsOf(robot, variables.first(2)));
+      space->setBounds(boundsOf(robot, variables.first(2), options));
       nameDimensions(robot, variables.first(2), *space->getSubspace(0));
       return space;
     }
     case SubspaceKind::SE3: {
       auto space = std::make_shared<ob::SE3StateSpace>();
-      space->setBounds(boundsOf(robot, variables.first(3)));
+      space->setBounds(boundsOf(robot, variables.first(3), options));
       nameDimensions(robot, variables.first(3), *space->getSubspace(0));
       return space;
     }
     case SubspaceKind::RealVector:
       break;
   }
-  auto space =
-      std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned int>(variables.size()));
-  space->setBounds(boundsOf(robot, variables));
-  nameDimensions(robot, variables, *space);
+  auto space = std::make_shared<JointSpace>(weightsOf(robot, run, options));
+  limitJoints(robot, run, options, *space);
   return space;
 }
 
@@ -78,38 +172,61 @@ std::string nameOf(const Robot& robot, const JointRun& run) {
   return first + ".." + robot.joints()[run.joints.back()].name;
 }
 
-// Planners of the KPIECE family need a default projection, which OMPL gives to no compound.
-void registerProjection(ob::CompoundStateSpace& space) {
-  unsigned int largest = 0;
-  for (unsigned int i = 1; i < space.getSubspaceCount(); ++i) {
-    const bool larger =
-        space.getSubspace(i)->getDimension() > space.getSubspace(largest)->getDimension();
-    if (larger) largest = i;
+/// Of what the options name: that it is there, and can have what is asked for.
+void requireOptions(const Robot& robot, const Group& group, const StateSpaceOptions& options) {
+  for (const auto& [name, limits] : options.limits) {
+    const std::optional<int> index = robot.findVariable(name);
+    if (!index || std::ranges::find(group.variables, *index) == group.variables.end()) {
+      refuse("group `" + group.name + "` has no variable `" + name + "` to limit");
+    }
+    const Variable& variable = robot.variables()[*index];
+    const Joint& joint = robot.joints()[variable.joint];
+    const int place = *index - joint.firstVariable;
+    const bool turns = variable.cyclic || (joint.type == JointType::Floating && place >= 3);
+    if (turns) refuse("`" + name + "` is an angle without limits, or part of an orientation");
   }
-  space.registerDefaultProjection(
-      std::make_shared<ob::SubspaceProjectionEvaluator>(&space, largest));
+  for (const auto& [name, weight] : options.weights) {
+    const std::optional<int> index = robot.findJoint(name);
+    if (!index || std::ranges::find(group.joints, *index) == group.joints.end()) {
+      refuse("group `" + group.name + "` has no joint `" + name + "` to weigh");
+    }
+    if (!(weight > 0.0) || !std::isfinite(weight)) {
+      refuse("weight " + text(weight) + " of `" + name +
+             "` is not a finite number greater than zero");
+    }
+  }
+}
+
+template <typename Space>
+ob::StateSpacePtr finished(const std::shared_ptr<Space>& space, const Robot& robot,
+                           const Group& group) {
+  space->setName(group.name);
+  space->setProjection(detail::makeProjection(*space, robot, group));
+  return space;
 }
 
 }  // namespace
 
-ob::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group) {
+ob::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
+                                 const StateSpaceOptions& options) {
   const std::vector<JointRun> runs = detail::jointRuns(robot, group);
-  ob::StateSpacePtr space;
+  requireOptions(robot, group, options);
   if (detail::isSingleRealVector(runs)) {
-    space = spaceOf(robot, runs.front());
-  } else {
-    auto compound = std::make_shared<ob::CompoundStateSpace>();
-    for (const JointRun& run : runs) {
-      ob::StateSpacePtr subspace = spaceOf(robot, run);
-      subspace->setName(nameOf(robot, run));
-      compound->addSubspace(subspace, 1.0);
-    }
-    compound->lock();
-    registerProjection(*compound);
-    space = compound;
+    const auto space =
+        std::make_shared<GroupSpace<JointSpace>>(weightsOf(robot, runs.front(), options));
+    limitJoints(robot, runs.front(), options, *space);
+    return finished(space, robot, group);
   }
-  space->setName(group.name);
-  return space;
+  const auto compound = std::make_shared<GroupSpace<ob::CompoundStateSpace>>();
+  for (const JointRun& run : runs) {
+    ob::StateSpacePtr subspace = spaceOf(robot, run, options);
+    subspace->setName(nameOf(robot, run));
+    // Joints with limits have theirs in their common space.
+    const bool shared = run.kind == SubspaceKind::RealVector;
+    compound->addSubspace(subspace, shared ? 1.0 : weightOf(robot, run.joints.front(), options));
+  }
+  compound->lock();
+  return finished(compound, robot, group);
 }
 
 }  // namespace swept

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <ompl/base/ScopedState.h>
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "preconditions.hpp"
-#include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/validity_checker.hpp"
 #include "workspace_pool.hpp"
 
 namespace swept {
@@ -15,6 +19,7 @@ ValidityChecker::ValidityChecker(const ompl::base::SpaceInformationPtr& si,
       pool_(std::make_unique<WorkspacePool>(*checker_)) {
   specs_.clearanceComputationType =
       ompl::base::StateValidityCheckerSpecs::ClearanceComputationType::BOUNDED_APPROXIMATE;
+  specs_.hasValidDirectionComputation = true;
 }
 
 ValidityChecker::~ValidityChecker() = default;
@@ -30,7 +35,45 @@ bool ValidityChecker::isValid(const ompl::base::State* state) const {
 double ValidityChecker::clearance(const ompl::base::State* state) const {
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(state, scratch->from);
-  return checker_->clearance(scratch->from, scratch->workspace);
+  const double apart = checker_->clearance(scratch->from, scratch->workspace);
+  return apart > 0.0 ? apart : checker_->signedClearance(scratch->from, scratch->workspace).lower;
+}
+
+double ValidityChecker::clearance(const ompl::base::State* state, ompl::base::State* validState,
+                                  bool& validStateAvailable) const {
+  validStateAvailable = !isValid(state) && findValid(state, validState);
+  return clearance(state);
+}
+
+// Steps that would be enough if the clearance were linear, and a little more. Its gradient is that
+// of the nearest or deepest pair alone, which may be another one after each step.
+bool ValidityChecker::findValid(const ompl::base::State* state,
+                                ompl::base::State* validState) const {
+  constexpr int kSteps = 30;
+  constexpr double kFarthest = 0.3;  // rad or m, of one step
+  constexpr double kMore = 1.1;
+  ompl::base::ScopedState<> found(si_->getStateSpace(), state);
+  ompl::base::State* const there = found.get();
+  si_->enforceBounds(there);
+  const WorkspacePool::Lease scratch = pool_->lease();
+  const double wanted = checker_->options().margin + 2.0 * checker_->options().tolerance;
+  for (int i = 0; i < kSteps; ++i) {
+    conversion_.toConfiguration(there, scratch->from);
+    const SignedClearance now =
+        checker_->signedClearance(scratch->from, scratch->workspace, scratch->gradient);
+    Eigen::Map<Eigen::VectorXd> q(scratch->from.data(), conversion_.dimension());
+    const Eigen::Map<const Eigen::VectorXd> gradient(scratch->gradient.data(), q.size());
+    const double slope = gradient.norm();
+    if (!(slope > 0.0) || !std::isfinite(now.lower)) return false;
+    const double step = kMore * std::max(wanted - now.lower, wanted) / slope;
+    q += std::min(step, kFarthest) / slope * gradient;
+    conversion_.toState(scratch->from, there);
+    si_->enforceBounds(there);
+    if (!isValid(there)) continue;
+    si_->copyState(validState, there);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace swept

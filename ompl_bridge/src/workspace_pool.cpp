@@ -6,7 +6,10 @@
 namespace swept {
 
 WorkspacePool::Scratch::Scratch(const Checker& checker)
-    : workspace(checker), from(checker.dimension()), to(checker.dimension()) {}
+    : workspace(checker),
+      from(checker.dimension()),
+      to(checker.dimension()),
+      gradient(checker.dimension()) {}
 
 WorkspacePool::Lease WorkspacePool::lease() {
   {

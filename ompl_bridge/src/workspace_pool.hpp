@@ -16,7 +16,7 @@ class WorkspacePool {
   struct Scratch {
     explicit Scratch(const Checker& checker);
     Workspace workspace;
-    std::vector<double> from, to;  ///< configurations of the group
+    std::vector<double> from, to, gradient;  ///< of the size of a configuration of the group
   };
   struct Return {
     WorkspacePool* pool;

@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "planners.hpp"
-#include "projection.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 #include "text_output.hpp"
 
@@ -168,7 +167,6 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
   setEnds(*setup, conversion, ends);
   try {
     setup->getSpaceInformation()->setup();
-    registerProjection(*setup->getStateSpace());
     setup->setPlanner(makePlanner(request.planner, setup->getSpaceInformation()));
     setup->setup();
     return solve(*setup, *checker, request);

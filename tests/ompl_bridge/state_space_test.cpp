@@ -7,6 +7,7 @@
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,6 +16,7 @@
 
 #include "fixtures.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/robot_model/link_motion.hpp"
 
 namespace swept::test {
 namespace {
@@ -69,6 +71,141 @@ TEST(StateSpace, HasADefaultProjectionAfterSetup) {
     EXPECT_TRUE(projected.allFinite());
     space->sanityChecks();
   }
+}
+
+/// The position of the group's tip by the library's other way to place a link.
+TEST(StateSpace, ProjectsOntoThePlaceOfTheTip) {
+  const auto robot = everyJoint();
+  int tips = 0;
+  for (const Group& group : robot->groups()) {
+    const auto space = makeStateSpace(*robot, group);
+    space->setup();
+    const auto projection = space->getDefaultProjection();
+    const StateConversion conversion(*robot, group);
+    ob::ScopedState<> state(space);
+    std::vector<double> q(conversion.dimension());
+    for (int i = 0; i < 50; ++i) {
+      state.random();
+      conversion.toConfiguration(state.get(), q);
+      Eigen::VectorXd projected(projection->getDimension());
+      projection->project(state.get(), projected);
+      if (group.tipLink < 0) {
+        ASSERT_EQ(projected.size(), std::min<Eigen::Index>(2, conversion.dimension()));
+        EXPECT_EQ(projected[0], q[0]);
+        continue;
+      }
+      ++tips;
+      const LinkMotion stands(*robot, group.name, robot->links()[group.tipLink].name, q, q);
+      ASSERT_EQ(projected.size(), 3);
+      EXPECT_LT((projected - stands.at(0.0).translation()).norm(), 1e-12) << group.name;
+    }
+  }
+  EXPECT_GT(tips, 100);
+}
+
+TEST(StateSpace, TakesNarrowerLimits) {
+  const auto robot = everyJoint();
+  StateSpaceOptions options;
+  options.limits = {
+      {"elbow", {-0.5, 0.25}}, {"cart/x", {2.0, 40.0}}, {"body/trans_z", {-1.0, 0.0}}};
+  const auto space = makeStateSpace(*robot, *robot->findGroup("all"), options);
+  space->setup();
+  ob::ScopedState<> state(space);
+  const StateConversion conversion(*robot, *robot->findGroup("all"));
+  std::vector<double> q(conversion.dimension());
+  for (int i = 0; i < 200; ++i) {
+    state.random();
+    conversion.toConfiguration(state.get(), q);
+    EXPECT_TRUE(q[2] >= -0.5 && q[2] <= 0.25);
+    EXPECT_TRUE(q[4] >= 2.0 && q[4] <= 40.0);
+    EXPECT_TRUE(q[9] >= -1.0 && q[9] <= 0.0);
+    EXPECT_TRUE(q[0] >= -0.5 && q[0] <= 1.5);
+  }
+}
+
+TEST(StateSpace, WeighsJoints) {
+  const auto robot = everyJoint();
+  StateSpaceOptions options;
+  options.weights = {{"elbow", 3.0}, {"turn", 0.5}, {"slide", 1.0}};
+  for (const char* name : {"all", "limited", "turn_only"}) {
+    const Group& group = *robot->findGroup(name);
+    StateSpaceOptions mine = options;
+    for (const std::string joint : {"elbow", "turn", "slide"}) {
+      const bool has =
+          std::ranges::find(group.joints, *robot->findJoint(joint)) != group.joints.end();
+      if (!has) mine.weights.erase(joint);
+    }
+    const auto space = makeStateSpace(*robot, group, mine);
+    const auto plain = makeStateSpace(*robot, group);
+    space->setup();
+    plain->setup();
+    EXPECT_NO_THROW(space->sanityChecks());
+    const StateConversion conversion(*robot, group);
+    ob::ScopedState<> a(space), b(space);
+    std::vector<double> from(conversion.dimension()), to(conversion.dimension());
+    double sum = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      a.random();
+      conversion.toConfiguration(a.get(), from);
+      for (std::size_t k = 0; k < group.variables.size(); ++k) {
+        const std::string& joint =
+            robot->joints()[robot->variables()[group.variables[k]].joint].name;
+        to = from;
+        to[k] += 0.01 - 0.02 * (from[k] > 0.0);
+        conversion.toState(to, b.get());
+        const double weight = mine.weights.contains(joint) ? mine.weights.at(joint) : 1.0;
+        EXPECT_NEAR(space->distance(a.get(), b.get()), weight * plain->distance(a.get(), b.get()),
+                    1e-9);
+      }
+      b.random();
+      EXPECT_LE(space->distance(a.get(), b.get()), space->getMaximumExtent());
+      sum += space->distance(a.get(), b.get());
+    }
+    EXPECT_GT(sum, 0.0);
+  }
+}
+
+TEST(StateSpace, SaysWhichOptionIsWrong) {
+  const auto robot = everyJoint();
+  const Group& group = *robot->findGroup("all");
+  const auto messageOf = [&](const StateSpaceOptions& options, const Group& of) -> std::string {
+    try {
+      makeStateSpace(*robot, of, options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  const auto limits = [](const std::string& name, double low, double high) {
+    StateSpaceOptions options;
+    options.limits[name] = {low, high};
+    return options;
+  };
+  const auto weight = [](const std::string& name, double value) {
+    StateSpaceOptions options;
+    options.weights[name] = value;
+    return options;
+  };
+  EXPECT_EQ(messageOf(limits("elbow", -2, 2), group), "taken");
+  EXPECT_EQ(messageOf(limits("elbow", -2.5, 1), group),
+            "state space: limits [-2.5, 1] of `elbow` are not within the robot's [-2, 2]");
+  EXPECT_EQ(messageOf(limits("elbow", 1, 1), group),
+            "state space: limits [1, 1] of `elbow` are not within the robot's [-2, 2]");
+  EXPECT_EQ(messageOf(limits("elbow", std::nan(""), 1), group),
+            "state space: limits [nan, 1] of `elbow` are not within the robot's [-2, 2]");
+  EXPECT_EQ(messageOf(limits("nose", 0, 1), group),
+            "state space: group `all` has no variable `nose` to limit");
+  EXPECT_EQ(messageOf(limits("turn", 0, 1), *robot->findGroup("limited")),
+            "state space: group `limited` has no variable `turn` to limit");
+  for (const char* angle : {"turn", "cart/theta", "body/rot_x"}) {
+    EXPECT_EQ(messageOf(limits(angle, 0, 1), group),
+              std::string("state space: `") + angle +
+                  "` is an angle without limits, or part of an orientation");
+  }
+  EXPECT_EQ(messageOf(weight("nose", 1), group),
+            "state space: group `all` has no joint `nose` to weigh");
+  EXPECT_EQ(messageOf(weight("elbow", 0), group),
+            "state space: weight 0 of `elbow` is not a finite number greater than zero");
 }
 
 TEST(StateSpace, RefusesAGroupWithoutVariables) {

@@ -65,7 +65,7 @@ class Gantry : public testing::Test {
 
 TEST_F(Gantry, StatesAreValidWhenTheirClearanceIsPositive) {
   constexpr int kStates = 2000;
-  int valid = 0;
+  int valid = 0, deep = 0;
   for (int i = 0; i < kStates; ++i) {
     s1_.random();
     const double truth = clearanceAt(pointOf(s1_));
@@ -76,10 +76,16 @@ TEST_F(Gantry, StatesAreValidWhenTheirClearanceIsPositive) {
     if (std::abs(truth) > 1e-9) {
       ASSERT_EQ(answer, truth > 0.0);
     }
-    ASSERT_LE(distance, std::max(truth, 0.0));
-    ASSERT_GE(distance, std::max(truth, 0.0) - 1e-6);
+    ASSERT_LE(distance, truth + 1e-12);
+    // The ball's depth, as long as its centre is outside.
+    if (truth > -kBallRadius) {
+      ASSERT_GE(distance, truth - 1e-6);
+    } else {
+      ++deep;
+    }
     valid += answer;
   }
+  EXPECT_GT(deep, kStates / 20);
   EXPECT_GT(valid, kStates / 5);
   EXPECT_LT(valid, kStates * 4 / 5);
 }
@@ -92,14 +98,42 @@ TEST_F(Gantry, StatesOutOfBoundsOrNotFiniteAreInvalid) {
   for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
     set(s1_, bad, 0.0, -0.9);
     EXPECT_FALSE(validity_.isValid(s1_.get()));
-    EXPECT_EQ(validity_.clearance(s1_.get()), 0.0);
+    EXPECT_EQ(validity_.clearance(s1_.get()), -std::numeric_limits<double>::infinity());
   }
 }
 
 TEST_F(Gantry, TellsWhatItsClearanceMeans) {
   EXPECT_EQ(validity_.getSpecs().clearanceComputationType,
             ob::StateValidityCheckerSpecs::BOUNDED_APPROXIMATE);
-  EXPECT_FALSE(validity_.getSpecs().hasValidDirectionComputation);
+  EXPECT_TRUE(validity_.getSpecs().hasValidDirectionComputation);
+}
+
+// What is not valid is led out of the nearest boxes, and not farther than it has to.
+TEST_F(Gantry, InvalidStatesGetAValidOneNearby) {
+  constexpr int kStates = 2000;
+  int asked = 0, given = 0, near = 0;
+  for (int i = 0; i < kStates; ++i) {
+    s1_.random();
+    const bool valid = validity_.isValid(s1_.get());
+    set(s2_, 5.0, 5.0, 5.0);
+    double distance = 7.0;
+    bool available = true;
+    ASSERT_EQ(validity_.isValid(s1_.get(), distance, s2_.get(), available), valid);
+    ASSERT_EQ(distance, validity_.clearance(s1_.get()));
+    if (valid || !available) {
+      ASSERT_FALSE(valid && available);
+      ASSERT_EQ(pointOf(s2_), Eigen::Vector3d(5.0, 5.0, 5.0));
+      asked += !valid;
+      continue;
+    }
+    ++asked;
+    ++given;
+    ASSERT_TRUE(validity_.isValid(s2_.get()));
+    near += (pointOf(s2_) - pointOf(s1_)).norm() < 1.5 * -distance;
+  }
+  EXPECT_GT(asked, kStates / 5);
+  EXPECT_GT(given, asked * 4 / 5);
+  EXPECT_GT(near, given * 2 / 3);
 }
 
 // The start is valid, as OMPL promises.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/ompl_bridge/clearance_objective.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "preconditions.hpp"
+#include "workspace_pool.hpp"
+
+namespace swept {
+
+CertifiedClearanceObjective::CertifiedClearanceObjective(const ompl::base::SpaceInformationPtr& si,
+                                                         std::shared_ptr<const Checker> checker,
+                                                         double accuracy)
+    : MaximizeMinClearanceObjective(si),
+      checker_(detail::requireChecker(std::move(checker), *si->getStateSpace())),
+      conversion_(checker_->robot(), checker_->group()),
+      accuracy_(accuracy),
+      pool_(std::make_unique<WorkspacePool>(*checker_)) {
+  if (!(accuracy > 0.0) || !std::isfinite(accuracy)) {
+    throw std::invalid_argument("CertifiedClearanceObjective: accuracy " +
+                                std::to_string(accuracy) +
+                                " m must be a finite number greater than zero");
+  }
+  description_ = "Proven least clearance of the motions";
+}
+
+CertifiedClearanceObjective::~CertifiedClearanceObjective() = default;
+
+ompl::base::Cost CertifiedClearanceObjective::stateCost(const ompl::base::State* state) const {
+  const WorkspacePool::Lease scratch = pool_->lease();
+  conversion_.toConfiguration(state, scratch->from);
+  return ompl::base::Cost(checker_->clearance(scratch->from, scratch->workspace));
+}
+
+ompl::base::Cost CertifiedClearanceObjective::motionCost(const ompl::base::State* s1,
+                                                         const ompl::base::State* s2) const {
+  const WorkspacePool::Lease scratch = pool_->lease();
+  conversion_.toConfiguration(s1, scratch->from);
+  conversion_.toConfiguration(s2, scratch->to);
+  return ompl::base::Cost(
+      checker_->motionClearance(scratch->from, scratch->to, accuracy_, scratch->workspace).lower);
+}
+
+}  // namespace swept

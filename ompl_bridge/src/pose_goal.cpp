@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/ompl_bridge/pose_goal.hpp"
+
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "preconditions.hpp"
+#include "state_layout.hpp"
+
+namespace swept {
+namespace ob = ompl::base;
+using detail::SubspaceKind;
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Solutions this much inside the tolerances are still inside after a conversion's rounding.
+constexpr double kInside = 0.5;
+
+void add(const ob::RealVectorBounds& translation, detail::SpaceBounds& bounds) {
+  bounds.lower.insert(bounds.lower.end(), translation.low.begin(), translation.low.end());
+  bounds.upper.insert(bounds.upper.end(), translation.high.begin(), translation.high.end());
+}
+
+void add(double most, int count, detail::SpaceBounds& bounds) {
+  bounds.lower.insert(bounds.lower.end(), count, -most);
+  bounds.upper.insert(bounds.upper.end(), count, most);
+}
+
+void addBounds(const ob::StateSpace& space, SubspaceKind kind, detail::SpaceBounds& bounds) {
+  switch (kind) {
+    case SubspaceKind::RealVector:
+      add(space.as<ob::RealVectorStateSpace>()->getBounds(), bounds);
+      break;
+    case SubspaceKind::SO2:
+      add(kPi, 1, bounds);
+      break;
+    case SubspaceKind::SE2:
+      add(space.as<ob::SE2StateSpace>()->getBounds(), bounds);
+      add(kPi, 1, bounds);
+      break;
+    case SubspaceKind::SE3:
+      add(space.as<ob::SE3StateSpace>()->getBounds(), bounds);
+      bounds.quaternions.push_back(static_cast<int>(bounds.lower.size()));
+      add(1.0, 4, bounds);
+      break;
+  }
+}
+
+detail::SpaceBounds boundsOf(const ob::StateSpace& space, const Checker& checker) {
+  const std::vector<detail::JointRun> runs = detail::jointRuns(checker.robot(), checker.group());
+  const bool single = detail::isSingleRealVector(runs);
+  detail::SpaceBounds bounds;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto index = static_cast<unsigned int>(i);
+    const ob::StateSpace* part =
+        single ? &space : space.as<ob::CompoundStateSpace>()->getSubspace(index).get();
+    addBounds(*part, runs[i].kind, bounds);
+  }
+  return bounds;
+}
+
+InverseKinematics kinematicsOf(const std::shared_ptr<const Checker>& checker, std::string_view link,
+                               const PoseGoalOptions& options, const detail::SpaceBounds& bounds) {
+  const std::shared_ptr<const Robot> robot(checker, &checker->robot());
+  return InverseKinematics(robot, checker->group().name, link, checker->options().reference,
+                           options.link_from_tool)
+      .within(bounds.lower, bounds.upper);
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("PoseGoal: " + what);
+}
+
+void requireSensible(const PoseGoalOptions& options) {
+  if (!(options.positionTolerance > 0.0)) refuse("the position tolerance is not positive");
+  if (!(options.orientationTolerance > 0.0)) refuse("the orientation tolerance is not positive");
+  if (options.maxSeeds < 0) refuse("the number of seeds is negative");
+  if (options.maxSamples < 0) refuse("the number of samples is negative");
+}
+
+}  // namespace
+
+PoseGoal::PoseGoal(const ob::SpaceInformationPtr& si, const std::shared_ptr<const Checker>& checker,
+                   std::string_view link, const Eigen::Isometry3d& model_from_tool,
+                   const PoseGoalOptions& options)
+    : GoalLazySamples(
+          si, [this](const GoalLazySamples*, ob::State* state) { return sample(state); }, false,
+          kSampleDistance),
+      bounds_(
+          boundsOf(*si->getStateSpace(), *detail::requireChecker(checker, *si->getStateSpace()))),
+      kinematics_(kinematicsOf(checker, link, options, bounds_)),
+      conversion_(kinematics_.robot(), kinematics_.group()),
+      model_from_tool_(model_from_tool),
+      options_(options),
+      workspace_(kinematics_),
+      random_(options.seed),
+      q_(bounds_.lower.size()) {
+  requireSensible(options);
+  requireTarget();
+  setThreshold(1.0);
+  // Not by the base's constructor: the thread uses the members of this class.
+  startSampling();
+}
+
+PoseGoal::~PoseGoal() {
+  stopSampling();
+}
+
+// A search of no steps refuses what sample() must not throw for, which would end the program.
+void PoseGoal::requireTarget() {
+  InverseKinematicsOptions none;
+  none.maxIterations = 0;
+  drawSeed();
+  kinematics_.solve(model_from_tool_, q_, none, workspace_);
+}
+
+double PoseGoal::distanceGoal(const ob::State* state) const {
+  std::vector<double> q(q_.size());
+  conversion_.toConfiguration(state, q);
+  const std::optional<Eigen::Isometry3d> pose = kinematics_.findPose(q);
+  if (!pose) return std::numeric_limits<double>::infinity();
+  const PoseError error = poseError(*pose, model_from_tool_);
+  return std::max(error.position / options_.positionTolerance,
+                  error.angle / options_.orientationTolerance);
+}
+
+void PoseGoal::drawSeed() {
+  for (std::size_t i = 0; i < q_.size(); ++i) {
+    q_[i] = random_.uniformReal(bounds_.lower[i], bounds_.upper[i]);
+  }
+  for (const int first : bounds_.quaternions) random_.quaternion(&q_[first]);
+}
+
+// The caller, OMPL, keeps the state if it is valid and differs from those before it.
+bool PoseGoal::sample(ob::State* state) {
+  const InverseKinematicsOptions search{kInside * options_.positionTolerance,
+                                        kInside * options_.orientationTolerance};
+  while (isSampling() && seeds_ < options_.maxSeeds &&
+         getStateCount() < static_cast<std::size_t>(options_.maxSamples)) {
+    ++seeds_;
+    drawSeed();
+    if (!kinematics_.solve(model_from_tool_, q_, search, workspace_)) continue;
+    conversion_.toState(q_, state);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace swept
