@@ -18,7 +18,7 @@ namespace ob = ompl::base;
 
 class Samplers : public testing::Test {
  protected:
-  Samplers() { setup_->setup(); }
+  Samplers() { setup_->getSpaceInformation()->setup(); }
 
   /// m, mean over the samples. All are valid.
   template <typename Sampler>
