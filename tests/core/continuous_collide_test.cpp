@@ -287,6 +287,26 @@ class Lost : public Motion {
   double rounding(double /*reach*/) const override { return 0.0; }
 };
 
+/// Half-spaces that face each other, parallel and apart at 0, 0.5 and 1, and cross far out between:
+/// no bound is known of what turns and has no end.
+TEST(ContinuousCollide, EndlessBodiesThatTurnAreNotFree) {
+  const Shape below = makeHalfSpace({0, 0, 1}, 0.0), above = makeHalfSpace({0, 0, -1}, -1.0);
+  const std::vector<ControlPose> sway{{Vector3d::Zero(), Vector3d::Zero()},
+                                      {Vector3d::Zero(), Vector3d(0.3, 0, 0)},
+                                      {Vector3d::Zero(), Vector3d(-0.3, 0, 0)},
+                                      {Vector3d::Zero(), Vector3d::Zero()}};
+  const SplineMotion motion = SplineMotion::bezier(Eigen::Matrix3d::Identity(), sway);
+  const SplineMotion nod = SplineMotion::bezier(
+      Eigen::Matrix3d::Identity(),
+      std::vector<ControlPose>(4, ControlPose{Vector3d::Zero(), Vector3d::Zero()}));
+  for (const auto& [a, b] : {std::pair<const Motion*, const Motion*>(&kStill, &motion),
+                             std::pair<const Motion*, const Motion*>(&motion, &nod)}) {
+    const ContinuousResult result = continuousCollide(below, *a, above, *b);
+    EXPECT_NE(result.verdict, Verdict::Free);
+    EXPECT_LT(result.freeUntil, 1e-6);
+  }
+}
+
 TEST(ContinuousCollide, WhatIsNotFiniteIsUndecided) {
   const Shape ball = makeSphere(0.1);
   const ContinuousResult lost =

@@ -137,6 +137,8 @@ TEST(PartApproach, WithoutNumbersOnlyTheTravelCounts) {
   const PartMotion endless = motions.of(true, box);
   EXPECT_EQ(PartApproach(whole, endless, still).along(Vector3d::UnitX()), 0.3);
   EXPECT_EQ(PartApproach(whole, endless, still).most(), 0.3);
+  EXPECT_EQ(PartApproach(whole, endless, still).lossAlong(Vector3d::UnitX()).before, 0.3);
+  EXPECT_EQ(PartApproach(whole, endless, still).lossAlong(Vector3d::UnitX()).after, 0.3);
   whole.travel = std::nan("");
   EXPECT_FALSE(1.0 > PartApproach(whole, endless, still).along(Vector3d::UnitX()));
 }

@@ -74,7 +74,9 @@ SliceDescent::Proven SliceDescent::provenBy(double gap, const Vector3d& n,
   if (!(gap > required)) return {0.0, 0.0};
   const PartApproach::Loss loss = approach.lossAlong(n);
   const auto share = [&](double lost) {
-    return gap > required + lost ? 1.0 : std::min(1.0, (gap - required) / lost) * (1.0 - 1e-12);
+    if (gap > required + lost) return 1.0;
+    const double part = (gap - required) / lost;
+    return part > 0.0 ? std::min(part, 1.0) * (1.0 - 1e-12) : 0.0;
   };
   return {share(loss.before), share(loss.after)};
 }

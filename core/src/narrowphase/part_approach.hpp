@@ -52,8 +52,11 @@ class PartApproach {
   };
   Loss lossAlong(const Eigen::Vector3d& n) const {
     const double receding = n.dot(linear_), spread = spreadAlong(n);
-    return {std::min(whole_.travel, std::max(0.0, receding + spread)),
-            std::min(whole_.travel, std::max(0.0, spread - receding))};
+    // Of an endless body that turns neither is a number, and only the travel counts.
+    const auto lost = [&](double approach) {
+      return approach <= 0.0 ? 0.0 : std::min(whole_.travel, approach);
+    };
+    return {lost(receding + spread), lost(spread - receding)};
   }
   /// m, >= along(n) for every n.
   double most() const { return most_; }
