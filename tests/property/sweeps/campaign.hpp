@@ -25,7 +25,7 @@ struct CampaignReport {
   std::uint64_t close = 0;     ///< proven free, and seen within ten tolerances of the margin
   std::uint64_t mustBeFree = 0, symmetries = 0, crossings = 0;
   std::uint64_t samples = 0;  ///< judged by the tests' own distance
-  std::array<std::uint64_t, 6> scenes{};
+  std::array<std::uint64_t, kSceneNames.size()> scenes{};
   std::array<std::array<std::uint64_t, kKinds>, kKinds> pairs{};
   std::array<std::array<std::uint64_t, kPathKinds>, kPathKinds> paths{};
   double widest = 0.0;        ///< tolerances, of the straight crossings

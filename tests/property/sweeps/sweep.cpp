@@ -31,7 +31,7 @@ class Maker {
   Sweep make() {
     constexpr std::array kScenes{Scene::Grazing, Scene::Grazing,  Scene::Crossing, Scene::Crossing,
                                  Scene::Through, Scene::NearMiss, Scene::NearMiss, Scene::Apart,
-                                 Scene::Apart,   Scene::Anywhere};
+                                 Scene::Apart,   Scene::Swaying,  Scene::Anywhere};
     sweep_.scene = kScenes[random_.below(static_cast<int>(kScenes.size()))];
     switch (sweep_.scene) {
       case Scene::Through:
@@ -42,6 +42,9 @@ class Maker {
         break;
       case Scene::Apart:
         apart();
+        break;
+      case Scene::Swaying:
+        swaying();
         break;
       default:
         meeting();
@@ -167,6 +170,30 @@ class Maker {
       orbit();
     }
     sweep_.mustBeFree = onA.extreme && onB.extreme && !flats;
+  }
+
+  /// What holds at the ends and in the middle says nothing of the times between.
+  void swaying() {
+    const Touch onA = extreme(sweep_.a, sizeA_), onB = extreme(sweep_.b, sizeB_);
+    const swept::ContinuousOptions& o = sweep_.options;
+    face(onA, onB, (o.margin + o.tolerance) * random_.uniform(1.0, 3.0));
+    sway(sweep_.pathB);
+    if (random_.chance(0.5)) sway(sweep_.pathA);
+    sweep_.t = 0.5;
+    place();
+    sweep_.t = random_.uniform(0.0, 1.0);
+  }
+
+  /// A cubic that is at one pose at 0, 1/2 and 1.
+  void sway(Path& path) {
+    const bool turns = random_.chance(0.8);
+    const Vector3d turn =
+        turns ? random_.decades(-3.0, 0.3) * random_.direction() : Vector3d::Zero().eval();
+    const Vector3d move = sweep_.size * random_.decades(-3.0, 0.5) * random_.direction();
+    path = {};
+    path.kind = PathKind::Bezier;
+    const swept::ControlPose there{Vector3d::Zero(), Vector3d::Zero()};
+    path.control = {there, {move, turn}, {-move, -turn}, there};
   }
 
   /// Makes it turn about the normal and go across it only.

@@ -14,10 +14,11 @@ enum class Scene : std::uint8_t {
   Through,   ///< at t a point of one is at one of the other, anywhere on or in them
   NearMiss,  ///< as Grazing, but they keep a little more than the margin at t
   Apart,     ///< they keep more than margin + tolerance
+  Swaying,   ///< they do at 0, 1/2 and 1, and turn and move to and fro between
   Anywhere
 };
-inline constexpr std::array<std::string_view, 6> kSceneNames{"grazing",   "crossing", "through",
-                                                             "near miss", "apart",    "anywhere"};
+inline constexpr std::array<std::string_view, 7> kSceneNames{
+    "grazing", "crossing", "through", "near miss", "apart", "swaying", "anywhere"};
 
 struct Sweep {
   Scene scene = Scene::Anywhere;
