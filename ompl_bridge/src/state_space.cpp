@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "joint_space.hpp"
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 #include "tip_projection.hpp"
@@ -23,6 +24,7 @@
 namespace swept {
 namespace ob = ompl::base;
 using detail::JointRun;
+using detail::JointSpace;
 using detail::SubspaceKind;
 namespace {
 
@@ -72,36 +74,6 @@ double weightOf(const Robot& robot, int joint, const StateSpaceOptions& options)
   const auto given = options.weights.find(robot.joints()[joint].name);
   return given == options.weights.end() ? 1.0 : given->second;
 }
-
-/// Joints with limits, each with a factor in the distance.
-class JointSpace : public ob::RealVectorStateSpace {
- public:
-  explicit JointSpace(std::vector<double> weights)
-      : RealVectorStateSpace(static_cast<unsigned int>(weights.size())),
-        weights_(std::move(weights)) {}
-
-  double distance(const ob::State* a, const ob::State* b) const override {
-    const double* from = a->as<StateType>()->values;
-    const double* to = b->as<StateType>()->values;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const double difference = weights_[i] * (to[i] - from[i]);
-      sum += difference * difference;
-    }
-    return std::sqrt(sum);
-  }
-  double getMaximumExtent() const override {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const double range = weights_[i] * (bounds_.high[i] - bounds_.low[i]);
-      sum += range * range;
-    }
-    return std::sqrt(sum);
-  }
-
- private:
-  std::vector<double> weights_;
-};
 
 /// A whole group's space. OMPL registers projections of its own, or none, whenever a space is set
 /// up; the group's comes after them.

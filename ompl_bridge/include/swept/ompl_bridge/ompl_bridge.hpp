@@ -4,6 +4,7 @@
 /// OMPL over a swept::Checker: `isValid` and `checkMotion` mean *proven free*. Holds no geometry.
 #include "swept/ompl_bridge/clearance_objective.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
+#include "swept/ompl_bridge/nearest_states.hpp"
 #include "swept/ompl_bridge/paths.hpp"
 #include "swept/ompl_bridge/pose_goal.hpp"
 #include "swept/ompl_bridge/setup.hpp"

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "joint_space.hpp"
+
+#include <cmath>
+#include <new>
+#include <typeinfo>
+#include <utility>
+
+namespace swept::detail {
+
+namespace ob = ompl::base;
+
+JointSpace::JointSpace(std::vector<double> weights)
+    : RealVectorStateSpace(static_cast<unsigned int>(weights.size())),
+      weights_(std::move(weights)) {}
+
+double JointSpace::distance(const ob::State* a, const ob::State* b) const {
+  const double* from = a->as<StateType>()->values;
+  const double* to = b->as<StateType>()->values;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    const double difference = weights_[i] * (to[i] - from[i]);
+    sum += difference * difference;
+  }
+  return std::sqrt(sum);
+}
+
+double JointSpace::getMaximumExtent() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    const double range = weights_[i] * (bounds_.high[i] - bounds_.low[i]);
+    sum += range * range;
+  }
+  return std::sqrt(sum);
+}
+
+ob::State* JointSpace::allocState() const {
+  static_assert(sizeof(JointState) % alignof(double) == 0);
+  void* memory = ::operator new(sizeof(JointState) + weights_.size() * sizeof(double));
+  auto* state = new (memory) JointState(*this);
+  state->values =
+      new (static_cast<std::byte*>(memory) + sizeof(JointState)) double[weights_.size()];
+  return state;
+}
+
+void JointSpace::freeState(ob::State* state) const {
+  auto* joints = static_cast<JointState*>(state);
+  joints->~JointState();
+  ::operator delete(joints);
+}
+
+const JointSpace::JointState* asJointState(const ob::State* state) {
+  if (typeid(*state) != typeid(JointSpace::JointState)) return nullptr;
+  return static_cast<const JointSpace::JointState*>(state);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+
+#include <vector>
+
+namespace swept::detail {
+
+/// Joints with limits, each with a factor in the distance.
+class JointSpace : public ompl::base::RealVectorStateSpace {
+ public:
+  /// What allocState gives: its values lie behind it, so that reading them is one jump, not two.
+  class JointState final : public StateType {
+   public:
+    explicit JointState(const JointSpace& space) : space_(&space) {}
+    const JointSpace& space() const { return *space_; }
+
+   private:
+    const JointSpace* space_;
+  };
+
+  explicit JointSpace(std::vector<double> weights);
+
+  const std::vector<double>& weights() const { return weights_; }
+  double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
+  double getMaximumExtent() const override;
+  ompl::base::State* allocState() const override;
+  void freeState(ompl::base::State* state) const override;
+
+ private:
+  std::vector<double> weights_;
+};
+
+/// Null for a state that no JointSpace has made.
+const JointSpace::JointState* asJointState(const ompl::base::State* state);
+
+}  // namespace swept::detail

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "joint_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "squared_distances.hpp"
+
+namespace swept::detail {
+namespace {
+
+constexpr std::size_t kLeaf = 256;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kMost = std::numeric_limits<float>::max();
+constexpr double kFarthest = 1e18;  // its square is a float
+
+const double* valuesOf(const ompl::base::State* state) {
+  return state->as<JointSpace::StateType>()->values;
+}
+
+float squaredToBox(const std::vector<float>& box, const std::vector<float>& point) {
+  const std::size_t dimension = point.size();
+  float sum = 0.0F;
+  for (std::size_t d = 0; d < dimension; ++d) {
+    const float below = box[d] - point[d], above = point[d] - box[dimension + d];
+    const float outside = std::max(std::max(below, above), 0.0F);
+    sum += outside * outside;
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// From the leaf that the point is in outwards.
+class JointTree::Cells::Search {
+ public:
+  Search(const Cells& tree, const double* values, Candidates& candidates, bool onlyNearest)
+      : tree_(tree),
+        candidates_(candidates),
+        onlyNearest_(onlyNearest),
+        point_(tree.weighted(values)) {
+    float largest = tree.largest_;
+    for (const float x : point_) largest = std::max(largest, std::abs(x));
+    // Each coordinate is rounded once, their differences, squares and sum once more.
+    constexpr double kUlp = std::numeric_limits<float>::epsilon();
+    const auto dimension = static_cast<double>(point_.size());
+    absolute_ = kUlp * std::sqrt(dimension) * static_cast<double>(largest);
+    relative_ = 1.0 + kUlp * (dimension + 8.0);
+  }
+
+  void run(double within) {
+    limit_ = limitOf(within);
+    visit(0, squaredToBox(tree_.cells_[0].box, point_));
+  }
+
+ private:
+  /// No point that is nearer than `distance` has a squared distance above this.
+  float limitOf(double distance) const {
+    const double most = (distance + absolute_) * relative_;
+    const double squared = most * most * relative_;
+    return squared < static_cast<double>(kMost) ? static_cast<float>(squared) : kMost;
+  }
+
+  void visit(std::size_t index, float squared) {
+    if (!(squared <= limit_)) return;
+    const Cell& cell = tree_.cells_[index];
+    if (cell.children == 0) return look(cell);
+    const std::size_t first = cell.children, second = first + 1;
+    const float toFirst = squaredToBox(tree_.cells_[first].box, point_);
+    const float toSecond = squaredToBox(tree_.cells_[second].box, point_);
+    const bool below =
+        toFirst < toSecond ||
+        (toFirst == toSecond && point_[static_cast<std::size_t>(cell.axis)] < cell.middle);
+    visit(below ? first : second, below ? toFirst : toSecond);
+    visit(below ? second : first, below ? toSecond : toFirst);
+  }
+
+  void look(const Cell& leaf) {
+    const std::size_t count = leaf.indices.size();
+    for (std::size_t first = 0; first < count; first += kLeaf) {
+      lookAt(leaf, first, std::min(kLeaf, count - first));
+    }
+  }
+
+  void lookAt(const Cell& leaf, std::size_t first, std::size_t count) {
+    const float least = squaredDistances(leaf.blocks.data() + first * point_.size(), count,
+                                         point_.data(), point_.size(), squared_.data());
+    float limit = kMost;
+    if (onlyNearest_) {
+      limit = limitOf(std::sqrt(static_cast<double>(least)) * relative_ + absolute_);
+    }
+    if (!(least <= limit_)) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(squared_[i] <= std::min(limit, limit_))) continue;
+      limit_ = limitOf(candidates_.consider(leaf.indices[first + i]));
+    }
+  }
+
+  const Cells& tree_;
+  Candidates& candidates_;
+  bool onlyNearest_;
+  std::vector<float> point_;
+  std::array<float, kLeaf> squared_;
+  double absolute_ = 0.0, relative_ = 1.0;
+  float limit_ = 0.0F;
+};
+
+JointTree::Cells::Cells(const JointSpace& space)
+    : space_(&space), dimension_(space.getDimension()), cells_{leaf()} {}
+
+std::vector<float> JointTree::Cells::weighted(const double* values) const {
+  std::vector<float> point(dimension_);
+  for (std::size_t d = 0; d < dimension_; ++d) {
+    const double value = space_->weights()[d] * values[d];
+    const bool finite = std::isfinite(value);
+    point[d] = static_cast<float>(finite ? std::clamp(value, -kFarthest, kFarthest) : kFarthest);
+  }
+  return point;
+}
+
+JointTree::Cells::Cell JointTree::Cells::leaf() const {
+  Cell cell;
+  cell.box.assign(dimension_, kInfinity);
+  cell.box.insert(cell.box.end(), dimension_, -kInfinity);
+  cell.capacity = kLeaf;
+  return cell;
+}
+
+float JointTree::Cells::coordinate(const Cell& leaf, std::size_t i, std::size_t axis) const {
+  return leaf.blocks[i / kBlock * kBlock * dimension_ + axis * kBlock + i % kBlock];
+}
+
+void JointTree::Cells::put(Cell& leaf, const float* point, std::uint32_t index) const {
+  const std::size_t i = leaf.indices.size();
+  if (i % kBlock == 0) leaf.blocks.resize(leaf.blocks.size() + kBlock * dimension_);
+  for (std::size_t d = 0; d < dimension_; ++d) {
+    leaf.blocks[i / kBlock * kBlock * dimension_ + d * kBlock + i % kBlock] = point[d];
+    leaf.box[d] = std::min(leaf.box[d], point[d]);
+    leaf.box[dimension_ + d] = std::max(leaf.box[dimension_ + d], point[d]);
+  }
+  leaf.indices.push_back(index);
+}
+
+void JointTree::Cells::add(const double* values, std::uint32_t index) {
+  const std::vector<float> point = weighted(values);
+  for (const float x : point) largest_ = std::max(largest_, std::abs(x));
+  std::size_t at = 0;
+  while (cells_[at].children != 0) {
+    Cell& cell = cells_[at];
+    for (std::size_t d = 0; d < dimension_; ++d) {
+      cell.box[d] = std::min(cell.box[d], point[d]);
+      cell.box[dimension_ + d] = std::max(cell.box[dimension_ + d], point[d]);
+    }
+    at = cell.children + (point[static_cast<std::size_t>(cell.axis)] < cell.middle ? 0 : 1);
+  }
+  put(cells_[at], point.data(), index);
+  if (cells_[at].indices.size() > cells_[at].capacity) divide(at);
+}
+
+/// At the median along the longest side. Where half of the points and more are at one place, the
+/// leaf stays, and may hold more.
+void JointTree::Cells::divide(std::size_t index) {
+  Cell full = std::move(cells_[index]);
+  const std::size_t count = full.indices.size();
+  std::size_t axis = 0;
+  float longest = -1.0F;
+  for (std::size_t d = 0; d < dimension_; ++d) {
+    const float side = full.box[dimension_ + d] - full.box[d];
+    if (side > longest) longest = side, axis = d;
+  }
+  std::vector<float> along(count);
+  for (std::size_t i = 0; i < count; ++i) along[i] = coordinate(full, i, axis);
+  const auto median = along.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(along.begin(), median, along.end());
+  const float middle = *median;
+  if (!(*std::min_element(along.begin(), median) < middle)) {
+    full.capacity *= 2;
+    cells_[index] = std::move(full);
+    return;
+  }
+  Cell children[2] = {leaf(), leaf()};
+  std::vector<float> point(dimension_);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t d = 0; d < dimension_; ++d) point[d] = coordinate(full, i, d);
+    put(children[point[axis] < middle ? 0 : 1], point.data(), full.indices[i]);
+  }
+  Cell& inner = cells_[index];
+  inner = {};
+  inner.box = std::move(full.box);
+  inner.axis = static_cast<int>(axis);
+  inner.middle = middle;
+  inner.children = static_cast<std::uint32_t>(cells_.size());
+  cells_.push_back(std::move(children[0]));
+  cells_.push_back(std::move(children[1]));
+}
+
+void JointTree::Cells::remove(const double* values, std::uint32_t index) {
+  const std::vector<float> point = weighted(values);
+  std::size_t at = 0;
+  while (cells_[at].children != 0) {
+    const Cell& cell = cells_[at];
+    at = cell.children + (point[static_cast<std::size_t>(cell.axis)] < cell.middle ? 0 : 1);
+  }
+  Cell& cell = cells_[at];
+  const auto found = std::ranges::find(cell.indices, index);
+  if (found == cell.indices.end()) return;
+  const auto i = static_cast<std::size_t>(found - cell.indices.begin());
+  const std::size_t last = cell.indices.size() - 1;
+  for (std::size_t d = 0; d < dimension_; ++d) {
+    cell.blocks[i / kBlock * kBlock * dimension_ + d * kBlock + i % kBlock] =
+        coordinate(cell, last, d);
+  }
+  cell.indices[i] = cell.indices[last];
+  cell.indices.pop_back();
+  if (last % kBlock == 0) cell.blocks.resize(cell.blocks.size() - kBlock * dimension_);
+}
+
+void JointTree::Cells::search(const double* values, double within, bool onlyNearest,
+                              Candidates& candidates) const {
+  Search(*this, values, candidates, onlyNearest).run(within);
+}
+
+JointTree::JointTree() = default;
+JointTree::~JointTree() = default;
+
+void JointTree::clear() {
+  cells_.reset();
+}
+
+bool JointTree::holds(const ompl::base::State* state) const {
+  const JointSpace::JointState* joints = asJointState(state);
+  return joints != nullptr && cells_ != nullptr && &joints->space() == &cells_->space();
+}
+
+bool JointTree::add(const ompl::base::State* state, std::uint32_t index) {
+  const JointSpace::JointState* joints = asJointState(state);
+  if (joints == nullptr) return false;
+  if (cells_ == nullptr) cells_ = std::make_unique<Cells>(joints->space());
+  if (!holds(state)) return false;
+  cells_->add(joints->values, index);
+  return true;
+}
+
+void JointTree::remove(const ompl::base::State* state, std::uint32_t index) {
+  if (holds(state)) cells_->remove(valuesOf(state), index);
+}
+
+bool JointTree::search(const ompl::base::State* state, double within, bool onlyNearest,
+                       Candidates& candidates) const {
+  if (!holds(state)) return false;
+  cells_->search(valuesOf(state), within, onlyNearest, candidates);
+  return true;
+}
+
+}  // namespace swept::detail

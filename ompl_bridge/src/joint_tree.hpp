@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "joint_space.hpp"
+#include "swept/ompl_bridge/nearest_states.hpp"
+
+namespace swept::detail {
+
+/// A k-d tree (Bentley 1975) of weighted joint values in single precision, with leaves of many
+/// points, whose distances are computed in lanes. Every cell has the bounding box of its points.
+class JointTree::Cells {
+ public:
+  explicit Cells(const JointSpace& space);
+
+  const JointSpace& space() const { return *space_; }
+  void add(const double* values, std::uint32_t index);
+  void remove(const double* values, std::uint32_t index);
+  void search(const double* values, double within, bool onlyNearest, Candidates& candidates) const;
+
+ private:
+  struct Cell {
+    std::vector<float> box;              ///< least values, then greatest
+    std::vector<float> blocks;           ///< of a leaf
+    std::vector<std::uint32_t> indices;  ///< of a leaf
+    std::size_t capacity = 0;            ///< of a leaf, before it is divided
+    int axis = 0;
+    float middle = 0.0F;         ///< below the first child is, from it on the second
+    std::uint32_t children = 0;  ///< the first of two; 0: a leaf
+  };
+  class Search;
+
+  std::vector<float> weighted(const double* values) const;
+  Cell leaf() const;
+  void put(Cell& leaf, const float* point, std::uint32_t index) const;
+  float coordinate(const Cell& leaf, std::size_t i, std::size_t axis) const;
+  void divide(std::size_t cell);
+
+  const JointSpace* space_;
+  std::size_t dimension_;
+  std::vector<Cell> cells_;
+  float largest_ = 0.0F;  ///< of all coordinates' magnitudes
+};
+
+}  // namespace swept::detail

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+namespace swept::detail {
+
+/// Points in a block, which holds their first coordinates, then their second, and so on.
+constexpr std::size_t kBlock = 16;
+
+/// Squared distances of `count` points in blocks from `point`, into `squared`, which has room for
+/// whole blocks; what follows the points is +infinity. Returns the least.
+float squaredDistances(const float* blocks, std::size_t count, const float* point,
+                       std::size_t dimension, float* squared);
+
+}  // namespace swept::detail
