@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "planning_problems.hpp"
@@ -22,17 +23,23 @@ struct Method {
   std::string name;
   /// Of OMPL's discrete validator over FCL, as a share of the space's extent; none: certified.
   std::optional<double> resolution;
+  bool nearestStates = false;  ///< the planner's nearest neighbours are the bridge's, not OMPL's
 };
 
-/// Ours, OMPL's default, MoveIt's. FCL's columns are relative to the second.
-inline const std::vector<Method> kMethods{{"swept", {}}, {"FCL, 1 %", 0.01}, {"FCL, 0.5 %", 0.005}};
-constexpr std::size_t kSwept = 0, kReference = 1;
+/// Ours, ours with the planner as OMPL has it, OMPL's default, MoveIt's. FCL's columns are relative
+/// to OMPL's default.
+inline const std::vector<Method> kMethods{{"swept", {}, true},
+                                          {"swept, OMPL's neighbours", {}},
+                                          {"FCL, 1 %", 0.01},
+                                          {"FCL, 0.5 %", 0.005}};
+constexpr std::size_t kSwept = 0, kReference = 2;
 
 /// What the exact checker says of a whole path.
 struct PathJudgement {
   Verdict verdict = Verdict::Free;  ///< Collision if one of its segments is, else Undecided if one
   int segments = 0, colliding = 0;
   double stretch = 0.0;  ///< rad (L2), longest part in contact, by samples every kContactStep
+  double depth = 0.0;    ///< m, of the hulls of the two that are deepest in each other
 };
 
 struct Attempt {
@@ -52,30 +59,44 @@ struct PlanningLimits {
 
 constexpr double kContactStep = 1e-3;  ///< rad
 
-/// rad (L2): the longest part of a segment whose samples are all in contact. `running`: what the
-/// segment before ended with; becomes what this one ends with.
-inline double longestContact(const Checker& checker, const std::vector<double>& from,
-                             const std::vector<double>& to, Workspace& workspace, double& running) {
-  double squared = 0.0, longest = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i) squared += (to[i] - from[i]) * (to[i] - from[i]);
-  const double length = std::sqrt(squared);
-  const int steps = std::max(1, static_cast<int>(std::ceil(length / kContactStep)));
-  for (int k = 1; k <= steps; ++k) {
-    const Eigen::VectorXd q = checker.interpolate(from, to, static_cast<double>(k) / steps);
-    const Verdict verdict =
-        checker.checkState({q.data(), static_cast<std::size_t>(q.size())}, workspace);
-    running = verdict == Verdict::Collision ? running + length / steps : 0.0;
-    longest = std::max(longest, running);
+/// What a path's colliding segments are like, by samples.
+class ContactSamples {
+ public:
+  ContactSamples(const Checker& checker, PathJudgement& judgement)
+      : checker_(checker), workspace_(checker), judgement_(judgement) {}
+
+  void segment(const std::vector<double>& from, const std::vector<double>& to) {
+    double squared = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i) squared += (to[i] - from[i]) * (to[i] - from[i]);
+    const double length = std::sqrt(squared);
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / kContactStep)));
+    for (int k = 1; k <= steps; ++k) {
+      const Eigen::VectorXd q = checker_.interpolate(from, to, static_cast<double>(k) / steps);
+      state({q.data(), static_cast<std::size_t>(q.size())}, length / steps);
+    }
   }
-  return longest;
-}
+  /// What comes now does not follow on what came.
+  void interrupt() { running_ = 0.0; }
+
+ private:
+  void state(std::span<const double> q, double step) {
+    if (checker_.checkState(q, workspace_) != Verdict::Collision) return interrupt();
+    running_ += step;
+    judgement_.stretch = std::max(judgement_.stretch, running_);
+    judgement_.depth = std::max(judgement_.depth, -checker_.signedClearance(q, workspace_).lower);
+  }
+
+  const Checker& checker_;
+  Workspace workspace_;
+  PathJudgement& judgement_;
+  double running_ = 0.0;  ///< rad (L2), in contact until now
+};
 
 inline PathJudgement judge(const ompl::geometric::PathGeometric& path, const Checker& checker) {
   const StateConversion conversion(checker.robot(), checker.group());
-  Workspace workspace(checker);
   std::vector<double> from(static_cast<std::size_t>(checker.dimension())), to(from);
   PathJudgement judgement;
-  double running = 0.0;
+  ContactSamples contacts(checker, judgement);
   unsigned segment = 0;
   for (const MotionCertificate& certificate : certifyPath(path, checker)) {
     ++judgement.segments;
@@ -84,11 +105,10 @@ inline PathJudgement judge(const ompl::geometric::PathGeometric& path, const Che
     if (certificate.verdict == Verdict::Collision) {
       ++judgement.colliding;
       judgement.verdict = Verdict::Collision;
-      judgement.stretch =
-          std::max(judgement.stretch, longestContact(checker, from, to, workspace, running));
+      contacts.segment(from, to);
       continue;
     }
-    running = 0.0;
+    contacts.interrupt();
     if (certificate.verdict == Verdict::Undecided && judgement.verdict == Verdict::Free)
       judgement.verdict = Verdict::Undecided;
   }
@@ -109,14 +129,17 @@ inline ompl::geometric::SimpleSetupPtr setupOf(const std::shared_ptr<const Check
 
 /// RRTConnect with its default range from the start to the goal; made ready, not yet run.
 inline void prepare(ompl::geometric::SimpleSetup& setup, const PlanningCase& problem,
-                    const Checker& checker) {
+                    const Checker& checker, const Method& method) {
   const StateConversion conversion(checker.robot(), checker.group());
   ompl::base::ScopedState<> start(setup.getStateSpace()), goal(setup.getStateSpace());
   conversion.toState(problem.start, start.get());
   conversion.toState(problem.goal, goal.get());
   setup.setStartAndGoalStates(start, goal);
-  setup.setPlanner(std::make_shared<ompl::geometric::RRTConnect>(setup.getSpaceInformation()));
+  const auto planner = std::make_shared<ompl::geometric::RRTConnect>(setup.getSpaceInformation());
+  setup.setPlanner(planner);
   setup.setup();
+  // After OMPL's own have drawn their seeds: every method's samplers get the same ones.
+  if (method.nearestStates) planner->setNearestNeighbors<NearestStates>();
 }
 
 /// What planning problems needs besides them.
@@ -139,7 +162,7 @@ class Planning {
     attempt.building = cpuSeconds() - begin;
     ValidityMeter meter(clock_);
     meterValidity(setup->getSpaceInformation(), meter);
-    prepare(*setup, problem, *checker);
+    prepare(*setup, problem, *checker, method);
     solve(*setup, meter, attempt);
     if (attempt.solved) attempt.path = judge(setup->getSolutionPath(), *checker);
     return attempt;

@@ -60,7 +60,12 @@ class PlanningBenchmark {
     }
     print(planned);
     return std::ranges::all_of(planned, [](const PlannedCase& c) {
-      return !c.attempts[kSwept].solved || c.attempts[kSwept].path.verdict == Verdict::Free;
+      for (std::size_t i = 0; i < kMethods.size(); ++i) {
+        const Attempt& attempt = c.attempts[i];
+        if (!kMethods[i].resolution && attempt.solved && attempt.path.verdict != Verdict::Free)
+          return false;
+      }
+      return true;
     });
   }
 
@@ -78,7 +83,8 @@ class PlanningBenchmark {
       planned.attempts[method] =
           planning_.attempt(checker, problem, static_cast<std::uint32_t>(number), kMethods[method]);
     }
-    planned.attempts[kSwept].building += planned.building;
+    for (std::size_t i = 0; i < kMethods.size(); ++i)
+      if (!kMethods[i].resolution) planned.attempts[i].building += planned.building;
     return planned;
   }
 

@@ -35,6 +35,7 @@ struct MethodSummary {
   int segments = 0, collidingSegments = 0;
   std::vector<double> seconds;                         ///< ascending
   std::vector<double> stretches;                       ///< rad, ascending, of colliding paths
+  std::vector<double> depths;                          ///< m, ascending, of colliding paths
   double validity = 0.0;                               ///< s
   double motions = 0.0, states = 0.0, building = 0.0;  ///< means, the last in s
 
@@ -42,6 +43,7 @@ struct MethodSummary {
     for (const PlannedCase* planned : cases) add(*planned, planned->attempts[method]);
     std::ranges::sort(seconds);
     std::ranges::sort(stretches);
+    std::ranges::sort(depths);
     const auto compared = static_cast<double>(std::max<std::size_t>(1, seconds.size()));
     motions /= compared;
     states /= compared;
@@ -73,7 +75,8 @@ struct MethodSummary {
     collidingSegments += path.colliding;
     if (path.verdict != Verdict::Collision) return;
     ++colliding;
-    stretches.insert(stretches.end(), path.stretch);
+    stretches.push_back(path.stretch);
+    depths.push_back(path.depth);
   }
 };
 
@@ -101,18 +104,21 @@ inline void printTimes(const std::vector<PlannedCases>& sets,
   }
 }
 
+/// "median, worst" of ascending values.
+inline std::string middleAndWorst(const std::vector<double>& values, double unit) {
+  if (values.empty()) return "-";
+  return number(quantile(values, 0.5) / unit, 2) + ", " + number(values.back() / unit, 2);
+}
+
 inline void printPaths(const std::vector<PlannedCases>& sets,
                        const std::vector<std::string>& names) {
   const MarkdownTable table({"set", "method", "paths", "free, proven", "in collision", "undecided",
-                             "segments in collision", "longest contact, rad: median, worst"});
+                             "segments in collision", "longest contact, rad: median, worst",
+                             "depth of hulls, mm: median, worst"});
   for (std::size_t s = 0; s < sets.size(); ++s) {
     for (std::size_t m = 0; m < kMethods.size(); ++m) {
       const MethodSummary summary(sets[s], m);
       const double paths = static_cast<double>(std::max<std::size_t>(1, summary.solved));
-      const std::string contact = summary.stretches.empty()
-                                      ? "-"
-                                      : number(quantile(summary.stretches, 0.5), 2) + ", " +
-                                            number(summary.stretches.back(), 2);
       table.row(
           {m == 0 ? names[s] : "", kMethods[m].name, std::to_string(summary.solved),
            std::to_string(summary.free),
@@ -120,7 +126,7 @@ inline void printPaths(const std::vector<PlannedCases>& sets,
                percent(static_cast<double>(summary.colliding) / paths) + ")",
            std::to_string(summary.undecided),
            std::to_string(summary.collidingSegments) + " of " + std::to_string(summary.segments),
-           contact});
+           middleAndWorst(summary.stretches, 1.0), middleAndWorst(summary.depths, 1e-3)});
     }
   }
 }
