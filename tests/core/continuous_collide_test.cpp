@@ -307,6 +307,27 @@ TEST(ContinuousCollide, EndlessBodiesThatTurnAreNotFree) {
   }
 }
 
+/// A plate that lies flat against a face is through it at once, and inside for a while.
+TEST(ContinuousCollide, APlateIsInsideAsSoonAsItIsThrough) {
+  const test::Soup box = test::boxSoup({-1, -1, -1}, {1, 1, 1});
+  const Shape solid = TriangleMesh::build(box.vertices, box.triangles);
+  const Shape plate =
+      Triangle{{Vector3d(-0.2, -0.1, 0), Vector3d(0.3, -0.1, 0), Vector3d(0, 0.2, 0)}};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> drift(-0.3, 0.3);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d from(drift(random), drift(random), 1.4 + drift(random));
+    const Vector3d way(drift(random), drift(random), -1.9);
+    const double first = (from.z() - 1.0) / 1.9;
+    const ContinuousResult found =
+        continuousCollide(solid, kStill, plate, flight(from, from + way), to(1e-6));
+    ASSERT_EQ(found.verdict, Verdict::Collision) << i;
+    EXPECT_LE(found.freeUntil, first + 1e-12) << i;
+    EXPECT_GE(found.contactBy, first - 1e-12) << i;
+    EXPECT_LE((found.contactBy - found.freeUntil) * way.norm(), 1.000001e-6) << i;
+  }
+}
+
 TEST(ContinuousCollide, WhatIsNotFiniteIsUndecided) {
   const Shape ball = makeSphere(0.1);
   const ContinuousResult lost =

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "continuous/leaf_contact.hpp"
 #include "continuous/relative_motion.hpp"
 #include "continuous/slice_descent.hpp"
 #include "narrowphase/convex_pair.hpp"
+#include "narrowphase/enclosure.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept {
@@ -182,6 +184,7 @@ class TimeSearch {
     if (isShort(interval.to - interval.from, descent.approach())) {
       stopAt(interval.from);
       ++grazed_;
+      lookInside(interval.to);
       return;
     }
     const SliceDescent::Proven& proven = descent.proven();
@@ -206,6 +209,18 @@ class TimeSearch {
     }
     push(after);
     push(before);
+  }
+
+  /// A flat body can be through a surface within one short interval: what comes after is apart from
+  /// the surface, and inside.
+  void lookInside(double t) {
+    if (contact_ && t >= result_.contactBy) return;
+    const Isometry3d world_from_a = motionA_.at(t);
+    const std::optional<Eigen::Vector3d> point =
+        detail::enclosedPoint(a_, b_, world_from_a.inverse() * motionB_.at(t));
+    if (!point) return;
+    noteContact(t, world_from_a, *point, *point);
+    waiting_.clear();
   }
 
   LeafContact::Range rangeOf(const MotionSlice& slice, const SliceDescent& descent) const {
