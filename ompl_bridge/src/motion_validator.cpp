@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <atomic>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "preconditions.hpp"
@@ -7,6 +9,41 @@
 #include "workspace_pool.hpp"
 
 namespace swept {
+namespace {
+
+// Near the tolerance a proof may hang on the order in which a motion is looked at, and the two
+// queries have each its own. Both overloads go by both, so that they say the same.
+bool isProven(const Checker& checker, WorkspacePool::Scratch& scratch, std::span<const double> to,
+              MotionQuery first, MotionCertificate& certificate) {
+  certificate = checker.certifyMotion(scratch.from, to, scratch.workspace, first);
+  if (certificate.verdict != Verdict::Undecided) return certificate.verdict == Verdict::Free;
+  const MotionQuery second =
+      first == MotionQuery::VerdictOnly ? MotionQuery::FirstContact : MotionQuery::VerdictOnly;
+  return checker.certifyMotion(scratch.from, to, scratch.workspace, second).verdict ==
+         Verdict::Free;
+}
+
+// Up to which t the motion to the state `q` there is proven, given that all before freeUntil is.
+// Planners take the way to the last valid state for valid without asking. As a motion of its own it
+// is looked at at other times than the whole was, and right before a contact that may decide.
+double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, double freeUntil,
+                  Eigen::VectorXd& q) {
+  constexpr double kLeastStep = 1.0 / 1024.0;  // of the way, doubled each time
+  double share = 1.0;
+  for (double step = kLeastStep; share > 0.0; share = 1.0 - step, step *= 2.0) {
+    const double t = share * freeUntil;
+    if (!(t > 0.0)) return 0.0;
+    // Not the space's interpolate: it takes orientations closer than 1e-4 rad for equal and would
+    // leave the certified motion by that much.
+    q = checker.interpolate(scratch.from, scratch.to, t);
+    MotionCertificate certificate;
+    const std::span<const double> there(q.data(), static_cast<std::size_t>(q.size()));
+    if (isProven(checker, scratch, there, MotionQuery::VerdictOnly, certificate)) return t;
+  }
+  return 0.0;
+}
+
+}  // namespace
 
 CertifiedMotionValidator::CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si,
                                                    std::shared_ptr<const Checker> checker)
@@ -30,9 +67,8 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1,
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  const MotionCertificate certificate = checker_->certifyMotion(
-      scratch->from, scratch->to, scratch->workspace, MotionQuery::VerdictOnly);
-  return count(certificate.verdict == Verdict::Free);
+  MotionCertificate certificate;
+  return count(isProven(*checker_, *scratch, scratch->to, MotionQuery::VerdictOnly, certificate));
 }
 
 bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
@@ -45,20 +81,17 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const om
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  const MotionCertificate certificate = checker_->certifyMotion(
-      scratch->from, scratch->to, scratch->workspace, MotionQuery::FirstContact);
-  if (certificate.verdict == Verdict::Free) return count(true);
+  MotionCertificate certificate;
+  if (isProven(*checker_, *scratch, scratch->to, MotionQuery::FirstContact, certificate))
+    return count(true);
 
-  if (lastValid.first != nullptr && certificate.freeUntil > 0.0) {
-    // Not the space's interpolate: it takes orientations closer than 1e-4 rad for equal and would
-    // leave the certified motion by that much.
-    const Eigen::VectorXd q =
-        checker_->interpolate(scratch->from, scratch->to, certificate.freeUntil);
+  Eigen::VectorXd q;
+  lastValid.second = lastProven(*checker_, *scratch, certificate.freeUntil, q);
+  if (lastValid.first != nullptr && lastValid.second > 0.0) {
     conversion_.toState({q.data(), static_cast<std::size_t>(q.size())}, lastValid.first);
   } else if (lastValid.first != nullptr) {
     si_->copyState(lastValid.first, s1);  // s2 may be NaN, and 0 * NaN would spoil the start
   }
-  lastValid.second = certificate.freeUntil;
   return count(false);
 }
 

@@ -1,22 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "preconditions.hpp"
 
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/base/spaces/SO2StateSpace.h>
+
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <typeinfo>
 #include <vector>
 
+#include "group_space.hpp"
+#include "joint_space.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 
 namespace swept::detail {
 
+namespace {
+
+namespace ob = ompl::base;
+
+/// Not derived ones, which may interpolate in another way, or hold other states than they say.
+template <typename... Spaces>
+bool isOneOf(const ob::StateSpace& space) {
+  return ((typeid(space) == typeid(Spaces)) || ...);
+}
+
+bool interpolatesAsCertified(const ob::StateSpace& space) {
+  if (isOneOf<ob::CompoundStateSpace, GroupSpace<ob::CompoundStateSpace>>(space)) {
+    const auto& parts = space.as<ob::CompoundStateSpace>()->getSubspaces();
+    return std::ranges::all_of(parts,
+                               [](const auto& part) { return interpolatesAsCertified(*part); });
+  }
+  return isOneOf<JointSpace, GroupSpace<JointSpace>, ob::RealVectorStateSpace, ob::SO2StateSpace,
+                 ob::SE2StateSpace, ob::SE3StateSpace>(space);
+}
+
+}  // namespace
+
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space) {
   std::vector<int> wanted, given;
+  const std::string refused = "state space `" + space.getName() +
+                              "` is not built as makeStateSpace does for group `" +
+                              checker.group().name + "`";
+  if (!interpolatesAsCertified(space)) {
+    throw std::invalid_argument(refused + ": its motions are not those that are certified");
+  }
   makeStateSpace(checker.robot(), checker.group())->computeSignature(wanted);
   space.computeSignature(given);
-  if (given != wanted) {
-    throw std::invalid_argument("state space `" + space.getName() +
-                                "` is not built as makeStateSpace does for group `" +
-                                checker.group().name + "`");
-  }
+  if (given != wanted) throw std::invalid_argument(refused);
 }
 
 std::shared_ptr<const Checker> requireChecker(std::shared_ptr<const Checker> checker,

@@ -9,8 +9,10 @@
 
 namespace swept::detail {
 
-/// States are cast to what makeStateSpace lays out, so another space would be read as garbage.
-/// Throws std::invalid_argument unless `space` has that layout.
+/// States are cast to what makeStateSpace lays out, so another space would be read as garbage; and
+/// what is certified is the motion that its spaces interpolate. Throws std::invalid_argument unless
+/// `space` has that layout, and OMPL's own spaces or makeStateSpace's in it: not ones derived from
+/// them, nor Dubins', Reeds and Shepp's, or constrained ones.
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space);
 
 /// The checker itself. Throws std::invalid_argument for null or as above.

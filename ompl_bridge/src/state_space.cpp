@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "group_space.hpp"
 #include "joint_space.hpp"
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
@@ -23,6 +24,7 @@
 
 namespace swept {
 namespace ob = ompl::base;
+using detail::GroupSpace;
 using detail::JointRun;
 using detail::JointSpace;
 using detail::SubspaceKind;
@@ -74,22 +76,6 @@ double weightOf(const Robot& robot, int joint, const StateSpaceOptions& options)
   const auto given = options.weights.find(robot.joints()[joint].name);
   return given == options.weights.end() ? 1.0 : given->second;
 }
-
-/// A whole group's space. OMPL registers projections of its own, or none, whenever a space is set
-/// up; the group's comes after them.
-template <typename Space>
-class GroupSpace : public Space {
- public:
-  using Space::Space;
-  void setProjection(ob::ProjectionEvaluatorPtr projection) { projection_ = std::move(projection); }
-  void registerProjections() override {
-    Space::registerProjections();
-    this->registerDefaultProjection(projection_);
-  }
-
- private:
-  ob::ProjectionEvaluatorPtr projection_;
-};
 
 void nameDimensions(const Robot& robot, std::span<const int> variables, ob::StateSpace& space) {
   auto* realVector = space.as<ob::RealVectorStateSpace>();

@@ -55,6 +55,10 @@ bool ValidityChecker::findValid(const ompl::base::State* state,
   ompl::base::ScopedState<> found(si_->getStateSpace(), state);
   ompl::base::State* const there = found.get();
   si_->enforceBounds(there);
+  if (isValid(there)) {
+    si_->copyState(validState, there);
+    return true;
+  }
   const WorkspacePool::Lease scratch = pool_->lease();
   const double wanted = checker_->options().margin + 2.0 * checker_->options().tolerance;
   for (int i = 0; i < kSteps; ++i) {

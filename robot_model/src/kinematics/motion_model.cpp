@@ -18,10 +18,16 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Shorter arc between two orientations; with opposite ones (dot = 0) the sign as given decides.
-Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to) {
+/// Product of two quaternions x, y, z, w, as given and summed in the order that OMPL's SO3StateSpace
+/// has: between opposite orientations its rounding decides which way round is taken.
+double dot(const double* a, const double* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+/// Of the turn from one orientation to another, or to the same with the other sign.
+Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to, bool negated) {
   Quaterniond relative = to * from.conjugate();
-  if (from.dot(to) < 0.0) relative.coeffs() = -relative.coeffs();
+  if (negated) relative.coeffs() = -relative.coeffs();
   const double sine = relative.vec().norm();
   if (!(sine > 0.0)) return Vector3d::Zero();
   return (2.0 * std::atan2(sine, relative.w()) / sine) * relative.vec();
@@ -197,7 +203,7 @@ bool compileFloating(const double* from, const double* to, JointMotion& motion) 
   motion.translation = start;
   motion.rate = end - start;
   motion.rotation = first;
-  motion.spin = rotationVector(first, second);
+  motion.spin = rotationVector(first, second, dot(from + 3, to + 3) < 0.0);
   motion.wander = std::max(start.norm(), end.norm());
   return true;
 }

@@ -17,8 +17,10 @@ class WorkspacePool;
 /// checkMotion: both ends are within the bounds of the space and the whole motion is proven free.
 /// lastValid (contract of ompl::base::MotionValidator): when the motion is invalid, `second` is the
 /// largest proven t and `first`, unless null, the state there; when it is valid both are left
-/// alone. `second` is 0 when an end is out of bounds: nothing is asked about the part inside. Any
-/// number of threads may call it.
+/// alone. The motion to that state is proven too: where it is not proven on its own, which happens
+/// right before a contact, t is a little less (of the way 1/1024, 2/1024, 4/1024, ...). `second` is
+/// 0 when an end is out of bounds: nothing is asked about the part inside. Any number of threads
+/// may call it.
 class CertifiedMotionValidator : public ompl::base::MotionValidator {
  public:
   /// Throws std::invalid_argument unless si's space is built as makeStateSpace does for the

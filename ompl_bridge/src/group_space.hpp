@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/ProjectionEvaluator.h>
+
+#include <utility>
+
+namespace swept::detail {
+
+/// A whole group's space. OMPL registers projections of its own, or none, whenever a space is set
+/// up; the group's comes after them.
+template <typename Space>
+class GroupSpace : public Space {
+ public:
+  using Space::Space;
+  void setProjection(ompl::base::ProjectionEvaluatorPtr projection) {
+    projection_ = std::move(projection);
+  }
+  void registerProjections() override {
+    Space::registerProjections();
+    this->registerDefaultProjection(projection_);
+  }
+
+ private:
+  ompl::base::ProjectionEvaluatorPtr projection_;
+};
+
+}  // namespace swept::detail
