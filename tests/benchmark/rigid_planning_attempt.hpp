@@ -12,6 +12,7 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <cstdint>
+#include <ctime>
 #include <map>
 #include <memory>
 #include <optional>
@@ -123,7 +124,7 @@ struct RigidAttempt {
 
 struct RigidLimits {
   std::string planner = "RRTConnect";
-  double seconds = 20.0;  ///< s, wall, for each attempt
+  double seconds = 20.0;  ///< s, CPU, for each attempt
   unsigned runs = 10;
   std::uint32_t seed = 1;  ///< of the first run; the next has the next
 };
