@@ -15,13 +15,9 @@
 namespace {
 
 std::vector<double> configuration(const swept::Checker& checker, const std::string& text) {
+  if (checker.robot().findNamedState(text, checker.group().name) != nullptr)
+    return swept::namedConfiguration(checker.robot(), checker.group(), text);
   std::vector<double> q;
-  if (const auto* named = checker.robot().findNamedState(text, checker.group().name)) {
-    Eigen::VectorXd all = checker.robot().defaultState();
-    for (const auto& [variable, value] : named->values) all[variable] = value;
-    for (const int variable : checker.group().variables) q.push_back(all[variable]);
-    return q;
-  }
   std::istringstream values(text);
   for (std::string value; std::getline(values, value, ',');) q.push_back(std::stod(value));
   return q;

@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,16 @@ struct StateSpaceOptions {
 /// positive number.
 ompl::base::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
                                          const StateSpaceOptions& options = {});
+
+/// The group's values, in its order, in a state that the SRDF names: what StateConversion::toState
+/// takes. Throws std::invalid_argument when the group has no state of that name (the message lists
+/// those it has) or the state has no value for one of the group's variables.
+std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
+                                       std::string_view name);
+
+/// The other way: a state as an SRDF has it, of the group's values in its order. Throws
+/// std::invalid_argument unless there is one for each of its variables.
+NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q);
 
 /// Copies between a state of makeStateSpace(robot, group) and the group's configuration.
 /// Both throw std::invalid_argument unless q has `dimension()` values.
