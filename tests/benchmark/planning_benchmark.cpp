@@ -2,7 +2,7 @@
 // What planning costs, and what its paths are worth: swept against FCL under OMPL's discrete
 // validator, on MotionBenchMaker's problems.
 //   SWEPT_DATA=DATA planning_benchmark [panda] [ur5] [--sets N|all] [--time S] [--seed N]
-//                                      [--overhead]
+//                                      [--overhead|--neighbours]
 #include <ompl/util/Console.h>
 
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <iostream>
 #include <optional>
 
+#include "planning_neighbours.hpp"
 #include "planning_overhead.hpp"
 #include "planning_tables.hpp"
 
@@ -20,7 +21,8 @@ struct Options {
   std::vector<std::string> robots;
   std::size_t perSet = kAllProblems;
   PlanningLimits limits;
-  bool overhead = false;  ///< measure the bridge alone, instead of planning
+  bool overhead = false;    ///< measure the bridge alone, instead of planning
+  bool neighbours = false;  ///< measure nearest neighbours alone
 };
 
 class PlanningBenchmark {
@@ -28,7 +30,7 @@ class PlanningBenchmark {
   PlanningBenchmark(const Options& options, std::filesystem::path data)
       : options_(options), data_(std::move(data)), planning_(options.limits) {}
 
-  /// False when a path of ours is not proven free.
+  /// False when a path of ours is not proven free, or a state is not the nearest.
   bool run() const {
     bool proven = true;
     std::printf("Left out of all times: %.0f ns for each metered call\n",
@@ -39,7 +41,9 @@ class PlanningBenchmark {
       const PlanningProblems problems(data_, name, options_.perSet);
       std::printf("robot and %zu problems read in %s s\n", problems.cases().size(),
                   number(cpuSeconds() - begin).c_str());
-      if (options_.overhead)
+      if (options_.neighbours)
+        proven = printNeighbours(problems, options_.limits.seed) && proven;
+      else if (options_.overhead)
         printOverhead(problems, options_.limits.seed);
       else
         proven = plan(problems) && proven;
@@ -69,7 +73,8 @@ class PlanningBenchmark {
     });
   }
 
-  /// The methods in turns: another one begins with each problem.
+  /// The methods in turns: another one begins with each problem, and half of the time they go
+  /// backwards, so that none always finds the world's memory warm.
   PlannedCase planCase(const Checker& empty, const PlanningCase& problem,
                        std::size_t number) const {
     PlannedCase planned;
@@ -79,7 +84,9 @@ class PlanningBenchmark {
     const auto checker = std::make_shared<const Checker>(empty.withWorld(problem.world));
     planned.building = cpuSeconds() - begin;
     for (std::size_t i = 0; i < kMethods.size(); ++i) {
-      const std::size_t method = (number + i) % kMethods.size();
+      const std::size_t count = kMethods.size();
+      const bool back = number / count % 2 == 1;
+      const std::size_t method = (number + (back ? count - i : i)) % count;
       planned.attempts[method] =
           planning_.attempt(checker, problem, static_cast<std::uint32_t>(number), kMethods[method]);
     }
@@ -150,6 +157,8 @@ std::optional<Options> optionsOf(int argc, char** argv) {
       options.robots.emplace_back("UR5");
     } else if (word == "--overhead") {
       options.overhead = true;
+    } else if (word == "--neighbours") {
+      options.neighbours = true;
     } else {
       if (i + 1 == argc || !takeOption(word, argv[i + 1], options)) return std::nullopt;
       ++i;
@@ -166,7 +175,7 @@ int main(int argc, char** argv) {
   const auto options = swept::benchmark::optionsOf(argc, argv);
   if (!options) {
     std::cerr << "usage: planning_benchmark [panda] [ur5] [--sets N|all] [--time S] [--seed N] "
-                 "[--overhead]\n";
+                 "[--overhead|--neighbours]\n";
     return 2;
   }
   const auto data = swept::benchmark::dataFolder();
