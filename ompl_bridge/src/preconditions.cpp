@@ -4,6 +4,8 @@
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
+#include <ompl/geometric/planners/cforest/CForest.h>
+#include <ompl/geometric/planners/cforest/CForestStateSpaceWrapper.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -40,6 +42,11 @@ bool interpolatesAsCertified(const ob::StateSpace& space) {
 }  // namespace
 
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space) {
+  // CForest's paths are of a space that passes everything on to the one that it was given.
+  if (const auto* wrapper = dynamic_cast<const ob::CForestStateSpaceWrapper*>(&space)) {
+    const auto& si = wrapper->getCForestInstance()->getSpaceInformation();
+    return requireSpaceOf(checker, *si->getStateSpace());
+  }
   std::vector<int> wanted, given;
   const std::string refused = "state space `" + space.getName() +
                               "` is not built as makeStateSpace does for group `" +

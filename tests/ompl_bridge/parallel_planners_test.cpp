@@ -32,7 +32,8 @@ constexpr double kSeconds = 60.0;  // that a search may take; all take far less
 
 /// The threads, but the one that made this, that ask the validators. The first question of each
 /// waits until all of them have one, so that none can solve the problem before the others begin.
-/// After that a lock would order what the validators have to order, and hide it where they do not.
+/// After that nothing here may lock: it would order the threads, and hide from ThreadSanitizer
+/// where the validators do not.
 class Askers {
  public:
   explicit Askers(std::size_t expected) : expected_(expected) {}
@@ -111,8 +112,8 @@ class ParallelPlanners : public testing::Test {
  protected:
   void SetUp() override { ompl::msg::setLogLevel(ompl::msg::LOG_NONE); }
 
-  /// `threads` of the planner, or of its goal, are to ask the validators.
-  void expectThreads(std::size_t threads) {
+  /// For a planner that asks the validators with so many threads, those of its goal included.
+  void prepare(std::size_t threads) {
     askers_ = std::make_unique<Askers>(threads);
     threads_ = threads;
     setup_ = makeSimpleSetup(checker_);
@@ -145,6 +146,7 @@ class ParallelPlanners : public testing::Test {
     return goal;
   }
 
+  /// By all the threads; every answer is counted once, whoever got it.
   void expectSolved(const ob::PlannerPtr& planner) {
     setup_->setPlanner(planner);
     ASSERT_TRUE(setup_->solve(kSeconds) == ob::PlannerStatus::EXACT_SOLUTION);
@@ -154,8 +156,7 @@ class ParallelPlanners : public testing::Test {
   }
 
   void expectProven() const {
-    og::PathGeometric path(si());  // that of CForest is of a wrapper of the space
-    for (const ob::State* state : setup_->getSolutionPath().getStates()) path.append(state);
+    const og::PathGeometric& path = setup_->getSolutionPath();
     const auto certificates = certifyPath(path, *checker_);
     ASSERT_EQ(certificates.size() + 1, path.getStateCount());
     for (const MotionCertificate& certificate : certificates) {
@@ -182,6 +183,7 @@ class ParallelPlanners : public testing::Test {
   const Eigen::Vector3d kStart{-0.8, -0.5, -0.5}, kGoal{0.8, -0.5, -0.5};
   // m. The ball's centre goes through the window at (0, 0.4, 0.4) at best: 3.007 m.
   static constexpr double kShort = 3.3;
+  static constexpr double kStep = 0.05;  // m, so that it takes 60 of them
 
   const std::vector<Obstacle> wall_ = wallWithWindow();
   const std::shared_ptr<const Checker> checker_ =
@@ -195,10 +197,11 @@ class ParallelPlanners : public testing::Test {
 /// Each valid motion becomes an edge of the one tree, each other none.
 TEST_F(ParallelPlanners, EightThreadsGrowOneTree) {
   for (const bool own : {false, true}) {
-    expectThreads(8);
+    prepare(8);
     setup_->setGoalState(at(kGoal));
     const auto planner = std::make_shared<og::pRRT>(si());
     planner->setThreadCount(8);
+    planner->setRange(kStep);
     if (own) planner->setNearestNeighbors<NearestStates>();
     expectSolved(planner);
     ob::PlannerData tree(si());
@@ -209,7 +212,7 @@ TEST_F(ParallelPlanners, EightThreadsGrowOneTree) {
 }
 
 TEST_F(ParallelPlanners, EightThreadsGrowTwoTreesLazily) {
-  expectThreads(8);
+  prepare(8);
   setup_->setGoalState(at(kGoal));
   const auto planner = std::make_shared<og::pSBL>(si());
   planner->setThreadCount(8);
@@ -219,7 +222,7 @@ TEST_F(ParallelPlanners, EightThreadsGrowTwoTreesLazily) {
 /// Each tree has a thread and a space information of its own, with these validators.
 TEST_F(ParallelPlanners, AForestOptimises) {
   for (const bool own : {false, true}) {
-    expectThreads(8);
+    prepare(8);
     setup_->setGoalState(at(kGoal));
     shorterSuffices();
     const auto planner = std::make_shared<og::CForest>(si());
@@ -236,7 +239,7 @@ TEST_F(ParallelPlanners, AForestOptimises) {
 }
 
 TEST_F(ParallelPlanners, PlannersOfSeveralKindsWorkTogether) {
-  expectThreads(5);
+  prepare(5);
   setup_->setGoalState(at(kGoal));
   shorterSuffices();
   const auto planner =
@@ -247,7 +250,7 @@ TEST_F(ParallelPlanners, PlannersOfSeveralKindsWorkTogether) {
 }
 
 TEST_F(ParallelPlanners, AGoalIsSampledMeanwhile) {
-  expectThreads(1);
+  prepare(1);
   const auto goal = poseGoal();
   const auto planner = std::make_shared<og::RRTConnect>(si());
   planner->setNearestNeighbors<NearestStates>();
@@ -256,10 +259,11 @@ TEST_F(ParallelPlanners, AGoalIsSampledMeanwhile) {
 }
 
 TEST_F(ParallelPlanners, AGoalIsSampledWhileEightThreadsAskForIt) {
-  expectThreads(9);
+  prepare(9);
   const auto goal = poseGoal();
   const auto planner = std::make_shared<og::pRRT>(si());
   planner->setThreadCount(8);
+  planner->setRange(kStep);
   expectSolved(planner);
   EXPECT_GE(goal->getStateCount(), 1u);
 }
