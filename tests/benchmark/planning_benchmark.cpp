@@ -10,6 +10,7 @@
 #include <iostream>
 #include <optional>
 
+#include "number_argument.hpp"
 #include "planning_neighbours.hpp"
 #include "planning_overhead.hpp"
 #include "planning_tables.hpp"
@@ -125,17 +126,10 @@ class PlanningBenchmark {
   Planning planning_;
 };
 
-std::optional<double> numberOf(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Takes an option with a value; false when it cannot.
 bool takeOption(const std::string& name, const std::string& text, Options& options) {
   if (name == "--sets" && text == "all") return true;
-  const std::optional<double> value = numberOf(text);
+  const std::optional<double> value = positiveNumber(text);
   if (!value) return false;
   if (name == "--time") {
     options.limits.seconds = *value;

@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 
+#include "number_argument.hpp"
 #include "rigid_planning_motions.hpp"
 #include "rigid_planning_tables.hpp"
 
@@ -112,20 +113,13 @@ class RigidBenchmark {
   std::vector<RigidRuns> runs_;
 };
 
-std::optional<double> numberOf(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Takes an option with a value; false when it cannot.
 bool takeOption(const std::string& name, const std::string& text, Options& options) {
   if (name == "--planner") {
     options.limits.planner = text;
     return kRigidPlanners.contains(text);
   }
-  const std::optional<double> value = numberOf(text);
+  const std::optional<double> value = positiveNumber(text);
   if (!value) return false;
   if (name == "--time") options.limits.seconds = *value;
   if (name == "--unit") options.unit = *value;
