@@ -196,6 +196,7 @@ inline std::string reproducer(const ImpactQuery& q) {
 class Subdivision {
  public:
   struct Answer {
+    bool known = true;       ///< false: too many parts to look at
     bool free = false;       ///< nothing is left of the box
     double contactBy = 1.0;  ///< else: a part with a box of at most `width` m is left at this t
   };
@@ -205,19 +206,23 @@ class Subdivision {
 
   Answer answer() {
     std::vector<Part> parts{{{0.0, 0.0, 0.0}, {q_.options.before, 1.0, 1.0}}};
-    while (!parts.empty()) {
+    for (int looked = 0; !parts.empty(); ++looked) {
+      if (looked == kMostParts) return {.known = false};
       const Part part = parts.back();
       parts.pop_back();
       Eigen::Array3d low;
       Eigen::Array3d high;
       if (!bounds(part, low, high)) continue;
-      if ((high - low).maxCoeff() <= width_) return {false, part.from[0]};
+      if ((high - low).maxCoeff() <= width_) return {.contactBy = part.from[0]};
       divide(part, parts);
     }
-    return {true, 1.0};
+    return {.free = true};
   }
 
  private:
+  /// Of features that nearly touch along a line, or in a plane, the parts do not get fewer.
+  static constexpr int kMostParts = 1 << 24;
+
   struct Part {
     std::array<double, 3> from;
     std::array<double, 3> to;

@@ -174,11 +174,13 @@ TEST(Impact, SeparationsAboutTheLeastDistance) {
 }
 
 /// Against the division of time and parameters, down to 1e-9 m: of queries of this size none is
-/// nearer than that and yet apart, but for one in a billion.
+/// nearer than that and yet apart, but for one in a billion. What takes the division too long is
+/// rarer than one in ten thousand.
 TEST(Impact, AgreesWithSubdivision) {
   const int queries = queriesInAll() / 100;
   RandomImpacts random(seed() + 3);
   int collisions = 0;
+  int unknown = 0;
   for (int i = 0; i < queries; ++i) {
     ImpactQuery q = random.draw();
     if (i % 2 == 1) q.options.separation = 0.125;
@@ -186,7 +188,9 @@ TEST(Impact, AgreesWithSubdivision) {
     const Impact impact = ask(q);
     const auto truth = oracle::Subdivision(q, 1e-9).answer();
     ASSERT_EQ(oracle::complaint(q, impact), "") << oracle::reproducer(q);
-    if (impact.verdict == Verdict::Free) {
+    if (!truth.known) {
+      ++unknown;
+    } else if (impact.verdict == Verdict::Free) {
       ASSERT_TRUE(truth.free) << oracle::reproducer(q);
     } else {
       ++collisions;
@@ -195,6 +199,7 @@ TEST(Impact, AgreesWithSubdivision) {
   }
   EXPECT_GT(collisions, queries / 10);
   EXPECT_LT(collisions, queries * 7 / 10);
+  EXPECT_LE(unknown, queries / 10000);
 }
 
 /// Coordinates of all magnitudes side by side, whose products underflow: a point of one feature
@@ -218,6 +223,25 @@ TEST(Impact, MagnitudesMayDiffer) {
     ASSERT_EQ(impact.verdict, Verdict::Collision) << oracle::reproducer(q);
     ASSERT_EQ(oracle::complaint(q, impact), "") << oracle::reproducer(q);
   }
+}
+
+/// Two edges that slide past each other for most of the motion, 2.5e-12 of their size apart, which
+/// is where coefficients in doubles tell nothing: found at random among ten million.
+TEST(Impact, SlidesWithinRoundingAreDecided) {
+  const ImpactQuery q{true,
+                      {{{{-0x1.62682d63a91d2p-39, -0x1.e8522764d9394p-277, 0x1.2b2cc1c64b614p-67},
+                         {-0x1.822f191c43c82p-1, 0x1.1237e609897aep-3, -0x1.15b80efa4c9ep-6}},
+                        {{-0x1.a9e9b83b67ccp-66, -0x1.8d9728f3ae9d5p-1, 0x1.e5391ab6979p-6},
+                         {-0x1.0c18da1f0dd28p-1, -0x1.01b3eb3b91a96p-81, 0x1.1f5cfe19d1baap+0}},
+                        {{-0x1.33143612a36b1p-236, -0x1.b4dc47cf5867p-4, -0x1.6f4d376450f15p-31},
+                         {-0x1.7b2645673836ep-1, -0x1.6b5e84739b27dp-178, -0x1.e3b45cf5baaep-22}},
+                        {{-0x1.924c93aca17a5p-183, 0x1.cb30b708237bcp-107, -0x1.90306b23496fp-111},
+                         {-0x1.822f191c43c82p-1, 0x1.1237e609897aep-3, -0x1.15b80efa4c9ep-6}}}},
+                      {.separation = 0.0, .tolerance = 0.0, .before = 1.0}};
+  const Impact impact = ask(q);
+  EXPECT_EQ(impact.verdict, Verdict::Collision);
+  EXPECT_GT(impact.freeUntil, 0.75);
+  EXPECT_EQ(oracle::complaint(q, impact), "") << oracle::reproducer(q);
 }
 
 /// Scaled by powers of two, with separation and tolerance, answers do not change in any bit.

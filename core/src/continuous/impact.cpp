@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "continuous/corner_paths.hpp"
+#include "narrowphase/exact_sign.hpp"
 #include "swept/core/tolerances.hpp"
 
 /// Conservative advancement with separating directions that turn.
@@ -47,6 +48,14 @@
 /// coefficients of p, six products of three factors, by less than 74 u R^2 (M + K) + 100 u R M K;
 /// 256 u R (R (M + K) + M K) covers that and the error of the lengths of N times a separation below
 /// 2 R.
+///
+/// Lemma (refined plane). The rounded D_k at the ends of an interval, moved linearly, are within
+/// 5.1 u R a coordinate of the true ones, and so are the hulls: to keep separation + 32 u R from
+/// the rounded hull is enough, whose p is det(D_0, D_1, D_2). In TwoDoubles each of the at most 18
+/// products of three factors of a coefficient passes at most two products and five sums, as in
+/// exact_sign.hpp: 18 * 31 u^2 R^3 < 2^-96 R^3 in all. R >= 1e-40 dwarfs what underflows. E and F
+/// err by u M and u K, N by less than 14 u M K, and twice its second and third coefficients by
+/// 35 u M K.
 namespace swept {
 
 namespace {
@@ -57,6 +66,7 @@ using detail::Corners;
 using detail::EdgeEdge;
 using detail::lowest;
 using detail::Nearness;
+using detail::TwoDoubles;
 using detail::VertexFace;
 using Eigen::Vector3d;
 
@@ -70,6 +80,37 @@ constexpr double kGrowth = 8.0;
 
 /// Tests after which planes are tried as well.
 constexpr int kPatience = 4;
+
+using RefinedVector = std::array<TwoDoubles, 3>;
+
+/// x cross y, plus `sum`.
+RefinedVector crossAdded(const RefinedVector& sum, const Vector3d& x, const Vector3d& y) {
+  const auto product = [](double a, double b) { return TwoDoubles{a, 0.0} * TwoDoubles{b, 0.0}; };
+  RefinedVector cross;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    cross[i] = sum[i] + (product(x[j], y[k]) + product(-x[k], y[j]));
+  }
+  return cross;
+}
+
+TwoDoubles dot(const Vector3d& x, const RefinedVector& y) {
+  const auto term = [&](int i) { return TwoDoubles{x[i], 0.0} * y[i]; };
+  return term(0) + term(1) + term(2);
+}
+
+/// Bernstein coefficients of det(D_0, D_1, D_2), the second and third times 3.
+std::array<TwoDoubles, 4> determinantsOf(const Corners& start, const Corners& end) {
+  const RefinedVector first = crossAdded({}, start.corner(1), start.corner(2));
+  const RefinedVector middle =
+      crossAdded(crossAdded({}, start.corner(1), end.corner(2)), end.corner(1), start.corner(2));
+  const RefinedVector last = crossAdded({}, end.corner(1), end.corner(2));
+  const Vector3d from = start.corner(0);
+  const Vector3d to = end.corner(0);
+  return {dot(from, first), dot(from, middle) + dot(to, first), dot(to, middle) + dot(from, last),
+          dot(to, last)};
+}
 
 /// The features at one time.
 struct Instant {
@@ -102,6 +143,8 @@ class ImpactSearch {
   }
   bool separated(const Instant& from, const Instant& to);
   bool separatedByPlane(const Instant& from, const Instant& to) const;
+  bool separatedByRefinedPlane(const Instant& from, const Instant& to,
+                               const std::array<double, 4>& lengths) const;
   bool proven(const Instant& from, const Instant& to, bool patient) {
     return separated(from, to) || (patient && separatedByPlane(from, to));
   }
@@ -180,13 +223,31 @@ bool ImpactSearch<Features>::separatedByPlane(const Instant& from, const Instant
   const double reachE = startE.cwiseAbs().cwiseMax(endE.cwiseAbs()).maxCoeff();
   const double reachF = startF.cwiseAbs().cwiseMax(endF.cwiseAbs()).maxCoeff();
   const double rounding = 256.0 * kRounding * size_ * (size_ * (reachE + reachF) + reachE * reachF);
-  const double side = first.dot(start) < 0.0 ? -1.0 : 1.0;
-  const double lengths[3] = {threshold_ * first.norm(), threshold_ * middle.norm(),
-                             threshold_ * last.norm()};
-  return side * first.dot(start) - lengths[0] > rounding &&
-         side * (middle.dot(start) + first.dot(end)) - (lengths[0] + lengths[1]) > 3.0 * rounding &&
-         side * (middle.dot(end) + last.dot(start)) - (lengths[1] + lengths[2]) > 3.0 * rounding &&
-         side * last.dot(end) - lengths[2] > rounding;
+  const double error = 64.0 * kRounding * reachE * reachF;
+  const double ends[2] = {threshold_ * (first.norm() + error), threshold_ * (last.norm() + error)};
+  const double halfway = threshold_ * (middle.norm() + error);
+  const std::array<double, 4> lengths{ends[0], ends[0] + halfway, halfway + ends[1], ends[1]};
+  const std::array<double, 4> cubic{first.dot(start), middle.dot(start) + first.dot(end),
+                                    middle.dot(end) + last.dot(start), last.dot(end)};
+  const double side = cubic[0] < 0.0 ? -1.0 : 1.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 4; ++k) least = std::min(least, side * cubic[k] - lengths[k]);
+  if (least > 3.0 * rounding) return true;
+  return least > -3.0 * rounding && separatedByRefinedPlane(from, to, lengths);
+}
+
+/// The same with coefficients that hardly round. `lengths`: what they have to exceed.
+template <class Features>
+bool ImpactSearch<Features>::separatedByRefinedPlane(const Instant& from, const Instant& to,
+                                                     const std::array<double, 4>& lengths) const {
+  const std::array<TwoDoubles, 4> cubic = determinantsOf(from.corners, to.corners);
+  const double rounding = 0x1p-95 * size_ * size_ * size_;
+  const double side = cubic[0].high < 0.0 ? -1.0 : 1.0;
+  bool all = true;
+  for (int k = 0; k < 4; ++k) {
+    all &= side * cubic[k].high > (lengths[k] + rounding) * (1.0 + 16.0 * kRounding);
+  }
+  return all;
 }
 
 /// When the nearest points would meet if they kept the speed at which they approach.
