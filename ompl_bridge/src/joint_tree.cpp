@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "squared_distances.hpp"
 
@@ -34,13 +36,9 @@ float squaredToBox(const std::vector<float>& box, const std::vector<float>& poin
 }  // namespace
 
 /// From the leaf that the point is in outwards.
-class JointTree::Cells::Search {
+class JointTree::Cells::Walk {
  public:
-  Search(const Cells& tree, const double* values, Candidates& candidates, bool onlyNearest)
-      : tree_(tree),
-        candidates_(candidates),
-        onlyNearest_(onlyNearest),
-        point_(tree.weighted(values)) {
+  Walk(const Cells& tree, const double* values) : tree_(tree), point_(tree.weighted(values)) {
     float largest = tree.largest_;
     for (const float x : point_) largest = std::max(largest, std::abs(x));
     // Each coordinate is rounded once, their differences, squares and sum once more.
@@ -50,12 +48,11 @@ class JointTree::Cells::Search {
     relative_ = 1.0 + kUlp * (dimension + 8.0);
   }
 
-  void run(double within) {
-    limit_ = limitOf(within);
-    visit(0, squaredToBox(tree_.cells_[0].box, point_));
-  }
+ protected:
+  ~Walk() = default;
 
- private:
+  void run() { visit(0, squaredToBox(tree_.cells_[0].box, point_)); }
+
   /// No point that is nearer than `distance` has a squared distance above this.
   float limitOf(double distance) const {
     const double most = (distance + absolute_) * relative_;
@@ -63,10 +60,21 @@ class JointTree::Cells::Search {
     return squared < static_cast<double>(kMost) ? static_cast<float>(squared) : kMost;
   }
 
+  /// Of a point with this squared distance; the nearest one has none above.
+  float limitOfNearest(float squared) const {
+    return limitOf(std::sqrt(static_cast<double>(squared)) * relative_ + absolute_);
+  }
+
+  float limit_ = kMost;
+
+ private:
+  /// Of points of a leaf. `least`: the least of the squared distances.
+  virtual void look(const std::uint32_t* indices, std::span<const float> squared, float least) = 0;
+
   void visit(std::size_t index, float squared) {
     if (!(squared <= limit_)) return;
     const Cell& cell = tree_.cells_[index];
-    if (cell.children == 0) return look(cell);
+    if (cell.children == 0) return lookInto(cell);
     const std::size_t first = cell.children, second = first + 1;
     const float toFirst = squaredToBox(tree_.cells_[first].box, point_);
     const float toSecond = squaredToBox(tree_.cells_[second].box, point_);
@@ -77,34 +85,67 @@ class JointTree::Cells::Search {
     visit(below ? second : first, below ? toSecond : toFirst);
   }
 
-  void look(const Cell& leaf) {
-    const std::size_t count = leaf.indices.size();
-    for (std::size_t first = 0; first < count; first += kLeaf) {
-      lookAt(leaf, first, std::min(kLeaf, count - first));
-    }
-  }
-
-  void lookAt(const Cell& leaf, std::size_t first, std::size_t count) {
-    const float least = squaredDistances(leaf.blocks.data() + first * point_.size(), count,
-                                         point_.data(), point_.size(), squared_.data());
-    float limit = kMost;
-    if (onlyNearest_) {
-      limit = limitOf(std::sqrt(static_cast<double>(least)) * relative_ + absolute_);
-    }
-    if (!(least <= limit_)) return;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!(squared_[i] <= std::min(limit, limit_))) continue;
-      limit_ = limitOf(candidates_.consider(leaf.indices[first + i]));
+  void lookInto(const Cell& leaf) {
+    const std::size_t all = leaf.indices.size();
+    for (std::size_t first = 0; first < all; first += kLeaf) {
+      const std::size_t count = std::min(kLeaf, all - first);
+      const float least = squaredDistances(leaf.blocks.data() + first * point_.size(), count,
+                                           point_.data(), point_.size(), squared_.data());
+      if (least <= limit_) {
+        look(leaf.indices.data() + first, std::span(squared_).first(count), least);
+      }
     }
   }
 
   const Cells& tree_;
-  Candidates& candidates_;
-  bool onlyNearest_;
   std::vector<float> point_;
   std::array<float, kLeaf> squared_;
   double absolute_ = 0.0, relative_ = 1.0;
-  float limit_ = 0.0F;
+};
+
+class JointTree::Cells::Search final : Walk {
+ public:
+  Search(const Cells& tree, const double* values, Candidates& candidates)
+      : Walk(tree, values), candidates_(candidates) {}
+
+  void run(double within) {
+    limit_ = limitOf(within);
+    Walk::run();
+  }
+
+ private:
+  void look(const std::uint32_t* indices, std::span<const float> squared, float) override {
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+      if (squared[i] <= limit_) limit_ = limitOf(candidates_.consider(indices[i]));
+    }
+  }
+
+  Candidates& candidates_;
+};
+
+class JointTree::Cells::NearestSearch final : Walk {
+ public:
+  NearestSearch(const Cells& tree, const double* values) : Walk(tree, values) {}
+
+  void run(std::vector<std::uint32_t>& nearest) {
+    found_.reserve(kUsual);
+    Walk::run();
+    for (const auto& [squared, index] : found_) {
+      if (squared <= limit_) nearest.push_back(index);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kUsual = 16;
+
+  void look(const std::uint32_t* indices, std::span<const float> squared, float least) override {
+    limit_ = std::min(limit_, limitOfNearest(least));
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+      if (squared[i] <= limit_) found_.emplace_back(squared[i], indices[i]);
+    }
+  }
+
+  std::vector<std::pair<float, std::uint32_t>> found_;
 };
 
 JointTree::Cells::Cells(const JointSpace& space)
@@ -217,9 +258,12 @@ void JointTree::Cells::remove(const double* values, std::uint32_t index) {
   if (last % kBlock == 0) cell.blocks.resize(cell.blocks.size() - kBlock * dimension_);
 }
 
-void JointTree::Cells::search(const double* values, double within, bool onlyNearest,
-                              Candidates& candidates) const {
-  Search(*this, values, candidates, onlyNearest).run(within);
+void JointTree::Cells::search(const double* values, double within, Candidates& candidates) const {
+  Search(*this, values, candidates).run(within);
+}
+
+void JointTree::Cells::nearest(const double* values, std::vector<std::uint32_t>& nearest) const {
+  NearestSearch(*this, values).run(nearest);
 }
 
 JointTree::JointTree() = default;
@@ -247,10 +291,16 @@ void JointTree::remove(const ompl::base::State* state, std::uint32_t index) {
   if (holds(state)) cells_->remove(valuesOf(state), index);
 }
 
-bool JointTree::search(const ompl::base::State* state, double within, bool onlyNearest,
+bool JointTree::search(const ompl::base::State* state, double within,
                        Candidates& candidates) const {
   if (!holds(state)) return false;
-  cells_->search(valuesOf(state), within, onlyNearest, candidates);
+  cells_->search(valuesOf(state), within, candidates);
+  return true;
+}
+
+bool JointTree::nearest(const ompl::base::State* state, std::vector<std::uint32_t>& nearest) const {
+  if (!holds(state)) return false;
+  cells_->nearest(valuesOf(state), nearest);
   return true;
 }
 

@@ -19,7 +19,8 @@ class JointTree::Cells {
   const JointSpace& space() const { return *space_; }
   void add(const double* values, std::uint32_t index);
   void remove(const double* values, std::uint32_t index);
-  void search(const double* values, double within, bool onlyNearest, Candidates& candidates) const;
+  void search(const double* values, double within, Candidates& candidates) const;
+  void nearest(const double* values, std::vector<std::uint32_t>& nearest) const;
 
  private:
   struct Cell {
@@ -31,7 +32,9 @@ class JointTree::Cells {
     float middle = 0.0F;         ///< below the first child is, from it on the second
     std::uint32_t children = 0;  ///< the first of two; 0: a leaf
   };
+  class Walk;
   class Search;
+  class NearestSearch;
 
   std::vector<float> weighted(const double* values) const;
   Cell leaf() const;

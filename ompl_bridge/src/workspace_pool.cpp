@@ -12,6 +12,9 @@ WorkspacePool::Scratch::Scratch(const Checker& checker)
       gradient(checker.dimension()) {}
 
 WorkspacePool::Lease WorkspacePool::lease() {
+  if (Scratch* first = first_.exchange(nullptr, std::memory_order_acquire)) {
+    return {first, Return{this}};
+  }
   {
     const std::lock_guard lock(mutex_);
     if (!idle_.empty()) {
@@ -28,8 +31,10 @@ WorkspacePool::Lease WorkspacePool::lease() {
 }
 
 void WorkspacePool::giveBack(Scratch* scratch) noexcept {
+  Scratch* before = first_.exchange(scratch, std::memory_order_acq_rel);
+  if (before == nullptr) return;
   const std::lock_guard lock(mutex_);
-  idle_.push_back(scratch);
+  idle_.push_back(before);
 }
 
 }  // namespace swept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -32,9 +33,11 @@ class WorkspacePool {
   void giveBack(Scratch* scratch) noexcept;
 
   const Checker& checker_;
+  /// The last one returned, whose memory is warm, or null: for a single thread no lock is taken.
+  std::atomic<Scratch*> first_ = nullptr;
   std::mutex mutex_;  ///< guards what follows
   std::vector<std::unique_ptr<Scratch>> all_;
-  std::vector<Scratch*> idle_;  ///< the last one returned, whose memory is warm, is leased first
+  std::vector<Scratch*> idle_;  ///< the others; the last one returned is leased first
 };
 
 }  // namespace swept

@@ -42,10 +42,11 @@ class JointTree {
   /// The values have to be those that were added.
   void remove(const ompl::base::State* state, std::uint32_t index);
   /// Offers all that are nearer than what `consider` returned last, at first `within`, and a few
-  /// more. `onlyNearest`: at least the nearest. False, and nothing is offered, for a state of
-  /// another space.
-  bool search(const ompl::base::State* state, double within, bool onlyNearest,
-              Candidates& candidates) const;
+  /// more. False, and nothing is offered, for a state of another space.
+  bool search(const ompl::base::State* state, double within, Candidates& candidates) const;
+  /// Adds those that may be the nearest one, in single precision: mostly it alone. False, and
+  /// nothing is added, for a state of another space.
+  bool nearest(const ompl::base::State* state, std::vector<std::uint32_t>& nearest) const;
 
  private:
   class Cells;
@@ -111,6 +112,10 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   T nearest(const T& data) const override {
     if (others_) return others_->nearest(data);
     if (size() == 0) throw ompl::Exception("No elements found in nearest neighbors data structure");
+    if constexpr (kHasState) {
+      std::vector<std::uint32_t> nearest;
+      if (tree_.nearest(data->state, nearest)) return *items_[nearestOf(nearest, data)];
+    }
     return *items_[closest(data, 1, kAnywhere).front().second];
   }
 
@@ -176,11 +181,23 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     Found found_;
   };
 
+  /// The distance function is not asked where there is no choice.
+  std::uint32_t nearestOf(const std::vector<std::uint32_t>& candidates, const T& data) const {
+    std::uint32_t nearest = candidates.front();
+    if (candidates.size() == 1) return nearest;
+    double least = kAnywhere;
+    for (const std::uint32_t index : candidates) {
+      const double distance = this->distFun_(*items_[index], data);
+      if (distance < least) least = distance, nearest = index;
+    }
+    return nearest;
+  }
+
   /// k > 0.
   Found closest(const T& data, std::size_t k, double radius) const {
     Closest closest(*this, data, k, radius);
     if constexpr (kHasState) {
-      if (tree_.search(data->state, radius, k == 1, closest)) return closest.sorted();
+      if (tree_.search(data->state, radius, closest)) return closest.sorted();
     }
     for (std::uint32_t i = 0; i < items_.size(); ++i) {
       if (items_[i]) closest.consider(i);
