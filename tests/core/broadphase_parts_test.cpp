@@ -29,7 +29,7 @@ TEST(FloatBox, IsRoundedOutward) {
                                     i % 2 == 0 ? 0.0 : kInfinity));
   for (const double value : values) {
     for (const double x : {value, -value}) {
-      const double below = detail::roundedDown(x), above = detail::roundedUp(x);
+      const double below = detail::floatBelow(x), above = detail::floatAbove(x);
       EXPECT_LE(below, x);
       EXPECT_GE(above, x);
       if (value > 1e-30 && value < 1e38) {

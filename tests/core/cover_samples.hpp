@@ -102,7 +102,7 @@ struct DistanceOf {
   double operator()(const PointCloud& s) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < s.points().size(); ++i)
-      nearest = std::min(nearest, (p - s.points()[i]).norm() - s.radii()[i]);
+      nearest = std::min(nearest, (p - s.points()[i]).norm() - s.radius(i));
     return std::max(0.0, nearest);
   }
   /// The library's own query, which shares nothing with covers.
@@ -170,7 +170,7 @@ class SampleOf {
     return repeat([&] {
       const auto index =
           std::uniform_int_distribution<std::size_t>(0, s.points().size() - 1)(random_);
-      return Eigen::Vector3d(s.points()[index] + s.radii()[index] * inBall());
+      return Eigen::Vector3d(s.points()[index] + s.radius(index) * inBall());
     });
   }
   Points operator()(const TriangleMesh& s) const {

@@ -90,8 +90,10 @@ class Reproducer {
       return text + "})";
     }
     std::string operator()(const swept::PointCloud& s) const {
+      std::vector<double> radii;
+      for (std::size_t i = 0; i < s.points().size(); ++i) radii.push_back(s.radius(i));
       return "PointCloud::build(std::vector<Vector3d>" + list(s.points()) + ", " +
-             "std::vector<double>" + numbers(s.radii()) + ")";
+             "std::vector<double>" + numbers(radii) + ")";
     }
   };
 

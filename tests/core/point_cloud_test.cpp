@@ -69,7 +69,7 @@ DistanceResult byBalls(const PointCloud& cloud, const Shape& b, const Isometry3d
   least.lower = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < cloud.points().size(); ++i) {
     const DistanceResult one =
-        distance(Sphere{cloud.radii()[i]}, b, fromPoint(cloud_from_b, cloud.points()[i]));
+        distance(Sphere{cloud.radius(i)}, b, fromPoint(cloud_from_b, cloud.points()[i]));
     least.lower = std::min(least.lower, one.lower);
     least.upper = std::min(least.upper, one.upper);
   }
@@ -86,7 +86,7 @@ TEST(PointCloud, HoldsEveryPointOnceAndKnowsWhereItWas) {
   for (std::size_t i = 0; i < given.size(); ++i) {
     const int source = cloud.sourceIndices()[i];
     EXPECT_EQ(cloud.points()[i], given[source]);
-    EXPECT_EQ(cloud.radii()[i], radii[source]);
+    EXPECT_EQ(cloud.radius(i), radii[source]);
     seen.insert(source);
   }
   EXPECT_EQ(seen.size(), given.size());
@@ -101,7 +101,7 @@ TEST(PointCloud, BoundsContainEveryBall) {
   const Aabb box = boundingBox(cloud);
   for (std::size_t i = 0; i < cloud.points().size(); ++i) {
     const Vector3d& point = cloud.points()[i];
-    const double radius = cloud.radii()[i];
+    const double radius = cloud.radius(i);
     EXPECT_LE((point - ball.center).norm() + radius, ball.radius);
     EXPECT_TRUE(((point.array() - radius) >= box.lower.array()).all());
     EXPECT_TRUE(((point.array() + radius) <= box.upper.array()).all());
@@ -189,7 +189,7 @@ TEST(PointCloud, SignedDistanceHoldsTheDepthOfItsDeepestBall) {
     double deepest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < cloud.points().size(); ++k) {
       const double apart = (cloud.points()[k] - pose.translation()).norm();
-      deepest = std::min(deepest, apart - 0.1 - cloud.radii()[k]);
+      deepest = std::min(deepest, apart - 0.1 - cloud.radius(k));
     }
     EXPECT_LE(found.lower, deepest + 1e-12);
     if (deepest >= 0.0) {
@@ -210,7 +210,7 @@ TEST(PointCloud, ContactsNameTheBalls) {
   int expected = 0;
   for (std::size_t i = 0; i < cloud.points().size(); ++i) {
     const Isometry3d pose = fromPoint(Isometry3d::Identity(), cloud.points()[i]);
-    expected += collide(Sphere{cloud.radii()[i]}, box, pose) == Contact::Touching ? 1 : 0;
+    expected += collide(Sphere{cloud.radius(i)}, box, pose) == Contact::Touching ? 1 : 0;
   }
   std::vector<ContactPoint> contacts;
   const ContactsResult result = findContacts(cloud, box, Isometry3d::Identity(), 1000, contacts);
@@ -221,7 +221,7 @@ TEST(PointCloud, ContactsNameTheBalls) {
   EXPECT_EQ(contacts.size(), static_cast<std::size_t>(expected));
   for (const ContactPoint& contact : contacts) {
     const Vector3d& center = cloud.points()[contact.pieceA];
-    EXPECT_NEAR((contact.pointA - center).norm(), cloud.radii()[contact.pieceA], 1e-9);
+    EXPECT_NEAR((contact.pointA - center).norm(), cloud.radius(contact.pieceA), 1e-9);
     EXPECT_EQ(contact.pieceB, -1);
   }
 }

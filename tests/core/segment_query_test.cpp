@@ -47,7 +47,7 @@ double bruteForce(const PointCloud& cloud, const LineSegment& segment) {
     const Vector3d& point = cloud.points()[i];
     const double toPoint =
         leastOn([&](double s) { return (segment.center + s * segment.half - point).norm(); });
-    nearest = std::min(nearest, toPoint - cloud.radii()[i]);
+    nearest = std::min(nearest, toPoint - cloud.radius(i));
   }
   return std::max(nearest, 0.0);
 }

@@ -53,7 +53,7 @@ struct SupportPoint {
   Vector3d operator()(const swept::TriangleMesh& s) const { return farthest(s.vertices(), n); }
   Vector3d operator()(const swept::PointCloud& s) const {
     std::vector<Vector3d> tips = s.points();
-    for (std::size_t i = 0; i < tips.size(); ++i) tips[i] += s.radii()[i] * n;
+    for (std::size_t i = 0; i < tips.size(); ++i) tips[i] += s.radius(i) * n;
     return farthest(tips, n);
   }
 
@@ -137,7 +137,7 @@ struct Outside {
   double operator()(const swept::PointCloud& s) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < s.points().size(); ++i)
-      least = std::min(least, (p - s.points()[i]).norm() - s.radii()[i]);
+      least = std::min(least, (p - s.points()[i]).norm() - s.radius(i));
     return std::max(0.0, least);
   }
 };

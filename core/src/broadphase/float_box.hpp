@@ -47,7 +47,7 @@ struct FloatBox {
 /// Lemma: for |x| within the range of floats, f = fl(x) is off by at most u |f| (1 + u) plus half
 /// the least denormal, u = 2^-24; the product and the difference below round by at most u of
 /// theirs, and 4 u |f| exceeds the sum. The last term covers what underflows.
-inline float roundedDown(double x) {
+inline float floatBelow(double x) {
   constexpr float kMost = std::numeric_limits<float>::max();
   if (x < -static_cast<double>(kMost)) return -std::numeric_limits<float>::infinity();
   if (x > static_cast<double>(kMost)) return kMost;
@@ -56,16 +56,16 @@ inline float roundedDown(double x) {
 }
 
 /// A float that is not below x, which is no NaN.
-inline float roundedUp(double x) {
-  return -roundedDown(-x);
+inline float floatAbove(double x) {
+  return -floatBelow(-x);
 }
 
 /// Contains the box, which has no NaN.
 inline FloatBox floatBox(const Aabb& box) {
   FloatBox result;
   for (int k = 0; k < 3; ++k) {
-    result.lower[k] = roundedDown(box.lower[k]);
-    result.upper[k] = roundedUp(box.upper[k]);
+    result.lower[k] = floatBelow(box.lower[k]);
+    result.upper[k] = floatAbove(box.upper[k]);
   }
   return result;
 }

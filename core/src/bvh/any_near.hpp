@@ -25,6 +25,14 @@ bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, cons
       if (stop(~top)) return true;
       continue;
     }
+    if (bvh.isBucket(top)) {
+      // Balls are tested as quickly as boxes around them.
+      const auto [first, last] = bvh.pointsOf(top);
+      for (std::int32_t point = first; point < last; ++point) {
+        if (stop(point)) return true;
+      }
+      continue;
+    }
     const WideNode& node = bvh.nodes()[static_cast<std::size_t>(top)];
     NearSegment near;
     double size = static_cast<double>(node.reach);

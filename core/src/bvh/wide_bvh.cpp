@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
-#include "bv/extents.hpp"
-#include "bv/principal_axes.hpp"
+#include "bvh/box_fit.hpp"
 
 namespace swept::detail {
 
@@ -16,48 +15,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Node = TreeTopology::Node;
 
-/// m. Boxes that single precision cannot hold are unbounded.
-constexpr double kLargest = 1e30;
-
 double area(const Aabb& box) {
   const Vector3d size = box.upper - box.lower;
   return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
-
-/// Not smaller than `value` >= 0.
-float roundedUp(double value) {
-  return static_cast<float>(value * (1.0 + 1.2e-7)) + std::numeric_limits<float>::min();
-}
-
-/// The nearest numbers that single precision holds (Dekker 1971, splitting). Not by conversion to
-/// float and back, which GCC 12 optimises away where it vectorises.
-template <typename Derived>
-typename Derived::PlainObject inSinglePrecision(const Eigen::MatrixBase<Derived>& values) {
-  const typename Derived::PlainObject spread = (0x1p29 + 1.0) * values;
-  return spread - (spread - values);
-}
-
-OrientedBox unbounded(const Vector3d& origin) {
-  OrientedBox box;
-  box.center = origin;
-  box.half.fill(std::numeric_limits<float>::infinity());
-  return box;
-}
-
-/// Sums that give the second moments of points about their mean. They add up, so that a node's take
-/// no second look at its primitives.
-struct Moments {
-  double count = 0.0;
-  Vector3d sum = Vector3d::Zero();
-  Matrix3d outer = Matrix3d::Zero();
-
-  void add(const Moments& other) {
-    count += other.count;
-    sum += other.sum;
-    outer += other.outer;
-  }
-  Matrix3d scatter() const { return outer - sum * sum.transpose() / count; }
-};
 
 /// A run of primitives.
 struct Run {
@@ -76,11 +37,7 @@ Aabb boundsOf(const PrimitivePoints& primitives, const Run& run) {
   }
   if (primitives.radii.empty()) return box;
   const auto radii = primitives.radii.subspan(first, count);
-  const double radius = *std::max_element(radii.begin(), radii.end());
-  // More than the one rounding of the coordinates.
-  const Vector3d far = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).array() + radius;
-  const Vector3d growth = Vector3d::Constant(radius) + 4e-16 * far;
-  return {box.lower - growth, box.upper + growth};
+  return withBalls(box, *std::max_element(radii.begin(), radii.end()));
 }
 
 /// Of every node of a tree.
@@ -122,35 +79,14 @@ class BoxFitter {
     return fit(run, boundsOf(primitives_, run), moments(primitive), origin);
   }
 
-  /// Along the principal axes, the same turned, or those of the frame: the box of least surface.
-  /// Its centre is a float from `origin`.
   OrientedBox fit(const Run& run, const Aabb& bounds, const Moments& moments,
                   const Vector3d& origin) const {
-    const std::span<const Vector3d> points = pointsOf(run);
     double radius = 0.0;
     if (!primitives_.radii.empty()) {
       for (int i = run.first; i < run.first + run.count; ++i)
         radius = std::max(radius, primitives_.radii[static_cast<std::size_t>(i)]);
     }
-    const Vector3d far =
-        bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).cwiseMax(origin.cwiseAbs());
-    if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
-    Matrix3d axes = Matrix3d::Identity();
-    if (points.size() == 3) {
-      axes = triangleAxes(points[0], points[1], points[2]);
-    } else if (points.size() > 3) {
-      axes = principalAxes(moments.scatter());
-    }
-    OrientedBox box = along(axes, points, radius, origin, far.sum());
-    // Principal axes of a patch about as wide as it is long may be those of its diagonals.
-    if (points.size() > 3 && box.half[1] > 0.6F * box.half[0]) {
-      const OrientedBox diagonal = along(turned(axes), points, radius, origin, far.sum());
-      if (surface(diagonal) < surface(box)) box = diagonal;
-    }
-    if (surface(box) > area(bounds)) {
-      box = along(Matrix3d::Identity(), points, radius, origin, far.sum());
-    }
-    return box;
+    return fitOrientedBox({pointsOf(run), radius, bounds}, moments.scatter(), origin);
   }
 
  private:
@@ -158,42 +94,6 @@ class BoxFitter {
     const std::size_t per = primitives_.perPrimitive;
     return primitives_.points.subspan(static_cast<std::size_t>(run.first) * per,
                                       static_cast<std::size_t>(run.count) * per);
-  }
-
-  static double surface(const OrientedBox& box) {
-    return 4.0 * (static_cast<double>(box.half[0]) * box.half[1] +
-                  static_cast<double>(box.half[1]) * box.half[2] +
-                  static_cast<double>(box.half[2]) * box.half[0]);
-  }
-
-  /// By 45 degrees about the last axis.
-  static Matrix3d turned(const Matrix3d& axes) {
-    Matrix3d result = axes;
-    result.col(0) = std::sqrt(0.5) * (axes.col(0) + axes.col(1));
-    result.col(1) = std::sqrt(0.5) * (axes.col(1) - axes.col(0));
-    return result;
-  }
-
-  /// Lemma: p - origin rounds by half an epsilon of the coordinates, whose 1-norms are at most
-  /// `far` for both, and the projections by at most three more of that size; likewise that of the
-  /// centre. 16 epsilons of `far` cover them.
-  static OrientedBox along(const Matrix3d& wanted, std::span<const Vector3d> points, double radius,
-                           const Vector3d& origin, double far) {
-    const Matrix3d axes = inSinglePrecision(wanted);
-    const Vector3d& first = points.front();
-    const Extents extents = extentsAlong(points, axes);
-    const Vector3d start = axes.transpose() * (first - origin);
-    const Vector3d lower = start + extents.lower, upper = start + extents.upper;
-    const Vector3d center = inSinglePrecision(Vector3d(axes * (0.5 * (lower + upper))));
-    const Vector3d middle = axes.transpose() * center;
-    const double slack = 16.0 * std::numeric_limits<double>::epsilon() * far + radius;
-    OrientedBox box;
-    box.center = origin + center;
-    for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i) box.axes[j][i] = static_cast<float>(axes(i, j));
-      box.half[j] = roundedUp(std::max(upper[j] - middle[j], middle[j] - lower[j]) + slack);
-    }
-    return box;
   }
 
   const PrimitivePoints& primitives_;
@@ -319,7 +219,19 @@ void WideNode::set(int lane, const OrientedBox& box) {
     for (int j = 0; j < 3; ++j) axes[j][i][lane] = box.axes[j][i];
     size += std::abs(box.center[i] - origin[i]) + box.half[i];
   }
-  reach = std::max(reach, roundedUp(size));
+  reach = std::max(reach, aboveInSingle(size));
+}
+
+const WideNode& WideBvh::node(std::int32_t index, WideNode& room) const {
+  if (!isBucket(index)) return nodes_[static_cast<std::size_t>(index)];
+  makeNode(buckets_, index - static_cast<std::int32_t>(nodes_.size()), room);
+  return room;
+}
+
+WideBvh::WideBvh(std::vector<WideNode> nodes, const PointBuckets& buckets, const Aabb& bounds,
+                 const OrientedBox& rootBox)
+    : nodes_(std::move(nodes)), buckets_(buckets), bounds_(bounds), rootBox_(rootBox) {
+  findReach();
 }
 
 WideBvh::WideBvh(const TreeTopology& binary, const PrimitivePoints& primitives) {
@@ -327,6 +239,10 @@ WideBvh::WideBvh(const TreeTopology& binary, const PrimitivePoints& primitives) 
   nodes_ = collapse.takeNodes();
   bounds_ = collapse.bounds();
   rootBox_ = collapse.rootBox();
+  findReach();
+}
+
+void WideBvh::findReach() {
   for (int i = 0; i < 3; ++i) {
     reach_ += std::max(std::abs(bounds_.lower[i]), std::abs(bounds_.upper[i]));
   }

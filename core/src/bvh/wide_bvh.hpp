@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "swept/core/bvh/bv_tree.hpp"
@@ -40,6 +43,18 @@ struct alignas(32) WideNode {
   void set(int lane, const OrientedBox& box);  ///< its centre has to be a float from `origin`
 };
 
+/// Balls in runs of eight, the last one perhaps shorter. Refers to what it is made of.
+struct PointBuckets {
+  std::span<const Eigen::Vector3d> points = {};  ///< m
+  std::span<const double> radii = {};            ///< m, one per point; empty: all of `radius`
+  double radius = 0.0;                           ///< m
+
+  double radiusOf(std::size_t point) const { return radii.empty() ? radius : radii[point]; }
+};
+
+/// The node of a bucket: a box per ball. Each is a primitive, numbered as the points are.
+void makeNode(const PointBuckets& buckets, std::int32_t bucket, WideNode& node);
+
 /// Eight-wide tree of oriented boxes whose leaves are single primitives. Node 0 is the root.
 ///
 /// The boxes of a smooth surface, unlike axis-aligned ones, get thin with the square of their
@@ -53,7 +68,22 @@ class WideBvh {
   /// In the shape of a binary tree with at most kLanes primitives a leaf. `primitives` are those of
   /// the tree, in the order of its leaves, and so are they numbered.
   WideBvh(const TreeTopology& binary, const PrimitivePoints& primitives);
+  /// Of points: the nodes above those of the buckets, which are numbered on from them and made when
+  /// they are asked for.
+  WideBvh(std::vector<WideNode> nodes, const PointBuckets& buckets, const Aabb& bounds,
+          const OrientedBox& rootBox);
 
+  /// Refers to `room` or to the tree.
+  const WideNode& node(std::int32_t index, WideNode& room) const;
+  /// Whether a node is one of points, and which: from the first up to, and without, the second.
+  bool isBucket(std::int32_t node) const { return static_cast<std::size_t>(node) >= nodes_.size(); }
+  std::pair<std::int32_t, std::int32_t> pointsOf(std::int32_t bucket) const {
+    const std::int32_t first =
+        WideNode::kLanes * (bucket - static_cast<std::int32_t>(nodes_.size()));
+    const auto count = static_cast<std::int32_t>(buckets_.points.size());
+    return {first, std::min(first + WideNode::kLanes, count)};
+  }
+  /// Those that are kept.
   const std::vector<WideNode>& nodes() const { return nodes_; }
   const Aabb& bounds() const { return bounds_; }           ///< m, of all primitives
   const OrientedBox& rootBox() const { return rootBox_; }  ///< m, of all primitives
@@ -62,7 +92,10 @@ class WideBvh {
   std::size_t bytes() const { return nodes_.capacity() * sizeof(WideNode); }
 
  private:
+  void findReach();
+
   std::vector<WideNode> nodes_;
+  PointBuckets buckets_;
   Aabb bounds_;
   OrientedBox rootBox_;
   double reach_ = 0.0;

@@ -99,7 +99,7 @@ bool SliceDescent::isTooFast(const Part& a, const Part& b, const PartApproach& a
   if (a.piece.isLeaf() && b.piece.isLeaf()) {
     diameter = std::max(diameterOf(a.piece), diameterOf(b.piece));
   } else {
-    diameter = diameterOf(pieces_.split(a.piece, b.piece).ofA ? a.piece : b.piece);
+    diameter = diameterOf(PiecePair::isLarger(a.piece, b.piece) ? a.piece : b.piece);
   }
   const double moved = approach.most() - slice_.approach.required;
   return moved > std::max(kFast * diameter, goal_.divideBelow);
@@ -123,7 +123,8 @@ void SliceDescent::descend(const Part& a, const Part& b, const Known& known) {
   } else if (a.piece.isLeaf() && b.piece.isLeaf()) {
     testLeaves(a, b, approach, known.direction);
   } else {
-    const PiecePair::Split split = pieces_.split(a.piece, b.piece);
+    WideNode room;
+    const PiecePair::Split split = pieces_.split(a.piece, b.piece, room);
     descendInto(split, split.ofA ? b : a, approach.most(), known.direction);
   }
 }

@@ -131,6 +131,7 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
   Found best;
   best.squared = bound * bound;
   PendingBoxes pending;
+  WideNode room;
   while (!pending.isEmpty()) {
     const PendingBoxes::Box top = pending.pop();
     if (top.squared > best.squared) continue;
@@ -138,7 +139,7 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
       test(~top.child, p, best);
       continue;
     }
-    const WideNode& node = bvh_.nodes()[top.child];
+    const WideNode& node = bvh_.node(top.child, room);
     alignas(32) std::array<float, WideNode::kLanes> squared;
     for (std::uint32_t near = pointBoxes(node, p, roundedUp(best.squared), squared); near != 0;
          near &= near - 1) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "geometry/spread_directions.hpp"
 #include "simd/farthest_point.hpp"
 #include "swept/core/convex_hull.hpp"
 #include "swept/core/distance.hpp"
@@ -12,15 +12,8 @@ namespace swept {
 
 namespace {
 
+using detail::spreadDirection;
 using Eigen::Vector3d;
-
-/// The i-th of `count` unit vectors that are spread evenly (Gonzalez 2010, Fibonacci lattice).
-Vector3d spreadDirection(int i, int count) {
-  const double z = (2.0 * i + 1.0) / count - 1.0;
-  const double across = std::sqrt(1.0 - z * z);
-  const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-  return {across * std::cos(angle), across * std::sin(angle), z};
-}
 
 }  // namespace
 

@@ -44,8 +44,8 @@ struct Scaling {
     return TriangleMesh::build((*this)(s.vertices()), s.triangles(), s.interior());
   }
   Shape of(const PointCloud& s) const {
-    std::vector<double> radii = s.radii();
-    for (double& radius : radii) radius *= factor;
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < s.points().size(); ++i) radii.push_back(factor * s.radius(i));
     return PointCloud::build((*this)(s.points()), radii);
   }
   Shape of(const Plane& s) const { return s; }

@@ -31,7 +31,8 @@ class Collector {
  private:
   bool descend(const Piece& pieceA, const Piece& pieceB) {
     if (pieceA.isLeaf() && pieceB.isLeaf()) return testLeaves(pieceA, pieceB);
-    const PiecePair::Split split = pieces_.split(pieceA, pieceB);
+    detail::WideNode room;
+    const PiecePair::Split split = pieces_.split(pieceA, pieceB, room);
     const Piece& other = split.ofA ? pieceB : pieceA;
     PiecePair::Bounds lower;
     pieces_.boundChildren(split, other, 0.0, lower);

@@ -275,7 +275,7 @@ void examineCloud(const PointCloud& a, const Shape& b, const Eigen::Isometry3d& 
   for (std::size_t i = 0; i < a.points().size(); ++i) {
     if (search.done()) return;
     ball_from_b.translation() = a_from_b.translation() - a.points()[i];
-    examineShapes(Sphere{a.radii()[i]}, b, ball_from_b, search);
+    examineShapes(Sphere{a.radius(i)}, b, ball_from_b, search);
   }
 }
 

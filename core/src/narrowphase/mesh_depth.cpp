@@ -38,7 +38,7 @@ void forEachPart(const Side& side, const Visitor& visit) {
     visit(side.convex, Vector3d(Vector3d::Zero()));
   } else if (side.cloud != nullptr) {
     for (std::size_t i = 0; i < side.cloud->points().size(); ++i) {
-      visit(Convex::of(Sphere{side.cloud->radii()[i]}), side.cloud->points()[i]);
+      visit(Convex::of(Sphere{side.cloud->radius(i)}), side.cloud->points()[i]);
     }
   } else {
     for (const ConvexHull& part : side.mesh->convexParts()) {
@@ -56,7 +56,7 @@ void forEachBall(const Side& side, const Visitor& visit) {
   }
   if (side.cloud != nullptr) {
     for (std::size_t i = 0; i < side.cloud->points().size(); ++i) {
-      visit(Ball{side.cloud->points()[i], side.cloud->radii()[i]});
+      visit(Ball{side.cloud->points()[i], side.cloud->radius(i)});
     }
     return;
   }

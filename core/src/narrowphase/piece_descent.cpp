@@ -53,7 +53,8 @@ class PieceDescent {
       testLeaves(a.piece, b.piece, approach, guess);
       return;
     }
-    const PiecePair::Split split = pieces_.split(a.piece, b.piece);
+    WideNode room;
+    const PiecePair::Split split = pieces_.split(a.piece, b.piece, room);
     const Part& other = split.ofA ? b : a;
     PiecePair::Bounds lower;
     pieces_.boundChildren(split, other.piece, found_.settledBeyond(approach), lower);

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "bvh/box_fit.hpp"
 #include "narrowphase/flat_pair.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -17,11 +18,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// Not smaller than `value` >= 0; cheaper than the next float.
-float roundedUp(double value) {
-  return static_cast<float>(value * (1.0 + 1.2e-7)) + std::numeric_limits<float>::min();
-}
 
 float roundedDown(double value) {
   return std::nextafter(static_cast<float>(value), -kInfinity);
@@ -45,7 +41,7 @@ OrientedBox coreBox(const Convex& convex) {
   }
   OrientedBox box;
   box.center = center;
-  for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(half[i]);
+  for (int i = 0; i < 3; ++i) box.half[i] = aboveInSingle(half[i]);
   return box;
 }
 
@@ -81,7 +77,7 @@ Side Side::of(const Shape& shape) {
         } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
           Convex hull = Convex::of(body.hull());
           hull.radius = body.largestRadius();
-          Convex outer = grownAround(body.coarseHull());
+          Convex outer = grownAround(body.hull());
           outer.radius += body.largestRadius();
           return {nullptr, &body, &body.bvh(), hull, outer, hull.extent};
         } else {
@@ -109,17 +105,22 @@ Piece PiecePair::rootOf(const Side& side) {
   return {-1, -1, -1, side.convex.isFlat() ? OrientedBox{} : coreBox(side.convex)};
 }
 
-PiecePair::Split PiecePair::split(const Piece& a, const Piece& b) const {
-  const bool ofA = sizeOf(a) >= sizeOf(b);
+bool PiecePair::isLarger(const Piece& a, const Piece& b) {
+  return sizeOf(a) >= sizeOf(b);
+}
+
+PiecePair::Split PiecePair::split(const Piece& a, const Piece& b, WideNode& room) const {
+  const bool ofA = isLarger(a, b);
   const int index = ofA ? a.node : b.node;
-  return {ofA, index, &(ofA ? a_ : b_).bvh->nodes()[index]};
+  return {ofA, index, &(ofA ? a_ : b_).bvh->node(index, room)};
 }
 
 Piece PiecePair::piece(bool ofA, int place) const {
   const Side& side = ofA ? a_ : b_;
   if (place < 0) return rootOf(side);
   const int index = place / WideNode::kLanes;
-  return child({ofA, index, &side.bvh->nodes()[index]}, place % WideNode::kLanes);
+  WideNode room;
+  return child({ofA, index, &side.bvh->node(index, room)}, place % WideNode::kLanes);
 }
 
 void PiecePair::boundChildren(const Split& split, const Piece& other, double enough,
@@ -134,7 +135,8 @@ void PiecePair::boundChildren(const Split& split, const Piece& other, double eno
     return;
   }
   const double grown = other.isWhole() ? body.radius + body.error : 0.0;
-  boxLowerBounds(node, split.ofA ? frames_ : back_, other.box, roundedUp(enough + grown), lower);
+  boxLowerBounds(node, split.ofA ? frames_ : back_, other.box, aboveInSingle(enough + grown),
+                 lower);
   if (!(grown > 0.0)) return;
   for (int i = 0; i < node.count; ++i) {
     lower[i] = roundedDown(static_cast<double>(lower[i]) - grown);
@@ -178,7 +180,7 @@ Vector3d PiecePair::placeOne(const Side& side, const Piece& piece, TriangleCorne
     return Vector3d::Zero();
   }
   if (side.cloud != nullptr) {
-    body = Convex::of(Sphere{side.cloud->radii()[piece.primitive]});
+    body = Convex::of(Sphere{side.cloud->radius(static_cast<std::size_t>(piece.primitive))});
     return side.cloud->points()[piece.primitive];
   }
   corners = cornersOf(*side.mesh, piece.primitive);

@@ -51,13 +51,16 @@ class PiecePair {
   Piece rootB() const { return rootOf(b_); }
   static Piece rootOf(const Side& side);
 
-  /// The node whose children are looked at next: that of the larger piece. Not both are leaves.
+  /// The node whose children are looked at next: that of the larger piece, in the hierarchy or made
+  /// in `room`. Not both are leaves.
   struct Split {
     bool ofA;
     int index;  ///< in the hierarchy
     const WideNode* node;
   };
-  Split split(const Piece& a, const Piece& b) const;
+  /// Whether it is that of a. Not both are leaves.
+  static bool isLarger(const Piece& a, const Piece& b);
+  Split split(const Piece& a, const Piece& b, WideNode& room) const;
 
   /// m. Lower bounds on the distances between the children of a node and a piece of the other side;
   /// exact ones are not of interest beyond `enough`.

@@ -112,7 +112,7 @@ bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radiu
   const double size = segment.center.lpNorm<1>() + segment.half.lpNorm<1>();
   return !anyNear(cloud.bvh(), segment, radius, [&](int index) {
     const Vector3d& point = cloud.points()[static_cast<std::size_t>(index)];
-    const double grown = radius + cloud.radii()[static_cast<std::size_t>(index)];
+    const double grown = radius + cloud.radius(static_cast<std::size_t>(index));
     const Vector3d y = segment.center - point;
     const double along = std::clamp(-y.dot(segment.half) * inverse, -1.0, 1.0);
     const double most = grown + kRounding * (size + point.lpNorm<1>() + radius);
@@ -137,7 +137,7 @@ std::optional<Vector3d> pointWithin(const PointCloud& cloud, const Vector3d& poi
   if (!isFinite({point}, radius)) return found;
   anyNear(cloud.bvh(), {point}, radius, [&](int index) {
     const Vector3d& center = cloud.points()[static_cast<std::size_t>(index)];
-    const double own = cloud.radii()[static_cast<std::size_t>(index)];
+    const double own = cloud.radius(static_cast<std::size_t>(index));
     const Vector3d off = point - center;
     const double distance = off.norm();
     if (!(distance <= radius + own)) return false;

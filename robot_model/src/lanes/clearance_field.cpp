@@ -95,7 +95,7 @@ std::shared_ptr<const ClearanceField> buildClearanceField(const Shape& shape, co
     if (!box.overlaps(window)) return nullptr;
     Voxels voxels = layOut(box, window, sideFor(*cloud), cells, field);
     for (std::size_t i = 0; i < cloud->points().size(); ++i)
-      voxels.mark(cloud->points()[i], cloud->radii()[i]);
+      voxels.mark(cloud->points()[i], cloud->radius(i));
     return measured(voxels, field);
   }
   return nullptr;

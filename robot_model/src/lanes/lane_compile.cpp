@@ -112,7 +112,7 @@ class LaneCompiler {
     lanes_.obstacleExtras.assign(model_.worldGeometry.size(), 0.0F);
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       const GeometryPair& pair = model_.pairs[i];
-      const float extra = std::nextafter(roundedUp(pair.margin - least), 1e30F);
+      const float extra = std::nextafter(singleAbove(pair.margin - least), 1e30F);
       lanes_.extras[i] = extra;
       float& all = pair.self ? lanes_.bodyPairs[lanes_.sources[i].bodyPair].extra
                              : lanes_.obstacleExtras[pair.b];

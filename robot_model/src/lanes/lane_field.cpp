@@ -77,8 +77,8 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, LaneFie
   assignFrame(grid_from_world, lane);
   for (int i = 0; i < 3; ++i) {
     constexpr double kFar = 1e30;
-    lane.lower[i] = roundedDown(std::max(field->lower[i], -kFar));
-    lane.upper[i] = roundedUp(std::min(field->upper[i], kFar));
+    lane.lower[i] = singleBelow(std::max(field->lower[i], -kFar));
+    lane.upper[i] = singleAbove(std::min(field->upper[i], kFar));
     lane.blocks[i] = field->blocks[i];
   }
   lane.cell = 2.0F * field->voxel;
@@ -88,7 +88,7 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, LaneFie
   // Lemma: beside the coordinates, the middle of a cell, its distance and that to W are rounded, of
   // numbers below the reach and the size of all. And a larger W is as good.
   const double size = reach_ + geometry.magnitude + 255.0 * static_cast<double>(field->step);
-  lane.slack = roundedUp(2.0 * slack + 64.0 * kSingle * size);
+  lane.slack = singleAbove(2.0 * slack + 64.0 * kSingle * size);
   lane.cells = field->cells.data();
   lane.bricks = field->bricks.data();
   lane.voxels = field->voxels.data();

@@ -83,9 +83,9 @@ class BoxTree {
       for (int i = 0; i < 3; ++i) {
         // Nothing meets an empty box.
         nodes_[node].lower[i].lane[lane] =
-            used ? roundedDown(entries[lane].center[i] - entries[lane].half[i]) : kInfinity;
+            used ? singleBelow(entries[lane].center[i] - entries[lane].half[i]) : kInfinity;
         nodes_[node].upper[i].lane[lane] =
-            used ? roundedUp(entries[lane].center[i] + entries[lane].half[i]) : -kInfinity;
+            used ? singleAbove(entries[lane].center[i] + entries[lane].half[i]) : -kInfinity;
       }
       nodes_[node].child[lane] = used ? entries[lane].child : 0;
     }

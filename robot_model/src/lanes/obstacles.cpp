@@ -86,7 +86,7 @@ class ObstacleCompiler {
     addObstacle(ObstacleKind::Box, result_.boxes.size(), near);
     LaneBox box;
     assignFrame(box_from_world, box);
-    for (int i = 0; i < 3; ++i) box.half[i] = roundedUp(halfExtents[i] + slack_);
+    for (int i = 0; i < 3; ++i) box.half[i] = singleAbove(halfExtents[i] + slack_);
     result_.boxes.push_back(box);
   }
 
@@ -98,7 +98,7 @@ class ObstacleCompiler {
     LaneEllipsoid ellipsoid;
     assignFrame(geometry_->world_from_shape.inverse(), ellipsoid);
     for (int i = 0; i < 3; ++i) {
-      ellipsoid.semiAxes[i] = roundedUp(shape.semiAxes[i] + slack_);
+      ellipsoid.semiAxes[i] = singleAbove(shape.semiAxes[i] + slack_);
       ellipsoid.inverse[i] = 1.0F / ellipsoid.semiAxes[i];
     }
     result_.ellipsoids.push_back(ellipsoid);
@@ -117,8 +117,8 @@ class ObstacleCompiler {
     LaneRound round;
     assign(geometry_->world_from_shape.translation(), round.center);
     assign(geometry_->world_from_shape.linear().col(2), round.axis);
-    round.radius = roundedUp(radius + slack_);
-    round.halfLength = roundedUp(halfLength + slack_);
+    round.radius = singleAbove(radius + slack_);
+    round.halfLength = singleAbove(halfLength + slack_);
     result_.rounds.push_back(round);
     return result_.rounds.back();
   }
@@ -132,7 +132,7 @@ class ObstacleCompiler {
     round.across = static_cast<float>(across);
     round.along = static_cast<float>(along);
     // The side goes through the apex, at height halfLength on the axis.
-    round.offset = roundedUp(along * cone.halfLength + slack_);
+    round.offset = singleAbove(along * cone.halfLength + slack_);
   }
 
   void addPlanes(ObstacleKind kind, int count, NearProof near) {
@@ -143,7 +143,7 @@ class ObstacleCompiler {
     LanePlane plane;
     assign(normal, plane.normal);
     plane.offset = static_cast<float>(offset);
-    plane.slack = roundedUp(slack_ + 2.0 * kSingle * std::abs(offset));
+    plane.slack = singleAbove(slack_ + 2.0 * kSingle * std::abs(offset));
     result_.planes.push_back(plane);
   }
 

@@ -8,15 +8,15 @@
 namespace swept::detail {
 
 /// Single precision, never below `value`.
-inline float roundedUp(double value) {
+inline float singleAbove(double value) {
   const auto single = static_cast<float>(value);
   if (static_cast<double>(single) >= value) return single;
   return std::nextafter(single, std::numeric_limits<float>::infinity());
 }
 
 /// Never above `value`.
-inline float roundedDown(double value) {
-  return -roundedUp(-value);
+inline float singleBelow(double value) {
+  return -singleAbove(-value);
 }
 
 inline void assign(const Eigen::Vector3d& from, float (&to)[3]) {

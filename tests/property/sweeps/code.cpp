@@ -79,7 +79,7 @@ struct ShapeCode {
   }
   std::string operator()(const swept::PointCloud& s) const {
     std::string radii = "std::vector<double>{";
-    for (const double radius : s.radii()) radii += number(radius) + ", ";
+    for (std::size_t i = 0; i < s.points().size(); ++i) radii += number(s.radius(i)) + ", ";
     return std::string("swept::PointCloud::build(") + vectors(s.points()) + ", " + radii + "})";
   }
 };

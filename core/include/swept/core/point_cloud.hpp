@@ -17,11 +17,12 @@ class WideBvh;
 
 /// Points, each standing for a ball (what a sensor may be off by, or half a voxel), with a
 /// hierarchy over them. A union of solids: what its balls surround is not part of it. Immutable;
-/// copies share the data.
+/// copies share the data: less than 40 bytes a point, and 8 more where radii differ.
 class PointCloud {
  public:
-  /// `radius`: m. Throws std::invalid_argument when `points` is empty, for a non-finite coordinate,
-  /// and for a radius that is negative or not finite; names the point or the value.
+  /// `radius`: m. At most 2^30 points. Throws std::invalid_argument when `points` is empty, for a
+  /// non-finite coordinate, and for a radius that is negative or not finite; names the point or the
+  /// value.
   static PointCloud build(std::span<const Eigen::Vector3d> points, double radius);
   /// With a radius (m) for each point. Throws likewise, and for another number of radii.
   static PointCloud build(std::span<const Eigen::Vector3d> points, std::span<const double> radii);
@@ -30,25 +31,30 @@ class PointCloud {
   const std::vector<Eigen::Vector3d>& points() const { return data_->points; }
   /// For each of points(), its index among the points given.
   const std::vector<int>& sourceIndices() const { return data_->sourceIndices; }
-  const std::vector<double>& radii() const { return data_->radii; }  ///< m, of points()
-  double largestRadius() const { return data_->largestRadius; }      ///< m
-  double leastRadius() const { return data_->leastRadius; }          ///< m
-  const ConvexHull& hull() const { return data_->hull; }  ///< of the points, without their balls
-  /// The same, but of few points and with an error() to match: quick to ask.
-  const ConvexHull& coarseHull() const { return data_->coarseHull; }
+  /// m, of points()[point].
+  double radius(std::size_t point) const {
+    return data_->radii.empty() ? data_->largestRadius : data_->radii[point];
+  }
+  double largestRadius() const { return data_->largestRadius; }  ///< m
+  double leastRadius() const { return data_->leastRadius; }      ///< m
+  /// Contains the points, without their balls: their convex hull, or for more than
+  /// ConvexHull::kFew of them a body of few vertices around it.
+  const ConvexHull& hull() const { return data_->hull; }
   const detail::WideBvh& bvh() const { return *data_->bvh; }
+  std::size_t bytes() const;
 
  private:
   struct Data {
     std::vector<Eigen::Vector3d> points;
-    std::vector<double> radii;
+    std::vector<double> radii;  ///< empty: all are the same
     std::vector<int> sourceIndices;
     ConvexHull hull;
-    ConvexHull coarseHull;
     double largestRadius = 0.0;
     double leastRadius = 0.0;
-    std::shared_ptr<const detail::WideBvh> bvh;
+    std::shared_ptr<const detail::WideBvh> bvh;  ///< refers to points and radii
   };
+  static PointCloud ofUsable(std::span<const Eigen::Vector3d> points, std::span<const double> radii,
+                             double least, double largest);
   explicit PointCloud(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "bvh/wide_bvh.hpp"
+#include "point_cloud/cloud_hull.hpp"
+#include "point_cloud/cloud_tree.hpp"
+#include "point_cloud/curve_order.hpp"
 
 namespace swept {
 
@@ -14,6 +18,11 @@ namespace {
 
 void requireUsable(std::span<const Eigen::Vector3d> points) {
   if (points.empty()) throw std::invalid_argument("point cloud has no points");
+  constexpr std::size_t kMostPoints = std::size_t{1} << 30;
+  if (points.size() > kMostPoints) {
+    throw std::invalid_argument("point cloud has " + std::to_string(points.size()) +
+                                " points; allowed: at most " + std::to_string(kMostPoints));
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
     std::ostringstream message;
@@ -35,7 +44,8 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double rad
     message << "point cloud radius is " << radius << "; allowed: finite and not negative";
     throw std::invalid_argument(message.str());
   }
-  return build(points, std::vector<double>(points.size(), radius));
+  requireUsable(points);
+  return ofUsable(points, {}, radius, radius);
 }
 
 PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points,
@@ -53,23 +63,33 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points,
             << "; allowed: finite and not negative";
     throw std::invalid_argument(message.str());
   }
-  const auto tree =
-      TreeTopology::build({points, 1, radii}, SurfaceAreaSplit{}, detail::WideNode::kLanes);
+  const auto [least, largest] = std::ranges::minmax(radii);
+  return ofUsable(points, least < largest ? radii : std::span<const double>(), least, largest);
+}
+
+PointCloud PointCloud::ofUsable(std::span<const Eigen::Vector3d> points,
+                                std::span<const double> radii, double least, double largest) {
+  std::vector<int> order = detail::curveOrder(points, Aabb::fit(points));
   std::vector<Eigen::Vector3d> ordered;
   std::vector<double> orderedRadii;
   ordered.reserve(points.size());
-  orderedRadii.reserve(points.size());
-  for (const int source : tree.order) {
-    ordered.push_back(points[source]);
-    orderedRadii.push_back(radii[source]);
+  orderedRadii.reserve(radii.size());
+  for (const int source : order) {
+    ordered.push_back(points[static_cast<std::size_t>(source)]);
+    if (!radii.empty()) orderedRadii.push_back(radii[static_cast<std::size_t>(source)]);
   }
-  auto bvh =
-      std::make_shared<const detail::WideBvh>(tree, PrimitivePoints{ordered, 1, orderedRadii});
-  const auto [least, largest] = std::minmax_element(radii.begin(), radii.end());
-  const ConvexHull hull = ConvexHull::of(points);
-  return PointCloud(std::make_shared<const Data>(Data{std::move(ordered), std::move(orderedRadii),
-                                                      tree.order, hull, ConvexHull::coarser(hull),
-                                                      *largest, *least, std::move(bvh)}));
+  const detail::CloudTree tree({ordered, orderedRadii, largest});
+  const ConvexHull hull = detail::cloudHull(ordered, tree);
+  auto bvh = std::make_shared<const detail::WideBvh>(tree.bvh());
+  return PointCloud(
+      std::make_shared<const Data>(Data{std::move(ordered), std::move(orderedRadii),
+                                        std::move(order), hull, largest, least, std::move(bvh)}));
+}
+
+std::size_t PointCloud::bytes() const {
+  return data_->points.capacity() * sizeof(Eigen::Vector3d) +
+         data_->radii.capacity() * sizeof(double) + data_->sourceIndices.capacity() * sizeof(int) +
+         data_->bvh->bytes();
 }
 
 }  // namespace swept

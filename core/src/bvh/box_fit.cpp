@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bvh/box_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bv/extents.hpp"
+#include "bv/principal_axes.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// m. Boxes that single precision cannot hold are unbounded.
+constexpr double kLargest = 1e30;
+
+double area(const Aabb& box) {
+  const Vector3d size = box.upper - box.lower;
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
+double surface(const OrientedBox& box) {
+  return 4.0 * (static_cast<double>(box.half[0]) * box.half[1] +
+                static_cast<double>(box.half[1]) * box.half[2] +
+                static_cast<double>(box.half[2]) * box.half[0]);
+}
+
+/// The nearest numbers that single precision holds (Dekker 1971, splitting). Not by conversion to
+/// float and back, which GCC 12 optimises away where it vectorises.
+template <typename Derived>
+typename Derived::PlainObject inSinglePrecision(const Eigen::MatrixBase<Derived>& values) {
+  const typename Derived::PlainObject spread = (0x1p29 + 1.0) * values;
+  return spread - (spread - values);
+}
+
+OrientedBox unbounded(const Vector3d& origin) {
+  OrientedBox box;
+  box.center = origin;
+  box.half.fill(std::numeric_limits<float>::infinity());
+  return box;
+}
+
+/// m. No coordinate of the box or of the origin is larger.
+Vector3d farthest(const Aabb& bounds, const Vector3d& origin) {
+  return bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).cwiseMax(origin.cwiseAbs());
+}
+
+/// By 45 degrees about the last axis.
+Matrix3d turned(const Matrix3d& axes) {
+  Matrix3d result = axes;
+  result.col(0) = std::sqrt(0.5) * (axes.col(0) + axes.col(1));
+  result.col(1) = std::sqrt(0.5) * (axes.col(1) - axes.col(0));
+  return result;
+}
+
+/// Lemma: p - origin rounds by half an epsilon of the coordinates, whose 1-norms are at most `far`
+/// for both, and the projections by at most three more of that size; likewise that of the centre.
+/// 16 epsilons of `far` cover them.
+OrientedBox along(const Matrix3d& wanted, const BallsInBox& balls, const Vector3d& origin,
+                  double far) {
+  const Matrix3d axes = inSinglePrecision(wanted);
+  const Vector3d& first = balls.points.front();
+  const Extents extents = extentsAlong(balls.points, axes);
+  const Vector3d start = axes.transpose() * (first - origin);
+  const Vector3d lower = start + extents.lower, upper = start + extents.upper;
+  const Vector3d center = inSinglePrecision(Vector3d(axes * (0.5 * (lower + upper))));
+  const Vector3d middle = axes.transpose() * center;
+  const double slack = 16.0 * std::numeric_limits<double>::epsilon() * far + balls.radius;
+  OrientedBox box;
+  box.center = origin + center;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) box.axes[j][i] = static_cast<float>(axes(i, j));
+    box.half[j] = aboveInSingle(std::max(upper[j] - middle[j], middle[j] - lower[j]) + slack);
+  }
+  return box;
+}
+
+}  // namespace
+
+OrientedBox fitOrientedBox(const BallsInBox& balls, const Matrix3d& scatter,
+                           const Vector3d& origin) {
+  const std::span<const Vector3d> points = balls.points;
+  const Vector3d far = farthest(balls.bounds, origin);
+  if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
+  Matrix3d axes = Matrix3d::Identity();
+  if (points.size() == 3) {
+    axes = triangleAxes(points[0], points[1], points[2]);
+  } else if (points.size() > 3) {
+    axes = principalAxes(scatter);
+  }
+  OrientedBox box = along(axes, balls, origin, far.sum());
+  // Principal axes of a patch about as wide as it is long may be those of its diagonals.
+  if (points.size() > 3 && box.half[1] > 0.6F * box.half[0]) {
+    const OrientedBox diagonal = along(turned(axes), balls, origin, far.sum());
+    if (surface(diagonal) < surface(box)) box = diagonal;
+  }
+  if (surface(box) > area(balls.bounds)) {
+    box = along(Matrix3d::Identity(), balls, origin, far.sum());
+  }
+  return box;
+}
+
+OrientedBox fitBoxAlong(const BallsInBox& balls, const Matrix3d& axes, const Vector3d& origin) {
+  const Vector3d far = farthest(balls.bounds, origin);
+  if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
+  const OrientedBox box = along(axes, balls, origin, far.sum());
+  return surface(box) > area(balls.bounds) ? alignedBox(balls.bounds, origin) : box;
+}
+
+OrientedBox alignedBox(const Aabb& bounds, const Vector3d& origin) {
+  const Vector3d far = farthest(bounds, origin);
+  if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
+  const Vector3d lower = bounds.lower - origin, upper = bounds.upper - origin;
+  const Vector3d center = inSinglePrecision(Vector3d(0.5 * (lower + upper)));
+  OrientedBox box;
+  box.center = origin + center;
+  for (int i = 0; i < 3; ++i) {
+    // The differences from the origin, and those from the centre, round once each.
+    const double slack = 4.0 * std::numeric_limits<double>::epsilon() * far[i];
+    box.half[i] = aboveInSingle(std::max(upper[i] - center[i], center[i] - lower[i]) + slack);
+  }
+  return box;
+}
+
+Aabb withBalls(const Aabb& box, double radius) {
+  // More than the one rounding of the coordinates.
+  const Vector3d far = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).array() + radius;
+  const Vector3d growth = Vector3d::Constant(radius) + 4e-16 * far;
+  return {box.lower - growth, box.upper + growth};
+}
+
+}  // namespace swept::detail
