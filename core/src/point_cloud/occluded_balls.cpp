@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "swept/core/sensed_space.hpp"
+
+namespace swept {
+
+namespace {
+
+using Eigen::Vector3d;
+
+void require(double value, const char* what) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  std::ostringstream message;
+  message << what << " of the occluded space is " << value << "; allowed: finite and above zero";
+  throw std::invalid_argument(message.str());
+}
+
+void requireFinite(const Vector3d& p, const std::string& what) {
+  if (p.allFinite()) return;
+  std::ostringstream message;
+  message << what << " of the occluded space is (" << p.transpose()
+          << "); allowed: finite coordinates";
+  throw std::invalid_argument(message.str());
+}
+
+/// Lemma: a point hidden by a ball at the distance d is in the cone around it, of tangent
+/// t = r / sqrt(d^2 - r^2), at least d - r^2 / d along the axis. At s along the axis, within a
+/// share `step` of it, the cone's points are within s sqrt(step^2 + ((1 + step) t)^2) of the point
+/// of the axis at s. Successive s, a factor of (1 + step) / (1 - step) apart, leave no gap.
+void addShadow(const Vector3d& away, double radius, const Vector3d& sensor, double range,
+               Balls& balls) {
+  constexpr double kStep = 0.75;  // of the tangent: balls reach 1.3 times as far as the cone
+  constexpr double kMostStep = 0.5;
+  constexpr double kRounding = 1.0 + 1e-12;
+  const double d = away.norm();
+  if (!(d > radius) || !(d < range)) return;
+  const double tangent = radius / std::sqrt((d - radius) * (d + radius));
+  const double step = std::min(kStep * tangent, kMostStep);
+  const double reach = kRounding * std::hypot(step, (1.0 + step) * tangent);
+  const double first = (d - radius * (radius / d)) / (1.0 - step);
+  for (double s = first; s * (1.0 - step) < range; s *= (1.0 + step) / (1.0 - step) / kRounding) {
+    balls.centers.push_back(sensor + (s / d) * away);
+    balls.radii.push_back(s * reach);
+  }
+}
+
+}  // namespace
+
+Balls occludedBalls(std::span<const Vector3d> points, double radius, const Vector3d& sensor,
+                    double range) {
+  require(radius, "radius");
+  require(range, "range");
+  requireFinite(sensor, "sensor");
+  Balls balls;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    requireFinite(points[i], "point " + std::to_string(i));
+    addShadow(points[i] - sensor, radius, sensor, range, balls);
+  }
+  return balls;
+}
+
+}  // namespace swept
