@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "swept/robot_model/robot.hpp"
+
+namespace swept {
+
+/// Those of `points` (m, model frame), in their order, that are not the robot itself: neither in
+/// the collision geometry of one of its links, nor within `margin` (m) of it, at `state` (a value
+/// for each of Robot::variables()). What a camera sees of the robot would else be an obstacle that
+/// the robot is always in contact with. The margin is what the sensor, its calibration and the
+/// state may be off by; an obstacle that is as near is left out, too.
+///
+/// A point whose distance is within rounding of the margin (1e-9 m, or 1e-6 of a mesh's size) may
+/// be kept or not; one that is not finite is kept. Throws std::invalid_argument for a margin that
+/// is negative or not finite, a state of another size or with a value that is not finite, and a
+/// quaternion without direction.
+std::vector<Eigen::Vector3d> withoutRobot(std::span<const Eigen::Vector3d> points,
+                                          const Robot& robot, std::span<const double> state,
+                                          double margin);
+
+}  // namespace swept

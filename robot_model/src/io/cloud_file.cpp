@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/cloud_file.hpp"
+
+#include <string>
+
+#include "io/point_file.hpp"
+
+namespace swept {
+
+std::vector<Eigen::Vector3d> loadPoints(const std::filesystem::path& file,
+                                        const LoadOptions& options) {
+  const std::string ending = detail::lowerEnding(file);
+  using Reader = std::vector<Eigen::Vector3d> (*)(const detail::PointFile&);
+  Reader read = nullptr;
+  if (ending == ".pcd") read = detail::readPcd;
+  if (ending == ".ply") read = detail::readPly;
+  if (ending == ".xyz") read = detail::readXyz;
+  if (read == nullptr) {
+    throw InputError(file.string(), 0,
+                     "unknown ending '" + file.extension().string() +
+                         "' of a file of points; allowed are .pcd, .ply and .xyz");
+  }
+  return read(detail::PointFile(file, options));
+}
+
+}  // namespace swept

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/pcd_header.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "io/numbers.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> kEntries{
+    "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+constexpr std::uint64_t kMaxCount = 1 << 20;  ///< values of one field: as many as fit in a line
+
+struct Field {
+  std::string name;
+  std::size_t size = 0;  ///< in bytes, of one value
+  char type = 'F';
+  std::size_t count = 1;
+};
+
+class HeaderReader {
+ public:
+  HeaderReader(LineReader& lines, const InputSource& source) : lines_(lines), source_(source) {}
+  PcdHeader read();
+
+ private:
+  struct Entry {
+    int line = 0;
+    std::vector<std::string_view> values;
+  };
+  void readEntries();
+  const Entry* find(std::string_view name) const;
+  const Entry& require(std::string_view name) const;
+  /// Of an entry that has one value for each of `count` fields.
+  const Entry& requireValues(std::string_view name, std::size_t count) const;
+  std::uint64_t wholeNumber(std::string_view name, std::size_t index, std::uint64_t least,
+                            std::uint64_t most) const;
+  void checkVersion() const;
+  PcdForm readForm() const;
+  std::size_t readPoints() const;
+  std::vector<Field> readFields() const;
+  void readSize(Field& field, std::size_t index) const;
+  void placeAxes(const std::vector<Field>& fields, PcdHeader& header) const;
+  void remarkViewpoint() const;
+
+  LineReader& lines_;
+  const InputSource& source_;
+  std::map<std::string_view, Entry> entries_;
+};
+
+void HeaderReader::readEntries() {
+  while (lines_.nextFilled()) {
+    std::vector<std::string_view> values = words(lines_.line());
+    const std::string_view name = values.front();
+    if (name.front() == '#') continue;
+    if (std::ranges::find(kEntries, name) == kEntries.end()) {
+      lines_.fail("unknown entry " + shown(name) +
+                  " of a PCD header; allowed are VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, "
+                  "HEIGHT, VIEWPOINT, POINTS and DATA");
+    }
+    if (const Entry* const first = find(name)) {
+      lines_.fail("a second entry " + std::string(name) + "; the first is at line " +
+                  std::to_string(first->line));
+    }
+    values.erase(values.begin());
+    const bool last = name == "DATA";
+    entries_[name] = {lines_.number(), std::move(values)};
+    if (last) return;
+  }
+  source_.fail(0, "the file ends where an entry DATA of its header should follow");
+}
+
+const HeaderReader::Entry* HeaderReader::find(std::string_view name) const {
+  const auto found = entries_.find(name);
+  return found == entries_.end() ? nullptr : &found->second;
+}
+
+const HeaderReader::Entry& HeaderReader::require(std::string_view name) const {
+  const Entry* const entry = find(name);
+  if (entry == nullptr) lines_.fail("the header has no entry " + std::string(name));
+  return *entry;
+}
+
+const HeaderReader::Entry& HeaderReader::requireValues(std::string_view name,
+                                                       std::size_t count) const {
+  const Entry& entry = require(name);
+  if (entry.values.size() != count) {
+    source_.fail(entry.line, std::string(name) + " has " + std::to_string(entry.values.size()) +
+                                 " values; it must have " + std::to_string(count));
+  }
+  return entry;
+}
+
+std::uint64_t HeaderReader::wholeNumber(std::string_view name, std::size_t index,
+                                        std::uint64_t least, std::uint64_t most) const {
+  const Entry& entry = require(name);
+  const std::string_view text = entry.values[index];
+  const auto value = parseCount(text);
+  if (!value || *value < least || *value > most) {
+    source_.fail(entry.line, std::string(name) + " is " + shown(text) +
+                                 "; it must be a whole number from " + std::to_string(least) +
+                                 " to " + std::to_string(most));
+  }
+  return *value;
+}
+
+void HeaderReader::checkVersion() const {
+  const Entry& entry = requireValues("VERSION", 1);
+  const std::string_view version = entry.values[0];
+  constexpr std::array<std::string_view, 4> kVersions{"0.7", ".7", "0.6", ".6"};
+  if (std::ranges::find(kVersions, version) == kVersions.end()) {
+    source_.fail(entry.line, "VERSION is " + shown(version) + "; allowed are 0.6 and 0.7");
+  }
+}
+
+PcdForm HeaderReader::readForm() const {
+  const Entry& entry = requireValues("DATA", 1);
+  const std::string_view form = entry.values[0];
+  if (form == "ascii") return PcdForm::Ascii;
+  if (form == "binary") return PcdForm::Binary;
+  if (form == "binary_compressed") return PcdForm::Compressed;
+  source_.fail(entry.line,
+               "DATA is " + shown(form) + "; allowed are ascii, binary and binary_compressed");
+}
+
+std::size_t HeaderReader::readPoints() const {
+  for (const std::string_view name : {"WIDTH", "HEIGHT", "POINTS"}) requireValues(name, 1);
+  const std::uint64_t width = wholeNumber("WIDTH", 0, 0, kMaxPoints);
+  const std::uint64_t height = wholeNumber("HEIGHT", 0, 0, kMaxPoints);
+  const std::uint64_t points = wholeNumber("POINTS", 0, 1, kMaxPoints);
+  if (width * height != points) {
+    source_.fail(require("POINTS").line, "POINTS is " + std::to_string(points) +
+                                             ", but WIDTH times HEIGHT " +
+                                             std::to_string(width * height));
+  }
+  return static_cast<std::size_t>(points);
+}
+
+void HeaderReader::readSize(Field& field, std::size_t index) const {
+  const Entry& sizes = require("SIZE");
+  const Entry& types = require("TYPE");
+  const std::string_view size = sizes.values[index];
+  const std::string_view type = types.values[index];
+  if (size != "1" && size != "2" && size != "4" && size != "8") {
+    source_.fail(sizes.line, "SIZE of " + shown(field.name) + " is " + shown(size) +
+                                 "; allowed are 1, 2, 4 and 8");
+  }
+  if (type != "F" && type != "I" && type != "U") {
+    source_.fail(types.line, "TYPE of " + shown(field.name) + " is " + shown(type) +
+                                 "; allowed are F, I and U");
+  }
+  field.size = static_cast<std::size_t>(size[0] - '0');
+  field.type = type[0];
+  if (field.type == 'F' && field.size < 4) {
+    source_.fail(sizes.line, "SIZE of " + shown(field.name) + " is " + shown(size) +
+                                 "; of TYPE F, 4 and 8 are allowed");
+  }
+}
+
+std::vector<Field> HeaderReader::readFields() const {
+  const Entry& names = require("FIELDS");
+  const std::size_t size = names.values.size();
+  requireValues("SIZE", size);
+  requireValues("TYPE", size);
+  const bool counted = find("COUNT") != nullptr;
+  if (counted) requireValues("COUNT", size);
+  std::vector<Field> fields;
+  for (std::size_t i = 0; i < size; ++i) {
+    Field field;
+    field.name = names.values[i];
+    readSize(field, i);
+    if (counted) field.count = static_cast<std::size_t>(wholeNumber("COUNT", i, 1, kMaxCount));
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+Scalar scalarOf(const Field& field) {
+  if (field.type == 'F') return field.size == 4 ? Scalar::Float32 : Scalar::Float64;
+  const bool isSigned = field.type == 'I';
+  switch (field.size) {
+    case 1:
+      return isSigned ? Scalar::Int8 : Scalar::UInt8;
+    case 2:
+      return isSigned ? Scalar::Int16 : Scalar::UInt16;
+    case 4:
+      return isSigned ? Scalar::Int32 : Scalar::UInt32;
+    default:
+      return isSigned ? Scalar::Int64 : Scalar::UInt64;
+  }
+}
+
+void HeaderReader::placeAxes(const std::vector<Field>& fields, PcdHeader& header) const {
+  constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
+  const int line = require("FIELDS").line;
+  std::array<bool, 3> placed{};
+  for (const Field& field : fields) {
+    Column column{field.name, -1, field.count};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (field.name != kAxes[axis]) continue;
+      if (placed[axis]) source_.fail(line, "FIELDS names " + shown(field.name) + " twice");
+      if (field.count != 1) {
+        source_.fail(require("COUNT").line, "COUNT of " + shown(field.name) + " is '" +
+                                                std::to_string(field.count) + "'; it must be 1");
+      }
+      placed[axis] = true;
+      header.axes[axis] = {scalarOf(field), header.pointSize};
+      column.axis = static_cast<int>(axis);
+    }
+    header.columns.push_back(std::move(column));
+    header.pointSize += field.size * field.count;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!placed[axis]) {
+      source_.fail(
+          line, "FIELDS does not name '" + std::string(kAxes[axis]) + "'; x, y and z are needed");
+    }
+  }
+  if (header.pointSize > kMaxFileBytes) {
+    source_.fail(line, "a point has " + std::to_string(header.pointSize) + " bytes; at most " +
+                           std::to_string(kMaxFileBytes) + " are allowed");
+  }
+}
+
+/// Where the sensor was. The Point Cloud Library does not move the points either.
+void HeaderReader::remarkViewpoint() const {
+  if (find("VIEWPOINT") == nullptr) return;
+  const Entry& entry = requireValues("VIEWPOINT", 7);
+  std::array<double, 7> pose{};
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    const auto value = parseNumber(entry.values[i]);
+    if (!value) {
+      source_.fail(entry.line,
+                   "VIEWPOINT has " + shown(entry.values[i]) +
+                       "; it must be 7 finite numbers: x, y, z, then a quaternion w, x, y, z");
+    }
+    pose[i] = *value;
+  }
+  constexpr std::array<double, 7> kIdentity{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+  if (pose != kIdentity) {
+    source_.warn(entry.line, "VIEWPOINT is not applied: points are taken as the file has them");
+  }
+}
+
+PcdHeader HeaderReader::read() {
+  readEntries();
+  PcdHeader header;
+  checkVersion();
+  header.form = readForm();
+  header.points = readPoints();
+  placeAxes(readFields(), header);
+  remarkViewpoint();
+  return header;
+}
+
+}  // namespace
+
+PcdHeader readPcdHeader(LineReader& lines, const InputSource& source) {
+  return HeaderReader(lines, source).read();
+}
+
+}  // namespace swept::detail

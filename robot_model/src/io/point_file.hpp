@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/input_source.hpp"
+#include "io/scalar.hpp"
+
+namespace swept::detail {
+
+/// 2 GiB, less one so that an int counts the lines of any file. Far beyond what one robot senses;
+/// larger: more memory taken at once, before anything is known about a file.
+inline constexpr std::size_t kMaxFileBytes = (std::size_t{1} << 31) - 1;
+/// Of points and of cubes: 1.2 and 1.6 GB of memory. Larger: a small file of binary zeros, or of a
+/// compressed cloud, takes more than that.
+inline constexpr std::size_t kMaxPoints = 50'000'000;
+/// Bytes in a line of text: some 100 thousand numbers. Larger: files that are no text are searched
+/// for ends of lines.
+inline constexpr std::size_t kMaxLine = std::size_t{1} << 20;
+
+/// A file of sensed points or cubes, whole in memory.
+class PointFile {
+ public:
+  /// Throws InputError (line 0) for a file that is not there, not regular, empty, too large, or
+  /// cannot be read.
+  PointFile(const std::filesystem::path& file, const LoadOptions& options);
+
+  const InputSource& source() const { return source_; }
+  std::string_view bytes() const { return {bytes_.get(), size_}; }
+  /// With line 0 and the offset in the message, for the parts of files that have no lines.
+  [[noreturn]] void failAt(std::size_t offset, const std::string& message) const;
+
+ private:
+  InputSource source_;
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+};
+
+/// The lines of a file, one after the other, without what ends them (LF, or CR and LF).
+class LineReader {
+ public:
+  explicit LineReader(const PointFile& file) : file_(file) {}
+  /// False: there are no more. Throws InputError for one that is too long.
+  bool next();
+  /// The same, of lines with something else than white space in them.
+  bool nextFilled();
+  /// The present one.
+  std::string_view line() const { return line_; }
+  int number() const { return number_; }
+  /// Of the byte behind the end of the present line.
+  std::size_t offset() const { return offset_; }
+  [[noreturn]] void fail(const std::string& message) const {
+    file_.source().fail(number_, message);
+  }
+
+ private:
+  const PointFile& file_;
+  std::string_view line_;
+  int number_ = 0;
+  std::size_t offset_ = 0;
+};
+
+/// What a file turned out to hold, less the points that are not finite.
+class PointList {
+ public:
+  void reserve(std::size_t count) { points_.reserve(count); }
+  void add(const Eigen::Vector3d& point) {
+    ++given_;
+    if (std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z())) {
+      points_.push_back(point);
+    }
+  }
+  std::size_t given() const { return given_; }
+  /// With a remark on those left out. Throws InputError if none are left.
+  std::vector<Eigen::Vector3d> finish(const InputSource& source);
+
+ private:
+  std::vector<Eigen::Vector3d> points_;
+  std::size_t given_ = 0;
+};
+
+/// Where one coordinate of the points of a binary file is.
+struct CoordinateData {
+  Scalar type = Scalar::Float32;
+  const char* first = nullptr;
+  std::size_t step = 0;  ///< in bytes, from a point to the next
+};
+
+/// Adds so many points; `axes` are x, y and z.
+void addPoints(const std::array<CoordinateData, 3>& axes, std::size_t count, std::endian order,
+               PointList& points);
+
+/// The file's ending, dot included, in lower case.
+std::string lowerEnding(const std::filesystem::path& file);
+
+/// Separated by blanks and tabs.
+std::vector<std::string_view> words(std::string_view line);
+
+/// As messages show what a file has: in quotes, what is not printable as `?`, long text cut.
+std::string shown(std::string_view text);
+
+/// A whole number from 0 to 9e15, which doubles and 64 bits hold.
+std::optional<std::uint64_t> parseCount(std::string_view text);
+
+/// One reader per format. `file` outlives the call.
+std::vector<Eigen::Vector3d> readPcd(const PointFile& file);
+std::vector<Eigen::Vector3d> readPly(const PointFile& file);
+std::vector<Eigen::Vector3d> readXyz(const PointFile& file);
+
+}  // namespace swept::detail

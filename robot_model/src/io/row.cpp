@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/row.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace swept::detail {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t";
+
+const char* skipWord(const char* at, const char* end) {
+  while (at != end && *at != ' ' && *at != '\t') ++at;
+  return at;
+}
+
+/// The beginning of the next word, which has to be there.
+const char* nextWord(const char* at, const char* end, const Column& column,
+                     const LineReader& lines) {
+  at = skipBlanks(at, end);
+  if (at == end) lines.fail("the line ends where " + shown(column.name) + " should follow");
+  return at;
+}
+
+std::size_t listLength(const char*& at, const char* end, const Column& column,
+                       const LineReader& lines) {
+  const char* const begin = nextWord(at, end, column, lines);
+  at = skipWord(begin, end);
+  const std::string_view word(begin, static_cast<std::size_t>(at - begin));
+  const auto count = parseCount(word);
+  if (!count) {
+    lines.fail("the length of " + shown(column.name) + " is " + shown(word) +
+               "; it must be a whole number from 0 to 9e15");
+  }
+  return static_cast<std::size_t>(*count);
+}
+
+}  // namespace
+
+const char* skipBlanks(const char* at, const char* end) {
+  while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  return at;
+}
+
+double readNumber(const char*& at, const char* end, std::string_view separators,
+                  std::string_view name, const LineReader& lines) {
+  const char* begin = at;
+  // from_chars knows no plus sign, people do.
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  double value = 0.0;
+  const auto result = std::from_chars(begin, end, value);
+  const auto isSeparator = [&](char c) { return separators.find(c) != std::string_view::npos; };
+  if (result.ec != std::errc{} || (result.ptr != end && !isSeparator(*result.ptr))) {
+    const std::string_view word(at,
+                                static_cast<std::size_t>(std::find_if(at, end, isSeparator) - at));
+    lines.fail(std::string(name) + " is " + shown(word) +
+               "; it must be a number that a double can hold");
+  }
+  at = result.ptr;
+  return value;
+}
+
+Eigen::Vector3d readRow(const LineReader& lines, std::span<const Column> columns) {
+  const char* at = lines.line().data();
+  const char* const end = at + lines.line().size();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (const Column& column : columns) {
+    if (column.axis >= 0) {
+      at = nextWord(at, end, column, lines);
+      point[column.axis] = readNumber(at, end, kBlanks, column.name, lines);
+      continue;
+    }
+    std::size_t count = column.isList ? listLength(at, end, column, lines) : column.repeat;
+    for (; count > 0; --count) at = skipWord(nextWord(at, end, column, lines), end);
+  }
+  at = skipBlanks(at, end);
+  if (at != end) {
+    const char* const wordEnd = skipWord(at, end);
+    lines.fail(shown({at, static_cast<std::size_t>(wordEnd - at)}) +
+               " follows the last value of the line");
+  }
+  return point;
+}
+
+}  // namespace swept::detail
