@@ -5,11 +5,13 @@ import pathlib
 import random
 import shutil
 
-from generator import arms, disabled_pairs, edges, mesh_files, queries, scenes, tunnel
+from generator import arms, clouds, disabled_pairs, edges, mesh_files, queries, scenes, tunnel
 from generator.clearance import Collider
 
 HERE = pathlib.Path(__file__).resolve().parent
 STATE_CLEARANCE = 0.005    # m, of the named states, alone and in every scene
+SCANNED = ("shelf",)       # scenes that are given as clouds, too
+VOXEL = 0.02               # m, of their OctoMaps
 OVERLAP_BY_DESIGN = {"rook7": (("link4", "elbow_ring"),)}  # the ring turns about link4's end
 
 
@@ -51,6 +53,18 @@ def write_scenes(worlds):
     (folder / "table_objects.scene").write_text(scenes.to_moveit_text(worlds["table_objects"]))
 
 
+def write_clouds(worlds):
+    folder = HERE / "clouds"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for name in SCANNED:
+        points = clouds.scan(worlds[name])
+        seen = sum(p is not None for p in points)
+        assert len(points) / 3 < seen < len(points), (name, seen)
+        (folder / f"{name}.pcd").write_bytes(clouds.to_pcd(points))
+        (folder / f"{name}.bt").write_bytes(clouds.to_octomap(points, VOXEL))
+
+
 def problems_of(robot, worlds, asked):
     """In MotionBenchMaker's layout; only scenes made of primitives."""
     sets = {}
@@ -87,6 +101,7 @@ def main():
 
     write_robots(robots)
     write_scenes(worlds)
+    write_clouds(worlds)
     (HERE / "queries.yaml").write_text(queries.to_yaml(asked))
     for name in ("rook7", "rook6"):
         write_problems(robots[name][0], problems_of(robots[name][0], worlds, asked))

@@ -22,6 +22,10 @@ class MeshShape:
     def pieces(self):
         return [(piece, 0.0) for piece in self.mesh.pieces]
 
+    def surface(self):
+        v = self.mesh.vertices
+        return [(v[a], v[b], v[c]) for a, b, c in self.mesh.triangles]
+
 
 def placed(shape, xyz, rpy=(0.0, 0.0, 0.0)):
     q = tuple(round(c, 9) + 0.0 for c in quaternion_of_rpy(*rpy))

@@ -100,6 +100,27 @@ void addModelOptions(CLI::App& app, Arguments& args) {
 
 void addSceneOption(CLI::App& app, Arguments& args) {
   app.add_option("--scene", args.scene, "planning scene: .yaml, .yml or .scene")->type_name("FILE");
+  app.add_option(
+         "--cloud", args.clouds,
+         "sensed points (.pcd, .ply, .xyz) or an OctoMap (.bt, .ot), a body named after its "
+         "file (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--point-radius", args.pointRadius,
+                 "m; each point of a cloud stands for a ball of this radius")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--cloud-pose", args.cloudPose, "of the clouds' frame in the model frame")
+      ->type_name("X,Y,Z,QX,QY,QZ,QW");
+  app.add_option("--occluded", args.occluded,
+                 "m; what points hide from a sensor at the origin of their frame is occupied, too, "
+                 "up to so far from it; needs a radius above zero")
+      ->type_name("RANGE")
+      ->check(within(1e-3, 1e3, "between 0.001 and 1000 m"));
+  app.add_option("--self-filter", args.selfFilter,
+                 "m; points this near to the robot in the first state are the robot itself")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
 }
 
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what) {

@@ -18,6 +18,11 @@ struct Arguments {
 
   std::string srdf;  ///< empty: a file beside the URDF; `none`: without
   std::string scene;
+  std::vector<std::string> clouds;    ///< files
+  std::optional<double> pointRadius;  ///< m
+  std::string cloudPose;              ///< world_from_cloud: x,y,z,qx,qy,qz,qw
+  std::optional<double> selfFilter;   ///< m
+  std::optional<double> occluded;     ///< m
   std::string group;
   std::vector<std::string> packages;      ///< NAME=DIR
   std::vector<std::string> pads;          ///< NAME=METRES

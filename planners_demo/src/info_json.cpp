@@ -136,10 +136,8 @@ Json infoJson(const Arguments& args, const Model& model, const Checker* checker)
   json["joints"] = jointsJson(*model.robot);
   json["groups"] = groupsJson(*model.robot);
   json["disabled_pairs"] = disabledPairsJson(*model.robot);
-  if (!args.scene.empty()) {
-    json["scene"] = args.scene;
-    json["world"] = worldJson(*model.world);
-  }
+  if (!args.scene.empty()) json["scene"] = args.scene;
+  if (!args.scene.empty() || !args.clouds.empty()) json["world"] = worldJson(*model.world);
   if (checker != nullptr)
     json["group"] = {{"name", checker->group().name},
                      {"checked_pairs", pairsJson(checker->checkedPairs())},

@@ -158,9 +158,9 @@ std::string infoText(const Arguments& args, const Model& model, const Checker* c
           count(robot.variables().size(), "variable", "variables") + "; " +
           count(robot.disabledPairs().size(), "pair", "pairs") + " disabled by the SRDF\n";
   text += "\n" + linkTable(robot) + "\n" + jointTable(robot) + "\n" + groupTable(robot);
-  if (!args.scene.empty())
-    text += "\nscene " + args.scene + ": " + count(model.world->bodies().size(), "body", "bodies") +
-            "\n" + worldTable(*model.world);
+  if (!model.world->bodies().empty() || !args.scene.empty())
+    text += "\n" + (args.scene.empty() ? "world" : "scene " + args.scene) + ": " +
+            count(model.world->bodies().size(), "body", "bodies") + "\n" + worldTable(*model.world);
   if (checker == nullptr) return text;
   text.append("\n").append(pairText(*checker));
   for (const std::string& sentence : explanations(args, *checker))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "path_files.hpp"
 
+#include "clouds.hpp"
 #include "exit_code.hpp"
 #include "text_output.hpp"
 #include "whole_file.hpp"
@@ -17,9 +18,13 @@ std::vector<std::string> variableNames(const Checker& checker) {
 
 std::string jsonText(const Checker& checker, const PlanRequest& request,
                      const PlanOutcome& outcome) {
-  Json json = {{"robot", checker.robot().name()},      {"group", checker.group().name},
-               {"planner", request.planner},           {"seed", request.seed},
-               {"margin", checker.options().margin},   {"tolerance", checker.options().tolerance},
+  Json json = {{"robot", checker.robot().name()},
+               {"group", checker.group().name},
+               {"planner", request.planner},
+               {"seed", request.seed},
+               {"margin", checker.options().margin},
+               {"tolerance", checker.options().tolerance},
+               {"clouds", cloudsJson(checker.world())},
                {"joint_names", variableNames(checker)}};
   json["states"] = Json::array();
   for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));

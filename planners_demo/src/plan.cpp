@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "clouds.hpp"
 #include "commands.hpp"
 #include "path_files.hpp"
 #include "planners.hpp"
@@ -62,6 +63,7 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
   json["motions_refused"] = outcome.refused;
   json["minimum_certified_clearance"] =
       outcome.proven() ? finiteOrNull(outcome.leastClearance()) : Json(nullptr);
+  json["clouds"] = cloudsJson(checker.world());
   json["states"] = Json::array();
   for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
   json["path_file"] = outcome.proven() && !args.output.empty() ? Json(args.output) : Json(nullptr);
@@ -101,7 +103,8 @@ ExitCode runPlan(const Arguments& args) {
   if (args.json) {
     std::cout << planJson(args, *task.checker, request, outcome).dump(2) << '\n';
   } else {
-    std::cout << planTable(request, outcome) << resultLine(outcome);
+    std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
+              << resultLine(outcome);
     if (file && outcome.proven()) std::cout << "path written to " << args.output << '\n';
   }
   return outcome.code;

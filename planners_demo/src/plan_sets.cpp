@@ -168,6 +168,8 @@ void checkOptions(const Arguments& args) {
     throw UsageError("states and --problems cannot be combined: the problem has its own");
   if (!args.scene.empty())
     throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
+  if (!args.clouds.empty())
+    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
   if (args.index) throw UsageError("--index needs --set");
   if (!args.output.empty())
     throw UsageError("-o writes one path; choose one problem with --set and --index");

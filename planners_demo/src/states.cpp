@@ -103,24 +103,6 @@ std::vector<double> namedState(const Robot& robot, const Group& group, const Nam
   return q;
 }
 
-std::vector<double> listedValues(const Robot& robot, const Group& group, const std::string& text,
-                                 const std::string& label) {
-  const std::vector<std::string> pieces = splitAtCommas(text);
-  const std::vector<std::string> names = variableNames(robot, group);
-  if (pieces.size() != names.size())
-    throw UsageError(label + ": " + std::to_string(pieces.size()) + " values, expected " +
-                     std::to_string(names.size()) + ": " + joined(names, ","));
-  std::vector<double> q(names.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Number number = readNumber(pieces[i]);
-    const std::string seen = label + ": " + names[i] + " is '" + pieces[i] + "', ";
-    if (!number.readable) throw UsageError(seen + "which is not a number");
-    if (!std::isfinite(number.value)) throw UsageError(seen + "which is not a finite number");
-    q[i] = number.value;
-  }
-  return q;
-}
-
 [[noreturn]] void refuseName(const Robot& robot, const Group& group, const std::string& text,
                              const std::string& label) {
   std::vector<std::string> known;
@@ -162,6 +144,23 @@ std::string unitOf(const Robot& robot, const Variable& variable) {
   }
 }
 
+std::vector<double> readValues(const std::string& text, std::span<const std::string> names,
+                               const std::string& label) {
+  const std::vector<std::string> pieces = splitAtCommas(text);
+  if (pieces.size() != names.size())
+    throw UsageError(label + ": " + std::to_string(pieces.size()) + " values, expected " +
+                     std::to_string(names.size()) + ": " + joined(names, ","));
+  std::vector<double> values(names.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Number number = readNumber(pieces[i]);
+    const std::string seen = label + ": " + names[i] + " is '" + pieces[i] + "', ";
+    if (!number.readable) throw UsageError(seen + "which is not a number");
+    if (!std::isfinite(number.value)) throw UsageError(seen + "which is not a finite number");
+    values[i] = number.value;
+  }
+  return values;
+}
+
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
                               const std::string& label) {
   const std::string wanted = trimmed(text);
@@ -169,7 +168,7 @@ std::vector<double> readState(const Robot& robot, const Group& group, const std:
   if (const NamedState* state = robot.findNamedState(wanted, group.name))
     q = namedState(robot, group, *state, label);
   else if (wanted.find(',') != std::string::npos || readNumber(wanted).readable)
-    q = listedValues(robot, group, wanted, label);
+    q = readValues(wanted, variableNames(robot, group), label);
   else
     refuseName(robot, group, wanted, label);
   normaliseOrientation(robot, group, q, label);

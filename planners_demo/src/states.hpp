@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace swept {
 
 /// `rad` or `m`; empty for the components of a quaternion.
 std::string unitOf(const Robot& robot, const Variable& variable);
+
+/// Comma-separated values, one for each name. Throws UsageError, which starts with `label`, for
+/// another number of them and for anything that is not a finite number.
+std::vector<double> readValues(const std::string& text, std::span<const std::string> names,
+                               const std::string& label);
 
 /// A configuration of the group from a named state or comma-separated values. Throws UsageError,
 /// which starts with `label`, for an unknown name, a wrong count, anything that is not a finite

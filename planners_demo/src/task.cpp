@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
+#include "clouds.hpp"
 #include "exit_code.hpp"
 #include "rules.hpp"
 #include "states.hpp"
@@ -46,6 +48,8 @@ void checkStateSource(const Arguments& args) {
     throw UsageError("states and --problems cannot be combined: the problem has its own");
   if (!args.scene.empty())
     throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
+  if (!args.clouds.empty())
+    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
   if (args.set.empty() || !args.index)
     throw UsageError(args.command + ": --problems needs --set and --index");
 }
@@ -91,8 +95,9 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   model.srdf = chooseSrdf(args);
   model.robot = Robot::load(args.robot, model.srdf.file, options);
   options.modelFrame = model.robot->links().front().name;
-  model.world =
-      std::make_shared<World>(args.scene.empty() ? World{} : World::load(args.scene, options));
+  World world = args.scene.empty() ? World{} : World::load(args.scene, options);
+  addClouds(args, *model.robot, options, world);
+  model.world = std::make_shared<const World>(std::move(world));
   return model;
 }
 

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+/// Sensed worlds: clouds and OctoMaps.
+namespace swept::test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+constexpr auto kRobot = "models/robots/rook7/rook7.urdf";
+constexpr auto kCloud = "models/clouds/shelf.pcd";
+constexpr auto kMap = "models/clouds/shelf.bt";
+
+Words rook7(const std::string& command, const Words& more) {
+  Words words{command, kRobot, "--group", "arm"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// Behind the divider of the shelf, where the straight way is blocked.
+const Words kAroundTheShelf{"-0.9,0.4,0,1.9,0,0.8,0", "0.9,0.4,0,1.9,0,0.8,0"};
+
+std::string valuesOf(const nlohmann::json& state) {
+  std::string text;
+  for (const double value : state) text += (text.empty() ? "" : ",") + nlohmann::json(value).dump();
+  return text;
+}
+
+void expectAPlan(const Words& world, std::size_t balls, double radius) {
+  Words words = rook7("plan", {"--json"});
+  words.insert(words.end(), world.begin(), world.end());
+  words.insert(words.end(), kAroundTheShelf.begin(), kAroundTheShelf.end());
+  const Outcome run = runSwept(words);
+  ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
+  const auto json = jsonOf(run);
+  EXPECT_EQ(json["proven"], true);
+  ASSERT_EQ(json["clouds"].size(), 1u);
+  EXPECT_EQ(json["clouds"][0]["body"], "shelf");
+  EXPECT_EQ(json["clouds"][0]["balls"], balls);
+  EXPECT_NEAR(json["clouds"][0]["least_radius"], radius, 1e-12);
+  EXPECT_NEAR(json["clouds"][0]["largest_radius"], radius, 1e-12);
+  EXPECT_GE(json["motions_refused"], 1) << "the straight way is blocked";
+  // The same motions in a world read anew.
+  Words motions = rook7("motion", {"--json"});
+  motions.insert(motions.end(), world.begin(), world.end());
+  for (const auto& state : json["states"]) motions.push_back(valuesOf(state));
+  EXPECT_EQ(runSwept(motions).exitCode, 0);
+}
+
+TEST(Cloud, APlanIsProvenForItsBalls) {
+  expectAPlan({"--cloud", kCloud, "--point-radius", "0.015"}, 12493, 0.015);
+}
+
+TEST(Cloud, APlanIsProvenForTheCubesOfAnOctomap) {
+  expectAPlan({"--cloud", kMap}, 6107, 0.01 * std::sqrt(3.0));
+}
+
+TEST(Cloud, TextAndPathFileSayWhatIsProven) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("path.json");
+  Words words = rook7("plan", {"--cloud", kCloud, "--point-radius", "0.015", "-o", path});
+  words.insert(words.end(), kAroundTheShelf.begin(), kAroundTheShelf.end());
+  const Outcome run = runSwept(words);
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_THAT(run.out, HasSubstr("\nbody shelf is 12493 balls of radius 0.015 m\nsolved: "));
+  EXPECT_THAT(run.err, EndsWith("shelf.pcd: warning: 8243 of 20736 points are not finite and left "
+                                "out\n"));
+  const auto json = nlohmann::json::parse(folder.read("path.json"));
+  EXPECT_EQ(json["clouds"][0]["balls"], 12493);
+}
+
+TEST(Cloud, StandsWhereItIsPlaced) {
+  const Words apart{"--cloud", kCloud, "--point-radius", "0.015"};
+  Words words = rook7("check", apart);
+  words.emplace_back("home");
+  EXPECT_EQ(runSwept(words).exitCode, 0);
+  words.insert(words.end(), {"--cloud-pose", "-0.5,0,0.1,0,0,0,1"});
+  const Outcome moved = runSwept(words);
+  EXPECT_EQ(moved.exitCode, 1) << moved.out << moved.err;
+  EXPECT_THAT(moved.out, HasSubstr(" - shelf: "));
+}
+
+TEST(Cloud, PointsOfTheRobotAreLeftOut) {
+  const TemporaryFolder folder;
+  // In the arm, which stands straight up, and far from it.
+  const std::string cloud = folder.write("seen.xyz", "0 0 0.6\n0 0 0.65\n2 2 2\n");
+  Words words = rook7("check", {"upright", "--cloud", cloud, "--point-radius", "0.01"});
+  EXPECT_EQ(runSwept(words).exitCode, 1);
+  words.insert(words.end(), {"--self-filter", "0.02"});
+  const Outcome run = runSwept(words);
+  EXPECT_EQ(run.exitCode, 0) << run.out;
+  EXPECT_EQ(run.err,
+            cloud + ": warning: 2 of 3 points are within 0.02 m of the robot and left out\n");
+}
+
+TEST(Cloud, WhatPointsHideIsOccupied) {
+  const TemporaryFolder folder;
+  // A wall between the sensor and the arm's pedestal.
+  std::string wall;
+  for (int y = -20; y <= 20; ++y) {
+    for (int z = -20; z <= 20; ++z)
+      wall.append("1 " + std::to_string(0.02 * y) + " " + std::to_string(0.02 * z) + "\n");
+  }
+  const std::string cloud = folder.write("wall.xyz", wall);
+  Words words = rook7("check", {"home", "--cloud", cloud, "--point-radius", "0.015", "--cloud-pose",
+                                "-2,0,0.2,0,0,0,1"});
+  EXPECT_EQ(runSwept(words).exitCode, 0);
+  words.insert(words.end(), {"--occluded", "1.5"});
+  EXPECT_EQ(runSwept(words).exitCode, 0) << "half a metre in front of the arm";
+  words.back() = "2.5";
+  const Outcome run = runSwept(words);
+  EXPECT_EQ(run.exitCode, 1) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(" - wall: "));
+}
+
+TEST(Cloud, InfoListsIt) {
+  const auto json = jsonOf(runSwept({"info", kRobot, "--cloud", kMap, "--json"}));
+  ASSERT_EQ(json["world"].size(), 1u);
+  EXPECT_EQ(json["world"][0]["name"], "shelf");
+}
+
+struct Refusal {
+  Words arguments;
+  std::string message;
+};
+
+TEST(Cloud, WhatItCannotUseIsNamed) {
+  const TemporaryFolder folder;
+  const std::string one = folder.write("one.xyz", "0 0 0.1\n");
+  const std::vector<Refusal> refusals{
+      {{"--cloud", one},
+       "swept: error: --cloud " + one +
+           " needs --point-radius: how many metres the surface may be from a point"},
+      {{"--point-radius", "0.01"}, "swept: error: --point-radius needs --cloud"},
+      {{"--cloud-pose", "0,0,0,0,0,0,1"}, "swept: error: --cloud-pose needs --cloud"},
+      {{"--self-filter", "0.01"}, "swept: error: --self-filter needs --cloud"},
+      {{"--occluded", "2"}, "swept: error: --occluded needs --cloud"},
+      {{"--cloud", kMap, "--occluded", "2"},
+       std::string("swept: error: --occluded is for points; an OctoMap says itself what is "
+                   "occupied: ") +
+           kMap},
+      {{"--cloud", one, "--point-radius", "0", "--occluded", "2"},
+       one + ": error: radius of the occluded space is 0; allowed: finite and above zero"},
+      {{"--cloud", one, "--point-radius", "0.01", "--cloud-pose", "0,0,1"},
+       "swept: error: --cloud-pose: 3 values, expected 7: x,y,z,qx,qy,qz,qw"},
+      {{"--cloud", one, "--point-radius", "0.01", "--cloud-pose", "0,0,1,0,0,0,2"},
+       "swept: error: --cloud-pose: the quaternion has norm 2, allowed is 1"},
+      {{"--cloud", one, "--cloud", one, "--point-radius", "0.01"},
+       one + ": error: World: a second body is named 'one'"},
+      {{"--cloud", one, "--point-radius", "0.01", "--self-filter", "0.05"},
+       one + ": error: --self-filter leaves nothing of it"},
+  };
+  for (const Refusal& refusal : refusals) {
+    Words words = rook7("check", refusal.arguments);
+    words.insert(words.end(), {"home", "-q"});
+    const Outcome run = runSwept(words);
+    EXPECT_EQ(run.exitCode, 3) << refusal.message;
+    EXPECT_EQ(run.err, refusal.message + "\n");
+  }
+}
+
+}  // namespace
+}  // namespace swept::test
