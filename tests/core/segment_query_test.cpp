@@ -124,6 +124,61 @@ void check(const Set& set, const Vector3d& offset, std::mt19937& random, Counts&
   }
 }
 
+double signedBruteForce(const PointCloud& cloud, const Vector3d& p) {
+  double nearest = kInfinity;
+  for (std::size_t i = 0; i < cloud.points().size(); ++i)
+    nearest = std::min(nearest, (p - cloud.points()[i]).norm() - cloud.radius(i));
+  return nearest;
+}
+
+TEST(Clearance, IsThatOfTheNearestBall) {
+  std::mt19937 random(24);
+  int inside = 0, outside = 0;
+  for (const double offset : {0.0, 1e3, 1e6}) {
+    for (int i = 0; i < 10; ++i) {
+      const Vector3d origin = offset * test::unitVector(random);
+      const PointCloud cloud = points(random, origin, i % 2 == 0 ? 0.0 : 0.6);
+      for (int j = 0; j < 200; ++j) {
+        const Vector3d p = origin + test::uniformPoint(random, j % 4 == 0 ? 20.0 : 1.2);
+        const double truth = signedBruteForce(cloud, p);
+        const double rounding = 1e-14 * (2.0 * offset + 50.0);
+        const double found = clearance(cloud, p);
+        ASSERT_LE(found, truth + 1e-15);
+        ASSERT_GE(found, truth - rounding);
+        const double enough = 0.3;
+        const double some = clearance(cloud, p, enough);
+        if (truth >= enough + rounding) {
+          ASSERT_EQ(some, enough);
+        } else if (truth < enough - rounding) {
+          ASSERT_EQ(some, found);
+        }
+        ++(truth < 0.0 ? inside : outside);
+      }
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 3000);
+}
+
+TEST(Clearance, OfManyPointsIsThatOfTheNearestBall) {
+  std::mt19937 random(25);
+  std::vector<Vector3d> many;
+  for (int i = 0; i < 5000; ++i) many.push_back(test::unitVector(random));
+  const PointCloud cloud = PointCloud::build(many, 0.01);
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d p = test::uniformPoint(random, 1.5);
+    EXPECT_NEAR(clearance(cloud, p), signedBruteForce(cloud, p), 1e-13);
+  }
+}
+
+TEST(Clearance, OfWhatIsNotFiniteIsNone) {
+  const PointCloud cloud = PointCloud::build(std::vector<Vector3d>{Vector3d::Zero()}, 0.1);
+  EXPECT_EQ(clearance(cloud, {NAN, 0.0, 0.0}), -kInfinity);
+  EXPECT_EQ(clearance(cloud, {0.0, kInfinity, 0.0}), -kInfinity);
+  EXPECT_EQ(clearance(cloud, {1.0, 0.0, 0.0}, NAN), -kInfinity);
+  EXPECT_NEAR(clearance(cloud, {1e200, 0.0, 0.0}), 1e200, 1e187);
+}
+
 TEST(SegmentQuery, ProvesWhatIsTrueAboutTriangles) {
   std::mt19937 random(21);
   Counts counts;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 
 #include "swept/core/point_cloud.hpp"
@@ -21,6 +22,13 @@ struct LineSegment {
 /// are within about 1e-6 of the shape's size of that radius. False for what is not finite.
 bool isFarther(const TriangleMesh& mesh, const LineSegment& segment, double radius);
 bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radius);
+
+/// m; proven: how far `point` (m, the cloud's frame) is from the nearest ball at least, less by some
+/// roundings of the coordinates alone; within balls, minus the depth in the one where it is deepest.
+/// Where that is `enough` (m) or more, `enough`, which is found sooner. Minus infinity for a point
+/// that is not finite. The clearance of a ball around the point is less by its radius.
+double clearance(const PointCloud& cloud, const Eigen::Vector3d& point,
+                 double enough = std::numeric_limits<double>::infinity());
 
 /// A point (m) of a triangle, or in a ball of a cloud, that is not farther than `radius` (m) from
 /// `point`, up to rounding in double precision; the first one found. None: there is no such point,
