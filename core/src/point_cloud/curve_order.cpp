@@ -92,15 +92,22 @@ class CurveOrder {
     // Near the least and the greatest double, an inverse or a difference would not be finite.
     const double shrink = half > 1e290 ? 0x1p-40 : half < 1e-290 ? 0x1p100 : 1.0;
     const double scale = cells * (1.0 - 1e-9) / (2.0 * shrink * half);
-    keys_.resize(run.count);
-    for (std::size_t i = 0; i < run.count; ++i) {
-      const Vector3d& p = point(run.first + i);
+    constexpr std::size_t kAtOnce = 4;
+    const auto cellOf = [&](const Vector3d& p) {
       std::array<std::uint32_t, 3> cell;
       for (int k = 0; k < 3; ++k) {
         const double at = (shrink * p[k] - shrink * box.lower[k]) * scale;
         cell[k] = static_cast<std::uint32_t>(std::clamp(at, 0.0, cells - 1.0));
       }
-      keys_[i] = HilbertCurve::index(cell[0], cell[1], cell[2], bits) << indexBits | i;
+      return HilbertCurve::cell(cell[0], cell[1], cell[2]);
+    };
+    keys_.resize(run.count);
+    for (std::size_t i = 0; i < run.count; i += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, run.count - i);
+      std::array<std::uint64_t, kAtOnce> some{};
+      for (std::size_t j = 0; j < count; ++j) some[j] = cellOf(point(run.first + i + j));
+      const std::array<std::uint64_t, kAtOnce> indices = HilbertCurve::indices(some, bits);
+      for (std::size_t j = 0; j < count; ++j) keys_[i + j] = indices[j] << indexBits | (i + j);
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 /// Hilbert's curve in space, by its states (Hamilton, Rau-Chaplin 2008, "Compact Hilbert indices:
@@ -15,17 +16,28 @@ class HilbertCurve {
  public:
   static constexpr int kMostBits = 16;  ///< of each coordinate
 
-  /// Index of a cell among 2^(3 bits), with `bits` even; x, y and z below 2^bits.
-  static std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bits) {
-    const std::uint64_t cell = spread(x) | spread(y) << 1 | spread(z) << 2;
-    std::uint64_t found = 0;
-    std::uint32_t state = 0;
+  /// The bits of a cell's coordinates, below 2^kMostBits, side by side.
+  static std::uint64_t cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return spread(x) | spread(y) << 1 | spread(z) << 2;
+  }
+
+  /// Indices of cells among 2^(3 bits), with `bits` even and coordinates below 2^bits. Of several
+  /// at once, since each step of one has to wait for the step before.
+  template <std::size_t N>
+  static std::array<std::uint64_t, N> indices(const std::array<std::uint64_t, N>& cells, int bits) {
+    std::array<std::uint64_t, N> found{};
+    std::array<std::uint32_t, N> state{};
     for (int at = 3 * bits - 6; at >= 0; at -= 6) {
-      const Step step = kSteps[state * 64 + ((cell >> at) & 63U)];
-      found = found << 6 | step.index;
-      state = step.state;
+      for (std::size_t i = 0; i < N; ++i) {
+        const Step step = kSteps[state[i] * 64 + ((cells[i] >> at) & 63U)];
+        found[i] = found[i] << 6 | step.index;
+        state[i] = step.state;
+      }
     }
     return found;
+  }
+  static std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bits) {
+    return indices<1>({cell(x, y, z)}, bits)[0];
   }
 
  private:
