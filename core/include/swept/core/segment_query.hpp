@@ -23,10 +23,10 @@ struct LineSegment {
 bool isFarther(const TriangleMesh& mesh, const LineSegment& segment, double radius);
 bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radius);
 
-/// m; proven: how far `point` (m, the cloud's frame) is from the nearest ball at least, less by some
-/// roundings of the coordinates alone; within balls, minus the depth in the one where it is deepest.
-/// Where that is `enough` (m) or more, `enough`, which is found sooner. Minus infinity for a point
-/// that is not finite. The clearance of a ball around the point is less by its radius.
+/// m; proven: how far `point` (m, the cloud's frame) is from the nearest ball at least, less by
+/// some roundings of the coordinates alone; within balls, minus the depth in the one where it is
+/// deepest. Where that is `enough` (m) or more, `enough`, which is found sooner. Minus infinity for
+/// a point that is not finite. The clearance of a ball around the point is less by its radius.
 double clearance(const PointCloud& cloud, const Eigen::Vector3d& point,
                  double enough = std::numeric_limits<double>::infinity());
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "swept/core/shapes.hpp"
+
+namespace swept {
+
+namespace detail {
+struct NoisyCloudData;
+}
+
+/// Balls whose centres are known up to noise, as a depth camera measures them.
+///
+/// The true centre of ball i is points[i] + n_i, where n_i is Gaussian with mean zero and
+/// covariances[i], independent of all others. A covariance may be zero (the point is known) or of
+/// lower rank (the point is known across some directions, as along a camera's ray). Immutable;
+/// copies share the data.
+///
+/// Covariances are kept as factors F; F F^T is the given matrix but for 1e-14 of its largest entry,
+/// and that is the noise the queries speak of.
+class NoisyPointCloud {
+ public:
+  /// Points in m, radii in m, covariances in m^2, in the order given and in the cloud's frame.
+  /// Throws std::invalid_argument, naming the index and the value, unless there is at least one
+  /// point, the spans are equally long, everything is finite, radii are not negative, and
+  /// covariances are symmetric and positive semidefinite (both up to 1e-12 of the largest entry).
+  static NoisyPointCloud build(std::span<const Eigen::Vector3d> points,
+                               std::span<const double> radii,
+                               std::span<const Eigen::Matrix3d> covariances);
+  /// One radius (m) for all, and noise of the same standard deviation (m) in all directions.
+  static NoisyPointCloud build(std::span<const Eigen::Vector3d> points, double radius,
+                               double standardDeviation);
+
+  std::size_t size() const;
+  const detail::NoisyCloudData& data() const { return *data_; }
+
+ private:
+  explicit NoisyPointCloud(std::shared_ptr<const detail::NoisyCloudData> data)
+      : data_(std::move(data)) {}
+  std::shared_ptr<const detail::NoisyCloudData> data_;
+};
+
+struct CollisionProbabilityOptions {
+  /// Probability. Stop when upper - lower is at most this. Between two clouds, where that is out of
+  /// reach: stop when three standard errors are. Zero or NaN: go on until the effort is spent.
+  double accuracy = 0.01;
+  int maxLooks = 1 << 18;    ///< distances from points to the other body, or to another ball
+  int maxSamples = 1 << 16;  ///< draws of groups of points, between two clouds
+  std::uint64_t seed = 1;    ///< of these draws; the same seed gives the same bits
+};
+
+/// What a query took.
+struct ProbabilityEffort {
+  int nodes = 0;  ///< of the hierarchies: boxes (or pairs of boxes) bounded against the other body
+  int near = 0;   ///< points (or pairs of points) that no box has settled
+  int looks = 0;  ///< distances from a point to the other body, or to another ball
+  int samples = 0;  ///< draws of groups of points that depend on each other
+};
+
+/// The probability that two bodies touch, at the true positions of noisy points.
+struct CollisionProbability {
+  /// Estimate, within the bounds. Where they are at most the accuracy apart its error is, too.
+  double probability = 0.5;
+  /// lower <= true probability <= upper, proven as distances are: rounding of the geometry
+  /// included, that of the normal distribution's values up to kProbabilityRounding.
+  double lower = 0.0;
+  double upper = 1.0;  ///< with the tails of far points, up to 1e-9 together
+  /// Of `probability`, as an estimate from samples; 0 where none were drawn. Speaks of chance: it
+  /// widens no bound and proves nothing.
+  double standardError = 0.0;
+  ProbabilityEffort effort;
+};
+
+/// Probability. The bounds of each point or pair are wider by this, for the roundings of erfc, exp
+/// and of the sums over some thousand cells. Smaller: the bounds could miss the truth by rounding.
+inline constexpr double kProbabilityRounding = 1e-12;
+
+/// The probability that some ball of the cloud touches `b`, at the true centres. Touching is
+/// contact, closed components of a mesh are solid, as everywhere.
+///
+/// Points are independent, so the probability is 1 - prod(1 - p_i). Each p_i is the integral of a
+/// Gaussian over the points at most the radius away from `b`, bounded from both sides by balls and
+/// half-spaces that are proven to be in that set or free of it. Without noise the answer is that of
+/// collide(): 0 or 1 exactly, [0, 1] where that is Unknown.
+///
+/// `a_from_b` is the pose of b in the cloud's frame; one that is not finite gives [0, 1]. Memory
+/// grows with the number of points near b.
+///
+/// Pan, Chitta, Manocha: Probabilistic Collision Detection between Noisy Point Clouds using Robust
+/// Classification, ISRR 2011, give the points of two noisy clouds collision probabilities, too.
+/// They take the clouds for samples of two bodies and learn to tell these apart; here the balls are
+/// the body, and the probability is that of the event above.
+CollisionProbability collisionProbability(const NoisyPointCloud& a, const Shape& b,
+                                          const Eigen::Isometry3d& a_from_b,
+                                          const CollisionProbabilityOptions& options = {});
+
+/// The probability that some ball of `a` touches some ball of `b`; the noise of both counts.
+///
+/// Pairs of points that may meet form a graph, whose connected groups are independent. A group of
+/// one pair is known as above, or by a closed form. In a larger one pairs depend on each other:
+/// pairs without a common point are independent, and bound the probability from below; the pairs
+/// are parted into sets of such, and the sum over the sets bounds it from above. Where these bounds
+/// are farther apart than the accuracy, positions are drawn, and give the estimate.
+/// Memory grows with the number of pairs that may meet.
+CollisionProbability collisionProbability(const NoisyPointCloud& a, const NoisyPointCloud& b,
+                                          const Eigen::Isometry3d& a_from_b,
+                                          const CollisionProbabilityOptions& options = {});
+
+enum class Exceeds : std::uint8_t {
+  Undecided,  ///< within the accuracy of the threshold, or the effort is spent
+  No,         ///< proven: the probability is at most the threshold
+  Yes,        ///< proven: it is greater
+};
+
+struct ThresholdResult {
+  Exceeds answer = Exceeds::Undecided;
+  double lower = 0.0;  ///< as in CollisionProbability
+  double upper = 1.0;
+  ProbabilityEffort effort;
+};
+
+/// Whether the probability exceeds a threshold. Stops as soon as the bounds tell, which is much
+/// sooner than the probability is known. No samples are drawn: they would prove nothing. With a NaN
+/// as threshold the answer is Undecided.
+ThresholdResult probabilityExceeds(const NoisyPointCloud& a, const Shape& b,
+                                   const Eigen::Isometry3d& a_from_b, double threshold,
+                                   const CollisionProbabilityOptions& options = {});
+ThresholdResult probabilityExceeds(const NoisyPointCloud& a, const NoisyPointCloud& b,
+                                   const Eigen::Isometry3d& a_from_b, double threshold,
+                                   const CollisionProbabilityOptions& options = {});
+
+}  // namespace swept

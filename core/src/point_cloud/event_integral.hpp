@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "point_cloud/line_cell.hpp"
+
+namespace swept::detail {
+
+/// Standard deviations of the noise: no look of an EventIntegral goes so far.
+inline constexpr double kFarthestLook = 32.0;
+
+/// A probability: proven bounds and an estimate.
+struct ProbabilityRange {
+  double lower = 0.0;
+  double upper = 1.0;
+  double estimate = 0.5;
+
+  double gap() const { return upper - lower; }
+};
+
+/// The probability that an event occurs at a position with Gaussian noise: bounds that come closer
+/// step by step.
+///
+/// Positions are seen in coordinates in which the noise is standard normal, the last of them along
+/// what the noise makes of the normal of the event's boundary, so that most lines along it cross
+/// the boundary steeply. Rectangles of such lines are bounded by certificates, the one with the
+/// widest bounds first (best-first cubature).
+class EventIntegral {
+ public:
+  struct Noise {
+    Eigen::Vector3d mean;    ///< m
+    Eigen::Matrix3d factor;  ///< m, F F^T is the covariance; not zero
+    double spread;           ///< m, the largest standard deviation, rounded up
+    double rounding;         ///< m, of positions, and of the frame that `look` speaks of
+    bool isConvex;           ///< the positions for which the event occurs are a convex set
+  };
+  /// Looks once, at the mean.
+  EventIntegral(const Noise& noise, Look look);
+
+  /// One step. False if there is nothing left that steps could improve.
+  bool refine();
+
+  const ProbabilityRange& range() const { return range_; }
+  int looks() const { return looks_; }
+
+ private:
+  Finding lookAt(const Eigen::Vector3d& position, LineCell* cell);
+  void boundByFirst(const Finding& first);
+  void makeFrame();
+  void makeCells();
+  void lookAlong(LineCell& cell);
+  Eigen::Vector3d approach(LineCell& cell, const Interval& gap, Finding& finding);
+  void lookBesides(LineCell& cell, const Eigen::Vector3d& position, const Finding& finding,
+                   double within);
+  double width(const LineCell& cell, int axis) const;
+  std::array<LineCell, 2> halves(const LineCell& cell, std::size_t axis) const;
+  void split(const LineCell& cell);
+  void push(LineCell cell);
+  LineCell pop();
+  void updateRange();
+
+  Noise noise_;
+  Look look_;
+  NoiseFrame frame_;
+  ProbabilityRange first_;  ///< by the first look
+  ProbabilityRange range_;
+  std::vector<Certificate> common_;  ///< of the first look
+  std::vector<LineCell> cells_;      ///< a heap, the widest gap first
+  double least_ = 0.0;               ///< sums over the cells
+  double most_ = 0.0;
+  double estimate_ = 0.0;
+  double depth_ = 0.0;  ///< m, radius of the balls that fit on the event's side of its boundary
+  int looks_ = 0;
+};
+
+}  // namespace swept::detail

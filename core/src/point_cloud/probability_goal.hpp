@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "point_cloud/event_integral.hpp"
+#include "swept/core/collision_probability.hpp"
+
+namespace swept::detail {
+
+/// Probability that all points (or pairs) together have which are far enough not to be looked at.
+inline constexpr double kFarTail = 1e-9;
+
+/// What a query is after.
+struct ProbabilityGoal {
+  CollisionProbabilityOptions options;
+  std::optional<double> threshold;  ///< none: the probability itself
+
+  bool isReached(const ProbabilityRange& range) const {
+    if (range.gap() <= options.accuracy) return true;
+    return threshold && (range.lower > *threshold || range.upper <= *threshold);
+  }
+};
+
+/// Both set bounds, estimate and effort; [0, 1] for a pose that is not finite.
+CollisionProbability shapeProbability(const NoisyCloudData& a, const Shape& b,
+                                      const Eigen::Isometry3d& a_from_b,
+                                      const ProbabilityGoal& goal);
+CollisionProbability cloudProbability(const NoisyCloudData& a, const NoisyCloudData& b,
+                                      const Eigen::Isometry3d& a_from_b,
+                                      const ProbabilityGoal& goal);
+
+}  // namespace swept::detail
