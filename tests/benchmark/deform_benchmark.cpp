@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Deforming meshes: refit, discrete and continuous collision of a scene with itself and of its
 // objects with one another, per frame, after Table IV of Pan, Chitta, Manocha 2012. Arguments: a
-// scene (balls, shatter, large; all without), and of how many frames one is measured.
+// scene (balls, shatter, large; all without), and of how many frames one is measured. Or `sizes`:
+// one step of the bursting block in five sizes, and the memory of the mesh.
 #include <cstdlib>
 #include <cstring>
 
@@ -215,6 +216,42 @@ bool report(const std::string& name, const DeformScene& scene, int stride, bool 
   return good;
 }
 
+/// Bytes that `make` leaves on the heap in what it returns, per triangle.
+template <typename Make>
+double bytesEach(std::size_t triangles, const Make& make) {
+  const double before = heapBytes();
+  const auto made = make();
+  return (heapBytes() - before) / static_cast<double>(triangles);
+}
+
+void sizesRow(const DeformScene& scene, const MarkdownTable& table) {
+  const std::size_t triangles = scene.allTriangles().size();
+  const Points points = scene.allAt(0);
+  const auto corners = scene.allTriangles();
+  const Step step(scene, scene.frames() / 3);
+  Costs our;
+  Ours(scene).measure(step, our);
+  const auto cells = [&](const std::string& name, const Costs& costs, double bytes) {
+    table.row({std::to_string(triangles), name, number(costs.ms[kRefit]), number(costs.ms[kSelf]),
+               number(costs.ms[kSelfContinuous]), number(bytes)});
+  };
+  cells("swept", our, bytesEach(triangles, [&] { return DeformingMesh::build(points, corners); }));
+#ifdef SWEPT_HAS_FCL
+  Costs fcl;
+  Fcls<fcl::AABBd>(scene).measure(step, fcl);
+  cells("FCL AABB", fcl, bytesEach(triangles, [&] {
+          return FclDeforming<fcl::AABBd>({points, corners});
+        }));
+#endif
+}
+
+void sizes() {
+  constexpr int kDetail = 10;
+  const MarkdownTable table({"triangles", "", "refit, ms", "discrete, itself, ms",
+                             "continuous, itself, ms", "bytes per triangle"});
+  for (const int side : {2, 4, 6, 8, 11}) sizesRow(ShatterScene(side, kDetail), table);
+}
+
 }  // namespace
 }  // namespace swept::benchmark
 
@@ -222,6 +259,10 @@ int main(int argc, char** argv) {
   using namespace swept::benchmark;
   const auto chosen = [&](const char* name) { return argc < 2 || std::strcmp(argv[1], name) == 0; };
   const auto stride = [&](int usual) { return argc > 2 ? std::max(1, std::atoi(argv[2])) : usual; };
+  if (argc > 1 && std::strcmp(argv[1], "sizes") == 0) {
+    sizes();
+    return 0;
+  }
   bool good = true;
   if (chosen("balls")) good = report("balls", BallsScene(), stride(10), true) && good;
   if (chosen("shatter")) good = report("shatter", ShatterScene(6, 9), stride(6), true) && good;

@@ -42,5 +42,17 @@ TEST(DeformingMesh, AllocatesNothingOnceItWentThroughItsMotion) {
   EXPECT_GT(found, 1000U);
 }
 
+/// Of a closed surface, both ends of a step.
+TEST(DeformingMesh, TakesLessThan200BytesPerTriangle) {
+  const test::Soup soup = test::bouncing(0.0, 40);
+  const long before = test::heldBytes;
+  const DeformingMesh mesh = DeformingMesh::build(soup.vertices, soup.triangles);
+  const double each =
+      static_cast<double>(test::heldBytes - before) / static_cast<double>(soup.triangles.size());
+  EXPECT_GT(mesh.triangleCount(), 5000U);
+  EXPECT_LT(each, 200.0);
+  EXPECT_GT(each, 100.0);
+}
+
 }  // namespace
 }  // namespace swept

@@ -136,6 +136,7 @@ TreeOrder arrangeTriangles(std::span<const Vector3d> points,
     if (held == slot && marks[triangle] != 0)
       order.marked[slot / kTreeLanes] |= static_cast<std::uint8_t>(1U << slot % kTreeLanes);
   }
+  order.vertexOf.shrink_to_fit();
   return order;
 }
 

@@ -107,6 +107,7 @@ void SurfaceFeatures::numberEdges() {
     beside_.push_back(use.triangle);
   }
   besideFirst_.push_back(static_cast<int>(beside_.size()));
+  besideFirst_.shrink_to_fit();
 }
 
 bool SurfaceFeatures::shareVertex(const Eigen::Vector3i& t, const Eigen::Vector3i& u) {
