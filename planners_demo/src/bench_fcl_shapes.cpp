@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench_fcl_shapes.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "exit_code.hpp"
@@ -18,6 +19,21 @@ Geometry meshOf(const std::vector<Eigen::Vector3d>& vertices,
   model->endModel();
   return model;
 }
+
+#if FCL_HAVE_OCTOMAP
+/// Of cubes that a ball just contains.
+Geometry octreeOf(const PointCloud& cloud) {
+  const auto map = std::make_shared<octomap::OcTree>(2.0 * cloud.largestRadius() / std::sqrt(3.0));
+  for (const Eigen::Vector3d& p : cloud.points()) map->updateNode(p.x(), p.y(), p.z(), true, true);
+  map->updateInnerOccupancy();
+  map->prune();
+  return std::make_shared<fcl::OcTreed>(map);
+}
+#else
+Geometry octreeOf(const PointCloud&) {
+  throw UsageError("--against fcl: this FCL has no octrees, which stand for clouds");
+}
+#endif
 
 struct Converter {
   const std::string& body;
@@ -63,8 +79,11 @@ struct Converter {
                              static_cast<std::size_t>(t[2]));
     return meshOf(mesh.vertices(), triangles);
   }
-  Geometry operator()(const PointCloud&) const {
-    throw UsageError("--against fcl: '" + body + "' is a point cloud, which FCL does not have");
+  Geometry operator()(const PointCloud& cloud) const {
+    if (cloud.leastRadius() < cloud.largestRadius() || !(cloud.largestRadius() > 0.0))
+      throw UsageError("--against fcl: the balls of '" + body +
+                       "' are not all of one size above zero, as the cubes of FCL's octree are");
+    return octreeOf(cloud);
   }
 };
 

@@ -15,8 +15,9 @@
 
 namespace swept {
 
-/// The same set of points for FCL, of which meshes are hollow. `body` is for messages. Throws
-/// UsageError for a point cloud.
+/// The same set of points for FCL, of which meshes are hollow; a cloud is an octree of cubes around
+/// its points. `body` is for messages. Throws UsageError for a cloud whose balls differ in size or
+/// are points.
 std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape, const std::string& body);
 
 }  // namespace swept

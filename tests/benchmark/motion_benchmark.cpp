@@ -181,9 +181,7 @@ class MotionBenchmark {
     const SharedMotions motions = sharedBy(checkers);
     std::vector<double> reference;
     for (std::size_t i = 0; i < worlds.size(); ++i) {
-      // FCL has no clouds.
-      const bool hasPeer = builtWithFcl() && !worlds[i].name.starts_with("cloud");
-      addCosts(*checkers[i], motions, hasPeer, reference, rows[i]);
+      addCosts(*checkers[i], motions, builtWithFcl(), reference, rows[i]);
       table.row(rows[i]);
     }
     std::printf("\nSame verdict in all worlds: %zu, %zu, %zu free, %zu colliding\n",

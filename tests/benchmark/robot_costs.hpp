@@ -26,7 +26,8 @@ inline std::string whole(double value) {
   return std::to_string(std::lround(value));
 }
 
-/// The usual stack on the same motions, ns each. Only with FCL, and without clouds.
+/// The usual stack on the same motions, ns each. Only with FCL, for which a cloud
+/// is an octree.
 inline MotionCosts measurePeer(const Checker& checker, const std::vector<BenchMotion>& motions,
                                const BenchClock& clock) {
   MotionCosts costs;
