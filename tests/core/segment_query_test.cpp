@@ -179,6 +179,19 @@ TEST(Clearance, OfWhatIsNotFiniteIsNone) {
   EXPECT_NEAR(clearance(cloud, {1e200, 0.0, 0.0}), 1e200, 1e187);
 }
 
+/// Where the squares of distances are no floats, and where those of coordinates are no doubles.
+TEST(Clearance, OfFarPointsIsNotInfinite) {
+  std::mt19937 random(26);
+  std::vector<Vector3d> many;
+  for (int i = 0; i < 1000; ++i) many.push_back(test::unitVector(random));
+  const PointCloud cloud = PointCloud::build(many, 0.01);
+  for (const double far : {1e15, 1e19, 1e20, 1e30, 1e100, 1e200}) {
+    const double found = clearance(cloud, {far, 0.0, 0.0});
+    EXPECT_LE(found, far);
+    EXPECT_GE(found, 0.999 * far);
+  }
+}
+
 TEST(SegmentQuery, ProvesWhatIsTrueAboutTriangles) {
   std::mt19937 random(21);
   Counts counts;

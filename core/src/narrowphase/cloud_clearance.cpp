@@ -27,7 +27,7 @@ class NearestBall {
     const double away = (point - bounds.center()).lpNorm<1>();
     const double extent = (bounds.upper - bounds.lower).lpNorm<1>();
     // Lemma: see pointBoxes. The origin of each node is within the bounds, and no box reaches
-    // farther from it than twice their extent.
+    // farther from it than two and a half times their extent.
     boxRounding_ = 50.0 * 0x1p-24 * (away + 3.0 * extent);
   }
 
@@ -64,10 +64,14 @@ class NearestBall {
     return squared < kGreatest ? std::sqrt(squared) : v.stableNorm();
   }
 
-  /// m^2; boxes with more than this hold nothing that is nearer.
+  /// m^2; boxes with more than this hold nothing that is nearer. Squares beyond single precision
+  /// tell nothing: no box is passed over then.
   float limit() const {
+    constexpr double kGreatest = 1e38;
     const double most = std::max(least_, 0.0) + boxRounding_;
-    return static_cast<float>(std::min(most * most * (1.0 + 0x1p-22), 1e38));
+    const double squared = most * most * (1.0 + 0x1p-22);
+    if (!(squared < kGreatest)) return std::numeric_limits<float>::infinity();
+    return static_cast<float>(squared);
   }
 
   const PointCloud& cloud_;
