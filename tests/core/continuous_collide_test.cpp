@@ -328,6 +328,30 @@ TEST(ContinuousCollide, APlateIsInsideAsSoonAsItIsThrough) {
   }
 }
 
+/// Dust that is through a sheet in a tenth of the tolerance of time, one mote after the other.
+TEST(ContinuousCollide, WhatIsThroughWithinTheTimeToleranceIsFound) {
+  const test::Soup box = test::boxSoup({-1, -1, -0.01}, {1, 1, 0.01});
+  const Shape sheets = TriangleMesh::build(box.vertices, box.triangles, MeshInterior::Surface);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  constexpr double kRadius = 2e-4, kSpeed = 400.0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Vector3d> motes;
+    for (int j = 0; j < 5; ++j) motes.emplace_back(2e-3 * unit(random), 0, 4e-3 * unit(random));
+    double lowest = kInfinity;
+    for (const Vector3d& mote : motes) lowest = std::min(lowest, mote.z());
+    const Shape dust = PointCloud::build(motes, kRadius);
+    const Vector3d from(0.2 * unit(random), 0.2 * unit(random), 200.0 + 100.0 * unit(random));
+    const double first = (from.z() + lowest - kRadius - 0.01) / kSpeed;
+    ContinuousOptions options = to(1e-5);
+    options.timeTolerance = 2e-5;
+    const ContinuousResult found = continuousCollide(
+        sheets, kStill, dust, flight(from, from - kSpeed * Vector3d::UnitZ()), options);
+    expectFirstContact(found, first, options.timeTolerance);
+    EXPECT_LE(found.contactBy - found.freeUntil, options.timeTolerance) << i;
+  }
+}
+
 TEST(ContinuousCollide, WhatIsNotFiniteIsUndecided) {
   const Shape ball = makeSphere(0.1);
   const ContinuousResult lost =

@@ -148,7 +148,7 @@ class TimeSearch {
     ++result_.effort.intervals;
     const bool last = isShort(interval.to - interval.from, kInfinity);
     const SliceDescent::Goal goal{options_.margin, kQueryShare * options_.tolerance,
-                                  last ? kInfinity : options_.tolerance / 3.0};
+                                  last ? kInfinity : shortApproach()};
     SliceDescent descent(a_, b_, slice, goal, open_, result_.effort);
     for (std::size_t i = interval.begin; i < interval.end; ++i) {
       const OpenPair pair = open_[i];
@@ -184,7 +184,7 @@ class TimeSearch {
     if (isShort(interval.to - interval.from, descent.approach())) {
       stopAt(interval.from);
       ++grazed_;
-      lookInside(interval.to);
+      if (!lookThrough(interval, slice, descent)) lookInside(interval.to);
       return;
     }
     const SliceDescent::Proven& proven = descent.proven();
@@ -209,6 +209,25 @@ class TimeSearch {
     }
     push(after);
     push(before);
+  }
+
+  /// Thin things can be in contact and apart again within one short interval. All that is left of
+  /// it is pairs of leaves.
+  bool lookThrough(const Interval& interval, const MotionSlice& slice,
+                   const SliceDescent& descent) {
+    LeafContact::Range range = rangeOf(slice, descent);
+    range.resolution =
+        std::max(kContactShare * options_.tolerance * slice.half() / descent.approach(), kShortest);
+    range.from = interval.from;
+    range.to = contact_ ? std::min(interval.to, result_.contactBy) : interval.to;
+    bool found = false;
+    for (std::size_t i = interval.end; i < open_.size(); ++i) {
+      if (!lookForContact(open_[i], range)) continue;
+      found = true;
+      range.to = result_.contactBy;
+    }
+    if (found) waiting_.clear();
+    return found;
   }
 
   /// A flat body can be through a surface within one short interval: what comes after is apart from
@@ -247,9 +266,11 @@ class TimeSearch {
   /// `approach`: m, in half of it. The first contact may lie behind the middle of an interval and
   /// is found in that of the next one then: both together are as long as is asked for.
   bool isShort(double length, double approach) const {
-    return 3.0 * approach <= options_.tolerance || 1.5 * length <= options_.timeTolerance ||
+    return approach <= shortApproach() || 1.5 * length <= options_.timeTolerance ||
            length <= kShortest;
   }
+  /// m. What is divided below it, too, so that short intervals leave pairs of leaves only.
+  double shortApproach() const { return options_.tolerance / 3.0; }
 
   const Shape& shapeA_;
   const Shape& shapeB_;
