@@ -199,6 +199,59 @@ class Collapse {
   OrientedBox rootBox_;
 };
 
+/// Fits the boxes of a tree anew, children before their parents.
+class Refit {
+ public:
+  Refit(std::vector<WideNode>& nodes, const PrimitivePoints& primitives, const Vector3d& middle)
+      : nodes_(nodes), primitives_(primitives), fitter_(primitives, middle) {}
+
+  /// What lies below a node or a lane.
+  struct Below {
+    Run run;
+    Aabb bounds;
+    Moments moments;
+  };
+
+  Below refit(std::int32_t index) {
+    const int count = nodes_[static_cast<std::size_t>(index)].count;
+    std::array<Below, WideNode::kLanes> lanes;
+    Below all;
+    for (int i = 0; i < count; ++i) {
+      const std::int32_t child = nodes_[static_cast<std::size_t>(index)].child[i];
+      lanes[i] = child >= 0 ? refit(child) : single(~child);
+      all = i == 0 ? lanes[i] : together(all, lanes[i]);
+    }
+    WideNode& node = nodes_[static_cast<std::size_t>(index)];
+    node.origin = all.bounds.center();
+    node.reach = 0.0F;
+    for (int i = 0; i < count; ++i) node.set(i, fit(lanes[i], node.origin));
+    return all;
+  }
+
+  OrientedBox fit(const Below& below, const Vector3d& origin) const {
+    return fitter_.fit(below.run, below.bounds, below.moments, origin);
+  }
+
+ private:
+  Below single(int primitive) const {
+    const Run run{primitive, 1};
+    return {run, boundsOf(primitives_, run), fitter_.moments(primitive)};
+  }
+
+  /// Primitives below a node follow each other.
+  static Below together(const Below& a, const Below& b) {
+    Below both{{std::min(a.run.first, b.run.first), a.run.count + b.run.count},
+               {a.bounds.lower.cwiseMin(b.bounds.lower), a.bounds.upper.cwiseMax(b.bounds.upper)},
+               a.moments};
+    both.moments.add(b.moments);
+    return both;
+  }
+
+  std::vector<WideNode>& nodes_;
+  const PrimitivePoints& primitives_;
+  const BoxFitter fitter_;
+};
+
 }  // namespace
 
 OrientedBox WideNode::box(int lane) const {
@@ -240,6 +293,30 @@ WideBvh::WideBvh(const TreeTopology& binary, const PrimitivePoints& primitives) 
   bounds_ = collapse.bounds();
   rootBox_ = collapse.rootBox();
   findReach();
+}
+
+WideBvh WideBvh::refitted(const PrimitivePoints& primitives) const {
+  WideBvh tree;
+  tree.nodes_ = nodes_;
+  tree.bounds_ = boundsOf(primitives, {0, static_cast<int>(primitives.count())});
+  Refit refit(tree.nodes_, primitives, tree.bounds_.center());
+  const Refit::Below root = refit.refit(0);
+  tree.rootBox_ = refit.fit(root, tree.bounds_.center());
+  tree.findReach();
+  return tree;
+}
+
+double WideBvh::spread() const {
+  double inner = 0.0, leaves = 0.0;
+  for (const WideNode& node : nodes_) {
+    for (int i = 0; i < node.count; ++i) {
+      const std::array<double, 3> half = {node.half[0][i], node.half[1][i], node.half[2][i]};
+      const double area = half[0] * half[1] + half[1] * half[2] + half[2] * half[0];
+      (node.child[i] >= 0 ? inner : leaves) += area;
+    }
+  }
+  const double ratio = inner / leaves;
+  return std::isfinite(ratio) ? ratio : 0.0;
 }
 
 void WideBvh::findReach() {

@@ -73,6 +73,14 @@ class WideBvh {
   WideBvh(std::vector<WideNode> nodes, const PointBuckets& buckets, const Aabb& bounds,
           const OrientedBox& rootBox);
 
+  /// The same tree over primitives that moved, in linear time but for its depth; not of points.
+  /// `primitives`: as many, in the tree's order.
+  WideBvh refitted(const PrimitivePoints& primitives) const;
+  /// Areas of the boxes of nodes, in terms of those of the primitives' boxes: what the order of the
+  /// tree is worth. Zero where it says nothing, as for boxes without an area or beyond single
+  /// precision.
+  double spread() const;
+
   /// Refers to `room` or to the tree.
   const WideNode& node(std::int32_t index, WideNode& room) const;
   /// Whether a node is one of points, and which: from the first up to, and without, the second.
@@ -92,6 +100,7 @@ class WideBvh {
   std::size_t bytes() const { return nodes_.capacity() * sizeof(WideNode); }
 
  private:
+  WideBvh() = default;
   void findReach();
 
   std::vector<WideNode> nodes_;

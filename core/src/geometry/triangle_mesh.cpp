@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/triangle_mesh.hpp"
 
-#include <array>
-#include <bit>
-#include <cmath>
+#include <algorithm>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "bvh/wide_bvh.hpp"
 #include "geometry/convex_parts.hpp"
 #include "geometry/mesh_components.hpp"
-#include "geometry/ray_crossing.hpp"
 #include "geometry/weld.hpp"
-#include "simd/box_bounds.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept {
@@ -38,196 +35,85 @@ double estimateDent(const TriangleMesh& mesh) {
   return dent;
 }
 
-void requireUsable(std::span<const Eigen::Vector3d> vertices,
-                   std::span<const Eigen::Vector3i> triangles) {
+/// Of what WideBvh::spread() was when the order of the hierarchy was chosen.
+constexpr double kRebuildGrowth = 2.0;
+
+void requireCounts(std::size_t vertices, std::size_t triangles) {
   // Three half edges per triangle and two tree nodes have to be counted in an int.
   constexpr std::size_t kMaxCount = std::size_t{1} << 29;
+  if (vertices <= kMaxCount && triangles <= kMaxCount) return;
   std::ostringstream message;
-  if (vertices.size() > kMaxCount || triangles.size() > kMaxCount) {
-    message << "mesh has " << vertices.size() << " vertices and " << triangles.size()
-            << " triangles; allowed: at most " << kMaxCount << " of each";
-    throw std::invalid_argument(message.str());
-  }
+  message << "mesh has " << vertices << " vertices and " << triangles
+          << " triangles; allowed: at most " << kMaxCount << " of each";
+  throw std::invalid_argument(message.str());
+}
+
+std::string text(const Eigen::Vector3d& point) {
+  std::ostringstream out;
+  out << '(' << point.x() << ", " << point.y() << ", " << point.z() << ')';
+  return out.str();
+}
+
+void requireFinite(std::span<const Eigen::Vector3d> vertices) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3d& vertex = vertices[i];
     if (vertex.allFinite()) continue;
-    message << "mesh vertex " << i << " is (" << vertex.x() << ", " << vertex.y() << ", "
-            << vertex.z() << "); allowed: finite coordinates";
+    std::ostringstream message;
+    message << "mesh vertex " << i << " is " << text(vertex) << "; allowed: finite coordinates";
     throw std::invalid_argument(message.str());
   }
+}
+
+void requireCorners(std::size_t vertices, std::span<const Eigen::Vector3i> triangles) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (int corner : triangles[i]) {
-      if (corner >= 0 && static_cast<std::size_t>(corner) < vertices.size()) continue;
+      if (corner >= 0 && static_cast<std::size_t>(corner) < vertices) continue;
+      std::ostringstream message;
       message << "mesh triangle " << i << " has corner " << corner << "; allowed: 0 to "
-              << static_cast<long long>(vertices.size()) - 1;
+              << static_cast<long long>(vertices) - 1;
       throw std::invalid_argument(message.str());
     }
   }
 }
 
-/// Directions for the rays, well spread for every number taken: Roberts 2018 ("The unreasonable
-/// effectiveness of quasirandom sequences"), mapped to the sphere with equal areas.
-constexpr int kDirections = 32;
-std::array<Eigen::Vector3d, kDirections> spreadDirections() {
-  constexpr double kFirstRatio = 0.7548776662466927;  // 1 / g and 1 / g^2, g^3 = g + 1
-  constexpr double kSecondRatio = 0.5698402909980532;
-  std::array<Eigen::Vector3d, kDirections> directions;
-  for (int i = 0; i < kDirections; ++i) {
-    double whole = 0.0;
-    const double z = 2.0 * std::modf(0.37 + i * kFirstRatio, &whole) - 1.0;
-    const double angle = 2.0 * std::numbers::pi * std::modf(0.21 + i * kSecondRatio, &whole);
-    const double radial = std::sqrt(1.0 - z * z);
-    directions[i] = {radial * std::cos(angle), radial * std::sin(angle), z};
+std::vector<Eigen::Vector3d> cornersOf(std::span<const Eigen::Vector3d> vertices,
+                                       std::span<const Eigen::Vector3i> triangles) {
+  std::vector<Eigen::Vector3d> corners;
+  corners.reserve(triangles.size() * 3);
+  for (const Eigen::Vector3i& triangle : triangles) {
+    for (const int corner : triangle) corners.push_back(vertices[corner]);
   }
-  return directions;
+  return corners;
 }
 
-/// Signed crossings of one ray with each closed component whose box contains its origin. Their
-/// parity is that of the number of crossings.
-class CrossingCounts {
- public:
-  void add(int component) {
-    if (size_ < kInline)
-      inline_[size_] = {component, 0};
-    else
-      more_.push_back({component, 0});
-    ++size_;
-  }
-  bool empty() const { return size_ == 0; }
-  void reset() {
-    for (Count& count : inlined()) count.crossings = 0;
-    for (Count& count : more_) count.crossings = 0;
-  }
-  /// Null for a component that cannot contain the origin.
-  int* find(int component) {
-    for (Count& count : inlined()) {
-      if (count.component == component) return &count.crossings;
+/// Puts those of the given vertices that are kept where they belong: `keptAs` says where.
+void moveKept(std::span<const Eigen::Vector3d> given, std::span<const int> keptAs,
+              std::span<Eigen::Vector3d> kept) {
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> source(kept.size(), kNone);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (keptAs[i] < 0) continue;
+    std::size_t& from = source[keptAs[i]];
+    if (from == kNone) {
+      from = i;
+      kept[keptAs[i]] = given[i];
+    } else if (given[from] != given[i]) {
+      std::ostringstream message;
+      message << "mesh vertices " << from << " and " << i
+              << " were equal when the mesh was built and are moved apart, to " << text(given[from])
+              << " and " << text(given[i]) << "; what tears has to be built anew";
+      throw std::invalid_argument(message.str());
     }
-    for (Count& count : more_) {
-      if (count.component == component) return &count.crossings;
-    }
-    return nullptr;
   }
-  template <typename Predicate>
-  bool any(const Predicate& predicate) const {
-    for (int i = 0; i < std::min(size_, kInline); ++i) {
-      if (predicate(inline_[i].component, inline_[i].crossings)) return true;
-    }
-    for (const Count& count : more_) {
-      if (predicate(count.component, count.crossings)) return true;
-    }
-    return false;
-  }
-
- private:
-  struct Count {
-    int component;
-    int crossings;
-  };
-  static constexpr int kInline = 64;
-  std::span<Count> inlined() {
-    return std::span(inline_).first(static_cast<std::size_t>(std::min(size_, kInline)));
-  }
-  std::array<Count, kInline> inline_;
-  std::vector<Count> more_;
-  int size_ = 0;
-};
-
-/// A ray against the triangles of one mesh.
-class RayCount {
- public:
-  RayCount(const TriangleMesh& mesh, std::span<const int> componentOf,
-           const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, CrossingCounts& counts)
-      : mesh_(mesh),
-        componentOf_(componentOf),
-        origin_(origin),
-        direction_(direction),
-        counts_(counts) {}
-
-  /// False when the ray passes within rounding of the border of a triangle that matters.
-  bool run() {
-    const detail::WideBvh& bvh = mesh_.bvh();
-    // Each level leaves at most seven siblings behind.
-    std::array<int, (detail::WideNode::kLanes - 1) * detail::WideBvh::kMaxDepth + 1> stack;
-    int pending = 0;
-    stack[pending++] = 0;
-    while (pending > 0) {
-      const detail::WideNode& node = bvh.nodes()[stack[--pending]];
-      for (std::uint32_t hits = detail::boxesHit(node, origin_, direction_); hits != 0;
-           hits &= hits - 1) {
-        const int lane = std::countr_zero(hits);
-        if (node.child[lane] >= 0) {
-          stack[pending++] = node.child[lane];
-        } else if (!count(~node.child[lane])) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
- private:
-  bool count(int triangle) {
-    int* const crossings = counts_.find(componentOf_[triangle]);
-    if (crossings == nullptr) return true;
-    const Eigen::Vector3i& corners = mesh_.triangles()[triangle];
-    const Eigen::Vector3d a = mesh_.vertices()[corners[0]] - origin_;
-    const Eigen::Vector3d b = mesh_.vertices()[corners[1]] - origin_;
-    const Eigen::Vector3d c = mesh_.vertices()[corners[2]] - origin_;
-    switch (detail::rayCrossing(direction_, a, b, c)) {
-      case detail::Crossing::Unsure:
-        return false;
-      case detail::Crossing::Miss:
-        break;
-      case detail::Crossing::Along:
-        ++*crossings;
-        break;
-      case detail::Crossing::Against:
-        --*crossings;
-        break;
-    }
-    return true;
-  }
-
-  const TriangleMesh& mesh_;
-  std::span<const int> componentOf_;
-  const Eigen::Vector3d& origin_;
-  const Eigen::Vector3d& direction_;
-  CrossingCounts& counts_;
-};
-
-/// Builds the hierarchy and puts the triangles, and what goes with each, in the order of its
-/// leaves.
-detail::WideBvh orderByTree(std::span<const Eigen::Vector3d> vertices,
-                            std::vector<TriangleMesh::Triangle>& triangles,
-                            std::vector<int>& componentOf) {
-  std::vector<Eigen::Vector3d> corners;
-  const auto collectCorners = [&] {
-    corners.clear();
-    for (const TriangleMesh::Triangle& triangle : triangles) {
-      for (const int corner : triangle) corners.push_back(vertices[corner]);
-    }
-  };
-  corners.reserve(triangles.size() * 3);
-  collectCorners();
-  const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, detail::WideNode::kLanes);
-  std::vector<TriangleMesh::Triangle> orderedTriangles(triangles.size());
-  std::vector<int> orderedComponents(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    orderedTriangles[i] = triangles[tree.order[i]];
-    orderedComponents[i] = componentOf[tree.order[i]];
-  }
-  triangles = std::move(orderedTriangles);
-  componentOf = std::move(orderedComponents);
-  collectCorners();
-  return detail::WideBvh(tree, {corners, 3});
 }
 
 }  // namespace
 
 TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
                                  std::span<const Triangle> triangles, MeshInterior interior) {
-  requireUsable(vertices, triangles);
+  requireCounts(vertices.size(), triangles.size());
+  requireFinite(vertices);
+  requireCorners(vertices.size(), triangles);
   detail::WeldedMesh welded = detail::weld(vertices, triangles);
   if (welded.triangles.empty()) {
     std::ostringstream message;
@@ -237,73 +123,89 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   }
   detail::MeshComponents parts = detail::ComponentFinder(welded.triangles).result();
 
-  const double infinity = std::numeric_limits<double>::infinity();
-  std::vector<Component> components;
-  for (bool oriented : parts.oriented) {
-    components.push_back(
-        {Eigen::Vector3d::Constant(infinity), Eigen::Vector3d::Constant(-infinity), oriented});
+  Surface surface;
+  surface.interior = interior;
+  surface.report.verticesGiven = static_cast<int>(vertices.size());
+  surface.report.verticesKept = static_cast<int>(welded.vertices.size());
+  surface.report.trianglesGiven = static_cast<int>(triangles.size());
+  surface.report.degenerateDropped = welded.degenerateDropped;
+  surface.report.duplicatesDropped = parts.duplicatesDropped;
+  surface.report.closedComponents = static_cast<int>(parts.oriented.size());
+  surface.report.openComponents = parts.openComponents;
+  surface.vertices = std::move(welded.vertices);
+  surface.keptAs = std::move(welded.keptAs);
+  surface.triangles = std::move(parts.triangles);
+  surface.componentOf = std::move(parts.componentOf);
+  surface.componentCorners = std::move(parts.cornerOf);
+  for (const bool oriented : parts.oriented)
+    surface.components.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), oriented});
+  arrange(surface);
+  return finished(std::move(surface));
+}
+
+TriangleMesh TriangleMesh::moved(std::span<const Eigen::Vector3d> vertices) const {
+  if (vertices.size() != data_->keptAs.size()) {
+    std::ostringstream message;
+    message << "mesh of " << data_->keptAs.size() << " vertices is moved to " << vertices.size();
+    throw std::invalid_argument(message.str());
   }
-  for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
-    if (parts.componentOf[i] < 0) continue;
-    Component& component = components[parts.componentOf[i]];
-    for (int corner : parts.triangles[i]) {
-      component.lower = component.lower.cwiseMin(welded.vertices[corner]);
-      component.upper = component.upper.cwiseMax(welded.vertices[corner]);
+  requireFinite(vertices);
+  Surface surface = *data_;
+  moveKept(vertices, surface.keptAs, surface.vertices);
+  const std::vector<Eigen::Vector3d> corners = cornersOf(surface.vertices, surface.triangles);
+  surface.bvh = std::make_shared<const detail::WideBvh>(data_->bvh->refitted({corners, 3}));
+  if (surface.bvh->spread() > kRebuildGrowth * surface.builtSpread) arrange(surface);
+  return finished(std::move(surface));
+}
+
+/// Builds the hierarchy and puts the triangles, and what goes with each, in the order of its
+/// leaves.
+void TriangleMesh::arrange(Surface& surface) {
+  std::vector<Eigen::Vector3d> corners = cornersOf(surface.vertices, surface.triangles);
+  const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, detail::WideNode::kLanes);
+  std::vector<Triangle> triangles(tree.order.size());
+  std::vector<int> componentOf(tree.order.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    triangles[i] = surface.triangles[tree.order[i]];
+    componentOf[i] = surface.componentOf[tree.order[i]];
+  }
+  surface.triangles = std::move(triangles);
+  surface.componentOf = std::move(componentOf);
+  corners = cornersOf(surface.vertices, surface.triangles);
+  surface.bvh = std::make_shared<const detail::WideBvh>(tree, PrimitivePoints{corners, 3});
+  surface.builtSpread = surface.bvh->spread();
+}
+
+TriangleMesh TriangleMesh::finished(Surface surface) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<bool> oriented;
+  for (Component& component : surface.components) {
+    component.lower.setConstant(infinity);
+    component.upper.setConstant(-infinity);
+    oriented.push_back(component.oriented);
+  }
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    if (surface.componentOf[i] < 0) continue;
+    Component& component = surface.components[surface.componentOf[i]];
+    for (int corner : surface.triangles[i]) {
+      component.lower = component.lower.cwiseMin(surface.vertices[corner]);
+      component.upper = component.upper.cwiseMax(surface.vertices[corner]);
     }
   }
-
-  std::vector<Eigen::Vector3d> componentPoints;
-  for (int corner : parts.cornerOf) componentPoints.push_back(welded.vertices[corner]);
-
-  MeshReport report;
-  report.verticesGiven = static_cast<int>(vertices.size());
-  report.verticesKept = static_cast<int>(welded.vertices.size());
-  report.trianglesGiven = static_cast<int>(triangles.size());
-  report.degenerateDropped = welded.degenerateDropped;
-  report.duplicatesDropped = parts.duplicatesDropped;
-  report.closedComponents = static_cast<int>(components.size());
-  report.openComponents = parts.openComponents;
-
-  auto bvh = std::make_shared<const detail::WideBvh>(
-      orderByTree(welded.vertices, parts.triangles, parts.componentOf));
-  ConvexHull hull = ConvexHull::of(welded.vertices);
+  std::vector<Eigen::Vector3d> points;
+  for (int corner : surface.componentCorners) points.push_back(surface.vertices[corner]);
+  ConvexHull hull = ConvexHull::of(surface.vertices);
   ConvexHull coarseHull = ConvexHull::coarser(hull);
   std::vector<ConvexHull> solids;
-  if (interior == MeshInterior::Solid) {
+  if (surface.interior == MeshInterior::Solid) {
     solids =
-        detail::convexParts(welded.vertices, parts.triangles, parts.componentOf, parts.oriented);
+        detail::convexParts(surface.vertices, surface.triangles, surface.componentOf, oriented);
   }
-  auto data = std::make_shared<Data>(
-      Data{std::move(welded.vertices), std::move(parts.triangles), std::move(parts.componentOf),
-           std::move(components), std::move(componentPoints), report, interior, std::move(hull),
-           std::move(coarseHull), std::move(solids), std::move(bvh), 0.0});
+  auto data = std::make_shared<Data>(Data{std::move(surface), std::move(points), std::move(hull),
+                                          std::move(coarseHull), std::move(solids), 0.0});
   TriangleMesh mesh(data);
   data->dent = estimateDent(mesh);
   return mesh;
-}
-
-bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
-  if (data_->interior == MeshInterior::Surface) return false;
-  CrossingCounts counts;
-  for (std::size_t i = 0; i < data_->components.size(); ++i) {
-    const Component& component = data_->components[i];
-    if ((point.array() >= component.lower.array()).all() &&
-        (point.array() <= component.upper.array()).all()) {
-      counts.add(static_cast<int>(i));
-    }
-  }
-  if (counts.empty()) return false;
-
-  static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
-  for (const Eigen::Vector3d& direction : directions) {
-    counts.reset();
-    if (!RayCount(*this, data_->componentOf, point, direction, counts).run()) continue;
-    return counts.any([&](int component, int crossings) {
-      return data_->components[component].oriented ? crossings != 0 : crossings % 2 != 0;
-    });
-  }
-  // Only a point within rounding of a triangle leaves no direction: it touches the solid.
-  return true;
 }
 
 }  // namespace swept

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace swept::detail {
@@ -13,6 +14,7 @@ namespace swept::detail {
 struct WeldedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
+  std::vector<int> keptAs;  ///< per given vertex: its index in `vertices`; -1: no triangle uses it
   int degenerateDropped = 0;  ///< triangles with two equal corners
 };
 
@@ -42,7 +44,7 @@ inline std::vector<int> firstEqual(std::span<const Eigen::Vector3d> points) {
 inline WeldedMesh weld(std::span<const Eigen::Vector3d> vertices,
                        std::span<const Eigen::Vector3i> triangles) {
   constexpr int kUnused = -1;
-  const std::vector<int> first = firstEqual(vertices);
+  std::vector<int> first = firstEqual(vertices);
   std::vector<int> keptIndex(vertices.size(), kUnused);
   WeldedMesh mesh;
   mesh.triangles.reserve(triangles.size());
@@ -63,6 +65,8 @@ inline WeldedMesh weld(std::span<const Eigen::Vector3d> vertices,
     }
     mesh.triangles.push_back(kept);
   }
+  for (int& vertex : first) vertex = keptIndex[vertex];
+  mesh.keptAs = std::move(first);
   return mesh;
 }
 

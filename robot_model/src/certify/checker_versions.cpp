@@ -58,6 +58,12 @@ Checker Checker::withBody(WorldBody body) const {
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
+Checker Checker::withReplaced(WorldBody body) const {
+  World next = world();
+  next.replace(std::move(body));
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
 Checker Checker::withObstacle(MovingObstacle obstacle) const {
   World next = world();
   next.add(std::move(obstacle));

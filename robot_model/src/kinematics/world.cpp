@@ -14,6 +14,19 @@ namespace swept {
 
 using detail::isRigid;
 
+namespace {
+
+void requireRigid(const WorldBody& body) {
+  for (const WorldBody::Part& part : body.parts) {
+    if (!isRigid(part.world_from_shape)) {
+      throw std::invalid_argument("World: a pose of body '" + body.name +
+                                  "' is no finite rigid transform");
+    }
+  }
+}
+
+}  // namespace
+
 void World::requireFree(const std::string& name) const {
   if (find(name) != nullptr || findObstacle(name) != nullptr) {
     throw std::invalid_argument("World: a second body is named '" + name + "'");
@@ -22,12 +35,7 @@ void World::requireFree(const std::string& name) const {
 
 void World::add(WorldBody body) {
   requireFree(body.name);
-  for (const WorldBody::Part& part : body.parts) {
-    if (!isRigid(part.world_from_shape)) {
-      throw std::invalid_argument("World: a pose of body '" + body.name +
-                                  "' is no finite rigid transform");
-    }
-  }
+  requireRigid(body);
   bodies_.push_back(std::move(body));
 }
 
@@ -58,6 +66,14 @@ void World::add(MovingObstacle obstacle) {
       fail(which + ", whose pose is no finite rigid transform");
   }
   obstacles_.push_back(std::move(obstacle));
+}
+
+void World::replace(WorldBody body) {
+  const auto old = std::ranges::find(bodies_, body.name, &WorldBody::name);
+  if (old == bodies_.end())
+    throw std::invalid_argument("World: there is no body '" + body.name + "' to replace");
+  requireRigid(body);
+  *old = std::move(body);
 }
 
 bool World::remove(std::string_view name) {

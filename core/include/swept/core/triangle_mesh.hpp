@@ -55,6 +55,16 @@ class TriangleMesh {
                             std::span<const Triangle> triangles,
                             MeshInterior interior = MeshInterior::Solid);
 
+  /// The same triangles with their vertices elsewhere: the next frame of a surface that deforms.
+  /// `vertices` (m): as many as build() got, in that order. What is connected stays so and nothing
+  /// else becomes so: vertices that come to lie on each other are not joined, triangles that lose
+  /// their area are kept. Takes linear time but for the hull; the hierarchy keeps its order, or is
+  /// built anew where deformation made its boxes large.
+  ///
+  /// Throws std::invalid_argument for another number of vertices, a coordinate that is not finite,
+  /// and vertices that were equal for build() and no longer are.
+  TriangleMesh moved(std::span<const Eigen::Vector3d> vertices) const;
+
   const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }  ///< m
   const std::vector<Triangle>& triangles() const { return data_->triangles; }
   const MeshReport& report() const { return data_->report; }
@@ -88,20 +98,28 @@ class TriangleMesh {
     Eigen::Vector3d upper;  ///< m
     bool oriented;          ///< its winding number is defined
   };
-  struct Data {
+  struct Surface {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<Triangle> triangles;    ///< in the hierarchy's leaf order
     std::vector<int> componentOf;       ///< per triangle; -1 when its component is open
     std::vector<Component> components;  ///< the closed ones
-    std::vector<Eigen::Vector3d> componentPoints;
+    std::vector<int> componentCorners;  ///< a vertex of each component, open or closed
+    std::vector<int> keptAs;            ///< per vertex given to build(): index; -1: not used
     MeshReport report;
     MeshInterior interior = MeshInterior::Solid;
+    std::shared_ptr<const detail::WideBvh> bvh;
+    double builtSpread = 0.0;  ///< WideBvh::spread() when the hierarchy's order was chosen
+  };
+  /// With what follows from it.
+  struct Data : Surface {
+    std::vector<Eigen::Vector3d> componentPoints;
     ConvexHull hull;
     ConvexHull coarseHull;
     std::vector<ConvexHull> convexParts;
-    std::shared_ptr<const detail::WideBvh> bvh;
     double dent = 0.0;
   };
+  static void arrange(Surface& surface);
+  static TriangleMesh finished(Surface surface);
   explicit TriangleMesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };

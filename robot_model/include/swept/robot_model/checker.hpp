@@ -157,6 +157,10 @@ class Checker {
   /// The world with one more body, or without one. Throws as World::add, and for a name that is not
   /// there.
   Checker withBody(WorldBody body) const;
+  /// The world with this body in the place of the one of the same name, and all rules kept: what a
+  /// deforming surface (TriangleMesh::moved), or a sensor's next cloud, is for planners that start
+  /// from now on. Takes time in proportion to what the body is made of. Throws as World::replace.
+  Checker withReplaced(WorldBody body) const;
   Checker withObstacle(MovingObstacle obstacle) const;
   Checker withoutBody(std::string_view name) const;
   /// Throw as the constructor, and for a name that is not there.

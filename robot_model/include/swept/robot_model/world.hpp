@@ -57,6 +57,10 @@ class World {
   /// Throws likewise, and for no waypoints, times that are not finite or do not increase, and
   /// shapes without bounds.
   void add(MovingObstacle obstacle);
+  /// In the place of the body of this name, for what is elsewhere or has another shape by now.
+  /// Throws std::invalid_argument for a name that no body which stands still has, and a pose that
+  /// is not a rigid finite transform.
+  void replace(WorldBody body);
   /// Either kind. False: nothing has this name.
   bool remove(std::string_view name);
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "bvh/wide_bvh.hpp"
+#include "geometry/ray_crossing.hpp"
+#include "simd/box_bounds.hpp"
+#include "swept/core/triangle_mesh.hpp"
+
+namespace swept {
+
+namespace {
+
+/// Directions for the rays, well spread for every number taken: Roberts 2018 ("The unreasonable
+/// effectiveness of quasirandom sequences"), mapped to the sphere with equal areas.
+constexpr int kDirections = 32;
+std::array<Eigen::Vector3d, kDirections> spreadDirections() {
+  constexpr double kFirstRatio = 0.7548776662466927;  // 1 / g and 1 / g^2, g^3 = g + 1
+  constexpr double kSecondRatio = 0.5698402909980532;
+  std::array<Eigen::Vector3d, kDirections> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    double whole = 0.0;
+    const double z = 2.0 * std::modf(0.37 + i * kFirstRatio, &whole) - 1.0;
+    const double angle = 2.0 * std::numbers::pi * std::modf(0.21 + i * kSecondRatio, &whole);
+    const double radial = std::sqrt(1.0 - z * z);
+    directions[i] = {radial * std::cos(angle), radial * std::sin(angle), z};
+  }
+  return directions;
+}
+
+/// Signed crossings of one ray with each closed component whose box contains its origin. Their
+/// parity is that of the number of crossings.
+class CrossingCounts {
+ public:
+  void add(int component) {
+    if (size_ < kInline)
+      inline_[size_] = {component, 0};
+    else
+      more_.push_back({component, 0});
+    ++size_;
+  }
+  bool empty() const { return size_ == 0; }
+  void reset() {
+    for (Count& count : inlined()) count.crossings = 0;
+    for (Count& count : more_) count.crossings = 0;
+  }
+  /// Null for a component that cannot contain the origin.
+  int* find(int component) {
+    for (Count& count : inlined()) {
+      if (count.component == component) return &count.crossings;
+    }
+    for (Count& count : more_) {
+      if (count.component == component) return &count.crossings;
+    }
+    return nullptr;
+  }
+  template <typename Predicate>
+  bool any(const Predicate& predicate) const {
+    for (int i = 0; i < std::min(size_, kInline); ++i) {
+      if (predicate(inline_[i].component, inline_[i].crossings)) return true;
+    }
+    for (const Count& count : more_) {
+      if (predicate(count.component, count.crossings)) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Count {
+    int component;
+    int crossings;
+  };
+  static constexpr int kInline = 64;
+  std::span<Count> inlined() {
+    return std::span(inline_).first(static_cast<std::size_t>(std::min(size_, kInline)));
+  }
+  std::array<Count, kInline> inline_;
+  std::vector<Count> more_;
+  int size_ = 0;
+};
+
+/// A ray against the triangles of one mesh.
+class RayCount {
+ public:
+  RayCount(const TriangleMesh& mesh, std::span<const int> componentOf,
+           const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, CrossingCounts& counts)
+      : mesh_(mesh),
+        componentOf_(componentOf),
+        origin_(origin),
+        direction_(direction),
+        counts_(counts) {}
+
+  /// False when the ray passes within rounding of the border of a triangle that matters.
+  bool run() {
+    const detail::WideBvh& bvh = mesh_.bvh();
+    // Each level leaves at most seven siblings behind.
+    std::array<int, (detail::WideNode::kLanes - 1) * detail::WideBvh::kMaxDepth + 1> stack;
+    int pending = 0;
+    stack[pending++] = 0;
+    while (pending > 0) {
+      const detail::WideNode& node = bvh.nodes()[stack[--pending]];
+      for (std::uint32_t hits = detail::boxesHit(node, origin_, direction_); hits != 0;
+           hits &= hits - 1) {
+        const int lane = std::countr_zero(hits);
+        if (node.child[lane] >= 0) {
+          stack[pending++] = node.child[lane];
+        } else if (!count(~node.child[lane])) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  bool count(int triangle) {
+    int* const crossings = counts_.find(componentOf_[triangle]);
+    if (crossings == nullptr) return true;
+    const Eigen::Vector3i& corners = mesh_.triangles()[triangle];
+    const Eigen::Vector3d a = mesh_.vertices()[corners[0]] - origin_;
+    const Eigen::Vector3d b = mesh_.vertices()[corners[1]] - origin_;
+    const Eigen::Vector3d c = mesh_.vertices()[corners[2]] - origin_;
+    switch (detail::rayCrossing(direction_, a, b, c)) {
+      case detail::Crossing::Unsure:
+        return false;
+      case detail::Crossing::Miss:
+        break;
+      case detail::Crossing::Along:
+        ++*crossings;
+        break;
+      case detail::Crossing::Against:
+        --*crossings;
+        break;
+    }
+    return true;
+  }
+
+  const TriangleMesh& mesh_;
+  std::span<const int> componentOf_;
+  const Eigen::Vector3d& origin_;
+  const Eigen::Vector3d& direction_;
+  CrossingCounts& counts_;
+};
+
+}  // namespace
+
+bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
+  if (data_->interior == MeshInterior::Surface) return false;
+  CrossingCounts counts;
+  for (std::size_t i = 0; i < data_->components.size(); ++i) {
+    const Component& component = data_->components[i];
+    if ((point.array() >= component.lower.array()).all() &&
+        (point.array() <= component.upper.array()).all()) {
+      counts.add(static_cast<int>(i));
+    }
+  }
+  if (counts.empty()) return false;
+
+  static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
+  for (const Eigen::Vector3d& direction : directions) {
+    counts.reset();
+    if (!RayCount(*this, data_->componentOf, point, direction, counts).run()) continue;
+    return counts.any([&](int component, int crossings) {
+      return data_->components[component].oriented ? crossings != 0 : crossings % 2 != 0;
+    });
+  }
+  // Only a point within rounding of a triangle leaves no direction: it touches the solid.
+  return true;
+}
+
+}  // namespace swept
