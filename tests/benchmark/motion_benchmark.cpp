@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <random>
 
 #include "box_worlds.hpp"
 #include "made_arms.hpp"
@@ -187,6 +188,39 @@ class MotionBenchmark {
     std::printf("\nSame verdict in all worlds: %zu, %zu, %zu free, %zu colliding\n",
                 motions.free[0].size(), motions.free[1].size(), motions.free[2].size(),
                 motions.colliding.size());
+    states(worlds, checkers);
+  }
+
+  /// Uniform ones, the same in all worlds. FCL is asked for motions so short that their end is the
+  /// only state between.
+  void states(const std::vector<NamedWorld>& worlds, const Checkers& checkers) const {
+    std::printf("\nStates of these worlds: median / mean ns\n\n");
+    const MarkdownTable table({"world", "free", "in collision", "undecided", "one state",
+                               "of first row", "FCL us", "swept / FCL"});
+    constexpr int kStates = 1000;
+    std::mt19937_64 random(options_.seed);
+    std::uniform_real_distribution<double> angle(-3.0, 3.0);
+    std::vector<BenchMotion> ends;
+    for (int i = 0; i < kStates; ++i) {
+      BenchMotion& motion = ends.emplace_back();
+      for (int j = 0; j < checkers.front()->dimension(); ++j) motion.to.push_back(angle(random));
+      motion.from = motion.to;
+      motion.from[0] += 1e-6;
+    }
+    double reference = 0.0;
+    for (std::size_t i = 0; i < worlds.size(); ++i) {
+      const StateCosts found = measureEnds(*checkers[i], ends, clock_);
+      if (i == 0) reference = found.costs.mean();
+      const double peer = builtWithFcl() ? measurePeer(*checkers[i], ends, clock_).mean() : 0.0;
+      const auto count = [&](Verdict verdict) {
+        return std::to_string(found.verdicts[static_cast<std::size_t>(verdict)]);
+      };
+      table.row({worlds[i].name, count(Verdict::Free), count(Verdict::Collision),
+                 count(Verdict::Undecided),
+                 whole(found.costs.median()) + " / " + whole(found.costs.mean()),
+                 number(found.costs.mean() / reference), peer > 0.0 ? number(1e-3 * peer) : "-",
+                 peer > 0.0 ? number(found.costs.mean() / peer, 2) : "-"});
+    }
   }
 
   void robots() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -153,6 +154,31 @@ inline void measureMotions(const Checker& checker, const std::vector<BenchMotion
     });
     if (motions.empty()) return;
   }
+}
+
+/// What the ends of motions cost as states, ns each; and how often each verdict was found.
+struct StateCosts {
+  MotionCosts costs;
+  std::array<int, 3> verdicts{};  ///< by Verdict
+};
+
+inline StateCosts measureEnds(const Checker& checker, const std::vector<BenchMotion>& motions,
+                              const BenchClock& clock) {
+  constexpr int kPasses = 9;
+  Workspace workspace(checker);
+  StateCosts found;
+  found.costs.nanoseconds.resize(motions.size(), std::numeric_limits<double>::infinity());
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      Verdict verdict{};
+      const double taken =
+          clock.time([&] { verdict = checker.checkState(motions[i].to, workspace); });
+      double& least = found.costs.nanoseconds[i];
+      least = std::min(least, taken);
+      if (pass == 0) ++found.verdicts[static_cast<std::size_t>(verdict)];
+    }
+  }
+  return found;
 }
 
 }  // namespace swept::benchmark
