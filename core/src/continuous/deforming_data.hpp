@@ -16,6 +16,11 @@ struct DeformingMesh::Data {
   /// Fills in a frame; returns the area of boxes in terms of that of the triangles' boxes.
   double follow(std::span<const Eigen::Vector3d> vertices, double reach,
                 detail::DeformingFrame& frame);
+  /// Part of follow(): vertices as numbered by the tree, and `points`.
+  void copyVertices(std::span<const Eigen::Vector3d> vertices, std::size_t first, std::size_t last,
+                    detail::DeformingFrame& frame);
+  /// Part of follow(): the rest, when all subtrees and their `areas` are there.
+  double finish(detail::DeformingFrame& frame);
   void arrange(std::span<const Eigen::Vector3d> vertices);
   void arrangeAnew();
 
@@ -27,6 +32,7 @@ struct DeformingMesh::Data {
   detail::DeformingFrame start, end;
   bool still = true;  ///< the step begins where it ends, and `start` is of no use
   std::vector<detail::FloatPoint> points;  ///< m, scratch: the vertices of the latest frame
+  std::vector<detail::BoxAreas> areas;     ///< scratch: of the subtrees of the latest frame
   double areaRatio = 0.0, builtRatio = 0.0;
   std::size_t rebuilds = 0;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "continuous/deforming_data.hpp"
+#include "continuous/deforming_refit.hpp"
 #include "simd/follow_corners.hpp"
 
 namespace swept {
@@ -35,16 +36,32 @@ double finiteReach(std::span<const Vector3d> vertices) {
 
 double DeformingMesh::Data::follow(std::span<const Vector3d> vertices, double reach,
                                    DeformingFrame& frame) {
-  for (std::size_t v = 0; v < frame.vertices.size(); ++v) {
+  copyVertices(vertices, 0, frame.vertices.size(), frame);
+  frame.reach = reach;
+  for (std::size_t s = 0; s < areas.size(); ++s)
+    areas[s] = detail::followSubtree(order, points, s, frame);
+  return finish(frame);
+}
+
+void DeformingMesh::Data::copyVertices(std::span<const Vector3d> vertices, std::size_t first,
+                                       std::size_t last, DeformingFrame& frame) {
+  for (std::size_t v = first; v < last; ++v) {
     const Vector3d& p = vertices[static_cast<std::size_t>(order.vertexOf[v])];
     frame.vertices[v] = p;
     points[v] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
                  0.0F};
   }
-  frame.reach = reach;
-  const detail::BoxAreas areas = detail::followCorners(order, points, frame);
+}
+
+double DeformingMesh::Data::finish(DeformingFrame& frame) {
+  detail::BoxAreas sum;
+  for (const detail::BoxAreas& part : areas) {
+    sum.triangles += part.triangles;
+    sum.nodes += part.nodes;
+  }
+  sum.nodes += detail::followTop(order, frame);
   // Not for triangles without an area, or beyond single precision: their boxes do not grow.
-  const double ratio = areas.nodes / areas.triangles;
+  const double ratio = sum.nodes / sum.triangles;
   return std::isfinite(ratio) ? ratio : 0.0;
 }
 
@@ -52,6 +69,7 @@ void DeformingMesh::Data::arrange(std::span<const Vector3d> vertices) {
   order =
       detail::arrangeTriangles(vertices, surface.triangles(), surface.pieces(), surface.marks());
   points.resize(order.vertexOf.size());
+  areas.resize(detail::subtrees(order));
   makeRoom(order, start);
   makeRoom(order, end);
 }
@@ -95,19 +113,18 @@ DeformingMesh DeformingMesh::build(std::span<const Vector3d> vertices,
   return DeformingMesh(std::move(data));
 }
 
-void DeformingMesh::moveTo(std::span<const Vector3d> vertices) {
+void DeformingMesh::moveTo(std::span<const Vector3d> vertices, unsigned threads) {
   Data& data = *data_;
   if (vertices.size() != data.vertexCount)
     throw std::invalid_argument("DeformingMesh: another number of vertices");
-  const double reach = finiteReach(vertices);
+  data.areaRatio = detail::refit(data, vertices, detail::usefulThreads(threads, triangleCount()));
   std::swap(data.start, data.end);
   data.still = false;
-  data.areaRatio = data.follow(vertices, reach, data.end);
   if (growth() >= kRebuildGrowth) rebuild();
 }
 
-void DeformingMesh::place(std::span<const Vector3d> vertices) {
-  moveTo(vertices);
+void DeformingMesh::place(std::span<const Vector3d> vertices, unsigned threads) {
+  moveTo(vertices, threads);
   data_->still = true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simd/follow_corners.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -135,29 +136,51 @@ void repeatLast(BoxBlock& block, std::size_t used) {
   }
 }
 
-BoxAreas FollowCorners(const TreeOrder& order, const FloatPoint* points, DeformingFrame& frame) {
-  const Tag tag;
+// Partial sums of few terms each: single precision is enough for those.
+double total(Lanes sum) {
+  return static_cast<double>(hn::GetLane(hn::SumOfLanes(Tag(), sum)));
+}
+
+/// Bounds blocks of a level above 0 in the level above it, and returns the area of their boxes.
+double boundLevel(const TreeOrder& order, int level, std::size_t first, std::size_t last,
+                  DeformingFrame& frame) {
+  const auto l = static_cast<std::size_t>(level);
+  std::vector<BoxBlock>& boxes = frame.boxes[l];
+  if (last == boxes.size()) repeatLast(boxes.back(), (order.below(level) - 1) % kTreeLanes + 1);
+  double area = 0.0;
+  if (level + 1 == order.levels) return area;
+  for (std::size_t b = first; b < last; ++b)
+    area += total(boundBoxes(boxes[b], frame.boxes[l + 1][b / kTreeLanes], b % kTreeLanes));
+  return area;
+}
+
+BoxAreas FollowSubtree(const TreeOrder& order, const FloatPoint* points, std::size_t subtree,
+                       DeformingFrame& frame) {
+  const int top = subtreeLevel(order);
+  std::size_t each = 1;
+  for (int level = 0; level < top; ++level) each *= kTreeLanes;
   BoxAreas areas;
-  // Partial sums of few terms each: single precision is enough for those.
-  const auto total = [&tag](Lanes sum) {
-    return static_cast<double>(hn::GetLane(hn::SumOfLanes(tag, sum)));
-  };
-  for (std::size_t b = 0; b < order.blocks[0]; ++b) {
-    transpose(order.vertices[b], points, frame.corners[b]);
-    areas.triangles +=
-        total(boundCorners(frame.corners[b], frame.boxes[1][b / kTreeLanes], b % kTreeLanes));
-  }
-  for (int level = 1; level < order.levels; ++level) {
-    const auto l = static_cast<std::size_t>(level);
-    std::vector<BoxBlock>& boxes = frame.boxes[l];
-    repeatLast(boxes.back(), (order.below(level) - 1) % kTreeLanes + 1);
-    if (level + 1 == order.levels) break;
-    for (std::size_t b = 0; b < order.blocks[l]; ++b) {
-      areas.nodes +=
-          total(boundBoxes(boxes[b], frame.boxes[l + 1][b / kTreeLanes], b % kTreeLanes));
+  for (int level = 0; level <= top; ++level, each /= kTreeLanes) {
+    const std::size_t first = subtree * each;
+    const std::size_t last = std::min(first + each, order.blocks[static_cast<std::size_t>(level)]);
+    if (level > 0) {
+      areas.nodes += boundLevel(order, level, first, last, frame);
+      continue;
+    }
+    for (std::size_t b = first; b < last; ++b) {
+      transpose(order.vertices[b], points, frame.corners[b]);
+      areas.triangles +=
+          total(boundCorners(frame.corners[b], frame.boxes[1][b / kTreeLanes], b % kTreeLanes));
     }
   }
   return areas;
+}
+
+double FollowTop(const TreeOrder& order, DeformingFrame& frame) {
+  double area = 0.0;
+  for (int level = subtreeLevel(order) + 1; level < order.levels; ++level)
+    area += boundLevel(order, level, 0, order.blocks[static_cast<std::size_t>(level)], frame);
+  return area;
 }
 
 }  // namespace
@@ -168,7 +191,8 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 HWY_EXPORT(LargestCoordinate);
-HWY_EXPORT(FollowCorners);
+HWY_EXPORT(FollowSubtree);
+HWY_EXPORT(FollowTop);
 
 double largestCoordinate(std::span<const Eigen::Vector3d> points) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
@@ -176,9 +200,13 @@ double largestCoordinate(std::span<const Eigen::Vector3d> points) {
   return HWY_DYNAMIC_DISPATCH(LargestCoordinate)(points.front().data(), 3 * points.size());
 }
 
-BoxAreas followCorners(const TreeOrder& order, std::span<const FloatPoint> points,
-                       DeformingFrame& frame) {
-  return HWY_DYNAMIC_DISPATCH(FollowCorners)(order, points.data(), frame);
+BoxAreas followSubtree(const TreeOrder& order, std::span<const FloatPoint> points,
+                       std::size_t subtree, DeformingFrame& frame) {
+  return HWY_DYNAMIC_DISPATCH(FollowSubtree)(order, points.data(), subtree, frame);
+}
+
+double followTop(const TreeOrder& order, DeformingFrame& frame) {
+  return HWY_DYNAMIC_DISPATCH(FollowTop)(order, frame);
 }
 
 }  // namespace swept::detail

@@ -36,10 +36,14 @@ class DeformingMesh {
 
   /// The step from where the last one ended to `vertices` (m), as many as build() got. Throws
   /// std::invalid_argument for another number of them or a coordinate that is not finite; the mesh
-  /// is then as it was. Allocates nothing unless it builds the hierarchy anew.
-  void moveTo(std::span<const Eigen::Vector3d> vertices);
+  /// is then as it was. Allocates nothing on one thread unless it builds the hierarchy anew.
+  ///
+  /// Follows on up to so many threads (0: as many as there are processors), of which it starts all
+  /// but the caller's in each call: on fewer where more do not pay or are not to be had. The mesh
+  /// is bit for bit the same on any number. Building anew takes one thread.
+  void moveTo(std::span<const Eigen::Vector3d> vertices, unsigned threads = 1);
   /// Stands still at `vertices` (m): the next step starts there. Throws as moveTo() does.
-  void place(std::span<const Eigen::Vector3d> vertices);
+  void place(std::span<const Eigen::Vector3d> vertices, unsigned threads = 1);
   /// Builds the hierarchy anew, for the end of the step.
   void rebuild();
 
