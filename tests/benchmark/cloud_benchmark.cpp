@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clouds of balls of 1 cm around points of a room's walls: time to build and bytes per point, and
-// ns per query of a robot's ball. FCL's octree of cubes of 2 cm beside it, on the same points and
-// balls. `cloud_benchmark [POINTS]`: up to so many points (1000000 without). Then two clouds: a
-// gear over terrain, and with SWEPT_DATA the piano in the apartment.
+// ns per query of a robot's ball; then the same of grids of lower bounds. FCL's octree of cubes of
+// 2 cm beside it, on the same points and balls. `cloud_benchmark [POINTS]`: up to so many points
+// (1000000 without). Then two clouds: a gear over terrain, and with SWEPT_DATA the piano in the
+// apartment.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +17,7 @@
 
 #include "cloud_pair.hpp"
 #include "number_argument.hpp"
+#include "swept/core/clearance_grid.hpp"
 #include "swept/core/point_cloud.hpp"
 #include "swept/core/segment_query.hpp"
 #include "timing.hpp"
@@ -120,18 +122,63 @@ void printFcl(const Work& work, const MarkdownTable& table) {
 }
 #endif
 
+Work workOf(std::size_t count) {
+  Room room;
+  Work work;
+  for (std::size_t i = 0; i < count; ++i) work.points.push_back(room.point());
+  for (std::size_t i = 0; i < kBalls; ++i) work.balls.push_back(room.ball());
+  return work;
+}
+
 void run(std::size_t most) {
   const MarkdownTable table({"points", "", "build, ns per point", "bytes per point",
                              "is a ball apart?, ns", "its clearance, ns", "apart"});
   for (std::size_t count = 10'000; count <= most; count *= 10) {
-    Room room;
-    Work work;
-    for (std::size_t i = 0; i < count; ++i) work.points.push_back(room.point());
-    for (std::size_t i = 0; i < kBalls; ++i) work.balls.push_back(room.ball());
+    const Work work = workOf(count);
     printOurs(work, table);
 #ifdef SWEPT_HAS_FCL
     printFcl(work, table);
 #endif
+    std::fflush(stdout);
+  }
+}
+
+/// `decided`: of the balls that are apart.
+void printGrid(const Work& work, std::size_t cells, const MarkdownTable& table) {
+  const PointCloud cloud = PointCloud::build(work.points, kPointRadius);
+  ClearanceGridOptions options;
+  options.cells = cells;
+  std::optional<ClearanceGrid> grid;
+  const double build = bestOf(3, [&] { grid = ClearanceGrid::build(cloud, options); });
+  std::size_t decided = 0;
+  const double query = bestOf(20, [&] {
+    decided = 0;
+    for (const Vector3d& ball : work.balls) decided += grid->isFarther(ball, kBallRadius) ? 1 : 0;
+  });
+  double sum = 0.0;  // so that nothing is optimised away
+  const double bound = bestOf(20, [&] {
+    for (const Vector3d& ball : work.balls) sum += grid->clearance(ball);
+  });
+  std::size_t apart = 0;
+  for (const Vector3d& ball : work.balls) apart += isFarther(cloud, {ball}, kBallRadius) ? 1 : 0;
+  const double points = static_cast<double>(work.points.size());
+  const double share = static_cast<double>(decided) / static_cast<double>(apart);
+  table.row({std::to_string(work.points.size()), std::to_string(cells),
+             number(1000.0 * grid->voxel()), number(nsEach(build, work.points.size())),
+             number(static_cast<double>(grid->bytes()) / points),
+             number(nsEach(query, work.balls.size())), number(nsEach(bound, work.balls.size())),
+             number(100.0 * share) + " %"});
+  if (std::isnan(sum)) std::printf("a clearance is no number\n");
+}
+
+void runGrids(std::size_t most) {
+  std::printf("\n");
+  const MarkdownTable table({"points", "cells", "voxel, mm", "build, ns per point",
+                             "bytes per point", "is a ball apart?, ns", "its clearance, ns",
+                             "decided of those apart"});
+  for (std::size_t count = 10'000; count <= most; count *= 10) {
+    const Work work = workOf(count);
+    for (const int exponent : {16, 19, 22}) printGrid(work, std::size_t{1} << exponent, table);
     std::fflush(stdout);
   }
 }
@@ -185,5 +232,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   swept::benchmark::run(static_cast<std::size_t>(*most));
+  swept::benchmark::runGrids(static_cast<std::size_t>(*most));
   swept::benchmark::runPairs();
 }

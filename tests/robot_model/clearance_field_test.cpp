@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lanes/clearance_field.hpp"
+#include "lanes/lane_field.hpp"
 
 #include <gtest/gtest.h>
 
@@ -290,62 +290,6 @@ TEST(ClearanceField, ProvesOnlySegmentsThatAreApart) {
   }
   EXPECT_GT(proven, 3000);
   EXPECT_GT(queried, 1000);
-}
-
-/// What the window cut off is beyond the grid, and the field must not say that nothing is there.
-TEST(ClearanceField, CountsWhatTheWindowCutsOffAsOccupied) {
-  std::mt19937 random(12);
-  const Shape shape = meshOf(test::torusSoup(48, 24, 0.5, 0.2));
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      SCOPED_TRACE(testing::Message() << axis << " " << side);
-      Aabb window{Vector3d::Constant(-10.0), Vector3d::Constant(10.0)};
-      // Through the hole or beside the surface: what is cut off is what is nearest.
-      const double cut = axis == 2 ? -0.19 : 0.29;
-      (side < 0.0 ? window.lower : window.upper)[axis] = side * cut;
-      const auto field = buildClearanceField(shape, window, 1 << 18);
-      ASSERT_TRUE(field);
-      EXPECT_TRUE(std::isinf((side < 0.0 ? field->lower : field->upper)[axis]));
-      const auto voxel = static_cast<double>(field->voxel);
-      const auto& [nx, ny, nz] = field->blocks;
-      int cells = 0;
-      int voxels = 0;
-      for (int i = 0; i < 6000; ++i) {
-        Eigen::Array3i at(static_cast<int>(random() % (4 * nx)),
-                          static_cast<int>(random() % (4 * ny)),
-                          static_cast<int>(random() % (4 * nz)));
-        // Half of them at the face.
-        if (i % 2 == 0)
-          at[axis] = side < 0.0 ? static_cast<int>(random() % 6)
-                                : 4 * field->blocks[axis] - 1 - static_cast<int>(random() % 6);
-        const auto exact = [&](const Vector3d& middle) {
-          return exactly(shape, Isometry3d::Identity(), field->origin + middle).upper;
-        };
-        const Eigen::Array3i cell = at / 2;
-        const std::size_t index =
-            (static_cast<std::size_t>(cell[2]) * 2 * ny + cell[1]) * 2 * nx + cell[0];
-        const double value = ((field->cells[index / 4] >> (8 * (index % 4))) & 255U) *
-                             static_cast<double>(field->step);
-        if (value > 0.0) {
-          ASSERT_LE(value, exact(2.0 * voxel * (cell.cast<double>() + 0.5).matrix()));
-          ++cells;
-        }
-        const Eigen::Array3i block = at / 4;
-        const std::int32_t brick =
-            field->bricks[(static_cast<std::size_t>(block[2]) * ny + block[1]) * nx + block[0]];
-        const Eigen::Array3i within = at - 4 * block;
-        const double fine =
-            ((field->voxels[16 * brick + within[1] + 4 * within[2]] >> (8 * within[0])) & 255U) *
-            static_cast<double>(field->fineStep);
-        if (fine > 0.0) {
-          ASSERT_LE(fine, exact(voxel * (at.cast<double>() + 0.5).matrix()));
-          ++voxels;
-        }
-      }
-      EXPECT_GT(cells, 1000);
-      EXPECT_GT(voxels, 200);
-    }
-  }
 }
 
 TEST(ClearanceField, IsSharedAndRepeatable) {

@@ -7,6 +7,7 @@
 #include "certify/checker_model.hpp"
 #include "lanes/row.hpp"
 #include "lanes/single.hpp"
+#include "swept/core/clearance_grid.hpp"
 #include "swept/core/segment_query.hpp"
 
 namespace swept::detail {
@@ -51,7 +52,9 @@ std::shared_ptr<const ClearanceField> FieldCompiler::fieldFor(const Shape& shape
         known.window.upper == window.upper)
       return known.field;
   }
-  known_.push_back({data, window, buildClearanceField(shape, window, cells_)});
+  const bool isWanted = boundingBox(shape).overlaps(window);
+  known_.push_back(
+      {data, window, isWanted ? ClearanceGrid::build(shape, {window, cells_}).field() : nullptr});
   return known_.back().field;
 }
 

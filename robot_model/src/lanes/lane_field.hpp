@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "lanes/clearance_field.hpp"
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/clearance_field.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept::detail {

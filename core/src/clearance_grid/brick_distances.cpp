@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lanes/field_distances.hpp"
+#include "clearance_grid/field_distances.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "lanes/squared_gaps.hpp"
+#include "clearance_grid/squared_gaps.hpp"
 
 namespace swept::detail {
 

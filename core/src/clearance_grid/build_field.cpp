@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lanes/clearance_field.hpp"
+#include "clearance_grid/build_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "lanes/field_distances.hpp"
+#include "clearance_grid/field_distances.hpp"
 
 namespace swept::detail {
 
@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 /// m. Finer voxels than this are not worth their memory.
 constexpr double kFinestVoxel = 0.003;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// m, side of voxels such that not too many are to be marked.
 double sideFor(const TriangleMesh& mesh, const Aabb& window) {
   constexpr double kMostMarks = 8e6;
@@ -76,29 +77,32 @@ std::shared_ptr<const ClearanceField> measured(const Voxels& voxels, ClearanceFi
 
 }  // namespace
 
-std::shared_ptr<const ClearanceField> buildClearanceField(const Shape& shape, const Aabb& window,
-                                                          std::size_t cells) {
+Aabb fieldBox(const TriangleMesh& mesh) {
+  return Aabb::fit(mesh.vertices());
+}
+Aabb fieldBox(const PointCloud& cloud) {
+  return Aabb::fit(cloud.points()).inflated(cloud.largestRadius());
+}
+
+std::shared_ptr<const ClearanceField> buildField(const TriangleMesh& mesh, const Aabb& window,
+                                                 std::size_t cells) {
   ClearanceField field;
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-    const Aabb box = Aabb::fit(mesh->vertices());
-    if (!box.overlaps(window)) return nullptr;
-    Voxels voxels = layOut(box, window, sideFor(*mesh, window), cells, field);
-    const auto& vertices = mesh->vertices();
-    for (const TriangleMesh::Triangle& triangle : mesh->triangles())
-      voxels.mark({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
-    if (mesh->interior() == MeshInterior::Solid && mesh->report().closedComponents > 0)
-      voxels.fill(*mesh);
-    return measured(voxels, field);
-  }
-  if (const auto* cloud = std::get_if<PointCloud>(&shape)) {
-    const Aabb box = Aabb::fit(cloud->points()).inflated(cloud->largestRadius());
-    if (!box.overlaps(window)) return nullptr;
-    Voxels voxels = layOut(box, window, sideFor(*cloud), cells, field);
-    for (std::size_t i = 0; i < cloud->points().size(); ++i)
-      voxels.mark(cloud->points()[i], cloud->radius(i));
-    return measured(voxels, field);
-  }
-  return nullptr;
+  Voxels voxels = layOut(fieldBox(mesh), window, sideFor(mesh, window), cells, field);
+  const auto& vertices = mesh.vertices();
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles())
+    voxels.mark({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+  if (mesh.interior() == MeshInterior::Solid && mesh.report().closedComponents > 0)
+    voxels.fill(mesh);
+  return measured(voxels, field);
+}
+
+std::shared_ptr<const ClearanceField> buildField(const PointCloud& cloud, const Aabb& window,
+                                                 std::size_t cells) {
+  ClearanceField field;
+  Voxels voxels = layOut(fieldBox(cloud), window, sideFor(cloud), cells, field);
+  for (std::size_t i = 0; i < cloud.points().size(); ++i)
+    voxels.mark(cloud.points()[i], cloud.radius(i));
+  return measured(voxels, field);
 }
 
 }  // namespace swept::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "lanes/clearance_field.hpp"
-#include "lanes/voxels.hpp"
+#include "clearance_grid/voxels.hpp"
+#include "swept/core/clearance_field.hpp"
 
 namespace swept::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lanes/voxels.hpp"
+#include "clearance_grid/voxels.hpp"
 
 #include <algorithm>
 #include <cmath>

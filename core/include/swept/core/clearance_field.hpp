@@ -5,14 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
-
-#include "swept/core/bv/aabb.hpp"
-#include "swept/core/shapes.hpp"
 
 namespace swept::detail {
 
+/// What a ClearanceGrid reads, for kernels of another kind: SIMD lanes, single precision. Its own
+/// queries need none of this.
+///
 /// Two grids of proven lower bounds on how far the middles of their cells are from the triangles of
 /// a mesh and what it encloses, or from the balls of a cloud: one of cells everywhere, one of
 /// voxels (half as large) in bricks of 4 x 4 x 4 near the set.
@@ -43,10 +42,5 @@ struct ClearanceField {
 
   std::size_t bytes() const { return 4 * (cells.size() + bricks.size() + voxels.size()); }
 };
-
-/// For a mesh or a cloud. `window` (m, shape's frame): where bounds are wanted; `cells`: not many
-/// more. Null where the window does not meet the shape, or the shape is of another kind.
-std::shared_ptr<const ClearanceField> buildClearanceField(const Shape& shape, const Aabb& window,
-                                                          std::size_t cells);
 
 }  // namespace swept::detail
