@@ -160,19 +160,31 @@ class MotionBenchmark {
   }
 
   void worlds() const {
-    std::printf("\n## Worlds: 7 joints, the same space occupied, the same motions\n\n");
+    worldsAround("7 joints", Robot::parse(SerialArm{}.urdf(), "arm.urdf"), "all");
+    const auto data = dataFolder();
+    for (const RobotCase& which : robotCases(data.value_or(""))) {
+      if (which.name != "Panda") continue;
+      if (data)
+        worldsAround(which.name, loadRobot(which), which.group);
+      else
+        std::printf("\nPanda: skipped\n");
+    }
+  }
+
+  void worldsAround(const std::string& name, const std::shared_ptr<const Robot>& robot,
+                    const std::string& group) const {
+    std::printf("\n## Worlds: %s, the same space occupied, the same motions\n\n", name.c_str());
     const MarkdownTable table({"world", "world MB", "checker MB", "checker ms", "withWorld ms",
                                "free 0.1 rad", "of first row", "free 1 rad", "of first row",
                                "free 4 rad", "of first row", "colliding 1 rad", "FCL + OMPL us",
                                "swept / FCL"});
-    const auto robot = Robot::parse(SerialArm{}.urdf(), "arm.urdf");
-    const Checker empty(robot, "all", std::make_shared<const World>());
+    const Checker empty(robot, group, std::make_shared<const World>());
     const std::vector<NamedWorld> worlds = worldsOfOneSpace();
     Checkers checkers;
     std::vector<std::vector<std::string>> rows;
     for (const NamedWorld& world : worlds) {
       const double before = heapBytes();
-      const BuiltChecker built(robot, "all", world.world);
+      const BuiltChecker built(robot, group, world.world);
       const double bytes = heapBytes() - before;
       const double again = secondsOf([&] { empty.withWorld(world.world); });
       rows.push_back({world.name, number(world.megabytes, 2), number(1e-6 * bytes, 2),
@@ -199,14 +211,9 @@ class MotionBenchmark {
                                "of first row", "FCL us", "swept / FCL"});
     constexpr int kStates = 1000;
     std::mt19937_64 random(options_.seed);
-    std::uniform_real_distribution<double> angle(-3.0, 3.0);
+    MotionSampler sampler(*checkers.front(), random);
     std::vector<BenchMotion> ends;
-    for (int i = 0; i < kStates; ++i) {
-      BenchMotion& motion = ends.emplace_back();
-      for (int j = 0; j < checkers.front()->dimension(); ++j) motion.to.push_back(angle(random));
-      motion.from = motion.to;
-      motion.from[0] += 1e-6;
-    }
+    for (int i = 0; i < kStates; ++i) ends.push_back(sampler.draw(1e-6));
     double reference = 0.0;
     for (std::size_t i = 0; i < worlds.size(); ++i) {
       const StateCosts found = measureEnds(*checkers[i], ends, clock_);
