@@ -22,7 +22,8 @@ constexpr unsigned kThreads[] = {1, 2, 3, 7};
 
 template <typename T>
 bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 bool sameFrame(const DeformingFrame& a, const DeformingFrame& b) {
