@@ -233,6 +233,39 @@ TEST(MovedMesh, WhatIsConnectedStaysSoAndNothingElseBecomesSo) {
   EXPECT_FALSE(again.encloses(Vector3d(1.0, 2.0, 3.0)));
 }
 
+/// Corners fall together, edges lie on each other, faces lose their area.
+TEST(MovedMesh, DegenerateTrianglesKeepTheirDistances) {
+  std::mt19937 random(34);
+  const Soup soup = test::torusSoup(16, 8, 0.4, 0.15);
+  const TriangleMesh mesh = build(soup);
+  int inside = 0, outside = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    std::vector<Vector3d> vertices = soup.vertices;
+    for (int i = 0; i < 20; ++i) {
+      const Vector3i& t = soup.triangles[random() % soup.triangles.size()];
+      vertices[t[0]] = vertices[t[1]];
+      if (i % 3 == 0) vertices[t[2]] = vertices[t[1]];
+      if (i % 3 == 1) vertices[t[2]] = vertices[random() % vertices.size()];
+    }
+    const TriangleMesh moved = mesh.moved(vertices);
+    for (int i = 0; i < 10; ++i) {
+      const Isometry3d at(Eigen::Translation3d(test::uniformPoint(random, 0.7)));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Vector3i& t : soup.triangles) {
+        const Triangle triangle{{vertices[t[0]], vertices[t[1]], vertices[t[2]]}};
+        nearest = std::min(nearest, distance(triangle, Sphere{0.0}, at).upper);
+      }
+      const bool isInside = moved.encloses(at.translation());
+      ++(isInside ? inside : outside);
+      const DistanceResult found = distance(moved, Sphere{0.0}, at);
+      EXPECT_NEAR(found.upper, isInside ? 0.0 : nearest, 1e-9);
+      EXPECT_LE(found.lower, (isInside ? 0.0 : nearest) + 1e-9);
+    }
+  }
+  EXPECT_GT(inside, 5);
+  EXPECT_GT(outside, 400);
+}
+
 std::string messageOf(const TriangleMesh& mesh, const std::vector<Vector3d>& vertices) {
   try {
     (void)mesh.moved(vertices);
