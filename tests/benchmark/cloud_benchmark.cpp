@@ -159,6 +159,8 @@ void printGrid(const Work& work, std::size_t cells, const MarkdownTable& table) 
   const double bound = bestOf(20, [&] {
     for (const Vector3d& ball : work.balls) sum += grid->clearance(ball);
   });
+  std::vector<double> bounds(work.balls.size());
+  const double together = bestOf(20, [&] { grid->clearances(work.balls, bounds); });
   std::size_t apart = 0;
   for (const Vector3d& ball : work.balls) apart += isFarther(cloud, {ball}, kBallRadius) ? 1 : 0;
   const double points = static_cast<double>(work.points.size());
@@ -167,7 +169,7 @@ void printGrid(const Work& work, std::size_t cells, const MarkdownTable& table) 
              number(1000.0 * grid->voxel()), number(nsEach(build, work.points.size())),
              number(static_cast<double>(grid->bytes()) / points),
              number(nsEach(query, work.balls.size())), number(nsEach(bound, work.balls.size())),
-             number(100.0 * share) + " %"});
+             number(nsEach(together, work.balls.size())), number(100.0 * share) + " %"});
   if (std::isnan(sum)) std::printf("a clearance is no number\n");
 }
 
@@ -175,7 +177,7 @@ void runGrids(std::size_t most) {
   std::printf("\n");
   const MarkdownTable table({"points", "cells", "voxel, mm", "build, ns per point",
                              "bytes per point", "is a ball apart?, ns", "its clearance, ns",
-                             "decided of those apart"});
+                             "many at once, ns", "decided of those apart"});
   for (std::size_t count = 10'000; count <= most; count *= 10) {
     const Work work = workOf(count);
     for (const int exponent : {16, 19, 22}) printGrid(work, std::size_t{1} << exponent, table);

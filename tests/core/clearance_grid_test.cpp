@@ -267,6 +267,43 @@ TEST(ClearanceGrid, NoNumberIsNowhere) {
   }
 }
 
+TEST(ClearanceGrid, ManyAtOnceAreTheSameBitForBit) {
+  std::mt19937 random(8);
+  int positive = 0, asked = 0;
+  for (const ClearanceScene& scene : test::clearanceScenes()) {
+    SCOPED_TRACE(scene.name);
+    for (int round = 0; round < 4; ++round) {
+      ClearanceGridOptions options = kFewCells;
+      if (round >= 2) options.window = randomWindow(scene.shape, random);
+      const ClearanceGrid grid = ClearanceGrid::build(scene.shape, options);
+      // Some blocks of eight have a point that is far, or none at all.
+      std::vector<Vector3d> points;
+      for (int i = 0; i < 203; ++i) {
+        points.push_back(test::clearanceSample(scene, grid, random));
+        if (i % 5 == 0) points.back() = grid.box().center() + 1e6 * test::unitVector(random);
+        if (i % 50 == 0) points.back().y() = i % 100 == 0 ? 1e200 : std::nan("");
+      }
+      std::vector<double> bounds(points.size(), -1.0);
+      grid.clearances(points, bounds);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        ASSERT_EQ(bounds[i], grid.clearance(points[i])) << points[i].transpose();
+        positive += bounds[i] > 0.0;
+        ++asked;
+      }
+    }
+  }
+  EXPECT_GT(positive, asked / 3);
+  const ClearanceGrid grid = ClearanceGrid::build(test::clearanceScenes().front().shape, kFewCells);
+  grid.clearances({}, {});
+  std::vector<double> two(2);
+  try {
+    grid.clearances(std::vector<Vector3d>(3), two);
+    ADD_FAILURE() << "taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "clearance grid: 3 points and 2 bounds");
+  }
+}
+
 std::string messageOf(const Shape& shape, const ClearanceGridOptions& options) {
   try {
     static_cast<void>(ClearanceGrid::build(shape, options));
@@ -307,9 +344,14 @@ TEST(ClearanceGrid, QueriesAllocateNothingAndCopiesShare) {
   const long before = test::allocations;
   const ClearanceGrid copy = grid;
   double sum = 0.0;
+  std::array<Vector3d, 16> points;
+  std::array<double, 16> bounds;
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = test::uniformPoint(random, 1.0);
     sum += copy.clearance(p) + (grid.isFarther(p, 0.1) ? 1.0 : 0.0);
+    points.fill(p);
+    grid.clearances(points, bounds);
+    sum += bounds.back();
   }
   EXPECT_EQ(test::allocations, before);
   EXPECT_GT(sum, 0.0);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "clearance_grid/build_field.hpp"
+#include "simd/grid_bounds.hpp"
 
 namespace swept {
 
@@ -59,6 +60,7 @@ struct ClearanceGrid::Data {
   double squaredBound(const Vector3d& point) const;
   double rounding(double size) const { return rounding_ + kRounding * size; }
   double farClearance(const Vector3d& point) const;
+  detail::GridView view() const;
 
   std::shared_ptr<const ClearanceField> field;
   Aabb box;      ///< m
@@ -160,6 +162,30 @@ inline double ClearanceGrid::Data::within(const Lanes& q) const {
   return positive((byCell > byVoxel ? byCell : byVoxel) - off);
 }
 
+detail::GridView ClearanceGrid::Data::view() const {
+  const auto numbers = [](const Lanes& v) {
+    return std::array<double, 3>{v.xy[0], v.xy[1], v.z[0]};
+  };
+  return {numbers(origin_),
+          numbers(lower_),
+          numbers(upper_),
+          numbers(last_),
+          voxel,
+          inverse_,
+          cellSteps_,
+          voxelSteps_,
+          halfDiagonal_,
+          rounding_,
+          kRounding,
+          static_cast<double>(cellRow_),
+          static_cast<double>(cellLayer_),
+          static_cast<double>(blockRow_),
+          static_cast<double>(blockLayer_),
+          cells_,
+          bricks_,
+          voxels_};
+}
+
 /// Lemma 2 of ClearanceField.
 double ClearanceGrid::Data::squaredBound(const Vector3d& point) const {
   const Lanes at = Lanes::of(point) - origin_;
@@ -242,6 +268,26 @@ double ClearanceGrid::clearance(const Vector3d& point) const {
   const double size = point.lpNorm<1>();
   if (!(size < kFar)) return data_->farClearance(point);
   return positive(std::sqrt(data_->squaredBound(point)) - data_->rounding(size));
+}
+
+void ClearanceGrid::clearances(std::span<const Vector3d> points, std::span<double> bounds) const {
+  if (points.size() != bounds.size()) {
+    std::ostringstream message;
+    message << "clearance grid: " << points.size() << " points and " << bounds.size() << " bounds";
+    throw std::invalid_argument(message.str());
+  }
+  const detail::GridView view = data_->view();
+  const auto isNear = [](const Vector3d& point) { return point.lpNorm<1>() < kFar; };
+  std::size_t first = 0;
+  for (; first + detail::kGridLanes <= points.size(); first += detail::kGridLanes) {
+    const auto some = points.subspan(first, detail::kGridLanes);
+    if (std::all_of(some.begin(), some.end(), isNear)) {
+      detail::gridBounds(view, some.front().data(), &bounds[first]);
+    } else {
+      for (std::size_t i = 0; i < some.size(); ++i) bounds[first + i] = clearance(some[i]);
+    }
+  }
+  for (; first < points.size(); ++first) bounds[first] = clearance(points[first]);
 }
 
 /// As squares, whose own rounding is small beside that of the rest.

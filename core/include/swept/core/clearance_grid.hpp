@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "swept/core/bv/aabb.hpp"
 #include "swept/core/shapes.hpp"
@@ -48,6 +49,10 @@ class ClearanceGrid {
   /// clearance of its nearest point; zero beyond a face where the shape was cut off. That is never
   /// less than the distance from box(). For coordinates above 1e150 m a third of it at least.
   double clearance(const Eigen::Vector3d& point) const;
+
+  /// The same of many, in less than half the time each. Throws std::invalid_argument unless there
+  /// are as many bounds.
+  void clearances(std::span<const Eigen::Vector3d> points, std::span<double> bounds) const;
 
   /// Whether the ball (m, the shape's frame) is proven to keep off the shape: clearance(center) >
   /// radius, found sooner. False for what is not a number. Where it is false, isFarther of
