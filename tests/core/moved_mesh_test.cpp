@@ -10,7 +10,7 @@
 #include <string>
 
 #include "bvh/wide_bvh.hpp"
-#include "mesh_samples.hpp"
+#include "deforming_samples.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
@@ -24,22 +24,6 @@ using test::Soup;
 
 TriangleMesh build(const Soup& soup, MeshInterior interior = MeshInterior::Solid) {
   return TriangleMesh::build(soup.vertices, soup.triangles, interior);
-}
-
-Soup sheetSoup(int cells, double size) {
-  Soup soup;
-  for (int i = 0; i <= cells; ++i)
-    for (int j = 0; j <= cells; ++j)
-      soup.vertices.emplace_back(size * (i - 0.5 * cells) / cells, size * (j - 0.5 * cells) / cells,
-                                 0.0);
-  for (int i = 0; i < cells; ++i) {
-    for (int j = 0; j < cells; ++j) {
-      const int a = i * (cells + 1) + j;
-      soup.triangles.emplace_back(a, a + 1, a + cells + 1);
-      soup.triangles.emplace_back(a + 1, a + cells + 2, a + cells + 1);
-    }
-  }
-  return soup;
 }
 
 /// Every triangle with corners of its own, as in an STL file; and a vertex that none uses.
@@ -118,7 +102,7 @@ TEST(MovedMesh, IsTheMeshOfTheNewVertices) {
       {two, MeshInterior::Surface},
       {unwelded(two), MeshInterior::Solid},
       {test::blobSoup(random, 12, 16), MeshInterior::Solid},
-      {sheetSoup(15, 1.0), MeshInterior::Solid},
+      {test::sheetSoup(15, 0.0, 0.0), MeshInterior::Solid},
       {test::boxSoup(Vector3d::Zero(), Vector3d::Ones()), MeshInterior::Solid}};
   Agreement seen;
   for (const auto& [soup, interior] : soups) {

@@ -133,7 +133,6 @@ TEST(DeformingWorld, PlannersKeepTheVersionTheyHave) {
     EXPECT_NE(ask(latest, 2, 40), alone);
   }
   EXPECT_EQ(different, 0);
-  EXPECT_GE(asked, 4);
 }
 
 TEST(DeformingWorld, RulesStay) {

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "geometry/point_text.hpp"
+
 namespace swept {
 
 namespace {
@@ -27,12 +29,6 @@ std::string stateMessage(std::string_view call, BvhState state,
 
 [[noreturn]] void refuse(std::string_view call, const std::string& what) {
   throw std::invalid_argument("BvhModel::" + std::string(call) + ": " + what);
-}
-
-std::string text(const Vector3d& p) {
-  std::ostringstream out;
-  out << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
-  return out.str();
 }
 
 }  // namespace
@@ -78,7 +74,8 @@ void ModelGeometry::requireTriangles(std::string_view call) const {
 void ModelGeometry::requireFinite(std::string_view call, std::size_t index,
                                   const Vector3d& p) const {
   if (p.allFinite()) return;
-  refuse(call, "vertex " + std::to_string(index) + " is " + text(p) + "; allowed: finite");
+  refuse(call,
+         "vertex " + std::to_string(index) + " is " + detail::pointText(p) + "; allowed: finite");
 }
 
 void ModelGeometry::requireVertices(std::string_view call, const Vector3i& triangle,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "clearance_grid/build_field.hpp"
+#include "geometry/point_text.hpp"
 #include "simd/grid_bounds.hpp"
 
 namespace swept {
@@ -212,9 +213,9 @@ constexpr double kLargestCoordinate = 1e30;  // m; above, voxels are no numbers 
 void requireUsable(const ClearanceGridOptions& options) {
   std::ostringstream message;
   if (!(options.window.lower.array() <= options.window.upper.array()).all()) {
-    message << "clearance grid: window is from (" << options.window.lower.transpose() << ") to ("
-            << options.window.upper.transpose()
-            << "); allowed: no lower coordinate above the upper";
+    message << "clearance grid: window is from " << detail::pointText(options.window.lower)
+            << " to " << detail::pointText(options.window.upper)
+            << "; allowed: no lower coordinate above the upper";
     throw std::invalid_argument(message.str());
   }
   if (options.cells < kFewestCells || options.cells > kMostCells) {

@@ -5,12 +5,12 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "bvh/wide_bvh.hpp"
 #include "geometry/convex_parts.hpp"
 #include "geometry/mesh_components.hpp"
+#include "geometry/point_text.hpp"
 #include "geometry/weld.hpp"
 #include "swept/core/distance.hpp"
 
@@ -48,18 +48,13 @@ void requireCounts(std::size_t vertices, std::size_t triangles) {
   throw std::invalid_argument(message.str());
 }
 
-std::string text(const Eigen::Vector3d& point) {
-  std::ostringstream out;
-  out << '(' << point.x() << ", " << point.y() << ", " << point.z() << ')';
-  return out.str();
-}
-
 void requireFinite(std::span<const Eigen::Vector3d> vertices) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3d& vertex = vertices[i];
     if (vertex.allFinite()) continue;
     std::ostringstream message;
-    message << "mesh vertex " << i << " is " << text(vertex) << "; allowed: finite coordinates";
+    message << "mesh vertex " << i << " is " << detail::pointText(vertex)
+            << "; allowed: finite coordinates";
     throw std::invalid_argument(message.str());
   }
 }
@@ -100,8 +95,9 @@ void moveKept(std::span<const Eigen::Vector3d> given, std::span<const int> keptA
     } else if (given[from] != given[i]) {
       std::ostringstream message;
       message << "mesh vertices " << from << " and " << i
-              << " were equal when the mesh was built and are moved apart, to " << text(given[from])
-              << " and " << text(given[i]) << "; what tears has to be built anew";
+              << " were equal when the mesh was built and are moved apart, to "
+              << detail::pointText(given[from]) << " and " << detail::pointText(given[i])
+              << "; what tears has to be built anew";
       throw std::invalid_argument(message.str());
     }
   }
