@@ -3,27 +3,18 @@
 #include <iostream>
 #include <new>
 
-#include "arguments.hpp"
-#include "commands.hpp"
-#include "exit_code.hpp"
-#include "last_resort.hpp"
+#include "command_line/arguments.hpp"
+#include "command_line/command.hpp"
+#include "command_line/exit_code.hpp"
+#include "command_line/last_resort.hpp"
 #include "swept/robot_model/input.hpp"
 
 namespace {
 
-swept::ExitCode run(const swept::Arguments& args) {
-  if (args.command == "info") return swept::runInfo(args);
-  if (args.command == "check") return swept::runCheck(args);
-  if (args.command == "motion") return swept::runMotion(args);
-  if (args.command == "acm") return swept::runAcm(args);
-  if (args.command == "replay") return swept::runReplay(args);
-  if (args.command == "bench edges") return swept::runBenchEdges(args);
-  return swept::runPlan(args);
-}
-
 int guardedMain(int argc, char** argv) {
   const swept::ParsedArguments parsed = swept::parseArguments(argc, argv);
-  const int code = parsed.run ? static_cast<int>(run(*parsed.run)) : parsed.exitCode;
+  const int code =
+      parsed.run ? static_cast<int>(parsed.run->command->run(*parsed.run)) : parsed.exitCode;
   // A full disk must not look like a result.
   if (!std::cout.flush()) throw swept::UsageError("cannot write to standard output");
   return code;

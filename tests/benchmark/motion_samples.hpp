@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "bench_clock.hpp"
-#include "bench_fcl.hpp"
+#include "bench/clock.hpp"
+#include "bench/fcl.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "timing.hpp"
 #include "workloads.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planning_attempt.hpp"
-#include "quantile.hpp"
+#include "output/quantile.hpp"
 #include "timing.hpp"
 
 /// What came of planning, as Markdown.

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench_clock.hpp"
-#include "bench_fcl_robot.hpp"
+#include "bench/clock.hpp"
+#include "bench/fcl_robot.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 #include "timing.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "quantile.hpp"
+#include "output/quantile.hpp"
 #include "rigid_planning_attempt.hpp"
 #include "timing.hpp"
 

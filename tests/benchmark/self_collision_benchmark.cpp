@@ -7,7 +7,7 @@
 #include <iostream>
 #include <numeric>
 
-#include "bench_clock.hpp"
+#include "bench/clock.hpp"
 #include "self_collision_judge.hpp"
 #include "self_collision_robots.hpp"
 #include "timing.hpp"

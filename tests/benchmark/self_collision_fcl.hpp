@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench_fcl_shapes.hpp"
+#include "bench/fcl_shapes.hpp"
 #include "kinematics/motion_model.hpp"
 #include "swept/robot_model/checker.hpp"
 

@@ -126,7 +126,7 @@ std::vector<std::string> namesInTheHelp() {
   const std::string help = runSwept({"plan", "--help"}).out;
   std::istringstream list(help.substr(help.find("\nPlanners:\n") + 11));
   std::vector<std::string> names;
-  for (std::string name; list >> name && name != "Exit";) names.push_back(name);
+  for (std::string name; list >> name && name != "Example:";) names.push_back(name);
   return names;
 }
 

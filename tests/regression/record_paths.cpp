@@ -28,7 +28,7 @@
 #include <map>
 #include <optional>
 
-#include "planners.hpp"
+#include "plan/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace {

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "acm/acm_output.hpp"
+#include "command_line/commands.hpp"
+#include "output/progress.hpp"
+#include "output/whole_file.hpp"
+
+namespace swept {
+namespace {
+
+/// Robot::load has read the same file and found nothing wrong with it.
+std::string contentsOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(file, 0, "file cannot be read");
+  return text.str();
+}
+
+/// What hides collisions is said aloud.
+void warnOfDefaults(const AcmResult& result, Warnings& warnings) {
+  const std::vector<Link>& links = result.model.robot->links();
+  std::vector<std::string> pairs;
+  for (const LinkPairReport& pair : result.pairs)
+    if (pair.status == PairStatus::Default)
+      pairs.push_back(links[pair.linkA].name + " - " + links[pair.linkB].name);
+  if (!pairs.empty())
+    warnings("swept: warning: disabled as Default, though not in contact in all samples: " +
+             joined(pairs));
+}
+
+ExitCode exitCodeOf(const std::vector<AcmDisagreement>& differences) {
+  ExitCode code = ExitCode::Free;
+  for (const AcmDisagreement& difference : differences) {
+    if (difference.kind == AcmDisagreement::Kind::Collides) code = worse(code, ExitCode::Collision);
+    if (difference.kind == AcmDisagreement::Kind::Open) code = worse(code, ExitCode::Undecided);
+  }
+  return code;
+}
+
+}  // namespace
+
+ExitCode runAcm(const Arguments& args) {
+  Warnings warnings(args.quiet);
+  if (!args.output.empty()) requireWritable(args.output);
+  const Model model = loadModel(args, warnings);
+  const std::string srdf = model.srdf.file.empty() ? "" : contentsOf(model.srdf.file);
+  CollisionMatrixOptions options;
+  options.margin = args.margin;
+  options.budget = args.budget;
+  options.samples = args.samples;
+  options.seed = args.seed;
+  AcmResult result{.args = args, .model = model, .pairs = {}};
+  {
+    Progress progress("looking at pairs of links", args.quiet);
+    const auto start = std::chrono::steady_clock::now();
+    result.pairs = collisionMatrix(*model.robot, options);
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  if (!args.output.empty()) {
+    writeWholeFile(args.output, srdfWithPairs(*model.robot, result.pairs, srdf, model.srdf.file));
+    warnOfDefaults(result, warnings);
+  }
+  const std::vector<AcmDisagreement> differences = compareWithSrdf(result);
+  if (args.json) {
+    std::cout << acmJson(result, differences).dump(2) << '\n';
+  } else {
+    std::cout << acmText(result, differences);
+  }
+  return exitCodeOf(differences);
+}
+
+}  // namespace swept

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
+  app.add_option("--srdf", args.srdf,
+                 "SRDF file to compare with, and to keep all but the disabled pairs of; without: a "
+                 ".srdf beside the URDF with the same stem, if there is one; 'none': no SRDF")
+      ->type_name("FILE");
+  app.add_option("-o,--output", args.output, "SRDF to write; may be the one that was read")
+      ->type_name("FILE");
+  app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+  app.add_option("--margin", args.margin, "m; contact means: at most this apart (default 0)")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--budget", args.budget,
+                 "work per pair of links, in distances between balls; one on exact geometry counts "
+                 "as 100 (default 20000000, a few seconds)")
+      ->type_name("N")
+      ->check(within(0, 1e15, "between 0 and 1e15"));
+  app.add_option("--samples", args.samples,
+                 "random configurations per pair of links (default 1000)")
+      ->type_name("N")
+      ->check(within(0, 1e9, "between 0 and 1e9"));
+  addSeedOption(app, args);
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kAcmCommand{
+    .name = "acm",
+    .summary = "Which pairs of links can never collide: the SRDF's disabled pairs",
+    .example = "swept acm models/robots/rook7/rook7.urdf -o rook7.srdf",
+    .exitCodes =
+        "Exit codes: 0 the SRDF disables no pair that may collide, 1 it disables one, 2 it "
+        "disables "
+        "one\nfor which that is not known, 3 bad input or usage.",
+    .addOptions = addOptions,
+    .run = runAcm};
+
+}  // namespace swept

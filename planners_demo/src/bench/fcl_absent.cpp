@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/fcl.hpp"
+#include "command_line/exit_code.hpp"
+
+/// For builds without FCL.
+namespace swept {
+
+bool builtWithFcl() {
+  return false;
+}
+
+std::vector<FclResult> measureFcl(const Checker&, const std::vector<BenchMotion>&, int,
+                                  const BenchClock&) {
+  throw UsageError("this build has no FCL");
+}
+
+}  // namespace swept

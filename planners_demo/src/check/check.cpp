@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <iostream>
+
+#include "command_line/commands.hpp"
+#include "input/task.hpp"
+#include "output/progress.hpp"
+#include "output/text_output.hpp"
+
+namespace swept {
+namespace {
+
+std::string clearanceText(const StateReport& report) {
+  if (std::isinf(report.clearance)) return "no pair to check";
+  return "clearance " + shortNumber(report.clearance) + " m, nearest " + report.nearestA + " - " +
+         report.nearestB;
+}
+
+std::string stateText(const std::string& label, const StateReport& report) {
+  std::string text = label + ": " + std::string(toString(report.verdict));
+  if (report.verdict != Verdict::Collision) text.append(", ").append(clearanceText(report));
+  text += "\n";
+  for (const Witness& contact : report.contacts) text += "  " + witnessText(contact) + "\n";
+  return text;
+}
+
+Json stateJson(const LabelledState& state, const StateReport& report) {
+  Json contacts = Json::array();
+  for (const Witness& contact : report.contacts) {
+    contacts.push_back(toJson(contact));
+    contacts.back().erase("t");
+  }
+  Json json = {{"label", state.label},
+               {"values", toJson(state.q)},
+               {"verdict", toString(report.verdict)},
+               {"clearance", finiteOrNull(report.clearance)}};
+  json["nearest"] =
+      report.nearestA.empty() ? Json(nullptr) : Json::array({report.nearestA, report.nearestB});
+  json["contacts"] = std::move(contacts);
+  return json;
+}
+
+}  // namespace
+
+ExitCode runCheck(const Arguments& args) {
+  Warnings warnings(args.quiet);
+  const Model model = loadModel(args, warnings);
+  const Task task = loadTask(args, model, warnings);
+  Workspace workspace(*task.checker);
+  ExitCode code = ExitCode::Free;
+  std::string text;
+  Json states = Json::array();
+  {
+    Progress progress("checking states", args.quiet);
+    for (const LabelledState& state : task.states) {
+      const StateReport report = task.checker->reportState(state.q, workspace);
+      text += stateText(state.label, report);
+      states.push_back(stateJson(state, report));
+      code = worse(code, exitCodeOf(report.verdict));
+    }
+  }
+  if (args.json) {
+    const Json json = {{"robot", model.robot->name()},
+                       {"group", task.checker->group().name},
+                       {"margin", args.margin},
+                       {"states", std::move(states)}};
+    std::cout << json.dump(2) << '\n';
+  } else {
+    std::cout << text;
+  }
+  return code;
+}
+
+}  // namespace swept

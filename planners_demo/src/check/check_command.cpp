@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args);
+  addCheckerOptions(app, args);
+  addSceneOptions(app, args);
+  app.add_option("states", args.states, "states to check")->type_name("STATE");
+  addProblemOptions(app, args, "checks start and goals in its world");
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kCheckCommand{.name = "check",
+                            .summary = "Are these states free?",
+                            .example =
+                                "swept check models/robots/rook7/rook7.urdf home ready --group arm "
+                                "--scene models/scenes/narrow_slot.yaml",
+                            .exitCodes = kVerdictExitCodes,
+                            .addOptions = addOptions,
+                            .run = runCheck,
+                            .notes = stateNotes};
+
+}  // namespace swept

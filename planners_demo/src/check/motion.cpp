@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <iostream>
+#include <optional>
+
+#include "command_line/commands.hpp"
+#include "input/task.hpp"
+#include "output/progress.hpp"
+#include "output/text_output.hpp"
+
+namespace swept {
+namespace {
+
+struct Segment {
+  std::string from, to;
+  MotionCertificate certificate;
+  std::optional<MotionClearance> clearance;  ///< not asked for where there is a collision
+};
+
+Segment examine(const LabelledState& from, const LabelledState& to, const Checker& checker,
+                Workspace& workspace) {
+  Segment segment{.from = from.label, .to = to.label, .certificate = {}, .clearance = {}};
+  segment.certificate = checker.certifyMotion(from.q, to.q, workspace);
+  if (segment.certificate.verdict != Verdict::Collision)
+    segment.clearance =
+        checker.motionClearance(from.q, to.q, clearanceAccuracy(checker), workspace);
+  return segment;
+}
+
+std::string clearanceText(const MotionClearance& clearance) {
+  if (std::isinf(clearance.lower)) return "no pair to check";
+  return shortNumber(clearance.lower) + " m or more, and no more than " +
+         shortNumber(clearance.upper) + " m (at t = " + shortNumber(clearance.t) + ")";
+}
+
+std::string segmentText(const Segment& segment) {
+  const MotionCertificate& certificate = segment.certificate;
+  std::string text =
+      segment.from + " to " + segment.to + ": " + std::string(toString(certificate.verdict)) + "\n";
+  if (certificate.verdict != Verdict::Free)
+    text += "  free until  t = " + shortNumber(certificate.freeUntil) + "\n";
+  if (certificate.witness)
+    text += "  contact     t = " + shortNumber(certificate.witness->t) + ", " +
+            witnessText(*certificate.witness) + "\n";
+  if (certificate.verdict == Verdict::Undecided)
+    text += "  undecided   t = " + shortNumber(certificate.undecidedAt) + "\n";
+  if (segment.clearance) text += "  clearance   " + clearanceText(*segment.clearance) + "\n";
+  const Effort& effort = certificate.effort;
+  return text + "  effort      intervals in lanes " + std::to_string(effort.lanes) + ", exactly " +
+         std::to_string(effort.intervals) + "; distances " + std::to_string(effort.distances) +
+         ", settled by bounding volumes " + std::to_string(effort.culled) + "\n";
+}
+
+Json segmentJson(const Segment& segment) {
+  const MotionCertificate& certificate = segment.certificate;
+  Json json = {{"from", segment.from},
+               {"to", segment.to},
+               {"verdict", toString(certificate.verdict)},
+               {"free_until", certificate.freeUntil}};
+  json["witness"] = certificate.witness ? toJson(*certificate.witness) : Json(nullptr);
+  json["undecided_at"] =
+      certificate.verdict == Verdict::Undecided ? Json(certificate.undecidedAt) : Json(nullptr);
+  if (segment.clearance)
+    json["clearance"] = {{"lower", finiteOrNull(segment.clearance->lower)},
+                         {"upper", finiteOrNull(segment.clearance->upper)},
+                         {"t", segment.clearance->t}};
+  else
+    json["clearance"] = nullptr;
+  json["effort"] = {{"intervals", certificate.effort.intervals},
+                    {"lanes", certificate.effort.lanes},
+                    {"distances", certificate.effort.distances},
+                    {"culled", certificate.effort.culled}};
+  return json;
+}
+
+}  // namespace
+
+ExitCode runMotion(const Arguments& args) {
+  Warnings warnings(args.quiet);
+  const Model model = loadModel(args, warnings);
+  const Task task = loadTask(args, model, warnings);
+  if (task.states.size() < 2) throw UsageError("motion: two states or more are needed");
+  Workspace workspace(*task.checker);
+  ExitCode code = ExitCode::Free;
+  std::string text;
+  Json segments = Json::array();
+  {
+    Progress progress("certifying", args.quiet);
+    for (std::size_t i = 1; i < task.states.size(); ++i) {
+      // Goals of a problem are alternatives; states of the command line follow each other.
+      const LabelledState& from = task.states[args.problems.empty() ? i - 1 : 0];
+      const Segment segment = examine(from, task.states[i], *task.checker, workspace);
+      text += segmentText(segment);
+      segments.push_back(segmentJson(segment));
+      code = worse(code, exitCodeOf(segment.certificate.verdict));
+    }
+  }
+  if (args.json) {
+    const Json json = {{"robot", model.robot->name()},
+                       {"group", task.checker->group().name},
+                       {"margin", args.margin},
+                       {"tolerance", args.tolerance},
+                       {"segments", std::move(segments)}};
+    std::cout << json.dump(2) << '\n';
+  } else {
+    std::cout << text;
+  }
+  return code;
+}
+
+}  // namespace swept

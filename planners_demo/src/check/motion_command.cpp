@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args);
+  addCheckerOptions(app, args);
+  addSceneOptions(app, args);
+  app.add_option("states", args.states, "two states or more")->type_name("STATE");
+  addProblemOptions(app, args, "the motion from start to goal in its world");
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kMotionCommand{
+    .name = "motion",
+    .summary = "Are the straight motions between these states free?",
+    .example =
+        "swept motion models/robots/rook7/rook7.urdf home ready --group arm "
+        "--scene models/scenes/narrow_slot.yaml",
+    .exitCodes = kVerdictExitCodes,
+    .addOptions = addOptions,
+    .run = runMotion,
+    .notes = stateNotes};
+
+}  // namespace swept

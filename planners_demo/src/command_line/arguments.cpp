@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "command_line/program_options.hpp"
+
+namespace swept {
+namespace {
+
+/// `-0.1,0.2` and `-inf` are values, not options.
+bool isNegativeValue(const std::string& text) {
+  if (text.size() < 2 || text[0] != '-') return false;
+  return std::isdigit(static_cast<unsigned char>(text[1])) || text[1] == '.' ||
+         text.starts_with("-inf") || text.starts_with("-nan");
+}
+
+/// The arguments, last first, as the parser wants them. A leading blank keeps it from taking a
+/// negative value for an option, and everything that reads a value skips blanks. That leaves
+/// nothing for a `--` to do, which the parser would turn against options that are limited in
+/// number.
+std::vector<std::string> reversedArguments(int argc, const char* const* argv) {
+  std::vector<std::string> reversed;
+  for (int i = argc - 1; i > 0; --i) {
+    const std::string text = argv[i];
+    if (text == "--") continue;
+    reversed.push_back(isNegativeValue(text) ? " " + text : text);
+  }
+  return reversed;
+}
+
+std::string footerOf(const Command& command) {
+  std::string text = "\n";
+  if (command.notes != nullptr) text += command.notes() + "\n";
+  return text + "Example:\n  " + std::string(command.example) + "\n\n" +
+         std::string(command.exitCodes);
+}
+
+/// `bench` of `bench edges`; empty for `plan`.
+std::string familyOf(std::string_view name) {
+  const std::size_t blank = name.find(' ');
+  return blank == std::string_view::npos ? "" : std::string(name.substr(0, blank));
+}
+
+/// `edges` of `bench edges`.
+std::string lastWord(std::string_view name) {
+  return std::string(name.substr(name.rfind(' ') + 1));
+}
+
+/// The app that a command hangs on, made when it is the first of its family.
+CLI::App& parentOf(const Command& command, CLI::App& program) {
+  const std::string family = familyOf(command.name);
+  if (family.empty()) return program;
+  const auto isFamily = [&](CLI::App* app) { return app->get_name() == family; };
+  const std::vector<CLI::App*> found = program.get_subcommands(isFamily);
+  if (!found.empty()) return *found.front();
+  CLI::App* made = program.add_subcommand(family, "How long checks take on this machine");
+  made->require_subcommand(1);
+  return *made;
+}
+
+std::string namesIn(const std::string& family) {
+  std::vector<std::string> names;
+  for (const Command* command : commands()) {
+    const std::string own = familyOf(command->name);
+    const std::string name = own == family ? lastWord(command->name) : family.empty() ? own : "";
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// The parser misses a subcommand before it says that it does not know the one given.
+std::string messageOf(const CLI::ParseError& error, int argc, const char* const* argv) {
+  const bool noSubcommand = argc > 1 && std::string_view(error.what()).starts_with("A subcommand");
+  if (!noSubcommand) return error.what();
+  const std::string family = argv[1];
+  const bool known = std::ranges::any_of(
+      commands(), [&](const Command* command) { return familyOf(command->name) == family; });
+  if (!known) return "no subcommand '" + family + "'; there are " + namesIn("");
+  return argc > 2 ? family + " has no subcommand '" + argv[2] + "'; there is " + namesIn(family)
+                  : family + ": a subcommand is required; there is " + namesIn(family);
+}
+
+}  // namespace
+
+void describeProgram(CLI::App& program, Arguments& args) {
+  program.name("swept");
+  program.description(
+      "Validity of robot states and of whole motions, proven on the exact geometry.");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", "swept " SWEPT_VERSION);
+  program.footer("\n" + std::string(kVerdictExitCodes));
+  for (const Command* command : commands()) {
+    CLI::App* own = parentOf(*command, program)
+                        .add_subcommand(lastWord(command->name), std::string(command->summary));
+    command->addOptions(*own, args);
+    own->footer(footerOf(*command));
+    own->final_callback([&args, command] { args.command = command; });
+  }
+}
+
+ParsedArguments parseArguments(int argc, const char* const* argv) {
+  Arguments args;
+  CLI::App program;
+  describeProgram(program, args);
+  try {
+    program.parse(reversedArguments(argc, argv));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return {.run = {}, .exitCode = program.exit(error)};
+    std::cerr << "swept: error: " << messageOf(error, argc, argv) << " (try --help)\n";
+    return {.run = {}, .exitCode = static_cast<int>(ExitCode::BadInput)};
+  }
+  return {.run = std::move(args), .exitCode = 0};
+}
+
+}  // namespace swept

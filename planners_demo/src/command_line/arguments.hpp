@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swept/core/tolerances.hpp"
+
+namespace swept {
+
+struct Command;
+
+/// The command line, as typed. Each subcommand reads the part it has.
+struct Arguments {
+  const Command* command = nullptr;
+  std::string robot;                ///< URDF file
+  std::vector<std::string> states;  ///< names or comma-separated values
+
+  std::string srdf;  ///< empty: a file beside the URDF; `none`: without
+  std::string scene;
+  std::vector<std::string> clouds;    ///< files
+  std::optional<double> pointRadius;  ///< m
+  std::string cloudPose;              ///< world_from_cloud: x,y,z,qx,qy,qz,qw
+  std::optional<double> selfFilter;   ///< m
+  std::optional<double> occluded;     ///< m
+  std::string group;
+  std::vector<std::string> packages;      ///< NAME=DIR
+  std::vector<std::string> pads;          ///< NAME=METRES
+  std::vector<std::string> scales;        ///< NAME=FACTOR
+  std::vector<std::string> allowed;       ///< A,B
+  std::vector<std::string> explained;     ///< A,B
+  double margin = 0.0;                    ///< m
+  double tolerance = tolerance::kMotion;  ///< m
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+
+  std::string problems;  ///< JSON file
+  std::string set;
+  std::optional<int> index;
+
+  std::string cases;  ///< JSON file of replay
+
+  std::string edges;  ///< CSV file of bench edges
+  int passes = 5;
+  std::optional<int> limit;
+  std::string against;  ///< `fcl`, or empty
+
+  std::string planner = "RRTConnect";
+  double time = 5.0;  ///< s
+  std::uint32_t seed = 1;
+  std::string output;
+  bool noSimplify = false;
+  int jobs = 1;
+
+  std::int64_t budget = 20'000'000;  ///< per pair of links
+  int samples = 1000;                ///< per pair of links
+};
+
+/// The result of reading a command line: either something to run, or everything is said already.
+struct ParsedArguments {
+  std::optional<Arguments> run;
+  int exitCode = 0;  ///< meaningful when there is nothing to run
+};
+
+/// Reads a command line. Help goes to stdout (exit code 0), usage errors to stderr (3).
+ParsedArguments parseArguments(int argc, const char* const* argv);
+
+}  // namespace swept

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "command_line/command.hpp"
+
+/// The subcommands and what they run.
+namespace swept {
+
+extern const Command kInfoCommand;
+ExitCode runInfo(const Arguments& args);
+
+extern const Command kCheckCommand;
+ExitCode runCheck(const Arguments& args);
+
+extern const Command kMotionCommand;
+ExitCode runMotion(const Arguments& args);
+
+extern const Command kPlanCommand;
+ExitCode runPlan(const Arguments& args);
+
+extern const Command kAcmCommand;
+ExitCode runAcm(const Arguments& args);
+
+extern const Command kReplayCommand;
+ExitCode runReplay(const Arguments& args);
+
+extern const Command kBenchEdgesCommand;
+ExitCode runBenchEdges(const Arguments& args);
+
+}  // namespace swept

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/options.hpp"
+
+#include <limits>
+
+namespace swept {
+
+CLI::Validator within(double low, double high, const std::string& what) {
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+        return "must be " + what + ", not " + CLI::detail::trim_copy(text);
+      },
+      "");
+}
+
+void addRobotOptions(CLI::App& app, Arguments& args) {
+  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
+  app.add_option("--srdf", args.srdf,
+                 "SRDF file; without: a .srdf beside the URDF with the same stem, if there is one; "
+                 "'none': no SRDF")
+      ->type_name("FILE");
+  app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+}
+
+void addCheckerOptions(CLI::App& app, Arguments& args) {
+  app.add_option("--group", args.group, "planning group; not needed when there is only one")
+      ->type_name("NAME");
+  app.add_option("--margin", args.margin, "m; free means: more than this apart (default 0)")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--pad", args.pads,
+                 "a link or body of the world reaches so many m farther; in names * stands for any "
+                 "characters (repeatable)")
+      ->type_name("NAME=M")
+      ->allow_extra_args(false);
+  app.add_option("--scale", args.scales,
+                 "a link or body of the world is so many times as large (repeatable)")
+      ->type_name("NAME=FACTOR")
+      ->allow_extra_args(false);
+  app.add_option("--allow", args.allowed,
+                 "two links, or a link and a body of the world, may collide (repeatable)")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
+  app.add_option("--tolerance", args.tolerance,
+                 "m; motions that keep more than margin + tolerance are decided (default 0.001)")
+      ->type_name("M")
+      ->check(within(1e-6, 1.0, "between 1e-6 and 1 m"));
+}
+
+void addSceneOptions(CLI::App& app, Arguments& args) {
+  app.add_option("--scene", args.scene, "planning scene: .yaml, .yml or .scene")->type_name("FILE");
+  app.add_option(
+         "--cloud", args.clouds,
+         "sensed points (.pcd, .ply, .xyz) or an OctoMap (.bt, .ot), a body named after its "
+         "file (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--point-radius", args.pointRadius,
+                 "m; each point of a cloud stands for a ball of this radius")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--cloud-pose", args.cloudPose, "of the clouds' frame in the model frame")
+      ->type_name("X,Y,Z,QX,QY,QZ,QW");
+  app.add_option("--occluded", args.occluded,
+                 "m; what points hide from a sensor at the origin of their frame is occupied, too, "
+                 "up to so far from it; needs a radius above zero")
+      ->type_name("RANGE")
+      ->check(within(1e-3, 1e3, "between 0.001 and 1000 m"));
+  app.add_option("--self-filter", args.selfFilter,
+                 "m; points this near to the robot in the first state are the robot itself")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+}
+
+void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what) {
+  auto* problems =
+      app.add_option("--problems", args.problems, "problem file: " + what)->type_name("FILE.json");
+  app.add_option("--set", args.set, "set of problems in it")->type_name("NAME")->needs(problems);
+  app.add_option("--index", args.index, "number of the problem in the set")
+      ->type_name("N")
+      ->needs(problems);
+}
+
+void addSeedOption(CLI::App& app, Arguments& args) {
+  app.add_option("--seed", args.seed, "of the random numbers, 1 or more (default 1)")
+      ->type_name("N")
+      ->check(within(1, std::numeric_limits<std::uint32_t>::max(), "between 1 and 4294967295"));
+}
+
+void addJsonOption(CLI::App& app, Arguments& args) {
+  app.add_flag("--json", args.json, "one JSON object on stdout instead of text");
+}
+
+void addQuietOption(CLI::App& app, Arguments& args) {
+  app.add_flag("-q,--quiet", args.quiet, "no warnings and no progress on stderr");
+}
+
+}  // namespace swept

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "command_line/arguments.hpp"
+
+/// Options that several subcommands have.
+namespace swept {
+
+CLI::Validator within(double low, double high, const std::string& what);
+
+void addRobotOptions(CLI::App& app, Arguments& args);
+/// --group, --margin, --tolerance and the rules.
+void addCheckerOptions(CLI::App& app, Arguments& args);
+void addSceneOptions(CLI::App& app, Arguments& args);
+/// `what` says what the subcommand does with a problem.
+void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
+void addSeedOption(CLI::App& app, Arguments& args);
+void addJsonOption(CLI::App& app, Arguments& args);
+void addQuietOption(CLI::App& app, Arguments& args);
+
+}  // namespace swept

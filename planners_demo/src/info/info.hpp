@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/task.hpp"
+#include "output/text_output.hpp"
+
+namespace swept {
+
+std::string_view toString(JointType type);
+
+/// One sentence for each --explain. Throws UsageError for a name that is not there.
+std::vector<std::string> explanations(const Arguments& args, const Checker& checker);
+
+/// What `info` says. `checker` is null when no group was asked for.
+std::string infoText(const Arguments& args, const Model& model, const Checker* checker);
+Json infoJson(const Arguments& args, const Model& model, const Checker* checker);
+
+}  // namespace swept

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args);
+  addCheckerOptions(app, args);
+  addSceneOptions(app, args);
+  app.add_option("--explain", args.explained,
+                 "why two links, or a link and a body of the world, are checked or not "
+                 "(repeatable; needs --group)")
+      ->type_name("A,B")
+      ->allow_extra_args(false);
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kInfoCommand{
+    .name = "info",
+    .summary = "What is in a robot, a scene and a group",
+    .example =
+        "swept info models/robots/rook7/rook7.urdf --scene models/scenes/shelf.yaml --group arm",
+    .exitCodes = kVerdictExitCodes,
+    .addOptions = addOptions,
+    .run = runInfo};
+
+}  // namespace swept

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "command_line/arguments.hpp"
+#include "output/text_output.hpp"
+#include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/world.hpp"
+
+namespace swept {
+
+/// Adds the files of --cloud to the world, each as a body named after its file. Throws InputError
+/// or UsageError.
+void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& options, World& world);
+
+/// What a proof in this world is a proof for, where it has clouds: a line per body; else empty.
+std::string cloudsText(const World& world);
+/// The same: an array of bodies with their balls.
+Json cloudsJson(const World& world);
+
+}  // namespace swept

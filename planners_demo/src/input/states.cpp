@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/states.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "command_line/exit_code.hpp"
+#include "output/text_output.hpp"
+#include "swept/core/tolerances.hpp"
+
+namespace swept {
+namespace {
+
+// How far from 1 the norm of a quaternion typed with a few digits may be.
+constexpr double kQuaternionNorm = 1e-2;
+
+std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
+  std::vector<std::string> names;
+  for (const int v : group.variables) names.push_back(robot.variables()[v].name);
+  return names;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> pieces;
+  std::size_t begin = 0;
+  for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
+    pieces.push_back(trimmed(text.substr(begin, comma - begin)));
+  pieces.push_back(trimmed(text.substr(begin)));
+  return pieces;
+}
+
+struct Number {
+  double value = 0.0;
+  bool readable = false;  ///< the whole text is a number, perhaps an infinite one
+};
+
+Number readNumber(const std::string& text) {
+  Number number;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number.value);
+  if (error == std::errc::result_out_of_range) number.value = HUGE_VAL;
+  number.readable = stop == end && error != std::errc::invalid_argument;
+  return number;
+}
+
+/// A quaternion of almost unit norm becomes one of unit norm.
+void normaliseOrientation(const Robot& robot, const Group& group, std::vector<double>& q,
+                          const std::string& label) {
+  for (std::size_t i = 0; i < group.variables.size(); ++i) {
+    const Joint& joint = robot.joints()[robot.variables()[group.variables[i]].joint];
+    if (joint.type != JointType::Floating || group.variables[i] != joint.firstVariable + 3)
+      continue;
+    Eigen::Map<Eigen::Vector4d> orientation(q.data() + i);
+    const double norm = orientation.norm();
+    if (!(std::abs(norm - 1.0) <= kQuaternionNorm))
+      throw UsageError(label + ": the quaternion of joint " + joint.name + " has norm " +
+                       shortNumber(norm) + ", allowed is 1");
+    orientation /= norm;
+  }
+}
+
+/// Refuses values outside the limits; takes those within rounding of a limit to the limit, and
+/// angles of joints without limits to the turn around zero.
+void keepLimits(const Robot& robot, const Group& group, std::vector<double>& q,
+                const std::string& label) {
+  for (std::size_t i = 0; i < group.variables.size(); ++i) {
+    const Variable& variable = robot.variables()[group.variables[i]];
+    double& value = q[i];
+    if (variable.cyclic && !(value >= variable.lower && value <= variable.upper))
+      value = std::remainder(value, 2.0 * std::numbers::pi);
+    const bool within =
+        value >= variable.lower - tolerance::kLimit && value <= variable.upper + tolerance::kLimit;
+    if (!within) {
+      const std::string unit = unitOf(robot, variable);
+      throw UsageError(label + ": " + variable.name + " is " + shortNumber(value) +
+                       ", allowed is " + shortNumber(variable.lower) + " to " +
+                       shortNumber(variable.upper) + (unit.empty() ? "" : " " + unit));
+    }
+    value = std::clamp(value, variable.lower, variable.upper);
+  }
+}
+
+std::vector<double> namedState(const Robot& robot, const Group& group, const NamedState& state,
+                               const std::string& label) {
+  std::vector<double> q(group.variables.size());
+  for (std::size_t i = 0; i < group.variables.size(); ++i) {
+    const auto found =
+        std::ranges::find(state.values, group.variables[i], &std::pair<int, double>::first);
+    if (found == state.values.end())
+      throw UsageError(label + ": named state '" + state.name + "' has no value for " +
+                       robot.variables()[group.variables[i]].name);
+    q[i] = found->second;
+  }
+  return q;
+}
+
+[[noreturn]] void refuseName(const Robot& robot, const Group& group, const std::string& text,
+                             const std::string& label) {
+  std::vector<std::string> known;
+  for (const NamedState& state : robot.namedStates())
+    if (state.group == group.name) known.push_back(state.name);
+  throw UsageError(label + ": no named state '" + text + "' in group '" + group.name + "' (" +
+                   "it has " + (known.empty() ? "none" : joined(known)) +
+                   ") and not a list of values: " + joined(variableNames(robot, group), ","));
+}
+
+std::vector<double> reordered(const Robot& robot, const Group& group,
+                              const std::vector<std::size_t>& order,
+                              const std::vector<double>& values, const std::string& label) {
+  std::vector<double> q;
+  for (const std::size_t place : order) q.push_back(values.at(place));
+  normaliseOrientation(robot, group, q, label);
+  keepLimits(robot, group, q, label);
+  return q;
+}
+
+std::string labelOf(const PlanningProblem& problem) {
+  return "problem " + problem.set + " " + std::to_string(problem.index);
+}
+
+}  // namespace
+
+std::string unitOf(const Robot& robot, const Variable& variable) {
+  const Joint& joint = robot.joints()[variable.joint];
+  const int place = static_cast<int>(&variable - robot.variables().data()) - joint.firstVariable;
+  switch (joint.type) {
+    case JointType::Prismatic:
+      return "m";
+    case JointType::Planar:
+      return place < 2 ? "m" : "rad";
+    case JointType::Floating:
+      return place < 3 ? "m" : "";
+    default:
+      return "rad";
+  }
+}
+
+std::vector<double> readValues(const std::string& text, std::span<const std::string> names,
+                               const std::string& label) {
+  const std::vector<std::string> pieces = splitAtCommas(text);
+  if (pieces.size() != names.size())
+    throw UsageError(label + ": " + std::to_string(pieces.size()) + " values, expected " +
+                     std::to_string(names.size()) + ": " + joined(names, ","));
+  std::vector<double> values(names.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Number number = readNumber(pieces[i]);
+    const std::string seen = label + ": " + names[i] + " is '" + pieces[i] + "', ";
+    if (!number.readable) throw UsageError(seen + "which is not a number");
+    if (!std::isfinite(number.value)) throw UsageError(seen + "which is not a finite number");
+    values[i] = number.value;
+  }
+  return values;
+}
+
+std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
+                              const std::string& label) {
+  const std::string wanted = trimmed(text);
+  std::vector<double> q;
+  if (const NamedState* state = robot.findNamedState(wanted, group.name))
+    q = namedState(robot, group, *state, label);
+  else if (wanted.find(',') != std::string::npos || readNumber(wanted).readable)
+    q = readValues(wanted, variableNames(robot, group), label);
+  else
+    refuseName(robot, group, wanted, label);
+  normaliseOrientation(robot, group, q, label);
+  keepLimits(robot, group, q, label);
+  return q;
+}
+
+std::vector<std::size_t> problemOrder(const Robot& robot, const Group& group,
+                                      const PlanningProblem& problem) {
+  const std::vector<std::string> wanted = variableNames(robot, group);
+  if (!std::ranges::is_permutation(wanted, problem.jointNames))
+    throw UsageError(labelOf(problem) + ": its joints are " + joined(problem.jointNames, ",") +
+                     ", those of group '" + group.name + "' are " + joined(wanted, ","));
+  std::vector<std::size_t> order;
+  for (const std::string& name : wanted)
+    order.push_back(static_cast<std::size_t>(std::ranges::find(problem.jointNames, name) -
+                                             problem.jointNames.begin()));
+  return order;
+}
+
+ProblemStates problemStates(const Robot& robot, const Group& group,
+                            const PlanningProblem& problem) {
+  const std::string label = labelOf(problem);
+  const std::vector<std::size_t> order = problemOrder(robot, group, problem);
+  ProblemStates states;
+  states.start = reordered(robot, group, order, problem.start, label + ", start");
+  for (const std::vector<double>& goal : problem.goals)
+    states.goals.push_back(reordered(robot, group, order, goal, label + ", goal"));
+  if (states.goals.empty()) throw UsageError(label + ": it has no goal");
+  return states;
+}
+
+}  // namespace swept

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/task.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include "command_line/commands.hpp"
+#include "input/clouds.hpp"
+#include "input/rules.hpp"
+#include "input/states.hpp"
+#include "output/text_output.hpp"
+
+namespace swept {
+namespace {
+
+std::vector<PackageFolder> packageFolders(const Arguments& args) {
+  std::vector<PackageFolder> folders;
+  for (const std::string& text : args.packages) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw UsageError("--package '" + text + "': expected NAME=DIR");
+    PackageFolder folder{.name = text.substr(0, equals), .folder = text.substr(equals + 1)};
+    if (!std::filesystem::is_directory(folder.folder))
+      throw UsageError("--package " + folder.name + ": no folder '" + folder.folder.string() + "'");
+    folders.push_back(std::move(folder));
+  }
+  return folders;
+}
+
+std::string standingContactText(const Checker& checker) {
+  std::vector<std::string> pairs;
+  for (const Checker::Pair& pair : checker.standingContacts())
+    pairs.push_back(pair.bodyA + " - " + pair.bodyB);
+  return "swept: warning: in contact whatever group '" + checker.group().name +
+         "' does, and left out of the verdicts: " + joined(pairs);
+}
+
+/// Exactly one source of states: the command line or one problem.
+void checkStateSource(const Arguments& args) {
+  if (args.problems.empty()) {
+    if (args.states.empty()) throw UsageError(std::string(args.command->name) + ": no state given");
+    return;
+  }
+  if (!args.states.empty())
+    throw UsageError("states and --problems cannot be combined: the problem has its own");
+  if (!args.scene.empty())
+    throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
+  if (!args.clouds.empty())
+    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
+  if (args.set.empty() || !args.index)
+    throw UsageError(std::string(args.command->name) + ": --problems needs --set and --index");
+}
+
+Task problemTask(const Arguments& args, const Model& model, const Group& group,
+                 Warnings& warnings) {
+  const PlanningProblem problem = ProblemFile::load(args.problems).problem(args.set, *args.index);
+  const ProblemStates states = problemStates(*model.robot, group, problem);
+  Task task;
+  task.checker = makeChecker(args, model, group, std::make_shared<World>(problem.world), warnings);
+  task.states.push_back({.label = "start", .q = states.start});
+  for (std::size_t i = 0; i < states.goals.size(); ++i) {
+    const std::string number = states.goals.size() > 1 ? " " + std::to_string(i + 1) : "";
+    task.states.push_back({.label = "goal" + number, .q = states.goals[i]});
+  }
+  return task;
+}
+
+}  // namespace
+
+void Warnings::operator()(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  if (quiet_ || std::ranges::find(seen_, line) != seen_.end()) return;
+  seen_.push_back(line);
+  std::cerr << line << '\n';
+}
+
+SrdfChoice chooseSrdf(const Arguments& args) {
+  if (args.srdf == "none") return {};
+  if (!args.srdf.empty()) return {.file = args.srdf, .foundBesideUrdf = false};
+  const std::filesystem::path beside = std::filesystem::path(args.robot).replace_extension(".srdf");
+  std::error_code ignored;  // no such file is a normal answer
+  if (beside != args.robot && std::filesystem::exists(beside, ignored))
+    return {.file = beside.string(), .foundBesideUrdf = true};
+  return {};
+}
+
+Model loadModel(const Arguments& args, Warnings& warnings) {
+  LoadOptions options{.packages = packageFolders(args),
+                      .modelFrame = {},
+                      .warn = [&](const std::string& line) { warnings(line); }};
+  Model model;
+  model.srdf = chooseSrdf(args);
+  model.robot = Robot::load(args.robot, model.srdf.file, options);
+  options.modelFrame = model.robot->links().front().name;
+  World world = args.scene.empty() ? World{} : World::load(args.scene, options);
+  addClouds(args, *model.robot, options, world);
+  model.world = std::make_shared<const World>(std::move(world));
+  return model;
+}
+
+const Group& chooseGroup(const Robot& robot, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Group& group : robot.groups()) names.push_back(group.name);
+  if (name.empty()) {
+    if (robot.groups().size() == 1) return robot.groups().front();
+    throw UsageError("robot '" + robot.name() +
+                     "' has several groups; choose one with --group: " + joined(names));
+  }
+  if (const Group* group = robot.findGroup(name)) return *group;
+  throw UsageError("robot '" + robot.name() + "' has no group '" + name + "'; it has " +
+                   joined(names));
+}
+
+std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
+                                           const Group& group, std::shared_ptr<const World> world,
+                                           Warnings& warnings) {
+  if (group.variables.empty())
+    throw UsageError("group '" + group.name + "' has no joint that moves");
+  CheckerOptions options;
+  options.margin = args.margin;
+  options.tolerance = args.tolerance;
+  options.rules = rulesOf(args);
+  std::shared_ptr<const Checker> checker;
+  try {
+    checker = std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
+  return checker;
+}
+
+std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
+                                           Warnings& warnings) {
+  auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
+  if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
+  return checker;
+}
+
+double clearanceAccuracy(const Checker& checker) {
+  return 0.1 * checker.options().tolerance;
+}
+
+Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
+  checkStateSource(args);
+  const Group& group = chooseGroup(*model.robot, args.group);
+  if (!args.problems.empty()) return problemTask(args, model, group, warnings);
+  Task task;
+  const bool plan = args.command == &kPlanCommand;
+  for (std::size_t i = 0; i < args.states.size(); ++i) {
+    const std::string& text = args.states[i];
+    const std::string label = plan ? (i == 0 ? "start" : "goal") : "state " + std::to_string(i + 1);
+    const std::vector<double> q = readState(*model.robot, group, text, label);
+    const bool named = model.robot->findNamedState(text, group.name) != nullptr;
+    task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});
+  }
+  task.checker = makeChecker(args, model, group, model.world, warnings);
+  return task;
+}
+
+}  // namespace swept

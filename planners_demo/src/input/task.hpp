@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "command_line/arguments.hpp"
+#include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/problems.hpp"
+
+namespace swept {
+
+/// Warnings on stderr, each at most once. Any thread.
+class Warnings {
+ public:
+  explicit Warnings(bool quiet) : quiet_(quiet) {}
+  void operator()(const std::string& line);
+
+ private:
+  bool quiet_;
+  std::mutex mutex_;
+  std::vector<std::string> seen_;
+};
+
+/// Which SRDF is read, and why.
+struct SrdfChoice {
+  std::string file;  ///< empty: none
+  bool foundBesideUrdf = false;
+};
+SrdfChoice chooseSrdf(const Arguments& args);
+
+/// What a subcommand works on: the files of the command line, read.
+struct Model {
+  std::shared_ptr<const Robot> robot;
+  std::shared_ptr<const World> world;  ///< of --scene; empty without
+  SrdfChoice srdf;
+};
+/// Throws InputError or UsageError.
+Model loadModel(const Arguments& args, Warnings& warnings);
+
+/// The group asked for, or the only one. Throws UsageError, listing the groups.
+const Group& chooseGroup(const Robot& robot, const std::string& name);
+
+/// Throws UsageError when the group has nothing to move. Warns of standing contacts.
+std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
+                                           const Group& group, std::shared_ptr<const World> world,
+                                           Warnings& warnings);
+/// The same in another world.
+std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
+                                           Warnings& warnings);
+
+/// m. How narrow the interval around a least clearance is: a tenth of the tolerance that decides.
+double clearanceAccuracy(const Checker& checker);
+
+/// A configuration and what to call it.
+struct LabelledState {
+  std::string label;
+  std::vector<double> q;
+};
+
+/// A checker and the states to look at, from either states on the command line or one problem
+/// of a problem file (its start, then its goals).
+struct Task {
+  std::shared_ptr<const Checker> checker;
+  std::vector<LabelledState> states;
+};
+Task loadTask(const Arguments& args, const Model& model, Warnings& warnings);
+
+}  // namespace swept

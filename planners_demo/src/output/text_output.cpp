@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output/text_output.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace swept {
+
+std::string shortNumber(double value) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
+std::string secondsText(double seconds) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.3g s", seconds);
+  return buffer.data();
+}
+
+std::string exactNumber(double value) {
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string lengthText(double metres) {
+  // Adding zero turns -0 into 0.
+  return shortNumber(std::round(metres * 1e12) / 1e12 + 0.0);
+}
+
+std::string pointText(const Eigen::Vector3d& point) {
+  return "[" + lengthText(point.x()) + " " + lengthText(point.y()) + " " + lengthText(point.z()) +
+         "]";
+}
+
+std::string joined(std::span<const std::string> items, const std::string& separator) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : separator) + item;
+  return text;
+}
+
+std::string witnessText(const Witness& witness) {
+  return witness.bodyA + " - " + witness.bodyB + ": distance " + lengthText(witness.distance) +
+         " m, at " + pointText(witness.pointA) + " and " + pointText(witness.pointB);
+}
+
+Json finiteOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json toJson(const Eigen::Vector3d& point) {
+  return Json::array({point.x(), point.y(), point.z()});
+}
+
+Json toJson(std::span<const double> values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(finiteOrNull(value));
+  return array;
+}
+
+Json toJson(const Witness& witness) {
+  return {{"t", witness.t},
+          {"body_a", witness.bodyA},
+          {"body_b", witness.bodyB},
+          {"point_a", toJson(witness.pointA)},
+          {"point_b", toJson(witness.pointB)},
+          {"distance", finiteOrNull(witness.distance)}};
+}
+
+std::string TextTable::text() const {
+  std::vector<std::size_t> widths;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    widths.push_back(columns_[c].title.size());
+    for (const auto& row : rows_) widths[c] = std::max(widths[c], row.at(c).size());
+  }
+  std::string result;
+  const auto addLine = [&](auto cellOf) {
+    std::string line;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const std::string cell = cellOf(c);
+      const std::string blanks(widths[c] - cell.size(), ' ');
+      line.append(c == 0 ? "" : "  ").append(columns_[c].number ? blanks + cell : cell + blanks);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    result += line + "\n";
+  };
+  addLine([&](std::size_t c) { return columns_[c].title; });
+  for (const auto& row : rows_) addLine([&](std::size_t c) { return row[c]; });
+  return result;
+}
+
+}  // namespace swept

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plan/path_files.hpp"
+
+#include "command_line/exit_code.hpp"
+#include "input/clouds.hpp"
+#include "output/text_output.hpp"
+#include "output/whole_file.hpp"
+
+namespace swept {
+namespace {
+
+std::vector<std::string> variableNames(const Checker& checker) {
+  std::vector<std::string> names;
+  for (const int v : checker.group().variables)
+    names.push_back(checker.robot().variables()[v].name);
+  return names;
+}
+
+std::string jsonText(const Checker& checker, const PlanRequest& request,
+                     const PlanOutcome& outcome) {
+  Json json = {{"robot", checker.robot().name()},
+               {"group", checker.group().name},
+               {"planner", request.planner},
+               {"seed", request.seed},
+               {"margin", checker.options().margin},
+               {"tolerance", checker.options().tolerance},
+               {"clouds", cloudsJson(checker.world())},
+               {"joint_names", variableNames(checker)}};
+  json["states"] = Json::array();
+  for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
+  json["segments"] = Json::array();
+  for (const PathSegment& segment : outcome.segments)
+    json["segments"].push_back({{"verdict", toString(segment.certificate.verdict)},
+                                {"clearance", finiteOrNull(segment.clearance)}});
+  return json.dump(1) + "\n";
+}
+
+std::string csvText(const Checker& checker, const PlanOutcome& outcome) {
+  std::string text = joined(variableNames(checker), ",") + "\n";
+  for (const std::vector<double>& q : outcome.states) {
+    for (std::size_t i = 0; i < q.size(); ++i)
+      text.append(i == 0 ? "" : ",").append(exactNumber(q[i]));
+    text += "\n";
+  }
+  return text;
+}
+
+/// A JSON string is a YAML string too, whatever characters the name has.
+std::string quoted(const std::string& name) {
+  return Json(name).dump();
+}
+
+/// moveit_msgs/RobotTrajectory. A path has no times, so the points have none either.
+std::string yamlText(const Checker& checker, const PlanOutcome& outcome) {
+  std::string text = "joint_trajectory:\n  joint_names:\n";
+  for (const std::string& name : variableNames(checker)) text += "    - " + quoted(name) + "\n";
+  text += "  points:\n";
+  for (const std::vector<double>& q : outcome.states) {
+    text += "    - positions: [";
+    for (std::size_t i = 0; i < q.size(); ++i)
+      text.append(i == 0 ? "" : ", ").append(exactNumber(q[i]));
+    text += "]\n";
+  }
+  return text;
+}
+
+bool isYaml(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+void requireOneValuePerJoint(const std::filesystem::path& file, const Robot& robot,
+                             const Group& group) {
+  for (const int j : group.joints) {
+    const JointType type = robot.joints()[j].type;
+    if (type == JointType::Planar || type == JointType::Floating)
+      throw UsageError("'" + file.string() +
+                       "': a joint trajectory has one value per joint, and joint " +
+                       robot.joints()[j].name + " has several; use .json or .csv");
+  }
+}
+
+}  // namespace
+
+PathFile::PathFile(const std::string& file, const Robot& robot, const Group& group) : file_(file) {
+  const std::filesystem::path ending = file_.extension();
+  if (ending != ".json" && ending != ".csv" && !isYaml(file_))
+    throw UsageError("'" + file + "': a path file ends in .json, .csv or .yaml");
+  requireWritable(file_);
+  if (isYaml(file_)) requireOneValuePerJoint(file_, robot, group);
+}
+
+void PathFile::write(const Checker& checker, const PlanRequest& request,
+                     const PlanOutcome& outcome) const {
+  if (file_.extension() == ".json")
+    writeWholeFile(file_, jsonText(checker, request, outcome));
+  else if (file_.extension() == ".csv")
+    writeWholeFile(file_, csvText(checker, outcome));
+  else
+    writeWholeFile(file_, yamlText(checker, outcome));
+}
+
+}  // namespace swept

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "plan/planning.hpp"
+
+namespace swept {
+
+/// Where a path goes and in which format; made before planning, so that a name that cannot work is
+/// refused at once.
+class PathFile {
+ public:
+  /// Throws UsageError for an unknown ending, a folder that is missing or not writable, a name that
+  /// is a folder, and for a group that the format cannot hold.
+  PathFile(const std::string& file, const Robot& robot, const Group& group);
+
+  /// The file appears whole or not at all. Throws UsageError naming file and reason.
+  void write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome) const;
+
+ private:
+  std::filesystem::path file_;
+};
+
+}  // namespace swept

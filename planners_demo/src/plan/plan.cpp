@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+
+#include "command_line/commands.hpp"
+#include "input/clouds.hpp"
+#include "output/progress.hpp"
+#include "output/text_output.hpp"
+#include "plan/path_files.hpp"
+#include "plan/plan_sets.hpp"
+#include "plan/planners.hpp"
+#include "plan/planning.hpp"
+
+namespace swept {
+namespace {
+
+std::string clearanceText(double clearance) {
+  return std::isinf(clearance) ? "no pair to check" : shortNumber(clearance) + " m";
+}
+
+std::string planTable(const PlanRequest& request, const PlanOutcome& outcome) {
+  TextTable table({{"planner"},
+                   {"planning time", true},
+                   {"simplification", true},
+                   {"path length", true},
+                   {"segments", true},
+                   {"motions certified", true},
+                   {"refused", true},
+                   {"minimum certified clearance", true}});
+  const bool solved = outcome.solved();
+  table.add({request.planner, secondsText(outcome.planningTime),
+             request.simplify && solved ? secondsText(outcome.simplifyTime) : "-",
+             solved ? shortNumber(outcome.length) : "-",
+             solved ? std::to_string(outcome.segments.size()) : "-",
+             std::to_string(outcome.certified), std::to_string(outcome.refused),
+             outcome.proven() ? clearanceText(outcome.leastClearance()) : "-"});
+  return table.text();
+}
+
+std::string resultLine(const PlanOutcome& outcome) {
+  if (!outcome.solved()) return "not solved: " + outcome.failure + "\n";
+  if (outcome.proven())
+    return "solved: " + std::to_string(outcome.segments.size()) + " segments, all proven free\n";
+  for (std::size_t i = 0; i < outcome.segments.size(); ++i)
+    if (const Verdict verdict = outcome.segments[i].certificate.verdict; verdict != Verdict::Free)
+      return "not proven: segment " + std::to_string(i + 1) + " of " +
+             std::to_string(outcome.segments.size()) + " is " + std::string(toString(verdict)) +
+             "\n";
+  return {};
+}
+
+Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& request,
+              const PlanOutcome& outcome) {
+  Json json = {{"robot", checker.robot().name()}, {"group", checker.group().name},
+               {"planner", request.planner},      {"seed", request.seed},
+               {"solved", outcome.solved()},      {"proven", outcome.proven()}};
+  json["failure"] = outcome.solved() ? Json(nullptr) : Json(outcome.failure);
+  json["planning_time"] = outcome.planningTime;
+  json["simplification_time"] = outcome.simplifyTime;
+  json["path_length"] = outcome.solved() ? Json(outcome.length) : Json(nullptr);
+  json["motions_certified"] = outcome.certified;
+  json["motions_refused"] = outcome.refused;
+  json["minimum_certified_clearance"] =
+      outcome.proven() ? finiteOrNull(outcome.leastClearance()) : Json(nullptr);
+  json["clouds"] = cloudsJson(checker.world());
+  json["states"] = Json::array();
+  for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
+  json["path_file"] = outcome.proven() && !args.output.empty() ? Json(args.output) : Json(nullptr);
+  return json;
+}
+
+bool manyProblems(const Arguments& args) {
+  return !args.problems.empty() && (args.set.empty() || !args.index);
+}
+
+}  // namespace
+
+ExitCode runPlan(const Arguments& args) {
+  routePlannerMessages(args.verbose);
+  const PlanRequest request{.planner = plannerName(args.planner),
+                            .time = args.time,
+                            .seed = args.seed,
+                            .simplify = !args.noSimplify,
+                            .clearance = !manyProblems(args)};
+  if (manyProblems(args)) return runPlanSets(args, request);
+  if (args.problems.empty() && args.states.size() != 2)
+    throw UsageError("plan: a start and a goal are needed");
+
+  Warnings warnings(args.quiet);
+  const Model model = loadModel(args, warnings);
+  const Task task = loadTask(args, model, warnings);
+  std::optional<PathFile> file;
+  if (!args.output.empty()) file.emplace(args.output, *model.robot, task.checker->group());
+  PlanOutcome outcome;
+  {
+    Progress progress(
+        "planning with " + request.planner + ", at most " + shortNumber(request.time) + " s",
+        args.quiet);
+    outcome = plan(task.checker, task.states, request);
+  }
+  if (file && outcome.proven()) file->write(*task.checker, request, outcome);
+  if (args.json) {
+    std::cout << planJson(args, *task.checker, request, outcome).dump(2) << '\n';
+  } else {
+    std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
+              << resultLine(outcome);
+    if (file && outcome.proven()) std::cout << "path written to " << args.output << '\n';
+  }
+  return outcome.code;
+}
+
+}  // namespace swept

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+#include "input/states.hpp"
+#include "output/progress.hpp"
+#include "output/quantile.hpp"
+#include "output/text_output.hpp"
+#include "plan/plan_sets.hpp"
+#include "plan/planning.hpp"
+
+namespace swept {
+namespace {
+
+struct Entry {
+  std::string set;
+  int index = 0;
+  PlanOutcome outcome;
+};
+
+std::vector<Entry> listProblems(const ProblemFile& file, const Arguments& args) {
+  std::vector<Entry> entries;
+  for (const std::string& set : file.sets()) {
+    if (!args.set.empty() && set != args.set) continue;
+    for (const int index : file.indices(set))
+      entries.push_back({.set = set, .index = index, .outcome = {}});
+  }
+  // The file's own message names the sets it has.
+  if (entries.empty() && !args.set.empty()) file.problem(args.set, 0);
+  if (entries.empty()) throw UsageError("'" + args.problems + "' has no problems");
+  return entries;
+}
+
+PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Model& model,
+                         const Group& group, const Checker& like, const PlanRequest& request,
+                         Warnings& warnings) {
+  const PlanningProblem problem = file.problem(entry.set, entry.index);
+  ProblemStates ends;
+  try {
+    ends = problemStates(*model.robot, group, problem);
+  } catch (const UsageError& error) {
+    // One problem with values outside the robot's limits does not end the run.
+    PlanOutcome outcome;
+    outcome.code = ExitCode::BadInput;
+    outcome.failure = error.what();
+    return outcome;
+  }
+  std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
+  for (const std::vector<double>& goal : ends.goals) states.push_back({.label = "goal", .q = goal});
+  return plan(makeChecker(like, std::make_shared<const World>(problem.world), warnings), states,
+              request);
+}
+
+/// Threads take the next problem when they are done with one. The first exception ends the run.
+template <typename Solve>
+void runAll(std::vector<Entry>& entries, int jobs, Progress& progress, const Solve& solve) {
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> done = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i; (i = next++) < entries.size();) {
+      try {
+        entries[i].outcome = solve(entries[i]);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = entries.size();
+      }
+      progress.setLabel(std::to_string(++done) + " of " + std::to_string(entries.size()) +
+                        " problems, last " + entries[i].set + " " +
+                        std::to_string(entries[i].index));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int j = 1; j < jobs; ++j) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Planning times are those of the solved problems, s.
+struct Summary {
+  std::string name;
+  std::size_t problems = 0, solved = 0, proven = 0;
+  std::vector<double> times;  ///< ascending
+};
+
+Summary summarise(const std::string& name, const std::vector<Entry>& entries,
+                  const std::string& set) {
+  Summary summary;
+  summary.name = name;
+  for (const Entry& entry : entries) {
+    if (!set.empty() && entry.set != set) continue;
+    ++summary.problems;
+    summary.solved += entry.outcome.solved() ? 1 : 0;
+    summary.proven += entry.outcome.proven() ? 1 : 0;
+    if (entry.outcome.solved()) summary.times.push_back(entry.outcome.planningTime);
+  }
+  std::ranges::sort(summary.times);
+  return summary;
+}
+
+std::vector<Summary> summaries(const std::vector<Entry>& entries) {
+  std::vector<Summary> all;
+  for (const Entry& entry : entries)
+    if (all.empty() || all.back().name != entry.set)
+      all.push_back(summarise(entry.set, entries, entry.set));
+  all.push_back(summarise("total", entries, ""));
+  return all;
+}
+
+std::string setsText(const std::vector<Entry>& entries) {
+  std::string text;
+  for (const Entry& entry : entries)
+    if (!entry.outcome.proven())
+      text += entry.set + " " + std::to_string(entry.index) + ": " +
+              (entry.outcome.solved() ? "a segment is not proven" : entry.outcome.failure) + "\n";
+  TextTable table({{"set"},
+                   {"solved", true},
+                   {"all segments free", true},
+                   {"median", true},
+                   {"mean", true},
+                   {"p95", true}});
+  for (const Summary& summary : summaries(entries))
+    table.add({summary.name,
+               std::to_string(summary.solved) + "/" + std::to_string(summary.problems),
+               std::to_string(summary.proven) + "/" + std::to_string(summary.solved),
+               secondsText(quantile(summary.times, 0.5)), secondsText(mean(summary.times)),
+               secondsText(quantile(summary.times, 0.95))});
+  return text + table.text();
+}
+
+Json setsJson(const std::vector<Entry>& entries, const PlanRequest& request) {
+  Json json = {{"planner", request.planner}, {"seed", request.seed}, {"time", request.time}};
+  json["sets"] = Json::array();
+  for (const Summary& summary : summaries(entries))
+    json["sets"].push_back({{"set", summary.name},
+                            {"problems", summary.problems},
+                            {"solved", summary.solved},
+                            {"proven", summary.proven},
+                            {"median", quantile(summary.times, 0.5)},
+                            {"mean", mean(summary.times)},
+                            {"p95", quantile(summary.times, 0.95)}});
+  json["problems"] = Json::array();
+  for (const Entry& entry : entries)
+    json["problems"].push_back(
+        {{"set", entry.set},
+         {"index", entry.index},
+         {"solved", entry.outcome.solved()},
+         {"proven", entry.outcome.proven()},
+         {"failure", entry.outcome.solved() ? Json(nullptr) : Json(entry.outcome.failure)},
+         {"planning_time", entry.outcome.planningTime},
+         {"simplification_time", entry.outcome.simplifyTime},
+         {"segments", entry.outcome.segments.size()},
+         {"path_length", entry.outcome.length},
+         {"motions_certified", entry.outcome.certified},
+         {"motions_refused", entry.outcome.refused}});
+  return json;
+}
+
+void checkOptions(const Arguments& args) {
+  if (!args.states.empty())
+    throw UsageError("states and --problems cannot be combined: the problem has its own");
+  if (!args.scene.empty())
+    throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
+  if (!args.clouds.empty())
+    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
+  if (args.index) throw UsageError("--index needs --set");
+  if (!args.output.empty())
+    throw UsageError("-o writes one path; choose one problem with --set and --index");
+}
+
+}  // namespace
+
+ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
+  checkOptions(args);
+  Warnings warnings(args.quiet);
+  const Model model = loadModel(args, warnings);
+  const Group& group = chooseGroup(*model.robot, args.group);
+  const ProblemFile file = ProblemFile::load(args.problems);
+  std::vector<Entry> entries = listProblems(file, args);
+  const auto like = makeChecker(args, model, group, std::make_shared<const World>(), warnings);
+  {
+    Progress progress("planning " + std::to_string(entries.size()) + " problems", args.quiet);
+    runAll(entries, args.jobs, progress, [&](const Entry& entry) {
+      return solveProblem(file, entry, model, group, *like, request, warnings);
+    });
+  }
+  ExitCode code = ExitCode::Free;
+  for (const Entry& entry : entries) code = worse(code, entry.outcome.code);
+  if (args.json)
+    std::cout << setsJson(entries, request).dump(2) << '\n';
+  else
+    std::cout << setsText(entries);
+  return code;
+}
+
+}  // namespace swept

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "command_line/arguments.hpp"
+#include "plan/planning.hpp"
+
+namespace swept {
+
+/// `plan` over all problems of a file, or of one set of it.
+ExitCode runPlanSets(const Arguments& args, const PlanRequest& request);
+
+}  // namespace swept

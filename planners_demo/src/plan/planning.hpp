@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command_line/exit_code.hpp"
+#include "input/task.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+struct PlanRequest {
+  std::string planner;  ///< as plannerName() returns it
+  double time = 5.0;    ///< s; limit of the planner, and again of the simplification
+  std::uint32_t seed = 1;
+  bool simplify = true;
+  bool clearance = true;  ///< bound the least distance of every segment too
+};
+
+/// What is known about one motion of a path.
+struct PathSegment {
+  MotionCertificate certificate;
+  double clearance = 0.0;  ///< m, proven lower bound; infinity: no pairs; 0 when not asked for
+};
+
+struct PlanOutcome {
+  ExitCode code = ExitCode::Collision;  ///< Free: a path from start to goal, every segment Free
+  std::string failure;                  ///< why there is no path; empty when there is one
+  double planningTime = 0.0;            ///< s
+  double simplifyTime = 0.0;            ///< s
+  double length = 0.0;                  ///< of the path, in the metric of the state space
+  unsigned certified = 0;  ///< motions the validator proved free, for planner and simplification
+  unsigned refused = 0;    ///< motions it did not
+  std::vector<std::vector<double>> states;
+  std::vector<PathSegment> segments;  ///< one fewer than states
+
+  bool solved() const { return failure.empty(); }
+  bool proven() const;            ///< solved, and every segment is Free
+  double leastClearance() const;  ///< m, over the segments
+};
+
+/// Plans from `states[0]` to any of the others, and certifies the path once more when it is final.
+/// The same request gives the same path unless a time limit cuts in, or the planner uses threads.
+/// Throws UsageError when the planner cannot work in the group's state space.
+PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
+                 const std::vector<LabelledState>& states, const PlanRequest& request);
+
+/// OMPL's messages: to stderr, or nowhere.
+void routePlannerMessages(bool toStderr);
+
+}  // namespace swept

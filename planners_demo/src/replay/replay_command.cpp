@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  app.add_option("cases", args.cases, "cases of two shapes each; planners_demo/README.md")
+      ->required()
+      ->type_name("FILE.json");
+  addJsonOption(app, args);
+}
+
+}  // namespace
+
+const Command kReplayCommand{
+    .name = "replay",
+    .summary = "Distances of shape pairs against known answers",
+    .example = "swept replay models/cases.json",
+    .exitCodes = "Exit codes: 0 all passed or skipped, 1 a case failed, 3 bad input or usage.",
+    .addOptions = addOptions,
+    .run = runReplay};
+
+}  // namespace swept
