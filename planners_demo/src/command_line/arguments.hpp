@@ -55,6 +55,15 @@ struct Arguments {
   bool noSimplify = false;
   int jobs = 1;
 
+  bool embed = false;  ///< robot and world go into the path file
+
+  struct Verify {
+    std::string path;   ///< JSON file
+    std::string robot;  ///< instead of the one that the path file names; empty: that one
+    std::string scene;  ///< likewise
+    bool files = false;
+  } verify;
+
   std::int64_t budget = 20'000'000;  ///< per pair of links
   int samples = 1000;                ///< per pair of links
 };

@@ -18,6 +18,9 @@ ExitCode runMotion(const Arguments& args);
 extern const Command kPlanCommand;
 ExitCode runPlan(const Arguments& args);
 
+extern const Command kVerifyCommand;
+ExitCode runVerify(const Arguments& args);
+
 extern const Command kAcmCommand;
 ExitCode runAcm(const Arguments& args);
 

@@ -29,12 +29,11 @@ std::string reasonOf(const json::exception& error, std::string_view front) {
   return at == std::string::npos ? what : what.substr(at + front.size());
 }
 
-}  // namespace
-
-json JsonValue::parseFile(const std::string& file) {
+template <typename Value>
+Value parsed(const std::string& file) {
   const std::string text = contents(file);
   try {
-    return json::parse(text);
+    return Value::parse(text);
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = 1 + std::count(text.begin(), end, '\n');
@@ -42,6 +41,16 @@ json JsonValue::parseFile(const std::string& file) {
   } catch (const json::exception& error) {  // a number beyond every double
     throw InputError(file, 0, "malformed JSON: " + reasonOf(error, "] "));
   }
+}
+
+}  // namespace
+
+nlohmann::ordered_json parseOrderedJson(const std::string& file) {
+  return parsed<nlohmann::ordered_json>(file);
+}
+
+json JsonValue::parseFile(const std::string& file) {
+  return parsed<json>(file);
 }
 
 void JsonValue::refuse(const std::string& what) const {

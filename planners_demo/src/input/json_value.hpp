@@ -8,6 +8,10 @@
 
 namespace swept {
 
+/// A whole file, keys in the order of the file. Throws InputError; messages about its syntax name
+/// the line.
+nlohmann::ordered_json parseOrderedJson(const std::string& file);
+
 /// A value of a JSON file with the way to it, which messages name: `case 'a': shapes[0].size`.
 /// Whatever does not hold what it is asked for throws InputError.
 class JsonValue {

@@ -16,8 +16,35 @@ std::vector<std::string> variableNames(const Checker& checker) {
   return names;
 }
 
-std::string jsonText(const Checker& checker, const PlanRequest& request,
-                     const PlanOutcome& outcome) {
+/// A line for each of what the first two levels hold, and for each pair of a proof: short enough to
+/// look at, and to compare.
+std::string linesOf(const Json& json) {
+  std::string text = "{";
+  for (const auto& [key, value] : json.items()) {
+    text += (text.size() > 1 ? ",\n " : "\n ") + Json(key).dump() + ": ";
+    if (key == "proof" && !value.is_null()) {
+      text += "{\n  \"digests\": " + value["digests"].dump() + ",\n  \"segments\": [";
+      for (const Json& segment : value["segments"]) {
+        text += (text.back() == '[' ? "\n   " : ",\n   ");
+        text += "{\"states_digest\": " + segment["states_digest"].dump() + ", \"pairs\": [";
+        for (const Json& pair : segment["pairs"])
+          text += (text.back() == '[' ? "\n    " : ",\n    ") + pair.dump();
+        text += "]}";
+      }
+      text += "]}";
+    } else if (value.is_array()) {
+      text += "[";
+      for (const Json& item : value) text += (text.back() == '[' ? "\n  " : ",\n  ") + item.dump();
+      text += "]";
+    } else {
+      text += value.dump();
+    }
+  }
+  return text + "\n}\n";
+}
+
+std::string jsonText(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
+                     const Json& inputs, const Certificate& certificate, bool embed) {
   Json json = {{"robot", checker.robot().name()},
                {"group", checker.group().name},
                {"planner", request.planner},
@@ -32,7 +59,10 @@ std::string jsonText(const Checker& checker, const PlanRequest& request,
   for (const PathSegment& segment : outcome.segments)
     json["segments"].push_back({{"verdict", toString(segment.certificate.verdict)},
                                 {"clearance", finiteOrNull(segment.clearance)}});
-  return json.dump(1) + "\n";
+  json["inputs"] = inputs;
+  if (embed) json["model"] = certificate.model;
+  json["proof"] = certificate.proof;
+  return linesOf(json);
 }
 
 std::string csvText(const Checker& checker, const PlanOutcome& outcome) {
@@ -89,10 +119,14 @@ PathFile::PathFile(const std::string& file, const Robot& robot, const Group& gro
   if (isYaml(file_)) requireOneValuePerJoint(file_, robot, group);
 }
 
-void PathFile::write(const Checker& checker, const PlanRequest& request,
-                     const PlanOutcome& outcome) const {
-  if (file_.extension() == ".json")
-    writeWholeFile(file_, jsonText(checker, request, outcome));
+bool PathFile::holdsProof() const {
+  return file_.extension() == ".json";
+}
+
+void PathFile::write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
+                     const Json& inputs, const Certificate& certificate, bool embed) const {
+  if (holdsProof())
+    writeWholeFile(file_, jsonText(checker, request, outcome, inputs, certificate, embed));
   else if (file_.extension() == ".csv")
     writeWholeFile(file_, csvText(checker, outcome));
   else

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "certificate/certificate.hpp"
 #include "plan/planning.hpp"
 
 namespace swept {
@@ -16,8 +17,12 @@ class PathFile {
   /// is a folder, and for a group that the format cannot hold.
   PathFile(const std::string& file, const Robot& robot, const Group& group);
 
-  /// The file appears whole or not at all. Throws UsageError naming file and reason.
-  void write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome) const;
+  /// Whether it holds a proof: the format has a place for one.
+  bool holdsProof() const;
+  /// The file appears whole or not at all. `inputs` and `certificate` are for what holds a proof.
+  /// Throws UsageError naming file and reason.
+  void write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
+             const Json& inputs, const Certificate& certificate, bool embed) const;
 
  private:
   std::filesystem::path file_;

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <optional>
 
+#include "certificate/certificate.hpp"
+#include "certificate/inputs.hpp"
 #include "command_line/commands.hpp"
 #include "input/clouds.hpp"
 #include "output/progress.hpp"
@@ -71,6 +73,21 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
   return json;
 }
 
+void writePath(const Arguments& args, const PathFile& file, const Checker& checker,
+               const PlanRequest& request, const PlanOutcome& outcome, Warnings& warnings) {
+  Certificate certificate;
+  if (file.holdsProof()) {
+    Progress progress("writing the proof", args.quiet);
+    std::vector<double> clearances;
+    for (const PathSegment& segment : outcome.segments) clearances.push_back(segment.clearance);
+    certificate = certificateOf(checker, outcome.states, clearances);
+  }
+  if (!certificate.missing.empty())
+    warnings("swept: warning: no proof in '" + args.output +
+             "': no separating planes were found for " + certificate.missing);
+  file.write(checker, request, outcome, inputsJson(args, args.output), certificate, args.embed);
+}
+
 bool manyProblems(const Arguments& args) {
   return !args.problems.empty() && (args.set.empty() || !args.index);
 }
@@ -100,7 +117,7 @@ ExitCode runPlan(const Arguments& args) {
         args.quiet);
     outcome = plan(task.checker, task.states, request);
   }
-  if (file && outcome.proven()) file->write(*task.checker, request, outcome);
+  if (file && outcome.proven()) writePath(args, *file, *task.checker, request, outcome, warnings);
   if (args.json) {
     std::cout << planJson(args, *task.checker, request, outcome).dump(2) << '\n';
   } else {

@@ -22,6 +22,9 @@ void addOptions(CLI::App& app, Arguments& args) {
                  "path file, by its ending: .json (with certificates), .csv, or .yaml "
                  "(RobotTrajectory without time stamps)")
       ->type_name("FILE");
+  app.add_flag("--embed", args.embed,
+               "the .json has the robot and the world in it, so that 'swept verify' needs no other "
+               "file");
   app.add_flag("--no-simplify", args.noSimplify, "keep the path as the planner returned it");
   app.add_option("--jobs", args.jobs,
                  "problems planned at the same time, one thread each (default 1; with more, random "

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/text_output.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// A link, an attached body or a body of the world as it is checked.
+struct CertifiedBody {
+  std::string name;
+  int link = -1;  ///< that it moves with; -1: the world
+  struct Part {
+    Shape shape;
+    Eigen::Isometry3d body_from_shape;
+  };
+  std::vector<Part> parts;
+};
+
+/// Those with geometry, the robot's first: in the order of modelJson()'s bodies. A body of the
+/// world that has the name of a link gets ` (world)` behind its own.
+std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
+
+/// What a proof is about, in the form that planners_demo/verify reads: kinematics, geometry bit for
+/// bit, margins, pairs that may touch. Throws UsageError for moving obstacles, which have no place
+/// in it.
+Json modelJson(const Checker& checker);
+
+}  // namespace swept

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  app.add_option("path", args.verify.path, "path file that 'swept plan -o' has written")
+      ->required()
+      ->type_name("PATH.json");
+  app.add_option("--robot", args.verify.robot, "URDF file, if it is elsewhere by now")
+      ->type_name("ROBOT.urdf");
+  app.add_option("--scene", args.verify.scene, "planning scene, if it is elsewhere by now")
+      ->type_name("FILE");
+  app.add_flag("--files", args.verify.files,
+               "compare a robot and world that are in the path file with the files they came from, "
+               "too");
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kVerifyCommand{
+    .name = "verify",
+    .summary = "Check the proof in a path file, by other means than it was found",
+    .example = "swept verify models/paths/narrow_slot.json",
+    .exitCodes =
+        "Exit codes: 0 the proof holds, 1 it does not, or something was changed, 3 bad "
+        "input or usage.",
+    .addOptions = addOptions,
+    .run = runVerify};
+
+}  // namespace swept

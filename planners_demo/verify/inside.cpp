@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inside.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace swept::verify {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Relative to the lengths that a product is made of: nearer to zero, its sign is not trusted.
+constexpr double kDoubt = 1e-10;
+constexpr int kRays = 32;
+
+/// Sets of vertices that are joined one edge at a time.
+class Joined {
+ public:
+  explicit Joined(std::size_t vertices) : above_(vertices) {
+    std::iota(above_.begin(), above_.end(), 0);
+  }
+  int find(int vertex) {
+    while (above(vertex) != vertex) vertex = above(vertex) = above(above(vertex));
+    return vertex;
+  }
+  void join(int a, int b) { above(find(a)) = find(b); }
+
+ private:
+  int& above(int vertex) { return above_[static_cast<std::size_t>(vertex)]; }
+  std::vector<int> above_;
+};
+
+struct Edge {
+  int triangles = 0;
+  int net = 0;  ///< passed one way, less the other way
+};
+
+std::map<std::pair<int, int>, Edge> edgesOf(const Surface& surface) {
+  std::map<std::pair<int, int>, Edge> edges;
+  for (const std::array<int, 3>& triangle : surface.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = triangle[k], to = triangle[(k + 1) % 3];
+      Edge& edge = edges[std::minmax(from, to)];
+      ++edge.triangles;
+      edge.net += from < to ? 1 : -1;
+    }
+  }
+  return edges;
+}
+
+enum class Crossing { None, Out, In, Doubtful };
+
+/// Sign of a . (b x c); zero: too near to tell.
+int orientation(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const double product = a.dot(b.cross(c));
+  const double doubt = kDoubt * a.norm() * b.norm() * c.norm();
+  return product > doubt ? 1 : product < -doubt ? -1 : 0;
+}
+
+Crossing crossing(const Vector3d& ray, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const int ab = orientation(ray, a, b), bc = orientation(ray, b, c), ca = orientation(ray, c, a);
+  if ((ab > 0 || bc > 0 || ca > 0) && (ab < 0 || bc < 0 || ca < 0)) return Crossing::None;
+  // The line passes inside the triangle or too near to an edge; the other way it does not count.
+  if (std::max({ray.dot(a), ray.dot(b), ray.dot(c)}) < 0.0) return Crossing::None;
+  const int volume = orientation(a, b, c);
+  if (ab == 0 || bc == 0 || ca == 0 || volume == 0) return Crossing::Doubtful;
+  if (volume != ab) return Crossing::None;  // behind the point
+  return ab > 0 ? Crossing::Out : Crossing::In;
+}
+
+/// Directions spread over the sphere in golden-angle steps, none along an axis.
+Vector3d rayNumber(int i) {
+  const double z = 1.0 - (2.0 * i + 1.0) / kRays;
+  const double angle = 2.399963229728653 * i + 0.1;
+  const double across = std::sqrt(1.0 - z * z);
+  return {across * std::cos(angle), across * std::sin(angle), z};
+}
+
+}  // namespace
+
+Enclosure::Enclosure(const Surface& surface)
+    : surface_(surface), lower_(surface.vertices.front()), upper_(lower_) {
+  for (const Vector3d& vertex : surface.vertices) {
+    lower_ = lower_.cwiseMin(vertex);
+    upper_ = upper_.cwiseMax(vertex);
+  }
+  const std::map<std::pair<int, int>, Edge> edges = edgesOf(surface);
+  Joined joined(surface.vertices.size());
+  for (const auto& [ends, edge] : edges) joined.join(ends.first, ends.second);
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+    componentOf_.push_back(joined.find(static_cast<int>(i)));
+  for (const auto& [ends, edge] : edges) {
+    Component& component = components_[componentOf_[static_cast<std::size_t>(ends.first)]];
+    component.closed = component.closed && edge.triangles % 2 == 0;
+    component.oriented = component.oriented && edge.net == 0;
+  }
+}
+
+Side Enclosure::sideAlong(const Vector3d& ray, const Vector3d& point) const {
+  std::map<int, std::pair<int, int>> crossed;  // per component: number, and outward less inward
+  for (const std::array<int, 3>& triangle : surface_.triangles) {
+    const auto corner = [&](std::size_t k) -> Vector3d {
+      return surface_.vertices[static_cast<std::size_t>(triangle[k])] - point;
+    };
+    const Crossing found = crossing(ray, corner(0), corner(1), corner(2));
+    if (found == Crossing::None) continue;
+    const int component = componentOf_[static_cast<std::size_t>(triangle[0])];
+    if (!components_.at(component).closed) continue;
+    if (found == Crossing::Doubtful) return Side::Unknown;
+    auto& [number, net] = crossed[component];
+    ++number;
+    net += found == Crossing::Out ? 1 : -1;
+  }
+  for (const auto& [component, counts] : crossed) {
+    const bool oriented = components_.at(component).oriented;
+    if (oriented ? counts.second != 0 : counts.first % 2 != 0) return Side::Inside;
+  }
+  return Side::Outside;
+}
+
+Side Enclosure::sideOf(const Vector3d& point) const {
+  if ((point.array() < lower_.array()).any() || (point.array() > upper_.array()).any())
+    return Side::Outside;
+  for (int i = 0; i < kRays; ++i) {
+    const Side side = sideAlong(rayNumber(i), point);
+    if (side != Side::Unknown) return side;
+  }
+  return Side::Unknown;
+}
+
+}  // namespace swept::verify

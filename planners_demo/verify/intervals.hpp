@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "motion.hpp"
+#include "proof.hpp"
+
+namespace swept::verify {
+
+/// What a proof, or a part of one, says.
+struct Summary {
+  std::size_t segments = 0;
+  std::size_t pairs = 0;      ///< of bodies, each over the whole path
+  std::size_t intervals = 0;  ///< of a pair
+  std::size_t planes = 0;     ///< between two sets of elements during an interval
+  /// m. Least of all proven distances; infinity: there is no pair.
+  double clearance = std::numeric_limits<double>::infinity();
+  /// Pairs that may touch, `hand - shelf`, by who says so.
+  std::map<std::string, std::vector<std::string>> allowed = {};
+
+  void add(const Summary& part);
+};
+
+/// Checks that intervals without gaps from 0 to 1 prove a pair apart, each by planes between all of
+/// a and all of b. Throws Refusal, which starts with `place`.
+///
+/// `proof` has `intervals`, a list of [begin, end, tree], where b has elements, and `flats`, for
+/// each plane or half-space a list of the same kind. A tree is a plane [x, y, z, bound], whose
+/// direction from a to b shows that they keep more than `bound` (m), or {"a": [tree, tree]} for the
+/// two halves of a's node, or {"b": [tree, tree]}. For a flat it is [side, bound].
+Summary checkPair(const Model& model, const Motion& motion, PairToProve pair, const Json& proof,
+                  const std::string& place);
+
+}  // namespace swept::verify

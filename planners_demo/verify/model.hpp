@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "body.hpp"
+
+/// Checks the proof that a path file carries. Nothing here searches, and nothing is shared with the
+/// library that found the proof; README.md says what is trusted.
+namespace swept::verify {
+
+using Json = nlohmann::ordered_json;
+
+/// What is wrong with a path file, and where: `segment 2, hand - shelf, 0.25 to 0.5: ...`.
+class Refusal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class JointKind : std::uint8_t { Fixed, Revolute, Prismatic, Planar, Floating };
+
+/// The child's frame in the parent's: parent_from_joint, then what the values say. A revolute joint
+/// turns about `axis`, a prismatic one slides along it, a planar one slides across it and turns
+/// about it.
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::Fixed;
+  int parent = -1;  ///< link; -1: the model frame
+  int child = 0;    ///< link
+  Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();    ///< unit, joint frame
+  Eigen::Vector3d planarX = Eigen::Vector3d::Zero();  ///< unit, joint frame; planar only
+  int variable = -1;        ///< into the configuration: the first of the joint's values; -1: none
+  double multiplier = 1.0;  ///< value = multiplier * configuration + offset
+  double offset = 0.0;      ///< rad or m
+  std::vector<double> values = {};  ///< of a joint that the group does not move
+};
+
+/// One number of a configuration.
+struct Variable {
+  std::string name;
+  double lower, upper;  ///< rad or m
+  bool cyclic;          ///< goes the shorter way round
+};
+
+/// A robot, what it carries, and its world, as far as motions of one group are concerned. Links,
+/// what is attached to them and bodies of the world are all `bodies`; the robot's come first.
+struct Model {
+  std::vector<std::string> links;  ///< parents first
+  std::vector<Joint> joints;       ///< parents first
+  std::vector<int> jointOf;        ///< per link: the joint above it; -1: none
+  std::vector<Variable> variables;
+  std::vector<Body> bodies;
+  std::vector<int> linkOf;  ///< per body: the link that it moves with; -1: the world
+  /// Pairs of bodies, by index, smaller first, that may touch, and who says so.
+  std::map<std::pair<int, int>, std::string> allowed;
+  double margin = 0.0;           ///< m
+  std::vector<double> paddings;  ///< m, per body
+  /// m: what a pair has to keep.
+  double marginOf(int a, int b) const { return margin + paddings[a] + paddings[b]; }
+};
+
+/// Reads the `model` of a path file. Throws Refusal.
+Model readModel(const Json& json);
+
+/// Of a link, what a shape is made of. Throws Refusal. `frame` is body_from_shape.
+struct ShapeParts {
+  std::vector<Element> elements;
+  std::vector<Flat> flats;
+  std::vector<Surface> solids;
+};
+void readShape(const Json& json, const Eigen::Isometry3d& frame, const std::string& where,
+               ShapeParts& parts);
+
+/// A pose is 12 numbers: the rotation by rows, then the translation (m).
+Eigen::Isometry3d readPose(const Json& json, const std::string& where);
+Eigen::Vector3d readVector(const Json& json, const std::string& where);
+double readNumber(const Json& json, const std::string& where);
+/// `json[key]`. Throws Refusal when it is not there.
+const Json& at(const Json& json, const char* key, const std::string& where);
+
+}  // namespace swept::verify

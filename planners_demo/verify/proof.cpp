@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swept::verify {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Relative to lengths and angles, per joint. A transform and a support take some 50 roundings of
+/// 1.1e-16, and rotations may be off by 1e-12.
+constexpr double kRounding = 1e-11;
+
+/// Whether a body is a link itself, and not something that the link carries.
+bool isLink(const Model& model, int body) {
+  const int link = model.linkOf[static_cast<std::size_t>(body)];
+  return link >= 0 && model.bodies[static_cast<std::size_t>(body)].name() ==
+                          model.links[static_cast<std::size_t>(link)];
+}
+
+/// Two links that a joint connects.
+bool adjacent(const Model& model, int a, int b) {
+  if (!isLink(model, a) || !isLink(model, b)) return false;
+  const auto links = std::minmax(model.linkOf[static_cast<std::size_t>(a)],
+                                 model.linkOf[static_cast<std::size_t>(b)]);
+  return std::ranges::any_of(model.joints, [&](const Joint& joint) {
+    return std::pair(joint.parent, joint.child) == std::pair(links.first, links.second);
+  });
+}
+
+}  // namespace
+
+std::vector<PairToProve> pairsToProve(const Model& model) {
+  std::vector<PairToProve> pairs;
+  const auto count = static_cast<int>(model.bodies.size());
+  for (int a = 0; a < count; ++a) {
+    const int linkA = model.linkOf[static_cast<std::size_t>(a)];
+    if (linkA < 0) break;
+    for (int b = a + 1; b < count; ++b) {
+      const int linkB = model.linkOf[static_cast<std::size_t>(b)];
+      const int reference = linkB < 0 ? -1 : commonAncestor(model, linkA, linkB);
+      const bool moved = isMoved(model, linkA, reference) || isMoved(model, linkB, reference);
+      const bool empty = model.bodies[static_cast<std::size_t>(a)].nodes().empty() ||
+                         (model.bodies[static_cast<std::size_t>(b)].nodes().empty() &&
+                          model.bodies[static_cast<std::size_t>(b)].flats().empty());
+      if (!moved || empty || model.allowed.contains({a, b}) || adjacent(model, a, b)) continue;
+      pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+PairMotion::PairMotion(const Model& model, const Motion& motion, PairToProve pair, double begin,
+                       double end)
+    : bodyA_(model.bodies[static_cast<std::size_t>(pair.a)]),
+      bodyB_(model.bodies[static_cast<std::size_t>(pair.b)]),
+      half_(0.5 * (end - begin)) {
+  const int linkA = model.linkOf[static_cast<std::size_t>(pair.a)];
+  const int linkB = model.linkOf[static_cast<std::size_t>(pair.b)];
+  const int reference = linkB < 0 ? -1 : commonAncestor(model, linkA, linkB);
+  const double middle = 0.5 * (begin + end);
+  a_ = motion.at(linkA, reference, middle);
+  b_ = motion.at(linkB, reference, middle);
+  const Bounds boundsA = motion.bounds(linkA, reference, bodyA_.reach());
+  const Bounds boundsB = motion.bounds(linkB, reference, bodyB_.reach());
+  double flats = 0.0;
+  for (const Flat& flat : bodyB_.flats()) flats = std::max(flats, std::abs(flat.offset));
+  const double acceleration = boundsA.acceleration + boundsB.acceleration;
+  const double size = boundsA.extent + boundsB.extent + flats;
+  const double turn = 1.0 + boundsA.turn + boundsB.turn;
+  slack_ = 0.5 * half_ * half_ * acceleration +
+           kRounding * (boundsA.joints + boundsB.joints + 4) * turn * size;
+}
+
+double PairMotion::most(const Body& body, int node, const Placed& placed, double s,
+                        const Vector3d& direction) {
+  const Vector3d swung = direction + s * direction.cross(placed.angular);
+  const auto& pose = placed.reference_from_link;
+  return body.support(node, pose.linear().transpose() * swung) + swung.dot(pose.translation()) +
+         s * direction.dot(placed.linear);
+}
+
+double PairMotion::gap(int nodeA, int nodeB, const Vector3d& direction) const {
+  const Vector3d n = direction.normalized();
+  const auto at = [&](double s) {
+    return -most(bodyB_, nodeB, b_, s, -n) - most(bodyA_, nodeA, a_, s, n);
+  };
+  return std::min(at(-half_), at(half_)) - slack_;
+}
+
+double PairMotion::gapToFlat(int nodeA, std::size_t flat, int side) const {
+  const Flat& plane = bodyB_.flats()[flat];
+  if (plane.solid && side < 0) return -std::numeric_limits<double>::infinity();
+  // From a towards the flat, which stands still: bodies with flats are the world's.
+  const Vector3d n = -static_cast<double>(side) * plane.normal;
+  const auto at = [&](double s) { return -side * plane.offset - most(bodyA_, nodeA, a_, s, n); };
+  return std::min(at(-half_), at(half_)) - slack_;
+}
+
+}  // namespace swept::verify

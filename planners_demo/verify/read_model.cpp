@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model.hpp"
+
+namespace swept::verify {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// How far from 1 lengths of axes and columns of rotations may be.
+constexpr double kUnit = 1e-12;
+
+std::string readText(const Json& json, const char* key, const std::string& where) {
+  const Json& value = at(json, key, where);
+  if (!value.is_string()) throw Refusal(where + ": " + key + " is not a text");
+  return value.get<std::string>();
+}
+
+const Json& readList(const Json& json, const char* key, const std::string& where) {
+  const Json& value = at(json, key, where);
+  if (!value.is_array()) throw Refusal(where + ": " + key + " is not a list");
+  return value;
+}
+
+Vector3d readUnit(const Json& json, const char* key, const std::string& where) {
+  const Vector3d axis = readVector(at(json, key, where), where + ", " + key);
+  if (!(std::abs(axis.norm() - 1.0) <= kUnit))
+    throw Refusal(where + ": " + key + " has not length 1");
+  return axis;
+}
+
+/// Index of a name; -1 for null.
+int indexOf(const std::vector<std::string>& names, const Json& name, const std::string& where) {
+  if (name.is_null()) return -1;
+  const auto found =
+      name.is_string() ? std::ranges::find(names, name.get<std::string>()) : names.end();
+  if (found == names.end()) throw Refusal(where + ": no link " + name.dump());
+  return static_cast<int>(found - names.begin());
+}
+
+JointKind kindOf(const std::string& type, const std::string& where) {
+  if (type == "fixed") return JointKind::Fixed;
+  if (type == "revolute" || type == "continuous") return JointKind::Revolute;
+  if (type == "prismatic") return JointKind::Prismatic;
+  if (type == "planar") return JointKind::Planar;
+  if (type == "floating") return JointKind::Floating;
+  throw Refusal(where + ": no type of joint '" + type + "'");
+}
+
+std::size_t sizeOf(JointKind kind) {
+  switch (kind) {
+    case JointKind::Fixed:
+      return 0;
+    case JointKind::Revolute:
+    case JointKind::Prismatic:
+      return 1;
+    case JointKind::Planar:
+      return 3;
+    case JointKind::Floating:
+      return 7;
+  }
+  return 0;
+}
+
+void readValues(const Json& json, const Model& model, const std::string& where, Joint& joint) {
+  const Json& variable = at(json, "variable", where);
+  if (variable.is_null()) {
+    for (const Json& value : readList(json, "values", where))
+      joint.values.push_back(readNumber(value, where + ", values"));
+    if (joint.values.size() != sizeOf(joint.kind))
+      throw Refusal(where + ": values has another number of values than the joint");
+    return;
+  }
+  if (!variable.is_number_unsigned() ||
+      variable.get<std::size_t>() + sizeOf(joint.kind) > model.variables.size())
+    throw Refusal(where + ": no variable " + variable.dump());
+  joint.variable = variable.get<int>();
+  joint.multiplier = readNumber(at(json, "multiplier", where), where + ", multiplier");
+  joint.offset = readNumber(at(json, "offset", where), where + ", offset");
+  const bool several = joint.kind == JointKind::Planar || joint.kind == JointKind::Floating;
+  if (several && (joint.multiplier != 1.0 || joint.offset != 0.0))
+    throw Refusal(where + ": a joint of this type cannot mimic another");
+}
+
+Joint readJoint(const Json& json, const Model& model) {
+  const std::string where = "joint " + readText(json, "name", "joints");
+  Joint joint;
+  joint.name = json["name"];
+  joint.kind = kindOf(readText(json, "type", where), where);
+  joint.parent = indexOf(model.links, at(json, "parent", where), where);
+  joint.child = indexOf(model.links, at(json, "child", where), where);
+  if (joint.child < 0 || joint.child <= joint.parent)
+    throw Refusal(where + ": links are not in the order of the tree");
+  joint.parent_from_joint = readPose(at(json, "pose", where), where + ", pose");
+  joint.axis = readUnit(json, "axis", where);
+  if (joint.kind == JointKind::Planar) {
+    joint.planarX = readUnit(json, "planar_x", where);
+    if (!(std::abs(joint.planarX.dot(joint.axis)) <= kUnit))
+      throw Refusal(where + ": planar_x is not across the axis");
+  }
+  readValues(json, model, where, joint);
+  return joint;
+}
+
+Variable readVariable(const Json& json) {
+  const std::string where = "variable " + readText(json, "name", "variables");
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const auto limit = [&](const char* key, double none) {
+    const Json& value = at(json, key, where);
+    return value.is_null() ? none : readNumber(value, where + ", " + key);
+  };
+  const Json& cyclic = at(json, "cyclic", where);
+  if (!cyclic.is_boolean()) throw Refusal(where + ": cyclic is neither true nor false");
+  return {.name = json["name"],
+          .lower = limit("lower", -kNone),
+          .upper = limit("upper", kNone),
+          .cyclic = cyclic.get<bool>()};
+}
+
+void readBody(const Json& json, Model& model) {
+  const std::string where = "body " + readText(json, "name", "bodies");
+  const int link = indexOf(model.links, at(json, "link", where), where);
+  if (link >= 0 && !model.linkOf.empty() && model.linkOf.back() < 0)
+    throw Refusal(where + ": bodies of the robot come before those of the world");
+  ShapeParts parts;
+  for (const Json& shape : readList(json, "shapes", where))
+    readShape(shape, readPose(at(shape, "pose", where), where + ", pose"), where, parts);
+  if (link >= 0 && !parts.flats.empty())
+    throw Refusal(where + ": a robot has no plane and no half-space");
+  for (const Body& other : model.bodies)
+    if (other.name() == json["name"]) throw Refusal(where + ": there are two of this name");
+  model.bodies.emplace_back(json["name"], std::move(parts.elements), std::move(parts.flats),
+                            std::move(parts.solids));
+  model.linkOf.push_back(link);
+}
+
+int bodyNamed(const Model& model, const Json& name, const std::string& where) {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (name == model.bodies[i].name()) return static_cast<int>(i);
+  throw Refusal(where + ": no body " + name.dump());
+}
+
+void readRules(const Json& json, Model& model) {
+  model.margin = readNumber(at(json, "margin", "model"), "model, margin");
+  model.paddings.assign(model.bodies.size(), 0.0);
+  for (const auto& [name, metres] : at(json, "paddings", "model").items())
+    model.paddings[static_cast<std::size_t>(bodyNamed(model, name, "paddings"))] =
+        readNumber(metres, "padding of " + name);
+  for (const Json& entry : readList(json, "allowed", "model")) {
+    if (!entry.is_array() || entry.size() != 3 || !entry[2].is_string())
+      throw Refusal("allowed: not two names and a reason: " + entry.dump());
+    const auto pair =
+        std::minmax(bodyNamed(model, entry[0], "allowed"), bodyNamed(model, entry[1], "allowed"));
+    model.allowed.emplace(pair, entry[2].get<std::string>());
+  }
+  const bool negative = std::ranges::any_of(model.paddings, [](double p) { return !(p >= 0.0); });
+  if (negative || !(model.margin >= 0.0)) throw Refusal("model: a margin or padding is negative");
+}
+
+}  // namespace
+
+const Json& at(const Json& json, const char* key, const std::string& where) {
+  if (!json.is_object() || !json.contains(key)) throw Refusal(where + ": there is no " + key);
+  return json[key];
+}
+
+double readNumber(const Json& json, const std::string& where) {
+  if (!json.is_number()) throw Refusal(where + ": not a number: " + json.dump());
+  const double number = json.get<double>();
+  if (!std::isfinite(number)) throw Refusal(where + ": not a finite number");
+  return number;
+}
+
+Vector3d readVector(const Json& json, const std::string& where) {
+  if (!json.is_array() || json.size() != 3) throw Refusal(where + ": not three numbers");
+  return {readNumber(json[0], where), readNumber(json[1], where), readNumber(json[2], where)};
+}
+
+Isometry3d readPose(const Json& json, const std::string& where) {
+  if (!json.is_array() || json.size() != 12) throw Refusal(where + ": not 12 numbers");
+  Isometry3d pose = Isometry3d::Identity();
+  for (Eigen::Index i = 0; i < 9; ++i)
+    pose.linear()(i / 3, i % 3) = readNumber(json[static_cast<std::size_t>(i)], where);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    pose.translation()[i] = readNumber(json[static_cast<std::size_t>(9 + i)], where);
+  const Eigen::Matrix3d error =
+      pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity();
+  if (!(error.cwiseAbs().maxCoeff() <= kUnit) || !(pose.linear().determinant() > 0.0))
+    throw Refusal(where + ": not a rotation");
+  return pose;
+}
+
+Model readModel(const Json& json) {
+  Model model;
+  for (const Json& name : readList(json, "links", "model")) {
+    if (!name.is_string()) throw Refusal("links: not a text: " + name.dump());
+    model.links.push_back(name.get<std::string>());
+  }
+  for (const Json& variable : readList(json, "variables", "model"))
+    model.variables.push_back(readVariable(variable));
+  model.jointOf.assign(model.links.size(), -1);
+  for (const Json& joint : readList(json, "joints", "model")) {
+    model.joints.push_back(readJoint(joint, model));
+    int& above = model.jointOf[static_cast<std::size_t>(model.joints.back().child)];
+    if (above >= 0)
+      throw Refusal("joint " + model.joints.back().name + ": a second one above its link");
+    above = static_cast<int>(model.joints.size()) - 1;
+  }
+  for (const Json& body : readList(json, "bodies", "model")) readBody(body, model);
+  readRules(json, model);
+  return model;
+}
+
+}  // namespace swept::verify
