@@ -13,6 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of an `--attach`: whether its shape is a mesh file.
+bool isFile(const std::string& attached) {
+  for (const char* type : {"box:", "sphere:", "cylinder:"})
+    if (attached.starts_with(type)) return false;
+  return attached.find('@') != std::string::npos;
+}
+
 /// Reads or writes the fields of Arguments that count, one after the other.
 class Writer {
  public:
@@ -38,6 +45,12 @@ class Writer {
     for (const std::string& package : packages) {
       const std::size_t folder = package.find('=') + 1;
       json_[key].push_back(package.substr(0, folder) + relative(package.substr(folder)));
+    }
+  }
+  void attached(const char* key, const std::vector<std::string>& attached) {
+    for (const std::string& text : attached) {
+      const std::size_t at = text.rfind('@');
+      json_[key].push_back(isFile(text) ? relative(text.substr(0, at)) + text.substr(at) : text);
     }
   }
   Json json() const { return json_; }
@@ -90,6 +103,13 @@ class Reader {
       package = package.substr(0, folder) + absolute(package.substr(folder));
     }
   }
+  void attached(const char* key, std::vector<std::string>& attached) {
+    texts(key, attached);
+    for (std::string& text : attached) {
+      const std::size_t at = text.rfind('@');
+      if (isFile(text)) text = absolute(text.substr(0, at)) + text.substr(at);
+    }
+  }
 
  private:
   std::string absolute(const std::string& name) const {
@@ -121,6 +141,7 @@ void visit(Visitor& visitor, Args& args) {
   visitor.texts("pad", args.pads);
   visitor.texts("scale", args.scales);
   visitor.texts("allow", args.allowed);
+  visitor.attached("attach", args.attached);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct Arguments {
   std::vector<std::string> pads;          ///< NAME=METRES
   std::vector<std::string> scales;        ///< NAME=FACTOR
   std::vector<std::string> allowed;       ///< A,B
+  std::vector<std::string> attached;      ///< SHAPE@LINK[:POSE]
   std::vector<std::string> explained;     ///< A,B
   double margin = 0.0;                    ///< m
   double tolerance = tolerance::kMotion;  ///< m
@@ -53,6 +54,12 @@ struct Arguments {
   std::uint32_t seed = 1;
   std::string output;
   bool noSimplify = false;
+  std::optional<double> simplifyTime;  ///< s; none: as much as the planner's
+  int threads = 1;
+  std::string goalPose;                ///< model_from_link: x,y,z,qx,qy,qz,qw
+  std::string goalLink;                ///< empty: the group's tip
+  double positionTolerance = 1e-3;     ///< m, of goalPose
+  double orientationTolerance = 1e-2;  ///< rad, of goalPose
   int jobs = 1;
 
   bool embed = false;  ///< robot and world go into the path file

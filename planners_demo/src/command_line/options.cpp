@@ -45,6 +45,13 @@ void addCheckerOptions(CLI::App& app, Arguments& args) {
                  "two links, or a link and a body of the world, may collide (repeatable)")
       ->type_name("A,B")
       ->allow_extra_args(false);
+  app.add_option(
+         "--attach", args.attached,
+         "a link carries box:X,Y,Z or sphere:R or cylinder:R,L (m) or a mesh file, which is "
+         "checked as the link is, but not against it; behind a colon its pose in the link's "
+         "frame, X,Y,Z[,QX,QY,QZ,QW] (repeatable)")
+      ->type_name("SHAPE@LINK")
+      ->allow_extra_args(false);
   app.add_option("--tolerance", args.tolerance,
                  "m; motions that keep more than margin + tolerance are decided (default 0.001)")
       ->type_name("M")
@@ -52,7 +59,9 @@ void addCheckerOptions(CLI::App& app, Arguments& args) {
 }
 
 void addSceneOptions(CLI::App& app, Arguments& args) {
-  app.add_option("--scene", args.scene, "planning scene: .yaml, .yml or .scene")->type_name("FILE");
+  app.add_option("--scene", args.scene,
+                 "planning scene: .yaml, .yml, .scene, or a .urdf of what stands around")
+      ->type_name("FILE");
   app.add_option(
          "--cloud", args.clouds,
          "sensed points (.pcd, .ply, .xyz) or an OctoMap (.bt, .ot), a body named after its "

@@ -2,15 +2,14 @@
 #include "input/clouds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "command_line/exit_code.hpp"
+#include "input/poses.hpp"
 #include "input/states.hpp"
 #include "input/task.hpp"
 #include "output/text_output.hpp"
@@ -21,19 +20,6 @@
 
 namespace swept {
 namespace {
-
-/// `x,y,z,qx,qy,qz,qw`.
-Eigen::Isometry3d poseOf(const std::string& text) {
-  constexpr double kQuaternionNorm = 1e-2;  // how far from 1 one typed with a few digits may be
-  if (text.empty()) return Eigen::Isometry3d::Identity();
-  const std::array<std::string, 7> names{"x", "y", "z", "qx", "qy", "qz", "qw"};
-  const std::vector<double> v = readValues(text, names, "--cloud-pose");
-  const Eigen::Quaterniond turn(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(turn.norm() - 1.0) <= kQuaternionNorm))
-    throw UsageError("--cloud-pose: the quaternion has norm " + shortNumber(turn.norm()) +
-                     ", allowed is 1");
-  return Eigen::Translation3d(v[0], v[1], v[2]) * turn.normalized();
-}
 
 /// What --self-filter leaves of the points (m, world).
 class SelfFilter {
@@ -150,7 +136,8 @@ void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& opt
     if (args.occluded) throw UsageError("--occluded needs --cloud");
     return;
   }
-  const Eigen::Isometry3d pose = poseOf(args.cloudPose);
+  const Eigen::Isometry3d pose = args.cloudPose.empty() ? Eigen::Isometry3d::Identity()
+                                                        : readPose(args.cloudPose, "--cloud-pose");
   const SelfFilter filter(args, robot, options);
   for (const std::string& file : args.clouds) {
     const std::string name = std::filesystem::path(file).stem().string();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
+#include "input/attach.hpp"
 #include "input/clouds.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
@@ -97,6 +98,7 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   options.modelFrame = model.robot->links().front().name;
   World world = args.scene.empty() ? World{} : World::load(args.scene, options);
   addClouds(args, *model.robot, options, world);
+  model.attached = attachedBodies(args, *model.robot, options);
   model.world = std::make_shared<const World>(std::move(world));
   return model;
 }
@@ -123,6 +125,7 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
   options.margin = args.margin;
   options.tolerance = args.tolerance;
   options.rules = rulesOf(args);
+  options.attached = model.attached;
   std::shared_ptr<const Checker> checker;
   try {
     checker = std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
@@ -152,7 +155,8 @@ Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
   const bool plan = args.command == &kPlanCommand;
   for (std::size_t i = 0; i < args.states.size(); ++i) {
     const std::string& text = args.states[i];
-    const std::string label = plan ? (i == 0 ? "start" : "goal") : "state " + std::to_string(i + 1);
+    const std::string goal = args.states.size() > 2 ? "goal " + std::to_string(i) : "goal";
+    const std::string label = plan ? (i == 0 ? "start" : goal) : "state " + std::to_string(i + 1);
     const std::vector<double> q = readState(*model.robot, group, text, label);
     const bool named = model.robot->findNamedState(text, group.name) != nullptr;
     task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});

@@ -36,6 +36,7 @@ struct Model {
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
+  std::vector<AttachedBody> attached;  ///< of --attach
 };
 /// Throws InputError or UsageError.
 Model loadModel(const Arguments& args, Warnings& warnings);

@@ -8,6 +8,7 @@
 #include "certificate/inputs.hpp"
 #include "command_line/commands.hpp"
 #include "input/clouds.hpp"
+#include "input/poses.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "plan/path_files.hpp"
@@ -59,6 +60,8 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
                {"planner", request.planner},      {"seed", request.seed},
                {"solved", outcome.solved()},      {"proven", outcome.proven()}};
   json["failure"] = outcome.solved() ? Json(nullptr) : Json(outcome.failure);
+  json["bad_ends"] = Json::array();
+  for (const EndReport& end : outcome.badEnds) json["bad_ends"].push_back(endJson(end));
   json["planning_time"] = outcome.planningTime;
   json["simplification_time"] = outcome.simplifyTime;
   json["path_length"] = outcome.solved() ? Json(outcome.length) : Json(nullptr);
@@ -88,6 +91,35 @@ void writePath(const Arguments& args, const PathFile& file, const Checker& check
   file.write(checker, request, outcome, inputsJson(args, args.output), certificate, args.embed);
 }
 
+void requireEnds(const Arguments& args) {
+  if (args.goalPose.empty() && !args.goalLink.empty()) throw UsageError("--link needs --goal-pose");
+  if (!args.problems.empty()) {
+    if (!args.goalPose.empty())
+      throw UsageError(
+          "--goal-pose and --problems cannot be combined: the problem has its own goals");
+    return;
+  }
+  if (!args.goalPose.empty() && args.states.size() != 1)
+    throw UsageError("plan: with --goal-pose a start is needed, and no other state");
+  if (args.goalPose.empty() && args.states.size() < 2)
+    throw UsageError("plan: a start and a goal are needed");
+}
+
+std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Robot& robot,
+                                     const Group& group) {
+  if (args.goalPose.empty()) return std::nullopt;
+  PoseTarget target{.link = args.goalLink,
+                    .model_from_link = readPose(args.goalPose, "--goal-pose"),
+                    .positionTolerance = args.positionTolerance,
+                    .orientationTolerance = args.orientationTolerance};
+  if (target.link.empty()) {
+    if (group.tipLink < 0)
+      throw UsageError("--goal-pose: group '" + group.name + "' has no tip; choose a --link");
+    target.link = robot.links()[group.tipLink].name;
+  }
+  return target;
+}
+
 bool manyProblems(const Arguments& args) {
   return !args.problems.empty() && (args.set.empty() || !args.index);
 }
@@ -96,18 +128,21 @@ bool manyProblems(const Arguments& args) {
 
 ExitCode runPlan(const Arguments& args) {
   routePlannerMessages(args.verbose);
-  const PlanRequest request{.planner = plannerName(args.planner),
-                            .time = args.time,
-                            .seed = args.seed,
-                            .simplify = !args.noSimplify,
-                            .clearance = !manyProblems(args)};
+  PlanRequest request{.planner = plannerName(args.planner),
+                      .time = args.time,
+                      .seed = args.seed,
+                      .simplify = !args.noSimplify,
+                      .simplifyTime = args.simplifyTime.value_or(args.time),
+                      .threads = args.threads,
+                      .goalPose = {},
+                      .clearance = !manyProblems(args)};
   if (manyProblems(args)) return runPlanSets(args, request);
-  if (args.problems.empty() && args.states.size() != 2)
-    throw UsageError("plan: a start and a goal are needed");
+  requireEnds(args);
 
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
+  request.goalPose = goalPoseOf(args, task.checker->robot(), task.checker->group());
   std::optional<PathFile> file;
   if (!args.output.empty()) file.emplace(args.output, *model.robot, task.checker->group());
   PlanOutcome outcome;

@@ -10,7 +10,9 @@ void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
-  app.add_option("states", args.states, "start and goal")->type_name("START GOAL")->expected(0, 2);
+  app.add_option("states", args.states,
+                 "start and goal, or several goals, one of which is to be reached")
+      ->type_name("START GOAL...");
   addProblemOptions(app, args, "plans from start to goals; without --set or --index all of them");
   app.add_option("--planner", args.planner, "OMPL planner (default RRTConnect); names below")
       ->type_name("NAME");
@@ -25,6 +27,27 @@ void addOptions(CLI::App& app, Arguments& args) {
   app.add_flag("--embed", args.embed,
                "the .json has the robot and the world in it, so that 'swept verify' needs no other "
                "file");
+  app.add_option("--goal-pose", args.goalPose, "goal: where a link is to be, in the model frame")
+      ->type_name("X,Y,Z,QX,QY,QZ,QW");
+  app.add_option("--link", args.goalLink, "link of --goal-pose (default: the group's tip)")
+      ->type_name("LINK");
+  app.add_option("--position-tolerance", args.positionTolerance,
+                 "m; of --goal-pose (default 0.001)")
+      ->type_name("M")
+      ->check(within(1e-6, 10.0, "between 1e-6 and 10 m"));
+  app.add_option("--orientation-tolerance", args.orientationTolerance,
+                 "rad; of --goal-pose (default 0.01)")
+      ->type_name("RAD")
+      ->check(within(1e-6, 3.2, "between 1e-6 and 3.2 rad"));
+  app.add_option("--threads", args.threads,
+                 "threads of the planner; copies of it, side by side, where it has none (default "
+                 "1; with more, the path depends on timing)")
+      ->type_name("N")
+      ->check(within(1, 256, "between 1 and 256"));
+  app.add_option("--simplify", args.simplifyTime,
+                 "s; limit of the simplification (default: that of the planner)")
+      ->type_name("S")
+      ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
   app.add_flag("--no-simplify", args.noSimplify, "keep the path as the planner returned it");
   app.add_option("--jobs", args.jobs,
                  "problems planned at the same time, one thread each (default 1; with more, random "

@@ -6,9 +6,14 @@
 #include <ompl/util/Exception.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <ompl/tools/multiplan/ParallelPlan.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
+#include <thread>
 
 #include "output/text_output.hpp"
 #include "plan/planners.hpp"
@@ -27,55 +32,81 @@ class StderrMessages : public ompl::msg::OutputHandler {
   }
 };
 
-/// Why a state cannot be an end of a path; empty when it can.
-struct EndProblem {
-  Verdict verdict = Verdict::Undecided;
-  std::string text;
-};
-
-EndProblem endProblem(const Checker& checker, const LabelledState& state, Workspace& workspace) {
-  const StateReport report = checker.reportState(state.q, workspace);
-  if (report.verdict == Verdict::Free) return {.verdict = Verdict::Free, .text = {}};
-  std::string text =
-      state.label + " is " + (report.verdict == Verdict::Collision ? "in collision" : "undecided");
-  if (!report.contacts.empty()) text.append(", ").append(witnessText(report.contacts.front()));
-  return {.verdict = report.verdict, .text = std::move(text)};
-}
-
 /// The ends a planner can use: the start and the goals that are free.
 struct Ends {
   const LabelledState* start = nullptr;
   std::vector<const LabelledState*> goals;
   ExitCode code = ExitCode::Free;
   std::string failure;  ///< why there is no such pair of ends
+  std::vector<EndReport> bad;
 };
 
-Ends usableEnds(const Checker& checker, const std::vector<LabelledState>& states) {
+Ends usableEnds(const Checker& checker, const std::vector<LabelledState>& states,
+                const PlanRequest& request) {
   Workspace workspace(checker);
   Ends ends;
-  const auto refuse = [&](const EndProblem& problem) {
-    ends.code = worse(ends.code, exitCodeOf(problem.verdict));
-    ends.failure += (ends.failure.empty() ? "" : "; ") + problem.text;
+  const auto refuse = [&](const EndReport& report) {
+    ends.code = worse(ends.code, exitCodeOf(report.verdict));
+    ends.failure += (ends.failure.empty() ? "" : "; ") + endText(report);
+    ends.bad.push_back(report);
   };
-  const EndProblem startProblem = endProblem(checker, states.front(), workspace);
-  if (!startProblem.text.empty()) refuse(startProblem);
+  const EndReport start = reportEnd(checker, states.front(), workspace);
+  if (start.verdict != Verdict::Free) refuse(start);
   ends.start = &states.front();
-  std::vector<EndProblem> goalProblems;
+  std::vector<EndReport> badGoals;
   for (std::size_t i = 1; i < states.size(); ++i) {
-    EndProblem problem = endProblem(checker, states[i], workspace);
-    if (problem.text.empty())
+    EndReport goal = reportEnd(checker, states[i], workspace);
+    if (goal.verdict == Verdict::Free)
       ends.goals.push_back(&states[i]);
     else
-      goalProblems.push_back(std::move(problem));
+      badGoals.push_back(std::move(goal));
   }
-  if (ends.goals.empty()) std::ranges::for_each(goalProblems, refuse);
+  if (ends.goals.empty() && !request.goalPose) std::ranges::for_each(badGoals, refuse);
   return ends;
+}
+
+/// Looks for goal states until it has enough or gives up, before the planner starts: what that
+/// returns depends on the seed alone then.
+std::shared_ptr<PoseGoal> sampledGoal(const og::SimpleSetup& setup,
+                                      const std::shared_ptr<const Checker>& checker,
+                                      const PoseTarget& target, std::uint32_t seed) {
+  PoseGoalOptions options;
+  options.positionTolerance = target.positionTolerance;
+  options.orientationTolerance = target.orientationTolerance;
+  options.seed = seed;
+  std::shared_ptr<PoseGoal> goal;
+  try {
+    goal = std::make_shared<PoseGoal>(setup.getSpaceInformation(), checker, target.link,
+                                      target.model_from_link, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--goal-pose: ") + error.what());
+  }
+  goal->startSampling();
+  while (goal->isSampling()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return goal;
+}
+
+/// Some of OMPL's planners have threads, under one of these names.
+bool setThreads(ob::Planner& planner, int threads) {
+  for (const char* name : {"thread_count", "num_threads", "num_planners"})
+    if (planner.params().hasParam(name))
+      return planner.params().setParam(name, std::to_string(threads));
+  return false;
+}
+
+/// Of the others as many run side by side, and the first path ends it.
+ob::PlannerStatus solveInParallel(og::SimpleSetup& setup, const PlanRequest& request) {
+  ompl::tools::ParallelPlan parallel(setup.getProblemDefinition());
+  for (int i = 0; i < request.threads; ++i)
+    parallel.addPlanner(makePlanner(request.planner, setup.getSpaceInformation()));
+  return parallel.solve(request.time, 1, 1, false);
 }
 
 void setEnds(og::SimpleSetup& setup, const StateConversion& conversion, const Ends& ends) {
   ob::ScopedState<> state(setup.getStateSpace());
   conversion.toState(ends.start->q, state.get());
   setup.setStartState(state);
+  if (ends.goals.empty()) return;  // a goal pose
   if (ends.goals.size() == 1) {
     // Every planner takes a single state; a few take nothing else.
     conversion.toState(ends.goals.front()->q, state.get());
@@ -88,6 +119,10 @@ void setEnds(og::SimpleSetup& setup, const StateConversion& conversion, const En
     goals->addState(state);
   }
   setup.setGoal(goals);
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometric& path,
@@ -115,13 +150,16 @@ void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometr
 
 PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequest& request) {
   PlanOutcome outcome;
-  const ob::PlannerStatus status = setup.solve(request.time);
+  const bool copies = request.threads > 1 && !setThreads(*setup.getPlanner(), request.threads);
+  const auto begin = std::chrono::steady_clock::now();
+  const ob::PlannerStatus status =
+      copies ? solveInParallel(setup, request) : setup.solve(request.time);
   if (status == ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE)
     throw UsageError("planner " + request.planner + " takes one goal only");
-  outcome.planningTime = setup.getLastPlanComputationTime();
+  outcome.planningTime = secondsSince(begin);
   const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
   if (exact && request.simplify) {
-    setup.simplifySolution(request.time);
+    setup.simplifySolution(request.simplifyTime);
     outcome.simplifyTime = setup.getLastSimplificationTime();
   }
   const ob::MotionValidatorPtr& validator = setup.getSpaceInformation()->getMotionValidator();
@@ -153,11 +191,12 @@ double PlanOutcome::leastClearance() const {
 
 PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
                  const std::vector<LabelledState>& states, const PlanRequest& request) {
-  const Ends ends = usableEnds(*checker, states);
+  const Ends ends = usableEnds(*checker, states, request);
+  PlanOutcome outcome;
   if (!ends.failure.empty()) {
-    PlanOutcome outcome;
     outcome.code = ends.code;
     outcome.failure = ends.failure;
+    outcome.badEnds = ends.bad;
     return outcome;
   }
   // Spaces and planners draw from the seed as soon as they are made.
@@ -167,6 +206,14 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
   setEnds(*setup, conversion, ends);
   try {
     setup->getSpaceInformation()->setup();
+    if (request.goalPose) {
+      const auto goal = sampledGoal(*setup, checker, *request.goalPose, request.seed);
+      if (!goal->hasStates()) {
+        outcome.failure = whyNotReached(*checker, *request.goalPose, request.seed);
+        return outcome;
+      }
+      setup->setGoal(goal);
+    }
     setup->setPlanner(makePlanner(request.planner, setup->getSpaceInformation()));
     setup->setup();
     return solve(*setup, *checker, request);

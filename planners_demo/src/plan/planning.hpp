@@ -3,21 +3,27 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line/exit_code.hpp"
 #include "input/task.hpp"
+#include "plan/end_report.hpp"
+#include "plan/pose_target.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept {
 
 struct PlanRequest {
   std::string planner;  ///< as plannerName() returns it
-  double time = 5.0;    ///< s; limit of the planner, and again of the simplification
+  double time = 5.0;    ///< s; limit of the planner
   std::uint32_t seed = 1;
   bool simplify = true;
-  bool clearance = true;  ///< bound the least distance of every segment too
+  double simplifyTime = 5.0;                ///< s
+  int threads = 1;                          ///< of the planner, or copies of it where it has none
+  std::optional<PoseTarget> goalPose = {};  ///< instead of goal states
+  bool clearance = true;                    ///< bound the least distance of every segment too
 };
 
 /// What is known about one motion of a path.
@@ -34,6 +40,7 @@ struct PlanOutcome {
   double length = 0.0;                  ///< of the path, in the metric of the state space
   unsigned certified = 0;  ///< motions the validator proved free, for planner and simplification
   unsigned refused = 0;    ///< motions it did not
+  std::vector<EndReport> badEnds = {};  ///< starts and goals that cannot be used
   std::vector<std::vector<double>> states;
   std::vector<PathSegment> segments;  ///< one fewer than states
 
@@ -42,9 +49,10 @@ struct PlanOutcome {
   double leastClearance() const;  ///< m, over the segments
 };
 
-/// Plans from `states[0]` to any of the others, and certifies the path once more when it is final.
-/// The same request gives the same path unless a time limit cuts in, or the planner uses threads.
-/// Throws UsageError when the planner cannot work in the group's state space.
+/// Plans from `states[0]` to any of the others, or to the goal pose, and certifies the path once
+/// more when it is final. The same request gives the same path unless a time limit cuts in, or the
+/// planner uses threads. Throws UsageError when the planner cannot work in the group's state space,
+/// and for a goal pose of a link that is not there or does not move.
 PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
                  const std::vector<LabelledState>& states, const PlanRequest& request);
 

@@ -5,11 +5,12 @@ namespace swept {
 
 World World::load(const std::filesystem::path& scene, const LoadOptions& options) {
   const std::string ending = scene.extension().string();
+  if (ending == ".urdf") return detail::readSceneUrdf(scene, options);
   const bool yaml = ending == ".yaml" || ending == ".yml";
   if (!yaml && ending != ".scene") {
-    throw InputError(
-        scene.string(), 0,
-        "unknown ending '" + ending + "' of a scene file; allowed are .yaml, .yml and .scene");
+    throw InputError(scene.string(), 0,
+                     "unknown ending '" + ending +
+                         "' of a scene file; allowed are .yaml, .yml, .scene and .urdf");
   }
   const std::string text = detail::readTextFile(scene);
   const detail::InputSource source(scene.string(), options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "io/input_source.hpp"
@@ -14,5 +15,9 @@ World readSceneYaml(const std::string& text, const InputSource& source);
 
 /// MoveIt's text format, with poses per object (since Noetic) or without. Throws InputError.
 World readSceneText(const std::string& text, const InputSource& source);
+
+/// A URDF as surroundings: its links, in their default state, with the root link in the model
+/// frame. Throws InputError.
+World readSceneUrdf(const std::filesystem::path& scene, const LoadOptions& options);
 
 }  // namespace swept::detail

@@ -47,8 +47,9 @@ struct MovingObstacle {
 /// the SRDF's virtual joint). Copies share meshes, hulls and clouds.
 class World {
  public:
-  /// Reads planning-scene YAML (moveit_msgs layout, `.yaml`/`.yml`) or MoveIt text (`.scene`), told
-  /// apart by the file's ending. Throws InputError.
+  /// Reads planning-scene YAML (moveit_msgs layout, `.yaml`/`.yml`), MoveIt text (`.scene`) or a
+  /// URDF (`.urdf`: its links in their default state are the bodies, the root link in the model
+  /// frame), told apart by the file's ending. Throws InputError.
   static World load(const std::filesystem::path& scene, const LoadOptions& options = {});
 
   /// Throws std::invalid_argument when the name is taken or a pose is not a rigid finite transform.

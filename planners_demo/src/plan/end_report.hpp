@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "input/task.hpp"
+#include "output/text_output.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// Two bodies in contact in a state, and how deep.
+struct EndContact {
+  std::string bodyA, bodyB;
+  double depth;  ///< m, proven upper bound of the shortest translation that separates the two; 0 or
+                 ///< less: they are nearer than their margin but do not overlap
+  Eigen::Vector3d point;  ///< m, model frame: on or in both, or between them
+};
+
+/// Why a state can, or cannot, be an end of a path.
+struct EndReport {
+  std::string label;
+  Verdict verdict = Verdict::Undecided;
+  std::vector<EndContact> contacts = {};
+};
+
+EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspace& workspace);
+
+/// `start is in collision: hand - shelf (0.01 m deep, at [0.1 0 0.5]), ...`; empty for a free one.
+std::string endText(const EndReport& report);
+Json endJson(const EndReport& report);
+
+}  // namespace swept

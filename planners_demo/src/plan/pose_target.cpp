@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plan/pose_target.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "output/text_output.hpp"
+#include "plan/end_report.hpp"
+#include "swept/robot_model/inverse_kinematics.hpp"
+
+namespace swept {
+namespace {
+
+constexpr int kSearches = 300;
+
+/// Within the limits; where there are none, a turn or a metre around zero.
+std::vector<double> randomState(const Checker& checker, std::mt19937& random) {
+  std::vector<double> q;
+  for (const int v : checker.group().variables) {
+    const Variable& variable = checker.robot().variables()[v];
+    std::uniform_real_distribution<double> within(std::max(variable.lower, -std::numbers::pi),
+                                                  std::min(variable.upper, std::numbers::pi));
+    q.push_back(within(random));
+  }
+  return q;
+}
+
+double deepest(const EndReport& report) {
+  double depth = 0.0;
+  for (const EndContact& contact : report.contacts) depth = std::max(depth, contact.depth);
+  return depth;
+}
+
+}  // namespace
+
+std::string whyNotReached(const Checker& checker, const PoseTarget& target, std::uint32_t seed) {
+  const auto robot = std::make_shared<const Robot>(checker.robot());
+  const InverseKinematics kinematics(robot, checker.group().name, target.link,
+                                     checker.options().reference);
+  InverseKinematics::Workspace scratch(kinematics);
+  Workspace workspace(checker);
+  const InverseKinematicsOptions options{.positionTolerance = target.positionTolerance,
+                                         .orientationTolerance = target.orientationTolerance};
+  std::mt19937 random(seed);
+  int found = 0;
+  std::optional<EndReport> best;
+  for (int i = 0; i < kSearches; ++i) {
+    std::vector<double> q = randomState(checker, random);
+    if (!kinematics.solve(target.model_from_link, q, options, scratch)) continue;
+    ++found;
+    EndReport report =
+        reportEnd(checker, {.label = "the best of them", .q = std::move(q)}, workspace);
+    if (!best || deepest(report) < deepest(*best)) best = std::move(report);
+  }
+  const std::string searches = std::to_string(kSearches) + " searches";
+  if (!best)
+    return "no configuration puts " + target.link + " at the goal pose: none found in " + searches;
+  return "no free configuration puts " + target.link +
+         " at the goal pose: " + std::to_string(found) + " of " + searches + " reach it, and " +
+         endText(*best);
+}
+
+}  // namespace swept
