@@ -106,6 +106,12 @@ Outcome runShell(const std::string& commandLine) {
   return runArgv({"/bin/sh", "-c", function + commandLine}, Stderr::File);
 }
 
+Outcome runCommands(const std::string& commands, const std::string& folder) {
+  const std::string path = std::filesystem::path(SWEPT_PROGRAM).parent_path().string();
+  return runArgv({"/bin/sh", "-c", "PATH='" + path + "':$PATH; cd '" + folder + "'; " + commands},
+                 Stderr::File);
+}
+
 nlohmann::json jsonOf(const Outcome& run) {
   const nlohmann::json json = nlohmann::json::parse(run.out, nullptr, false);
   EXPECT_TRUE(json.is_object()) << "not one JSON object:\n" << run.out << run.err;

@@ -25,6 +25,9 @@ Outcome runSwept(const std::vector<std::string>& arguments, Stderr where = Stder
 /// A shell command line, with `swept` being the program. Nothing runs after it in the foreground.
 Outcome runShell(const std::string& commandLine);
 
+/// Shell commands in a folder, with the program on the path: several in a row, or other shells.
+Outcome runCommands(const std::string& commands, const std::string& folder);
+
 /// stdout as JSON; fails the test when it is not one object.
 nlohmann::json jsonOf(const Outcome& run);
 

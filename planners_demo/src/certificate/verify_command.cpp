@@ -25,7 +25,9 @@ void addOptions(CLI::App& app, Arguments& args) {
 const Command kVerifyCommand{
     .name = "verify",
     .summary = "Check the proof in a path file, by other means than it was found",
-    .example = "swept verify models/paths/narrow_slot.json",
+    .example =
+        "swept plan models/robots/rook7/rook7.urdf home ready --group arm "
+        "--scene models/scenes/narrow_slot.yaml -o path.json && swept verify path.json",
     .exitCodes =
         "Exit codes: 0 the proof holds, 1 it does not, or something was changed, 3 bad "
         "input or usage.",

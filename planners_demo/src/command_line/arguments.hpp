@@ -43,6 +43,7 @@ struct Arguments {
   std::optional<int> index;
 
   std::string cases;  ///< JSON file of replay
+  std::string shell;  ///< of completion
 
   std::string edges;  ///< CSV file of bench edges
   int passes = 5;

@@ -6,9 +6,9 @@
 namespace swept {
 
 std::span<const Command* const> commands() {
-  static constexpr std::array kAll{&kInfoCommand,   &kCheckCommand,     &kMotionCommand,
-                                   &kPlanCommand,   &kVerifyCommand,    &kAcmCommand,
-                                   &kReplayCommand, &kBenchEdgesCommand};
+  static constexpr std::array kAll{&kInfoCommand,   &kCheckCommand,      &kMotionCommand,
+                                   &kPlanCommand,   &kVerifyCommand,     &kAcmCommand,
+                                   &kReplayCommand, &kBenchEdgesCommand, &kCompletionCommand};
   return kAll;
 }
 

@@ -30,4 +30,7 @@ ExitCode runReplay(const Arguments& args);
 extern const Command kBenchEdgesCommand;
 ExitCode runBenchEdges(const Arguments& args);
 
+extern const Command kCompletionCommand;
+ExitCode runCompletion(const Arguments& args);
+
 }  // namespace swept

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  app.add_option("shell", args.shell, "bash, zsh or fish")
+      ->required()
+      ->type_name("SHELL")
+      ->check(CLI::Validator(
+          [](std::string& shell) -> std::string {
+            const bool known = shell == "bash" || shell == "zsh" || shell == "fish";
+            return known ? "" : "must be bash, zsh or fish, not " + CLI::detail::trim_copy(shell);
+          },
+          ""));
+}
+
+}  // namespace
+
+const Command kCompletionCommand{
+    .name = "completion",
+    .summary = "Completion of subcommands, options and planners, as a script for a shell",
+    .example = "swept completion bash > swept_completion.bash",
+    .exitCodes = "Exit codes: 0 printed, 3 bad input or usage.",
+    .addOptions = addOptions,
+    .run = runCompletion};
+
+}  // namespace swept

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "program.hpp"
+
+/// What every --help shows can be typed as it is.
+namespace swept::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// First words of the lines below `Subcommands:`.
+std::vector<std::string> subcommands(const std::vector<std::string>& of) {
+  std::vector<std::string> arguments = of;
+  arguments.emplace_back("--help");
+  const std::string help = runSwept(arguments).out;
+  const std::size_t list = help.find("\nSubcommands:\n");
+  std::vector<std::string> names;
+  if (list == std::string::npos) return names;
+  std::istringstream lines(help.substr(list + 14));
+  for (std::string line; std::getline(lines, line) && line.starts_with("  ");) {
+    // What follows a name that is too long for its column starts far to the right.
+    std::istringstream words(line);
+    std::string name;
+    if (line[2] != ' ' && words >> name) names.push_back(name);
+  }
+  return names;
+}
+
+/// `bench edges` as two words.
+std::vector<std::vector<std::string>> allCommands() {
+  std::vector<std::vector<std::string>> commands;
+  for (const std::string& name : subcommands({})) {
+    const std::vector<std::string> inner = subcommands({name});
+    if (inner.empty()) commands.push_back({name});
+    for (const std::string& second : inner) commands.push_back({name, second});
+  }
+  return commands;
+}
+
+class Examples : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(Examples, RunAsTheyStand) {
+  std::vector<std::string> arguments = GetParam();
+  arguments.emplace_back("--help");
+  const Outcome help = runSwept(arguments);
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_EQ(help.err, "");
+  EXPECT_THAT(help.out, HasSubstr("\nExit codes: 0 "));
+  const std::size_t begin = help.out.find("\nExample:\n  ");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string example =
+      help.out.substr(begin + 12, help.out.find('\n', begin + 12) - begin - 12);
+  EXPECT_THAT(example, HasSubstr("swept " + GetParam().front()));
+  const TemporaryFolder folder;
+  std::filesystem::create_directory_symlink(SWEPT_MODELS_DIR, folder.path("models"));
+  const Outcome run = runCommands(example, folder.path());
+  // That motion collides; the others' answers are good news.
+  EXPECT_EQ(run.exitCode, GetParam().front() == "motion" ? 1 : 0) << example << "\n" << run.out;
+  EXPECT_EQ(run.err, "") << example;
+  EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "no colours in a pipe";
+  EXPECT_GE(run.out.size() + folder.names().size(), 2u) << "something comes of it";
+}
+
+INSTANTIATE_TEST_SUITE_P(Help, Examples, testing::ValuesIn(allCommands()));
+
+TEST(Completion, KnowsAllSubcommandsAndOptions) {
+  const std::string bash = runSwept({"completion", "bash"}).out;
+  const std::string fish = runSwept({"completion", "fish"}).out;
+  EXPECT_GE(allCommands().size(), 9u);
+  for (const std::vector<std::string>& command : allCommands()) {
+    EXPECT_THAT(bash, HasSubstr("\"" + command.front() +
+                                (command.size() > 1 ? " " + command.back() : "") + "\") words="));
+    EXPECT_THAT(fish, HasSubstr(" -a " + command.back() + " -d '"));
+  }
+  EXPECT_EQ(runSwept({"completion", "csh"}).err,
+            "swept: error: shell: must be bash, zsh or fish, not csh (try --help)\n");
+}
+
+/// What bash offers for a line with the cursor behind it.
+std::string offered(const std::string& line) {
+  const TemporaryFolder folder;
+  folder.write("ask.bash",
+               "eval \"$(swept completion bash)\"\n"
+               "COMP_WORDS=(" +
+                   line +
+                   ")\n"
+                   "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
+                   "_swept\n"
+                   "echo ${COMPREPLY[*]}\n");
+  const Outcome run = runCommands("bash ask.bash", folder.path());
+  EXPECT_EQ(run.err, "");
+  return run.out;
+}
+
+TEST(Completion, CompletesInBash) {
+  EXPECT_EQ(offered("swept ver"), "verify\n");
+  EXPECT_EQ(offered("swept plan --goal"), "--goal-pose\n");
+  EXPECT_EQ(offered("swept bench ed"), "edges\n");
+  EXPECT_EQ(offered("swept bench edges --pass"), "--passes\n");
+  EXPECT_THAT(offered("swept plan --planner RRTC"), HasSubstr("RRTConnect"));
+  EXPECT_EQ(runShell("swept completion zsh | head -1").out,
+            "autoload -U +X bashcompinit && bashcompinit\n");
+}
+
+}  // namespace
+}  // namespace swept::test
