@@ -153,6 +153,57 @@ TEST(PlanGoals, WrongAttachmentsAreNamed) {
   EXPECT_EQ(message("no.stl@cube"), "no.stl: error: file not found\n");
 }
 
+/// Joints in another order than the group's.
+TEST(PlanGoals, APlanningRequestIsTheSameAsStates) {
+  const Gantry gantry;
+  const std::string request = gantry.folder().write(
+      "request.yaml",
+      "group_name: both\nstart_state: {joint_state: {name: [lift, slide], position: [0, 0]}}\n"
+      "goal_constraints:\n  - joint_constraints:\n    - {joint_name: lift, position: 0}\n"
+      "    - {joint_name: slide, position: 2}\n");
+  const auto json = jsonOf(gantry.run("plan", {"--request", request, "--json"}));
+  EXPECT_EQ(json["proven"], true) << json["failure"];
+  EXPECT_EQ(json["states"], jsonOf(gantry.run("plan", {"left", "right", "--json"}))["states"]);
+  const std::string file = gantry.folder().path("path.json");
+  ASSERT_EQ(gantry.run("plan", {"--request", request, "-o", file}).exitCode, 0);
+  EXPECT_EQ(runSwept({"verify", file}).exitCode, 0);
+  EXPECT_EQ(
+      gantry.run("plan", {"left", "--request", request}).err,
+      "swept: error: --request cannot be combined with states or --problems: it has its own\n");
+  const std::string bad = gantry.folder().write(
+      "bad.yaml",
+      "start_state: {joint_state: {name: [lift], position: [0]}}\n"
+      "goal_constraints:\n  - joint_constraints:\n    - {joint_name: lift, position: 0}\n");
+  EXPECT_EQ(gantry.run("plan", {"--request", bad}).err,
+            "swept: error: " + bad + ", start: it has no value for slide\n");
+}
+
+TEST(PlanGoals, APlanningRequestHasGoalPosesAndOtherJoints) {
+  const TemporaryFolder folder;
+  // The fingers' joint is outside the group: open, it stays open.
+  const std::string request = folder.write(
+      "request.yaml",
+      "group_name: arm\nstart_state:\n  joint_state:\n"
+      "    name: [joint1, joint2, joint3, joint4, joint5, joint6, joint7, finger_joint]\n"
+      "    position: [0, -0.3, 0, 1.9, 0, 1.54, 0, 0.01]\n"
+      "goal_constraints:\n  - position_constraints:\n      - link_name: hand\n"
+      "        constraint_region:\n          primitives: [{type: sphere, dimensions: [0.002]}]\n"
+      "          primitive_poses: [{position: [0.45, 0.2, 0.6], orientation: [0, 0, 0, 1]}]\n"
+      "    orientation_constraints:\n      - {link_name: hand, orientation: [1, 0, 0, 0]}\n");
+  const Outcome run = runSwept({"plan", kArm, "--scene", "models/scenes/table_objects.yaml", "-o",
+                                folder.path("path.json"), "--embed", "--request", request});
+  ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
+  const auto path = nlohmann::json::parse(folder.read("path.json"));
+  int fingers = 0;
+  for (const auto& joint : path["model"]["joints"]) {
+    if (joint["name"] != "finger_joint") continue;
+    ++fingers;
+    EXPECT_EQ(joint["values"], nlohmann::json({0.01}));
+  }
+  EXPECT_EQ(fingers, 1);
+  EXPECT_EQ(runSwept({"verify", folder.path("path.json"), "--files"}).exitCode, 0);
+}
+
 /// The post as a URDF, on a joint that puts it where the scene has it.
 TEST(PlanGoals, AUrdfIsASceneToo) {
   const Gantry gantry;

@@ -137,6 +137,7 @@ void visit(Visitor& visitor, Args& args) {
   visitor.file("problems", args.problems);
   visitor.text("set", args.set);
   visitor.value("index", args.index);
+  visitor.file("request", args.request);
   visitor.texts("states", args.states);
   visitor.texts("pad", args.pads);
   visitor.texts("scale", args.scales);

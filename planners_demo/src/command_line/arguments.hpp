@@ -57,6 +57,7 @@ struct Arguments {
   bool noSimplify = false;
   std::optional<double> simplifyTime;  ///< s; none: as much as the planner's
   int threads = 1;
+  std::string request;                 ///< YAML file
   std::string goalPose;                ///< model_from_link: x,y,z,qx,qy,qz,qw
   std::string goalLink;                ///< empty: the group's tip
   double positionTolerance = 1e-3;     ///< m, of goalPose

@@ -41,6 +41,11 @@ std::string standingContactText(const Checker& checker) {
 
 /// Exactly one source of states: the command line or one problem.
 void checkStateSource(const Arguments& args) {
+  if (!args.request.empty()) {
+    if (!args.states.empty() || !args.problems.empty())
+      throw UsageError("--request cannot be combined with states or --problems: it has its own");
+    return;
+  }
   if (args.problems.empty()) {
     if (args.states.empty()) throw UsageError(std::string(args.command->name) + ": no state given");
     return;
@@ -66,6 +71,57 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
     const std::string number = states.goals.size() > 1 ? " " + std::to_string(i + 1) : "";
     task.states.push_back({.label = "goal" + number, .q = states.goals[i]});
   }
+  return task;
+}
+
+/// The group's values among a request's. Throws UsageError for one that is missing or wrong.
+std::vector<double> requestState(const Robot& robot, const Group& group,
+                                 const PlanningRequest::JointValues& values,
+                                 const std::string& label) {
+  std::string text;
+  for (const int v : group.variables) {
+    const std::string& name = robot.variables()[v].name;
+    const auto found =
+        std::ranges::find(values, name, &PlanningRequest::JointValues::value_type::first);
+    if (found == values.end()) throw UsageError(label + ": it has no value for " + name);
+    text += (text.empty() ? "" : ",") + exactNumber(found->second);
+  }
+  return readState(robot, group, text, label);
+}
+
+/// The start's values of all joints, those outside the group too.
+Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest& request,
+                            const std::string& file) {
+  Eigen::VectorXd reference = robot.defaultState();
+  for (const auto& [name, value] : request.start) {
+    const std::optional<int> variable = robot.findVariable(name);
+    if (!variable && !robot.findJoint(name))
+      throw UsageError(file + ", start: robot '" + robot.name() + "' has no joint '" + name + "'");
+    if (variable) reference[*variable] = value;  // a joint without one mimics another
+  }
+  return reference;
+}
+
+Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) {
+  const PlanningRequest request = PlanningRequest::load(args.request, model.options);
+  const Robot& robot = *model.robot;
+  const std::string wanted = args.group.empty() ? request.group : args.group;
+  const Group& group = chooseGroup(robot, wanted);
+  if (request.goals.size() + request.poseGoals.size() > 1 && !request.poseGoals.empty())
+    throw UsageError(args.request + ": a goal pose has to be its only goal");
+  Task task;
+  task.checker = makeChecker(args, model, group, model.world, warnings,
+                             referenceOf(robot, request, args.request));
+  task.states.push_back(
+      {.label = "start", .q = requestState(robot, group, request.start, args.request + ", start")});
+  for (std::size_t i = 0; i < request.goals.size(); ++i) {
+    const std::string goal =
+        request.goals.size() > 1 ? "goal " + std::to_string(i + 1) : std::string("goal");
+    task.states.push_back(
+        {.label = goal,
+         .q = requestState(robot, group, request.goals[i], args.request + ", " + goal)});
+  }
+  if (!request.poseGoals.empty()) task.poseGoal = request.poseGoals.front();
   return task;
 }
 
@@ -99,6 +155,7 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   World world = args.scene.empty() ? World{} : World::load(args.scene, options);
   addClouds(args, *model.robot, options, world);
   model.attached = attachedBodies(args, *model.robot, options);
+  model.options = options;
   model.world = std::make_shared<const World>(std::move(world));
   return model;
 }
@@ -118,7 +175,8 @@ const Group& chooseGroup(const Robot& robot, const std::string& name) {
 
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
-                                           Warnings& warnings) {
+                                           Warnings& warnings,
+                                           const std::optional<Eigen::VectorXd>& reference) {
   if (group.variables.empty())
     throw UsageError("group '" + group.name + "' has no joint that moves");
   CheckerOptions options;
@@ -126,6 +184,7 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
   options.tolerance = args.tolerance;
   options.rules = rulesOf(args);
   options.attached = model.attached;
+  options.reference = reference;
   std::shared_ptr<const Checker> checker;
   try {
     checker = std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
@@ -149,6 +208,7 @@ double clearanceAccuracy(const Checker& checker) {
 
 Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
   checkStateSource(args);
+  if (!args.request.empty()) return requestTask(args, model, warnings);
   const Group& group = chooseGroup(*model.robot, args.group);
   if (!args.problems.empty()) return problemTask(args, model, group, warnings);
   Task task;

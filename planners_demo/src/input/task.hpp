@@ -3,11 +3,13 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line/arguments.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/problems.hpp"
 
 namespace swept {
@@ -37,6 +39,7 @@ struct Model {
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;  ///< of --attach
+  LoadOptions options;                 ///< how the files were read
 };
 /// Throws InputError or UsageError.
 Model loadModel(const Arguments& args, Warnings& warnings);
@@ -44,10 +47,12 @@ Model loadModel(const Arguments& args, Warnings& warnings);
 /// The group asked for, or the only one. Throws UsageError, listing the groups.
 const Group& chooseGroup(const Robot& robot, const std::string& name);
 
-/// Throws UsageError when the group has nothing to move. Warns of standing contacts.
+/// Throws UsageError when the group has nothing to move. Warns of standing contacts. `reference`:
+/// of the variables outside the group, as CheckerOptions has it.
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
-                                           Warnings& warnings);
+                                           Warnings& warnings,
+                                           const std::optional<Eigen::VectorXd>& reference = {});
 /// The same in another world.
 std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
                                            Warnings& warnings);
@@ -61,11 +66,12 @@ struct LabelledState {
   std::vector<double> q;
 };
 
-/// A checker and the states to look at, from either states on the command line or one problem
-/// of a problem file (its start, then its goals).
+/// A checker and the states to look at, from either states on the command line, or one problem of
+/// a problem file, or a planning request (start, then goals).
 struct Task {
   std::shared_ptr<const Checker> checker;
   std::vector<LabelledState> states;
+  std::optional<PlanningRequest::PoseGoal> poseGoal = {};  ///< of a request
 };
 Task loadTask(const Arguments& args, const Model& model, Warnings& warnings);
 

@@ -92,6 +92,12 @@ void writePath(const Arguments& args, const PathFile& file, const Checker& check
 }
 
 void requireEnds(const Arguments& args) {
+  if (!args.request.empty()) {
+    if (!args.goalPose.empty())
+      throw UsageError(
+          "--goal-pose and --request cannot be combined: the request has its own goals");
+    return;
+  }
   if (args.goalPose.empty() && !args.goalLink.empty()) throw UsageError("--link needs --goal-pose");
   if (!args.problems.empty()) {
     if (!args.goalPose.empty())
@@ -105,8 +111,14 @@ void requireEnds(const Arguments& args) {
     throw UsageError("plan: a start and a goal are needed");
 }
 
-std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Robot& robot,
-                                     const Group& group) {
+std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Task& task) {
+  const Robot& robot = task.checker->robot();
+  const Group& group = task.checker->group();
+  if (task.poseGoal)
+    return PoseTarget{.link = task.poseGoal->link,
+                      .model_from_link = task.poseGoal->model_from_link,
+                      .positionTolerance = task.poseGoal->positionTolerance,
+                      .orientationTolerance = task.poseGoal->orientationTolerance};
   if (args.goalPose.empty()) return std::nullopt;
   PoseTarget target{.link = args.goalLink,
                     .model_from_link = readPose(args.goalPose, "--goal-pose"),
@@ -142,7 +154,7 @@ ExitCode runPlan(const Arguments& args) {
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
-  request.goalPose = goalPoseOf(args, task.checker->robot(), task.checker->group());
+  request.goalPose = goalPoseOf(args, task);
   std::optional<PathFile> file;
   if (!args.output.empty()) file.emplace(args.output, *model.robot, task.checker->group());
   PlanOutcome outcome;

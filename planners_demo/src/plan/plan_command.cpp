@@ -27,6 +27,9 @@ void addOptions(CLI::App& app, Arguments& args) {
   app.add_flag("--embed", args.embed,
                "the .json has the robot and the world in it, so that 'swept verify' needs no other "
                "file");
+  app.add_option("--request", args.request,
+                 "planning request (moveit_msgs/MotionPlanRequest as YAML): start and goals")
+      ->type_name("FILE.yaml");
   app.add_option("--goal-pose", args.goalPose, "goal: where a link is to be, in the model frame")
       ->type_name("X,Y,Z,QX,QY,QZ,QW");
   app.add_option("--link", args.goalLink, "link of --goal-pose (default: the group's tip)")
