@@ -352,10 +352,12 @@ TEST(BenchEdges, BadUseIsToldInOneLine) {
             gantry.folder().path("none.csv") + ": error: file not found\n");
   EXPECT_EQ(gantryBench(gantry, gantry.folder().path()).err,
             gantry.folder().path() + ": error: not a regular file\n");
-  EXPECT_EQ(runSwept({"bench"}).err,
-            error + "bench: a subcommand is required; there is edges (try --help)\n");
-  EXPECT_EQ(runSwept({"bench", "nodes"}).err,
-            error + "bench has no subcommand 'nodes'; there is edges (try --help)\n");
+  EXPECT_EQ(
+      runSwept({"bench"}).err,
+      error + "bench: a subcommand is required; there are edges, planners, summary (try --help)\n");
+  EXPECT_EQ(
+      runSwept({"bench", "nodes"}).err,
+      error + "bench has no subcommand 'nodes'; there are edges, planners, summary (try --help)\n");
 }
 
 TEST(BenchEdges, TheExampleOfTheHelpRuns) {

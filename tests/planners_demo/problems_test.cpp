@@ -85,7 +85,8 @@ TEST(Problems, AWholeFileNamesWhatWasNotSolvedAndWhy) {
       gantry.run("plan", {"--problems", gantry.problems, "--time", "0.1", "--jobs", "2"});
   EXPECT_EQ(run.exitCode, 3) << "a problem with values outside the limits is bad input";
   EXPECT_THAT(run.out, HasSubstr("blocked 7: no path after 0."));
-  EXPECT_THAT(run.out, HasSubstr("blocked 8: start is in collision, cube - post: distance 0 m"));
+  EXPECT_THAT(run.out,
+              HasSubstr("blocked 8: start is in collision: cube - post (0.2 m deep, at ["));
   EXPECT_THAT(run.out, HasSubstr("blocked 9: problem blocked 9, start: slide is 3, allowed is"));
   EXPECT_THAT(run.out, HasSubstr("foreign 1: problem foreign 1: its joints are lift,swing"));
   EXPECT_TRUE(std::regex_search(run.out, std::regex("\nblocked +0/3 +0/0 ")));

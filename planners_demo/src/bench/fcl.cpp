@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/fcl_robot.hpp"
+#include "bench/fcl_validity.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace swept {
@@ -39,11 +40,15 @@ bool builtWithFcl() {
   return true;
 }
 
+ob::StateValidityCheckerPtr fclValidity(const ob::SpaceInformationPtr& si, const Checker& checker) {
+  return std::make_shared<FclValidity>(si, checker);
+}
+
 std::vector<FclResult> measureFcl(const Checker& checker, const std::vector<BenchMotion>& motions,
                                   int passes, const BenchClock& clock) {
   const auto si =
       std::make_shared<ob::SpaceInformation>(makeStateSpace(checker.robot(), checker.group()));
-  si->setStateValidityChecker(std::make_shared<FclValidity>(si, checker));
+  si->setStateValidityChecker(fclValidity(si, checker));
   si->setMotionValidator(std::make_shared<ob::DiscreteMotionValidator>(si));
   si->setup();
   const StateConversion conversion(checker.robot(), checker.group());

@@ -59,7 +59,8 @@ CLI::App& parentOf(const Command& command, CLI::App& program) {
   const auto isFamily = [&](CLI::App* app) { return app->get_name() == family; };
   const std::vector<CLI::App*> found = program.get_subcommands(isFamily);
   if (!found.empty()) return *found.front();
-  CLI::App* made = program.add_subcommand(family, "How long checks take on this machine");
+  CLI::App* made =
+      program.add_subcommand(family, "What checks and planners take and find on this machine");
   made->require_subcommand(1);
   return *made;
 }
@@ -84,8 +85,8 @@ std::string messageOf(const CLI::ParseError& error, int argc, const char* const*
   const bool known = std::ranges::any_of(
       commands(), [&](const Command* command) { return familyOf(command->name) == family; });
   if (!known) return "no subcommand '" + family + "'; there are " + namesIn("");
-  return argc > 2 ? family + " has no subcommand '" + argv[2] + "'; there is " + namesIn(family)
-                  : family + ": a subcommand is required; there is " + namesIn(family);
+  return argc > 2 ? family + " has no subcommand '" + argv[2] + "'; there are " + namesIn(family)
+                  : family + ": a subcommand is required; there are " + namesIn(family);
 }
 
 }  // namespace

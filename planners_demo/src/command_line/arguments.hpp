@@ -12,6 +12,22 @@ namespace swept {
 
 struct Command;
 
+/// What `bench planners` and `bench summary` have of their own.
+struct BatchArguments {
+  std::vector<std::string> planners = {"RRTConnect"};
+  std::vector<std::string> validators = {"certified"};
+  int runs = 1;                     ///< of each planner and validator on each problem
+  std::optional<double> hardLimit;  ///< s
+  std::string log;                  ///< folder
+  std::string csv;
+  bool list = false;
+  bool fromStdin = false;
+  bool noTimes = false;
+  bool noClearance = false;
+  bool states = false;
+  std::vector<std::string> files;  ///< results of earlier batches
+};
+
 /// The command line, as typed. Each subcommand reads the part it has.
 struct Arguments {
   const Command* command = nullptr;
@@ -49,6 +65,8 @@ struct Arguments {
   int passes = 5;
   std::optional<int> limit;
   std::string against;  ///< `fcl`, or empty
+
+  BatchArguments batch;
 
   std::string planner = "RRTConnect";
   double time = 5.0;  ///< s

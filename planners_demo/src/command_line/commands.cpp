@@ -6,9 +6,10 @@
 namespace swept {
 
 std::span<const Command* const> commands() {
-  static constexpr std::array kAll{&kInfoCommand,   &kCheckCommand,      &kMotionCommand,
-                                   &kPlanCommand,   &kVerifyCommand,     &kAcmCommand,
-                                   &kReplayCommand, &kBenchEdgesCommand, &kCompletionCommand};
+  static constexpr std::array kAll{
+      &kInfoCommand,          &kCheckCommand,        &kMotionCommand,    &kPlanCommand,
+      &kVerifyCommand,        &kAcmCommand,          &kReplayCommand,    &kBenchEdgesCommand,
+      &kBenchPlannersCommand, &kBenchSummaryCommand, &kCompletionCommand};
   return kAll;
 }
 

@@ -30,6 +30,12 @@ ExitCode runReplay(const Arguments& args);
 extern const Command kBenchEdgesCommand;
 ExitCode runBenchEdges(const Arguments& args);
 
+extern const Command kBenchPlannersCommand;
+ExitCode runBenchPlanners(const Arguments& args);
+
+extern const Command kBenchSummaryCommand;
+ExitCode runBenchSummary(const Arguments& args);
+
 extern const Command kCompletionCommand;
 ExitCode runCompletion(const Arguments& args);
 

@@ -14,6 +14,7 @@ enum class ExitCode : int {
   Collision = 1,  ///< collision, not solved, or a case failed
   Undecided = 2,
   BadInput = 3,
+  Interrupted = 130,  ///< a batch that a signal ended before it was done
 };
 
 /// An option, a state or a combination of them that cannot be used. what() is one line for stderr.
@@ -45,6 +46,7 @@ constexpr ExitCode worse(ExitCode a, ExitCode b) {
       case ExitCode::Collision:
         return 2;
       case ExitCode::BadInput:
+      case ExitCode::Interrupted:
         break;
     }
     return 3;

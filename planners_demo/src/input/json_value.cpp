@@ -106,6 +106,15 @@ double JsonValue::notNegative() const {
   return given;
 }
 
+std::int64_t JsonValue::whole(std::int64_t low, std::int64_t high) const {
+  // Beyond every signed number: read as unsigned, and too large for any bound.
+  const bool fits = value_->is_number_integer() &&
+                    (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= INT64_MAX);
+  if (!fits || value_->get<std::int64_t>() < low || value_->get<std::int64_t>() > high)
+    refuse("a whole number between " + std::to_string(low) + " and " + std::to_string(high));
+  return value_->get<std::int64_t>();
+}
+
 Eigen::Vector3d JsonValue::vector3() const {
   const std::vector<JsonValue> items = elements(3);
   return {items[0].number(), items[1].number(), items[2].number()};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -36,10 +37,13 @@ class JsonValue {
   std::vector<JsonValue> elements(std::size_t count) const;
 
   bool isText() const { return value_->is_string(); }
+  bool isNull() const { return value_->is_null(); }
   bool boolean() const;
   std::string text() const;
   double number() const;
   double notNegative() const;
+  /// A whole number, both bounds included.
+  std::int64_t whole(std::int64_t low, std::int64_t high) const;
   Eigen::Vector3d vector3() const;
 
  private:

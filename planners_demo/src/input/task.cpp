@@ -131,7 +131,10 @@ void Warnings::operator()(const std::string& line) {
   const std::lock_guard lock(mutex_);
   if (quiet_ || std::ranges::find(seen_, line) != seen_.end()) return;
   seen_.push_back(line);
-  std::cerr << line << '\n';
+  if (taker_)
+    taker_(line);
+  else
+    std::cerr << line << '\n';
 }
 
 SrdfChoice chooseSrdf(const Arguments& args) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line/arguments.hpp"
@@ -14,14 +16,17 @@
 
 namespace swept {
 
-/// Warnings on stderr, each at most once. Any thread.
+/// Warnings on stderr or to whoever takes them, each at most once. Any thread.
 class Warnings {
  public:
+  using Taker = std::function<void(const std::string& line)>;
   explicit Warnings(bool quiet) : quiet_(quiet) {}
+  explicit Warnings(Taker taker) : quiet_(false), taker_(std::move(taker)) {}
   void operator()(const std::string& line);
 
  private:
   bool quiet_;
+  Taker taker_;
   std::mutex mutex_;
   std::vector<std::string> seen_;
 };

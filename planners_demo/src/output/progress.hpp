@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -29,5 +32,33 @@ class Progress {
   bool stop_ = false;
   std::thread thread_;
 };
+
+/// A bar on stderr with how much is done and how long the rest will take, for work that is counted.
+/// Without a thread: it is drawn when it is told to, at most a few times a second, and wiped at its
+/// end. Shows nothing unless stderr is a terminal.
+class ProgressBar {
+ public:
+  /// `what` is counted: `runs`. `before` of `total` were done already, at no cost.
+  ProgressBar(std::string what, std::size_t before, std::size_t total, bool quiet);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void draw(std::size_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string what_;
+  std::size_t before_, total_;
+  bool shown_;
+  Clock::time_point begin_ = Clock::now();
+  std::optional<Clock::time_point> drawn_;
+};
+
+/// `[#####.....] 50 of 100 runs, 50 %, 1 min 20 s left`; of the time left nothing unless some were
+/// done in `elapsed` s.
+std::string progressText(const std::string& what, std::size_t before, std::size_t done,
+                         std::size_t total, double elapsed);
 
 }  // namespace swept

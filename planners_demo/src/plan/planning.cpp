@@ -156,6 +156,7 @@ PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequ
       copies ? solveInParallel(setup, request) : setup.solve(request.time);
   if (status == ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE)
     throw UsageError("planner " + request.planner + " takes one goal only");
+  outcome.status = status.asString();
   outcome.planningTime = secondsSince(begin);
   const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
   if (exact && request.simplify) {
@@ -167,11 +168,13 @@ PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequ
   outcome.refused = validator->getInvalidMotionCount();
   if (!exact) {
     outcome.failure =
-        "no path after " + secondsText(outcome.planningTime) + " (" + status.asString() + ")";
+        "no path after " + secondsText(outcome.planningTime) + " (" + outcome.status + ")";
     return outcome;
   }
   outcome.length = setup.getSolutionPath().length();
+  const auto found = std::chrono::steady_clock::now();
   certify(outcome, checker, setup.getSolutionPath(), request.clearance);
+  outcome.certifyTime = secondsSince(found);
   return outcome;
 }
 
@@ -201,7 +204,8 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
   }
   // Spaces and planners draw from the seed as soon as they are made.
   ompl::RNG::setSeed(request.seed);
-  const og::SimpleSetupPtr setup = makeSimpleSetup(checker);
+  const og::SimpleSetupPtr setup =
+      request.setup ? request.setup(checker) : makeSimpleSetup(checker);
   const StateConversion conversion(checker->robot(), checker->group());
   setEnds(*setup, conversion, ends);
   try {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +14,15 @@
 #include "plan/pose_target.hpp"
 #include "swept/robot_model/checker.hpp"
 
+namespace ompl::geometric {
+class SimpleSetup;
+}
+
 namespace swept {
+
+/// Space, validity and motion checks of a checker's group.
+using SetupMaker = std::function<std::shared_ptr<ompl::geometric::SimpleSetup>(
+    const std::shared_ptr<const Checker>&)>;
 
 struct PlanRequest {
   std::string planner;  ///< as plannerName() returns it
@@ -24,6 +33,7 @@ struct PlanRequest {
   int threads = 1;                          ///< of the planner, or copies of it where it has none
   std::optional<PoseTarget> goalPose = {};  ///< instead of goal states
   bool clearance = true;                    ///< bound the least distance of every segment too
+  SetupMaker setup = {};                    ///< none: makeSimpleSetup
 };
 
 /// What is known about one motion of a path.
@@ -35,8 +45,10 @@ struct PathSegment {
 struct PlanOutcome {
   ExitCode code = ExitCode::Collision;  ///< Free: a path from start to goal, every segment Free
   std::string failure;                  ///< why there is no path; empty when there is one
+  std::string status;                   ///< the planner's own word; empty when it did not run
   double planningTime = 0.0;            ///< s
   double simplifyTime = 0.0;            ///< s
+  double certifyTime = 0.0;             ///< s, of the final path, clearance included
   double length = 0.0;                  ///< of the path, in the metric of the state space
   unsigned certified = 0;  ///< motions the validator proved free, for planner and simplification
   unsigned refused = 0;    ///< motions it did not

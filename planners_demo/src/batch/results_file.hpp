@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "batch/run_result.hpp"
+#include "input/task.hpp"
+
+namespace swept {
+
+/// What a results file holds: a header and a result per line.
+struct Results {
+  Json header;                  ///< null: there is none yet
+  std::vector<RunResult> runs;  ///< in the order of the lines, each key once
+  std::size_t wholeBytes = 0;   ///< up to and with the last line break
+  std::size_t tornBytes = 0;    ///< of a last line without one: its writer was killed
+};
+
+/// Of a file's contents. A line that comes again as it was counts once. Throws InputError for a
+/// file that is no results file, a line that is no result, and two results of one run.
+Results parseResults(const std::string& text, const std::string& file);
+/// Throws InputError; warns of a torn line.
+Results readResults(const std::string& file, Warnings& warnings);
+
+/// A results file that grows. Each line is on the disk before the next is written.
+class ResultsFile {
+ public:
+  /// Reads what is there; drops a torn line, with a warning. Nothing is written to a file that is
+  /// refused. Throws InputError or UsageError: as parseResults, for a header that is not
+  /// `header`, a file that cannot be written or that another process writes to.
+  ResultsFile(const std::string& file, const Json& header, Warnings& warnings);
+  ~ResultsFile();
+  ResultsFile(const ResultsFile&) = delete;
+  ResultsFile& operator=(const ResultsFile&) = delete;
+
+  /// The file's own, where there was one.
+  const Json& header() const { return results_.header.is_null() ? header_ : results_.header; }
+  const std::vector<RunResult>& runs() const { return results_.runs; }
+  /// Makes the file where there was none. Throws UsageError.
+  void append(const RunResult& result);
+
+ private:
+  void openForWriting(int flags);
+  void writeLine(const std::string& line);
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+  std::string file_;
+  Json header_;
+  Results results_;
+  int descriptor_ = -1;  ///< -1: there is no file yet
+};
+
+}  // namespace swept

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "batch/worker.hpp"
+#include "output/text_output.hpp"
+
+namespace swept {
+
+/// The first line of a results file: all that its results have in common. `time` in it, where there
+/// is one, is a note: when and where the batch began.
+Json resultsHeader(const Batch& batch);
+
+/// s; a run that takes longer in all is stopped.
+double hardLimitOf(const Arguments& args);
+
+/// Throws InputError, of line 1 of `source`, unless it is a header that this program can read.
+void requireHeader(const Json& header, const std::string& source);
+
+/// Throws InputError, of line 1 of `source`, naming the first field that differs. `expected` is a
+/// header too, of `where`: `on the command line`, say.
+void requireSameHeader(const Json& header, const std::string& source, const Json& expected,
+                       const std::string& where);
+
+}  // namespace swept

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "plan/planning.hpp"
+
+namespace swept {
+
+/// Who says during planning which motions are valid.
+struct Validator {
+  enum class Kind : std::uint8_t {
+    Certified,  ///< CertifiedMotionValidator: proven free
+    Discrete,   ///< OMPL's DiscreteMotionValidator over this library's check of states
+    Fcl,        ///< the same over FCL's
+  };
+  Kind kind = Kind::Certified;
+  /// Longest step between checked states, as a share of the space's maximum extent.
+  /// Meaningless for Certified.
+  double resolution = 0.0;
+
+  /// `certified`, `discrete:0.01`, `fcl:0.01`: one way to write each.
+  std::string name() const;
+};
+
+/// Throws UsageError for anything but `certified`, `discrete:R` and `fcl:R`, for `fcl:R` without
+/// FCL in this build or with a margin (m) above 0.
+Validator readValidator(const std::string& text, double margin);
+
+/// What a planner asks for in its space, with the validator; `statesChecked` counts the states that
+/// planner and validator ask about one by one. It has to outlive the setup; any number of threads
+/// may ask.
+SetupMaker setupMaker(const Validator& validator, std::atomic<std::uint64_t>& statesChecked);
+
+}  // namespace swept

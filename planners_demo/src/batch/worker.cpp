@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "batch/worker.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "batch/digest.hpp"
+#include "batch/validator.hpp"
+#include "input/states.hpp"
+#include "plan/planning.hpp"
+
+namespace swept {
+namespace {
+
+std::string digestOf(const std::vector<std::vector<double>>& states) {
+  Digest digest;
+  for (const std::vector<double>& q : states)
+    digest.add({reinterpret_cast<const char*>(q.data()), q.size() * sizeof(double)});
+  return digest.text();
+}
+
+PathFacts factsOf(const PlanOutcome& outcome, const BatchArguments& args) {
+  PathFacts path;
+  path.length = outcome.length;
+  path.segments = static_cast<int>(outcome.segments.size());
+  for (const PathSegment& segment : outcome.segments) {
+    path.missedCollisions += segment.certificate.verdict == Verdict::Collision ? 1 : 0;
+    path.undecided += segment.certificate.verdict == Verdict::Undecided ? 1 : 0;
+  }
+  path.certified = outcome.proven();
+  if (path.certified && !args.noClearance && std::isfinite(outcome.leastClearance()))
+    path.clearance = outcome.leastClearance();
+  path.digest = digestOf(outcome.states);
+  if (args.states) path.states = outcome.states;
+  return path;
+}
+
+/// Without the time that it took, which differs from run to run.
+std::string failureOf(const PlanOutcome& outcome) {
+  return outcome.status.empty() ? outcome.failure : "no path (" + outcome.status + ")";
+}
+
+}  // namespace
+
+Worker::Worker(const Batch& batch, Warnings::Taker warnings)
+    : batch_(batch),
+      group_(chooseGroup(*batch.model.robot, batch.group)),
+      warnings_(std::move(warnings)),
+      like_(makeChecker(*batch.args, batch.model, group_, std::make_shared<const World>(),
+                        warnings_)) {}
+
+const std::shared_ptr<const Checker>& Worker::checkerOf(const PlanningProblem& problem) {
+  if (!checker_ || set_ != problem.set || index_ != problem.index) {
+    checker_ = makeChecker(*like_, std::make_shared<const World>(problem.world), warnings_);
+    set_ = problem.set;
+    index_ = problem.index;
+  }
+  return checker_;
+}
+
+RunResult Worker::run(const RunKey& key) {
+  RunResult result;
+  result.key = key;
+  std::atomic<std::uint64_t> statesChecked = 0;
+  const Arguments& args = *batch_.args;
+  const Validator validator = readValidator(key.validator, args.margin);
+  const PlanRequest request{.planner = key.planner,
+                            .time = args.time,
+                            .seed = key.seed,
+                            .simplify = !args.noSimplify,
+                            .simplifyTime = args.time,
+                            .clearance = !args.batch.noClearance,
+                            .setup = setupMaker(validator, statesChecked)};
+  PlanOutcome outcome;
+  try {
+    const PlanningProblem problem = batch_.problems->problem(key.set, key.index);
+    const ProblemStates ends = problemStates(*batch_.model.robot, group_, problem);
+    std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
+    for (const std::vector<double>& q : ends.goals) states.push_back({.label = "goal", .q = q});
+    outcome = plan(checkerOf(problem), states, request);
+  } catch (const std::exception& error) {
+    // Values outside the limits, a planner that needs more than a space, no memory: no reason not
+    // to do the other runs.
+    outcome.failure = error.what();
+  }
+  result.status = outcome.status;
+  result.failure = outcome.solved() ? "" : failureOf(outcome);
+  if (outcome.solved() || outcome.status.empty() || !args.batch.noTimes) {
+    result.statesChecked = statesChecked;
+    result.motionsChecked = std::uint64_t{outcome.certified} + outcome.refused;
+  }
+  if (outcome.solved()) result.path = factsOf(outcome, args.batch);
+  if (!args.batch.noTimes)
+    result.times = RunTimes{.planning = outcome.planningTime,
+                            .simplification = outcome.simplifyTime,
+                            .certification = outcome.certifyTime};
+  return result;
+}
+
+}  // namespace swept
