@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Plans for a 7-joint arm in a shelf and proves every motion of the path. On a fresh Debian 12 it
-# installs what it needs first.
+# Plans for a 7-joint arm in a shelf, proves every motion of the path, and makes a page of it. On a
+# fresh Debian 12 it installs what it needs first.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 source "$root/.ci/setup.sh"
@@ -14,4 +14,5 @@ swept=build/release/planners_demo/swept
 problem=(--problems models/problems.json --set shelf --index 1)
 mkdir -p build/demo
 set -x
-"$swept" plan models/robots/rook7/rook7.urdf --group arm "${problem[@]}" -o build/demo/path.json
+"$swept" plan models/robots/rook7/rook7.urdf --group arm "${problem[@]}" \
+  -o build/demo/path.json --html build/demo/page.html

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gantry.hpp"
+#include "page_data.hpp"
 
 namespace swept::test {
 namespace {
@@ -86,8 +87,8 @@ const Case kOptions[] = {
     {"NoSubcommand", {}, kError + "A subcommand is required (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
-     kError +
-         "no subcommand 'verfy'; there are info, check, motion, plan, acm, replay, bench (try --help)"},
+     kError + "no subcommand 'verfy'; there are info, check, motion, plan, verify, acm, replay, " +
+         (programHasPages() ? "view, " : "") + "bench, completion (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},
     {"UnknownOption", both("check", {"left", "--frobnicate"}),
      kError + "The following argument was not expected: --frobnicate (try --help)"},

@@ -85,8 +85,9 @@ TEST(Plan, EndsMustBeFree) {
   const Gantry gantry;
   const Outcome collision = gantry.run("plan", {"inside", "right"});
   EXPECT_EQ(collision.exitCode, 1);
-  EXPECT_THAT(collision.out,
-              HasSubstr("not solved: start (inside) is in collision: cube - post (0.1 m deep, at ["));
+  EXPECT_THAT(
+      collision.out,
+      HasSubstr("not solved: start (inside) is in collision: cube - post (0.1 m deep, at ["));
   const Outcome goal = gantry.run("plan", {"left", "inside"});
   EXPECT_EQ(goal.exitCode, 1);
   EXPECT_THAT(goal.out, HasSubstr("not solved: goal (inside) is in collision"));

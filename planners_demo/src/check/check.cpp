@@ -6,6 +6,7 @@
 #include "input/task.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 namespace {
@@ -43,6 +44,7 @@ Json stateJson(const LabelledState& state, const StateReport& report) {
 }  // namespace
 
 ExitCode runCheck(const Arguments& args) {
+  requirePageFile(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
@@ -68,6 +70,7 @@ ExitCode runCheck(const Arguments& args) {
   } else {
     std::cout << text;
   }
+  writeCheckPage(args, model, task);
   return code;
 }
 

@@ -7,6 +7,7 @@
 #include "input/task.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 namespace {
@@ -76,6 +77,7 @@ Json segmentJson(const Segment& segment) {
 }  // namespace
 
 ExitCode runMotion(const Arguments& args) {
+  requirePageFile(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
@@ -105,6 +107,7 @@ ExitCode runMotion(const Arguments& args) {
   } else {
     std::cout << text;
   }
+  writeMotionPage(args, model, task);
   return code;
 }
 

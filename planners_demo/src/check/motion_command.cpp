@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 namespace {
@@ -11,6 +12,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   addSceneOptions(app, args);
   app.add_option("states", args.states, "two states or more")->type_name("STATE");
   addProblemOptions(app, args, "the motion from start to goal in its world");
+  addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);
 }

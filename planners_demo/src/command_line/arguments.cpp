@@ -34,6 +34,26 @@ std::vector<std::string> reversedArguments(int argc, const char* const* argv) {
   return reversed;
 }
 
+/// The command line with what a shell would not leave alone in quotes.
+std::string typedAgain(int argc, const char* const* argv) {
+  std::string line = "swept";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto isPlain = [](unsigned char c) {
+      return std::isalnum(c) || std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
+    };
+    line += ' ';
+    if (!word.empty() && std::ranges::all_of(word, isPlain)) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
 std::string footerOf(const Command& command) {
   std::string text = "\n";
   if (command.notes != nullptr) text += command.notes() + "\n";
@@ -109,6 +129,7 @@ void describeProgram(CLI::App& program, Arguments& args) {
 
 ParsedArguments parseArguments(int argc, const char* const* argv) {
   Arguments args;
+  args.page.commandLine = typedAgain(argc, argv);
   CLI::App program;
   describeProgram(program, args);
   try {

@@ -93,6 +93,11 @@ struct Arguments {
 
   std::int64_t budget = 20'000'000;  ///< per pair of links
   int samples = 1000;                ///< per pair of links
+
+  struct Page {
+    std::string file;         ///< empty: no page
+    std::string commandLine;  ///< as it could be typed again in a shell
+  } page;
 };
 
 /// The result of reading a command line: either something to run, or everything is said already.

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
-
 #include "command_line/commands.hpp"
+
+#include <vector>
+
+#include "page/pages.hpp"
 
 namespace swept {
 
 std::span<const Command* const> commands() {
-  static constexpr std::array kAll{
-      &kInfoCommand,          &kCheckCommand,        &kMotionCommand,    &kPlanCommand,
-      &kVerifyCommand,        &kAcmCommand,          &kReplayCommand,    &kBenchEdgesCommand,
-      &kBenchPlannersCommand, &kBenchSummaryCommand, &kCompletionCommand};
-  return kAll;
+  static const std::vector<const Command*> all = [] {
+    std::vector<const Command*> list{&kInfoCommand,  &kCheckCommand,  &kMotionCommand,
+                                     &kPlanCommand,  &kVerifyCommand, &kAcmCommand,
+                                     &kReplayCommand};
+    list.insert(list.end(), pageCommands().begin(), pageCommands().end());
+    list.insert(list.end(), {&kBenchEdgesCommand, &kBenchPlannersCommand, &kBenchSummaryCommand,
+                             &kCompletionCommand});
+    return list;
+  }();
+  return all;
 }
 
 std::string stateNotes() {

@@ -7,6 +7,7 @@
 #include "command_line/commands.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 
@@ -42,6 +43,7 @@ std::vector<std::string> explanations(const Arguments& args, const Checker& chec
 }
 
 ExitCode runInfo(const Arguments& args) {
+  requirePageFile(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   std::shared_ptr<const Checker> checker;
@@ -55,6 +57,7 @@ ExitCode runInfo(const Arguments& args) {
   } else {
     std::cout << infoText(args, model, checker.get());
   }
+  writeInfoPage(args, model, checker.get());
   return ExitCode::Free;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 namespace {
@@ -14,6 +15,7 @@ void addOptions(CLI::App& app, Arguments& args) {
                  "(repeatable; needs --group)")
       ->type_name("A,B")
       ->allow_extra_args(false);
+  addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);
 }

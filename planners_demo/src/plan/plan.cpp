@@ -11,6 +11,7 @@
 #include "input/poses.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
+#include "page/pages.hpp"
 #include "plan/path_files.hpp"
 #include "plan/plan_sets.hpp"
 #include "plan/planners.hpp"
@@ -148,9 +149,12 @@ ExitCode runPlan(const Arguments& args) {
                       .threads = args.threads,
                       .goalPose = {},
                       .clearance = !manyProblems(args)};
+  if (manyProblems(args) && !args.page.file.empty())
+    throw UsageError("--html shows one problem: it needs --set and --index");
   if (manyProblems(args)) return runPlanSets(args, request);
   requireEnds(args);
 
+  requirePageFile(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
@@ -172,6 +176,7 @@ ExitCode runPlan(const Arguments& args) {
               << resultLine(outcome);
     if (file && outcome.proven()) std::cout << "path written to " << args.output << '\n';
   }
+  writePlanPage(args, model, task, request, outcome);
   return outcome.code;
 }
 

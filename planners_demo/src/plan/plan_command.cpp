@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "page/pages.hpp"
 #include "plan/planners.hpp"
 
 namespace swept {
@@ -58,6 +59,7 @@ void addOptions(CLI::App& app, Arguments& args) {
       ->type_name("N")
       ->check(within(1, 1024, "between 1 and 1024"));
   app.add_flag("-v,--verbose", args.verbose, "OMPL's messages on stderr");
+  addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);
 }

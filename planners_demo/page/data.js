@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the program computed, unpacked; and where on the page's clock each motion is.
+'use strict';
+const swept = {};
+
+swept.data = (function () {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const kPose = 7; // position, then quaternion x, y, z, w
+
+  function bytesOf(text) {
+    const raw = atob(text);
+    const bytes = new Uint8Array(raw.length);
+    for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+    return bytes.buffer;
+  }
+  // Every browser's machine is little-endian, as the numbers are.
+  data.floats = (text) => new Float32Array(bytesOf(text));
+  data.uint16s = (text) => new Uint16Array(bytesOf(text));
+  data.uint32s = (text) => new Uint32Array(bytesOf(text));
+
+  data.poses = data.floats(data.frames.poses);
+  data.linkCount = data.frames.links.length;
+  data.poseAt = (frame, link) => (frame * data.linkCount + link) * kPose;
+  data.tipIndex = data.tip === null ? -1 : data.frames.links.indexOf(data.tip);
+  data.isPath = data.motions.length > 0;
+
+  if (data.clearances) {
+    data.clearances.distance = data.floats(data.clearances.distance);
+    data.clearances.partner = new Int32Array(bytesOf(data.clearances.partner));
+  }
+
+  // How far the robot gets from one frame to the next: m, and 0.3 m for a radian.
+  function travel(frame) {
+    let most = 0;
+    const p = data.poses;
+    for (let link = 0; link < data.linkCount; ++link) {
+      const a = data.poseAt(frame, link), b = data.poseAt(frame + 1, link);
+      const way = Math.hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
+      let dot = 0;
+      for (let i = 3; i < kPose; ++i) dot += p[a + i] * p[b + i];
+      most = Math.max(most, way + 0.3 * 2 * Math.acos(Math.min(1, Math.abs(dot))));
+    }
+    return most;
+  }
+
+  // Seconds: each motion gets time in proportion to its travel; all of them 4 s to 30 s.
+  function layOutClock() {
+    let total = 0;
+    for (const motion of data.motions) {
+      motion.duration = 1e-3;
+      for (let i = 0; i < motion.steps; ++i) motion.duration += travel(motion.first_frame + i);
+      total += motion.duration;
+    }
+    const scale = Math.min(30, Math.max(4, total / 0.45)) / total;
+    let start = 0;
+    for (const motion of data.motions) {
+      motion.duration *= scale;
+      motion.start = start;
+      start += motion.duration;
+    }
+    data.duration = start;
+  }
+  if (data.isPath) layOutClock();
+  else data.duration = Math.max(0, data.states.length - 1);
+
+  // Which motion or state is at a time, the t in it, and the frame (with a fraction).
+  data.locate = function (time) {
+    if (!data.isPath) {
+      const index = Math.round(Math.min(data.duration, Math.max(0, time)));
+      return {index: index, t: 0, frame: index};
+    }
+    let index = 0;
+    while (index + 1 < data.motions.length && time >= data.motions[index + 1].start) ++index;
+    const motion = data.motions[index];
+    const t = Math.min(1, Math.max(0, (time - motion.start) / motion.duration));
+    return {index: index, t: t, frame: motion.first_frame + t * motion.steps};
+  };
+  data.timeOf = function (index, t) {
+    return data.isPath ? data.motions[index].start + t * data.motions[index].duration : index;
+  };
+
+  // Frames of a path are near their neighbours; states are not.
+  data.hasRow = (frame) => data.isPath || frame % data.clearances.stride === 0;
+  // What a body is nearest to at the frame of the table that is next to this one: {distance,
+  // partner}; null: nothing is checked against it, or the table has no row for the state.
+  data.nearest = function (body, frame) {
+    const table = data.clearances;
+    if (!table || !data.hasRow(frame)) return null;
+    const rows = table.distance.length / table.bodies;
+    const row = Math.min(rows - 1, Math.round(frame / table.stride));
+    const at = row * table.bodies + body;
+    return table.partner[at] < 0
+        ? null : {distance: table.distance[at], partner: table.partner[at], row: row};
+  };
+
+  // Rounded down: what is proven stays true.
+  data.millimetres = function (metres) {
+    if (metres === null || metres === undefined) return 'no pair to check';
+    if (metres >= 1) return (Math.floor(metres * 1e3) / 1e3).toFixed(3) + ' m';
+    const digits = metres < 0.1 ? 2 : 1;
+    const unit = Math.pow(10, digits);
+    return (Math.floor(metres * 1e3 * unit) / unit).toFixed(digits) + ' mm';
+  };
+
+  // Colour of a clearance in m: red where nothing is left, blue from 100 mm on.
+  const stops = [[0, [193, 18, 31]], [5, [240, 138, 36]], [20, [226, 190, 92]],
+                 [50, [76, 170, 160]], [100, [58, 110, 165]]];
+  data.clearanceStops = stops;
+  data.clearanceColour = function (metres) {
+    const value = metres === null ? Infinity : metres * 1e3;
+    for (let i = 1; i < stops.length; ++i) {
+      if (value > stops[i][0]) continue;
+      const share = (value - stops[i - 1][0]) / (stops[i][0] - stops[i - 1][0]);
+      return stops[i][1].map((c, k) => stops[i - 1][1][k] * (1 - share) + c * share);
+    }
+    return stops[stops.length - 1][1];
+  };
+  data.css = (rgb) => 'rgb(' + rgb.map(Math.round).join(',') + ')';
+  data.tierNames = {
+    lanes: 'free, proven in single precision', exact: 'free, proven on exact geometry',
+    undecided: 'undecided', collision: 'collision'
+  };
+  return data;
+})();

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is drawn over robot and world: the tip's trace, covers, the ends of the path, contacts.
+'use strict';
+
+swept.overlays = (function () {
+  const data = swept.data, scene = swept.scene;
+  let size = 1; // m, of what is shown
+  const trace = {mesh: null};
+  const covers = {meshes: [], material: null, balls: 0, finest: 0};
+  const ends = {group: null, material: null};
+  const contacts = {group: new THREE.Group(), shown: []};
+
+  const tipAt = (frame) => new THREE.Vector3().fromArray(
+      data.poses, data.poseAt(frame, data.tipIndex));
+
+  // A prism from a to b with its own colour.
+  function addRod(positions, colours, a, b, radius, rgb) {
+    const sides = 8;
+    const along = b.clone().sub(a);
+    if (along.length() < 1e-9) return;
+    const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1),
+                                                           along.normalize());
+    const rim = [];
+    for (let i = 0; i <= sides; ++i) {
+      const angle = 2 * Math.PI * i / sides;
+      rim.push(new THREE.Vector3(radius * Math.cos(angle), radius * Math.sin(angle), 0)
+                   .applyQuaternion(turn));
+    }
+    for (let i = 0; i < sides; ++i)
+      for (const [end, k] of [[a, i], [b, i], [b, i + 1], [a, i], [b, i + 1], [a, i + 1]]) {
+        positions.push(end.x + rim[k].x, end.y + rim[k].y, end.z + rim[k].z);
+        colours.push(rgb[0] / 255, rgb[1] / 255, rgb[2] / 255);
+      }
+  }
+
+  function addTrace() {
+    if (!data.isPath || data.tipIndex < 0) return;
+    const positions = [], colours = [];
+    for (const motion of data.motions) {
+      const lower = motion.pieces.lower;
+      for (let i = 0; i < motion.steps; ++i) {
+        const frame = motion.first_frame + i;
+        addRod(positions, colours, tipAt(frame), tipAt(frame + 1), 0.0028 * size,
+               data.clearanceColour(lower[Math.floor(i * lower.length / motion.steps)]));
+      }
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    geometry.setAttribute('color', new THREE.Float32BufferAttribute(colours, 3));
+    trace.mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(
+        {vertexColors: THREE.VertexColors, side: THREE.DoubleSide}));
+    trace.mesh.raycast = () => {};
+    scene.scene.add(trace.mesh);
+  }
+
+  function addCovers() {
+    covers.material = new THREE.MeshStandardMaterial(
+        {transparent: true, opacity: 0.22, depthWrite: false, roughness: 0.5});
+    data.bodies.forEach((body, b) => body.parts.forEach((part) => {
+      if (part.cover === null) return;
+      const cover = data.covers[part.cover], numbers = data.floats(cover.balls);
+      const mesh = swept.geometry.balls(numbers, covers.material);
+      scene.place(mesh, data.floats(part.pose), 0);
+      mesh.visible = false;
+      mesh.renderOrder = 1;
+      scene.bodies[b].group.add(mesh);
+      covers.meshes.push(mesh);
+      covers.balls += numbers.length / 4;
+      covers.finest += cover.finest;
+    }));
+  }
+
+  function showCovers(on) {
+    covers.meshes.forEach((mesh) => { mesh.visible = on; });
+    scene.changed();
+  }
+
+  // The robot once more at a frame, faint.
+  function addGhost(frame) {
+    data.bodies.forEach((body, b) => {
+      if (body.frame === null) return;
+      const ghost = new THREE.Group();
+      scene.place(ghost, data.poses, data.poseAt(frame, body.frame));
+      for (const mesh of scene.bodies[b].meshes) {
+        const copy = new THREE.Mesh(mesh.geometry, ends.material);
+        copy.position.copy(mesh.position);
+        copy.quaternion.copy(mesh.quaternion);
+        ghost.add(copy);
+      }
+      ends.group.add(ghost);
+    });
+  }
+
+  function showEnds(on) {
+    if (!data.isPath) return;
+    if (ends.group === null) {
+      ends.group = new THREE.Group();
+      ends.material = new THREE.MeshStandardMaterial(
+          {transparent: true, opacity: 0.2, depthWrite: false, roughness: 0.8});
+      addGhost(0);
+      addGhost(data.frames.count - 1);
+      scene.scene.add(ends.group);
+      paint();
+    }
+    ends.group.visible = on;
+    scene.changed();
+  }
+
+  function addContact(contact) {
+    const a = new THREE.Vector3().fromArray(contact.point_a);
+    const b = new THREE.Vector3().fromArray(contact.point_b);
+    const red = new THREE.MeshBasicMaterial({color: 0xe01b24, depthTest: false, transparent: true});
+    for (const point of [a, b]) {
+      const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006 * size, 20, 14), red);
+      ball.position.copy(point);
+      ball.renderOrder = 3;
+      contacts.group.add(ball);
+    }
+    const line = new THREE.Line(
+        new THREE.BufferGeometry().setFromPoints([a, b]),
+        new THREE.LineBasicMaterial({color: 0xe01b24, depthTest: false, transparent: true}));
+    line.renderOrder = 3;
+    contacts.group.add(line);
+    const label = document.createElement('span');
+    label.className = 'contact-label';
+    label.textContent = contact.body_a + ' – ' + contact.body_b;
+    document.getElementById('contact-labels').append(label);
+    contacts.shown.push({label: label, middle: a.clone().add(b).multiplyScalar(0.5)});
+  }
+
+  // Those of one state, or of one motion.
+  function showContacts(list) {
+    contacts.shown.forEach((shown) => shown.label.remove());
+    contacts.shown = [];
+    while (contacts.group.children.length > 0) contacts.group.remove(contacts.group.children[0]);
+    list.forEach(addContact);
+    scene.changed();
+  }
+
+  function placeLabels() {
+    for (const shown of contacts.shown) {
+      const at = scene.project(shown.middle);
+      shown.label.style.left = at.x + 'px';
+      shown.label.style.top = at.y + 'px';
+    }
+  }
+
+  function paint() {
+    covers.material.color.copy(scene.colour('cover'));
+    if (ends.material) ends.material.color.copy(scene.colour('accent'));
+    scene.changed();
+  }
+
+  function build(sceneSize) {
+    size = Math.min(sceneSize, 4);
+    addTrace();
+    addCovers();
+    scene.scene.add(contacts.group);
+    paint();
+  }
+
+  return {build, showCovers, showEnds, showContacts, placeLabels, paint, covers, trace, contacts};
+})();

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page's clock: where it is, and that it runs.
+'use strict';
+
+swept.playback = (function () {
+  const data = swept.data;
+  const listeners = [];
+  const state = {time: 0, playing: false, speed: 1};
+  let last = null;
+
+  const tell = () => listeners.forEach((listener) => listener(state));
+
+  function setTime(time) {
+    state.time = Math.min(data.duration, Math.max(0, time));
+    if (!data.isPath) state.time = Math.round(state.time);
+    tell();
+  }
+
+  // From the start when it is at the end.
+  function play() {
+    if (!data.isPath) return;
+    if (state.time >= data.duration) state.time = 0;
+    state.playing = true;
+    last = null;
+    tell();
+  }
+  function pause() {
+    state.playing = false;
+    tell();
+  }
+
+  // Called for every picture of the browser; `now` in ms.
+  function tick(now) {
+    if (!state.playing) return;
+    const passed = last === null ? 0 : Math.min(0.25, (now - last) / 1000);
+    last = now;
+    if (state.time + passed * state.speed >= data.duration) state.playing = false;
+    setTime(state.time + passed * state.speed);
+  }
+
+  // A frame back or on: to the next place where a frame is.
+  function step(way) {
+    pause();
+    if (!data.isPath) return setTime(state.time + way);
+    const at = data.locate(state.time), motion = data.motions[at.index];
+    const place = at.t * motion.steps;
+    const next = way > 0 ? Math.floor(place + 1e-6) + 1 : Math.ceil(place - 1e-6) - 1;
+    if (next >= 0) return setTime(data.timeOf(at.index, next / motion.steps));
+    if (at.index === 0) return setTime(0);
+    const before = data.motions[at.index - 1];
+    return setTime(data.timeOf(at.index - 1, (before.steps - 1) / before.steps));
+  }
+
+  // To the next start of a motion, or the last one.
+  function skip(way) {
+    pause();
+    if (!data.isPath) return setTime(state.time + way);
+    const starts = data.motions.map((motion) => motion.start).concat([data.duration]);
+    const found = way > 0 ? starts.find((start) => start > state.time + 1e-6)
+                          : starts.reverse().find((start) => start < state.time - 1e-6);
+    return setTime(found === undefined ? state.time : found);
+  }
+
+  return {
+    state, setTime, play, pause, tick, step, skip,
+    toggle: () => (state.playing ? pause() : play()),
+    setSpeed: (speed) => { state.speed = speed; },
+    onChange: (listener) => listeners.push(listener)
+  };
+})();

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Camera, light, bodies and their poses, themes, and what is under a pixel.
+'use strict';
+
+swept.scene = (function () {
+  const data = swept.data;
+  const canvas = document.getElementById('view');
+  const scene = new THREE.Scene();
+  const camera = new THREE.PerspectiveCamera(38, 1, 0.01, 100);
+  camera.up.set(0, 0, 1);
+  let renderer = null, controls = null, needed = true;
+  const links = data.frames.links.map(() => new THREE.Group());
+  const bodies = []; // per body of the data: {group, meshes, materials, name of its colour}
+  const bounds = new THREE.Box3();
+  const ground = {};
+  const changed = () => { needed = true; };
+
+  function colour(name) {
+    return new THREE.Color(getComputedStyle(document.documentElement)
+                               .getPropertyValue('--' + name).trim());
+  }
+  function colourOf(body, index) {
+    if (body.kind === 'attached') return 'held';
+    if (body.kind === 'link') return index % 2 === 0 ? 'link-a' : 'link-b';
+    return body.parts.some((p) => data.geometries[p.geometry].kind === 'balls') ? 'balls' : 'world';
+  }
+
+  function place(object, numbers, at) {
+    object.position.set(numbers[at], numbers[at + 1], numbers[at + 2]);
+    object.quaternion.set(numbers[at + 3], numbers[at + 4], numbers[at + 5], numbers[at + 6]);
+  }
+
+  // Thin lines along the edges of boxes: near faces of one colour stay apart.
+  function addEdges(mesh) {
+    const lines = new THREE.LineSegments(
+        new THREE.EdgesGeometry(mesh.geometry),
+        new THREE.LineBasicMaterial({color: 0x1b2736, transparent: true, opacity: 0.28}));
+    lines.raycast = () => {};
+    mesh.add(lines);
+  }
+
+  function addBody(body, index) {
+    const single = new THREE.MeshStandardMaterial(
+        {roughness: 0.62, metalness: 0.08, side: THREE.DoubleSide});
+    const many = single.clone(); // three.js r111 cannot share one between meshes and instances
+    const thin = single.clone();
+    Object.assign(thin, {transparent: true, opacity: 0.3, depthWrite: false});
+    const group = new THREE.Group(), meshes = [];
+    for (const part of body.parts) {
+      const balls = data.geometries[part.geometry].kind === 'balls';
+      const sheet = swept.geometry.isSheet(part.geometry);
+      const mesh = swept.geometry.part(part.geometry, balls ? many : sheet ? thin : single);
+      place(mesh, data.floats(part.pose), 0);
+      mesh.userData.body = index;
+      mesh.castShadow = !sheet;
+      mesh.receiveShadow = true;
+      if (body.kind === 'world' && data.geometries[part.geometry].kind === 'box') addEdges(mesh);
+      group.add(mesh);
+      meshes.push(mesh);
+    }
+    (body.frame === null ? scene : links[body.frame]).add(group);
+    bodies.push({group, meshes, materials: [single, many, thin], name: colourOf(body, index)});
+  }
+
+  // What the camera should see: all but planes and half-spaces, over the first frame.
+  function measure() {
+    scene.updateMatrixWorld(true);
+    data.bodies.forEach((body, b) => body.parts.forEach((part, i) => {
+      const shape = data.geometries[part.geometry];
+      if (swept.geometry.isSheet(part.geometry)) return;
+      const mesh = bodies[b].meshes[i];
+      if (shape.kind !== 'balls') {
+        bounds.expandByObject(mesh);
+        return;
+      }
+      const numbers = data.floats(shape.balls), point = new THREE.Vector3();
+      for (let k = 0; k < numbers.length; k += 4) {
+        point.set(numbers[k], numbers[k + 1], numbers[k + 2]).applyMatrix4(mesh.matrixWorld);
+        bounds.expandByPoint(point);
+      }
+    }));
+    if (bounds.isEmpty()) bounds.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+  }
+
+  function addLights(middle, size) {
+    scene.add(new THREE.HemisphereLight(0xffffff, 0xb4bcc8, 0.66));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.42);
+    sun.position.copy(middle).add(new THREE.Vector3(-0.55, -0.7, 1.6).multiplyScalar(size));
+    sun.target.position.copy(middle);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(2048, 2048);
+    sun.shadow.bias = -0.0006;
+    sun.shadow.radius = 3;
+    const reach = 0.9 * size;
+    Object.assign(sun.shadow.camera,
+                  {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 5 * size});
+    // What faces the viewer is never dark.
+    const lamp = new THREE.DirectionalLight(0xffffff, 0.26);
+    lamp.position.set(0.3, 0.2, 1);
+    camera.add(lamp, lamp.target);
+    scene.add(sun, sun.target, camera);
+  }
+
+  function addGround(middle, size) {
+    ground.shadow = new THREE.Mesh(new THREE.PlaneBufferGeometry(8 * size, 8 * size),
+                                   new THREE.ShadowMaterial({opacity: 0.16}));
+    ground.shadow.position.set(middle.x, middle.y, bounds.min.z - 0.002);
+    ground.shadow.receiveShadow = true;
+    const cell = size > 6 ? 1 : 0.25;
+    const count = 2 * Math.ceil(1.6 * size / cell);
+    ground.grid = new THREE.GridHelper(count * cell, count);
+    ground.grid.rotation.x = Math.PI / 2;
+    ground.grid.position.set(Math.round(middle.x / cell) * cell, Math.round(middle.y / cell) * cell,
+                             bounds.min.z - 0.003);
+    ground.grid.material.vertexColors = THREE.NoColors;
+    scene.add(ground.shadow, ground.grid);
+  }
+
+  // All of the box is within the picture, but for a rim.
+  function seesAll() {
+    camera.updateMatrixWorld(true);
+    const corner = new THREE.Vector3();
+    for (let i = 0; i < 8; ++i) {
+      corner.set(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
+                 i & 4 ? bounds.max.z : bounds.min.z).project(camera);
+      if (Math.max(Math.abs(corner.x), Math.abs(corner.y)) > 1) return false;
+    }
+    return true;
+  }
+
+  // From a little above, as near as shows everything.
+  function resetView() {
+    const middle = bounds.getCenter(new THREE.Vector3());
+    const radius = 0.5 * bounds.getSize(new THREE.Vector3()).length();
+    const from = new THREE.Vector3(-0.62, -1, 0.5).normalize();
+    controls.target.copy(middle);
+    for (let distance = 1.2 * radius; distance < 20 * radius; distance *= 1.03) {
+      camera.position.copy(middle).addScaledVector(from, distance);
+      camera.near = Math.max(0.005, distance / 200);
+      camera.far = distance + 20 * radius;
+      camera.updateProjectionMatrix();
+      controls.update();
+      if (seesAll()) break;
+    }
+    changed();
+  }
+
+  function start() {
+    renderer = new THREE.WebGLRenderer({canvas: canvas, antialias: true});
+    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    renderer.shadowMap.autoUpdate = false; // only when something moved, not for every view
+    controls = new THREE.OrbitControls(camera, canvas);
+    controls.enableKeys = false; // arrows move time
+    controls.screenSpacePanning = true;
+    controls.addEventListener('change', changed);
+  }
+
+  // At a frame, whose fraction is on the way to the next one.
+  function pose(frame) {
+    const first = Math.min(Math.floor(frame), data.frames.count - 1);
+    const second = Math.min(first + 1, data.frames.count - 1);
+    const share = frame - first;
+    const other = {position: new THREE.Vector3(), quaternion: new THREE.Quaternion()};
+    links.forEach((group, link) => {
+      place(group, data.poses, data.poseAt(first, link));
+      if (share === 0) return;
+      place(other, data.poses, data.poseAt(second, link));
+      group.position.lerp(other.position, share);
+      group.quaternion.slerp(other.quaternion, share);
+    });
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
+  function paint() {
+    scene.background = colour('stage');
+    highlight(-1, -1);
+    if (ground.grid) ground.grid.material.color.copy(colour('grid'));
+    changed();
+  }
+
+  function highlight(picked, partner) {
+    bodies.forEach((body, b) => {
+      const share = b === picked ? 0.85 : b === partner ? 0.45 : 0;
+      const tint = colour(body.name).lerp(colour('pick'), share);
+      body.materials.forEach((material) => material.color.copy(tint));
+    });
+    changed();
+  }
+
+  function seeThrough(on) {
+    data.bodies.forEach((body, b) => {
+      if (body.kind !== 'world') return;
+      for (const material of bodies[b].materials.slice(0, 2)) // but for what is thin anyway
+        Object.assign(material, {transparent: on, opacity: on ? 0.25 : 1, depthWrite: !on});
+      bodies[b].meshes.forEach((mesh, i) => {
+        mesh.castShadow = !on && !swept.geometry.isSheet(body.parts[i].geometry);
+      });
+    });
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
+  // Index of the body at a pixel of the canvas; -1: none.
+  function bodyAt(x, y) {
+    const at = new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight);
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(at, camera);
+    const meshes = [].concat(...bodies.map((body) => body.meshes));
+    const hits = caster.intersectObjects(meshes).sort((a, b) => a.distance - b.distance);
+    return hits.length > 0 ? hits[0].object.userData.body : -1;
+  }
+
+  // Where a point (m, model frame) is on the canvas, in pixels.
+  function project(point) {
+    const p = point.clone().project(camera);
+    return {x: (p.x + 1) / 2 * canvas.clientWidth, y: (1 - p.y) / 2 * canvas.clientHeight};
+  }
+
+  function fit() {
+    const width = canvas.parentElement.clientWidth, height = canvas.parentElement.clientHeight;
+    const first = canvas.dataset.fitted === undefined;
+    camera.aspect = width / Math.max(1, height);
+    camera.updateProjectionMatrix();
+    renderer.setSize(width, height, false);
+    canvas.dataset.fitted = 'yes';
+    if (first) resetView();
+    changed();
+  }
+
+  // Draws when something changed; true if it did.
+  function draw() {
+    if (!needed) return false;
+    needed = false;
+    renderer.render(scene, camera);
+    return true;
+  }
+
+  function build() {
+    start();
+    links.forEach((group) => scene.add(group));
+    data.bodies.forEach(addBody);
+    pose(0);
+    measure();
+    const middle = bounds.getCenter(new THREE.Vector3());
+    const size = bounds.getSize(new THREE.Vector3()).length();
+    addLights(middle, size);
+    if (!data.geometries.some((g, i) => swept.geometry.isSheet(i))) addGround(middle, size);
+    paint();
+    fit();
+    return size;
+  }
+
+  return {build, draw, pose, paint, highlight, seeThrough, bodyAt, project, fit, resetView, place,
+          colour, changed, scene, links, bodies, canvas, camera};
+})();

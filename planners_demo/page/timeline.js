@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Below the picture: controls, and the path's parts with what proved each of them.
+'use strict';
+
+swept.timeline = (function () {
+  const data = swept.data, playback = swept.playback;
+  const byId = (id) => document.getElementById(id);
+  const box = byId('timeline'), hover = byId('hover');
+  let cursor = null;
+  const kMostChips = 16;
+  const kBoundTop = 0.1; // m, the highest bar of the chart
+
+  function make(tag, className, parent) {
+    const element = document.createElement(tag);
+    element.className = className;
+    parent.append(element);
+    return element;
+  }
+
+  function pieceText(motion, i) {
+    const pieces = motion.pieces, tier = pieces.tiers[i];
+    const count = pieces.tiers.length;
+    const range = 't ' + (i / count).toFixed(3) + ' to ' + ((i + 1) / count).toFixed(3);
+    let text = motion.label + ', ' + range + ': ' + data.tierNames[tier];
+    if (tier !== 'collision')
+      text += pieces.lower[i] === null ? ', no pair to check'
+                                       : ', keeps ' + data.millimetres(pieces.lower[i]) + ' or more';
+    return text;
+  }
+
+  function addPiece(motion, i, row, chart) {
+    const lower = motion.pieces.lower[i];
+    const piece = make('span', 'piece ' + motion.pieces.tiers[i], row);
+    piece.dataset.text = pieceText(motion, i);
+    const bar = make('span', 'bound', chart);
+    bar.dataset.text = piece.dataset.text;
+    const share = lower === null ? 1 : Math.sqrt(Math.min(1, lower / kBoundTop));
+    bar.style.height = Math.max(4, 100 * share) + '%';
+    bar.style.background = data.css(data.clearanceColour(lower));
+  }
+
+  function addMotion(motion, index) {
+    const segment = make('div', 'segment', box);
+    segment.style.flex = motion.duration + ' 1 0';
+    segment.dataset.index = index;
+    make('div', 'segment-name', segment).textContent = motion.label;
+    // Lines between parts where these are wider than the lines.
+    const count = motion.pieces.tiers.length;
+    const wide = motion.duration / count > 0.007 * data.duration;
+    const row = make('div', wide ? 'pieces apart' : 'pieces', segment);
+    const chart = make('div', 'bounds', segment);
+    for (let i = 0; i < count; ++i) addPiece(motion, i, row, chart);
+  }
+
+  function addState(state, index) {
+    const chip = make('button', 'state-chip ' + (state.verdict || 'unjudged'), box);
+    chip.textContent = state.label;
+    chip.addEventListener('click', () => playback.setTime(index));
+  }
+
+  // The time below a pixel; segments share the width by their durations, but for the gaps.
+  function timeAt(x) {
+    for (const segment of box.querySelectorAll('.segment')) {
+      const at = segment.getBoundingClientRect();
+      if (x <= at.right || segment === box.lastElementChild.previousElementSibling)
+        return data.timeOf(Number(segment.dataset.index),
+                           Math.min(1, Math.max(0, (x - at.left) / at.width)));
+    }
+    return 0;
+  }
+
+  function listenToPointer() {
+    let dragging = false;
+    box.addEventListener('pointerdown', (event) => {
+      dragging = true;
+      playback.pause();
+      playback.setTime(timeAt(event.clientX));
+      box.setPointerCapture(event.pointerId);
+    });
+    box.addEventListener('pointermove', (event) => {
+      const under = document.elementFromPoint(event.clientX, event.clientY);
+      hover.textContent = under && under.dataset.text ? under.dataset.text : '';
+      if (dragging) playback.setTime(timeAt(event.clientX));
+    });
+    for (const end of ['pointerup', 'pointercancel'])
+      box.addEventListener(end, () => { dragging = false; });
+    box.addEventListener('pointerleave', () => { hover.textContent = ''; });
+  }
+
+  function addTierLegend() {
+    const present = new Set([].concat(...data.motions.map((motion) => motion.pieces.tiers)));
+    for (const tier of ['lanes', 'exact', 'undecided', 'collision']) {
+      if (!present.has(tier)) continue;
+      const entry = make('span', '', byId('tiers'));
+      make('i', tier, entry);
+      entry.append(data.tierNames[tier]);
+    }
+  }
+
+  function addClearanceLegend() {
+    const stops = data.clearanceStops, last = stops.length - 1;
+    byId('legend-bar').style.background = 'linear-gradient(to right, ' +
+        stops.map((stop, i) => data.css(stop[1]) + ' ' + 100 * i / last + '%').join(', ') + ')';
+    stops.forEach((stop, i) => {
+      const tick = make('span', '', byId('legend-ticks'));
+      tick.style.left = 100 * i / last + '%';
+      tick.textContent = stop[0] + (i === last ? '+' : '');
+    });
+    byId('legend').hidden = false;
+  }
+
+  function listenToControls() {
+    byId('play').addEventListener('click', playback.toggle);
+    byId('scrub').addEventListener('input', (event) => {
+      playback.pause();
+      playback.setTime(event.target.value / 1000 * data.duration);
+    });
+    byId('speed').addEventListener('change',
+                                   (event) => playback.setSpeed(Number(event.target.value)));
+  }
+
+  function showPath(state) {
+    const at = data.locate(state.time);
+    const segment = box.querySelectorAll('.segment')[at.index];
+    cursor.style.left = segment.offsetLeft + at.t * segment.offsetWidth + 'px';
+    byId('scrub').value = Math.round(1000 * state.time / data.duration);
+    byId('clock').textContent = (at.index + 1) + ' / ' + data.motions.length + ', t ' +
+        at.t.toFixed(3);
+    byId('play').textContent = state.playing ? '\u275a\u275a' : '\u25b6';
+  }
+
+  function showState(state) {
+    byId('scrub').value = Math.round(1000 * state.time / Math.max(1, data.duration));
+    byId('clock').textContent = (state.time + 1) + ' / ' + data.states.length;
+    box.querySelectorAll('.state-chip').forEach(
+        (chip, i) => chip.setAttribute('aria-current', i === state.time));
+  }
+
+  function buildPath() {
+    data.motions.forEach(addMotion);
+    cursor = make('div', '', box);
+    cursor.id = 'cursor';
+    listenToPointer();
+    addTierLegend();
+    if (data.tipIndex >= 0) addClearanceLegend();
+  }
+
+  // A button for each state, or where these would be too narrow a scrub bar for all.
+  function buildStates() {
+    const few = data.states.length <= kMostChips;
+    byId('controls').hidden = few;
+    byId('play').hidden = byId('speed').hidden = true;
+    byId('timeline-foot').hidden = true;
+    if (few) data.states.forEach(addState);
+  }
+
+  function build() {
+    listenToControls();
+    if (data.isPath) buildPath();
+    else buildStates();
+    playback.onChange(data.isPath ? showPath : showState);
+  }
+
+  return {build};
+})();

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <stdexcept>
+#include <string>
+
+#include "page/page_content.hpp"
+#include "page/page_files.hpp"
+
+namespace swept {
+namespace {
+
+/// Puts `text` in the place of the one comment `<!-- mark -->`.
+void fill(std::string& page, const std::string& mark, const std::string& text) {
+  const std::string comment = "<!-- " + mark + " -->";
+  const std::size_t at = page.find(comment);
+  if (at == std::string::npos) throw std::logic_error("page.html has no " + comment);
+  page.replace(at, comment.size(), text);
+}
+
+/// JSON in which nothing looks like HTML: `<`, `>` and `&` occur in strings only, where they may be
+/// written as escapes. Names that are not UTF-8 get replacement characters.
+std::string harmless(const Json& data) {
+  const std::string plain = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text;
+  text.reserve(plain.size());
+  for (const char c : plain) {
+    if (c == '<')
+      text += "\\u003c";
+    else if (c == '>')
+      text += "\\u003e";
+    else if (c == '&')
+      text += "\\u0026";
+    else
+      text += c;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string htmlOf(const Json& data) {
+  std::string page, styles, licences, scripts;
+  for (const PageFile& file : pageFiles()) {
+    const std::string text(file.text);
+    if (file.name.ends_with(".html"))
+      page = text;
+    else if (file.name.ends_with(".css"))
+      styles += "<style>\n" + text + "</style>\n";
+    else if (file.name.ends_with(".txt"))
+      licences += "/*!\n" + text + "*/\n";
+    else
+      scripts += "<script>\n" + text + "\n</script>\n";
+  }
+  fill(page, "styles", styles);
+  // The data last: no text of it is searched for marks.
+  fill(page, "scripts", "<script>\n" + licences + "</script>\n" + scripts);
+  fill(page, "data",
+       "<script id=\"data\" type=\"application/json\">" + harmless(data) + "</script>\n");
+  return page;
+}
+
+}  // namespace swept

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// Numbers as a page holds them: base64 of little-endian bytes, for JavaScript's typed arrays.
+namespace swept {
+
+std::string base64(std::span<const std::uint8_t> bytes);
+
+/// Of 2 or 4 bytes each.
+template <typename Number>
+requires(std::integral<Number> || std::floating_point<Number>) std::string
+    packed(std::span<const Number> numbers) {
+  using Bits = std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint32_t>;
+  static_assert(sizeof(Number) == sizeof(Bits));
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(numbers.size_bytes());
+  for (const Number number : numbers) {
+    const auto bits = std::bit_cast<Bits>(number);
+    for (std::size_t shift = 0; shift < 8 * sizeof(Bits); shift += 8)
+      bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
+  }
+  return base64(bytes);
+}
+
+/// m. The largest float that is not above `value`: what is proven stays proven.
+float roundedDown(double value);
+
+/// Position (m), then quaternion x, y, z, w.
+void appendPose(std::vector<float>& numbers, const Eigen::Isometry3d& pose);
+
+}  // namespace swept

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/text_output.hpp"
+#include "swept/core/sphere_cover.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// What a page shows of a robot and its world: bodies with the shapes that are checked.
+struct PageBody {
+  enum class Kind { Link, Attached, World };
+  struct Part {
+    Shape shape;                               ///< scaled as the rules say
+    Eigen::Isometry3d body_from_shape;         ///< of World: model_from_shape
+    std::shared_ptr<const SphereCover> cover;  ///< of links and attached bodies; null: none
+  };
+  std::string name;
+  Kind kind = Kind::Link;
+  int link = -1;  ///< whose frame the body moves with; -1: it stands in the model frame
+  std::vector<Part> parts;
+  double padding = 0.0;  ///< m
+};
+
+/// Links with collision geometry, attached bodies, bodies of the world, in this order. `checker`
+/// may be null: then there are no rules and nothing is attached.
+std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker);
+
+/// Geometries and covers, each once however many bodies share it. A page's `geometries` and
+/// `covers`.
+class PageGeometries {
+ public:
+  /// `parts` of a body, which name geometries and covers by their index.
+  Json partsJson(const PageBody& body);
+  Json geometriesJson() const { return geometries_; }
+  Json coversJson() const { return covers_; }
+
+ private:
+  int geometryIndex(const Shape& shape);
+  int coverIndex(const SphereCover& cover);
+  Json geometries_ = Json::array();
+  Json covers_ = Json::array();
+  std::vector<std::pair<const void*, int>> shared_;  ///< meshes, hulls, clouds, covers by address
+  std::vector<Shape> kept_;                          ///< keeps those addresses from being used anew
+};
+
+}  // namespace swept

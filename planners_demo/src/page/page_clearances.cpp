@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "page/page_clearances.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "page/packed.hpp"
+#include "swept/core/distance.hpp"
+
+namespace swept {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// m. Finer than what a page shows.
+constexpr double kAccuracy = 2e-5;
+/// Pairs of bodies over all frames; a page takes seconds, not minutes.
+constexpr std::size_t kMostPairs = 100'000;
+
+/// Two bodies and a first lower bound of their distance (m).
+struct Pair {
+  std::size_t a, b;
+  double bound = 0.0;
+};
+
+std::size_t indexOf(const std::vector<PageBody>& bodies, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(bodies, name, &PageBody::name) -
+                                  bodies.begin());
+}
+
+/// The part's shape and where it is, with the ball around it.
+struct Placed {
+  const Shape* shape;
+  Eigen::Isometry3d model_from_shape;
+  BoundingSphere ball;  ///< model frame
+};
+
+std::vector<Placed> placedParts(const PageBody& body, const PageFrames& frames, std::size_t frame) {
+  std::vector<Placed> placed;
+  for (const PageBody::Part& part : body.parts) {
+    Eigen::Isometry3d pose = part.body_from_shape;
+    if (body.link >= 0) pose = frames.pose(frame, body.link) * pose;
+    BoundingSphere ball = boundingSphere(part.shape);
+    ball.center = pose * ball.center;
+    placed.push_back({&part.shape, pose, ball});
+  }
+  return placed;
+}
+
+/// 0 for planes and half-spaces, which no ball contains.
+double gapOf(const BoundingSphere& a, const BoundingSphere& b) {
+  const double gap = (a.center - b.center).norm() - a.radius - b.radius;
+  return gap > 0.0 ? gap : 0.0;
+}
+
+double gapOf(const std::vector<Placed>& a, const std::vector<Placed>& b) {
+  double least = kInfinity;
+  for (const Placed& first : a)
+    for (const Placed& second : b) least = std::min(least, gapOf(first.ball, second.ball));
+  return least;
+}
+
+/// m. Lower bound of the distance; the distance itself, to the accuracy, where it is below
+/// `enough`.
+double distanceOf(const std::vector<Placed>& a, const std::vector<Placed>& b, double enough) {
+  double least = kInfinity;
+  for (const Placed& first : a)
+    for (const Placed& second : b) {
+      const double limit = std::min(least, enough);
+      if (gapOf(first.ball, second.ball) >= limit) continue;
+      const DistanceOptions options{.enough = limit, .tolerance = kAccuracy};
+      const Eigen::Isometry3d a_from_b =
+          first.model_from_shape.inverse(Eigen::Isometry) * second.model_from_shape;
+      least = std::min(least, distance(*first.shape, *second.shape, a_from_b, options).lower);
+    }
+  return least;
+}
+
+/// One frame's nearest partners.
+class Nearest {
+ public:
+  explicit Nearest(std::size_t bodies) : distance_(bodies, kInfinity), partner_(bodies, -1) {}
+
+  /// Beyond this the pair is of no interest to either of its bodies.
+  double enough(const Pair& pair) const { return std::max(distance_[pair.a], distance_[pair.b]); }
+  void offer(const Pair& pair, double metres) {
+    offer(pair.a, pair.b, metres);
+    offer(pair.b, pair.a, metres);
+  }
+  void appendTo(PageClearances& table) const {
+    for (const double metres : distance_) table.distance.push_back(roundedDown(metres));
+    table.partner.insert(table.partner.end(), partner_.begin(), partner_.end());
+  }
+
+ private:
+  void offer(std::size_t body, std::size_t other, double metres) {
+    if (!(metres < distance_[body])) return;
+    distance_[body] = metres;
+    partner_[body] = static_cast<std::int32_t>(other);
+  }
+  std::vector<double> distance_;
+  std::vector<std::int32_t> partner_;
+};
+
+Nearest nearestAt(const std::vector<PageBody>& bodies, const PageFrames& frames, std::size_t frame,
+                  std::vector<Pair> pairs) {
+  std::vector<std::vector<Placed>> placed;
+  for (const PageBody& body : bodies) placed.push_back(placedParts(body, frames, frame));
+  for (Pair& pair : pairs) pair.bound = gapOf(placed[pair.a], placed[pair.b]);
+  // The nearest first: most others then need no distance.
+  std::ranges::sort(pairs, {}, &Pair::bound);
+  Nearest nearest(bodies.size());
+  for (const Pair& pair : pairs) {
+    const double enough = nearest.enough(pair);
+    if (pair.bound < enough)
+      nearest.offer(pair, distanceOf(placed[pair.a], placed[pair.b], enough));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+PageClearances clearancesOf(const Checker& checker, const std::vector<PageBody>& bodies,
+                            const PageFrames& frames) {
+  std::vector<Pair> pairs;
+  for (const Checker::Pair& pair : checker.checkedPairs()) {
+    const std::size_t a = indexOf(bodies, pair.bodyA), b = indexOf(bodies, pair.bodyB);
+    if (a < bodies.size() && b < bodies.size()) pairs.push_back({.a = a, .b = b});
+  }
+  PageClearances table{.stride = 1, .bodies = bodies.size(), .distance = {}, .partner = {}};
+  const std::size_t work = pairs.size() * frames.poses.size();
+  table.stride = static_cast<int>(1 + work / (kMostPairs + 1));
+  for (std::size_t frame = 0; frame < frames.poses.size();
+       frame += static_cast<std::size_t>(table.stride))
+    nearestAt(bodies, frames, frame, pairs).appendTo(table);
+  return table;
+}
+
+Json PageClearances::json() const {
+  return {{"stride", stride},
+          {"bodies", bodies},
+          {"distance", packed<float>(distance)},
+          {"partner", packed<std::int32_t>(partner)}};
+}
+
+}  // namespace swept

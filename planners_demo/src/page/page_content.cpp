@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "page/page_content.hpp"
+
+#include <algorithm>
+
+#include "command_line/command.hpp"
+#include "input/clouds.hpp"
+#include "input/states.hpp"
+#include "page/packed.hpp"
+#include "page/page_bodies.hpp"
+#include "page/page_clearances.hpp"
+#include "page/page_frames.hpp"
+#include "page/page_pieces.hpp"
+
+namespace swept {
+namespace {
+
+std::string_view toString(PageContent::Tone tone) {
+  switch (tone) {
+    case PageContent::Tone::Good:
+      return "good";
+    case PageContent::Tone::Bad:
+      return "bad";
+    case PageContent::Tone::Unsure:
+      return "unsure";
+    case PageContent::Tone::Plain:
+      break;
+  }
+  return "plain";
+}
+
+std::string_view toString(PageBody::Kind kind) {
+  switch (kind) {
+    case PageBody::Kind::Link:
+      return "link";
+    case PageBody::Kind::Attached:
+      return "attached";
+    case PageBody::Kind::World:
+      break;
+  }
+  return "world";
+}
+
+Json bodiesJson(const std::vector<PageBody>& bodies, const PageFrames& frames,
+                PageGeometries& geometries) {
+  Json json = Json::array();
+  for (const PageBody& body : bodies) {
+    const auto place = std::ranges::find(frames.links, body.link) - frames.links.begin();
+    json.push_back({{"name", body.name},
+                    {"kind", toString(body.kind)},
+                    {"frame", body.link < 0 ? Json(nullptr) : Json(place)},
+                    {"padding", body.padding},
+                    {"parts", geometries.partsJson(body)}});
+  }
+  return json;
+}
+
+Json framesJson(const Robot& robot, const PageFrames& frames) {
+  std::vector<float> numbers;
+  for (const std::vector<Eigen::Isometry3d>& frame : frames.poses)
+    for (const Eigen::Isometry3d& pose : frame) appendPose(numbers, pose);
+  Json names = Json::array();
+  for (const int link : frames.links)
+    names.push_back(robot.links()[static_cast<std::size_t>(link)].name);
+  return {{"links", std::move(names)},
+          {"count", frames.poses.size()},
+          {"poses", packed<float>(numbers)}};
+}
+
+Json motionsJson(const Checker& checker, const PageContent& content,
+                 const std::vector<PageSpan>& spans, const PageFrames& frames) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < content.motions.size(); ++i) {
+    const PageContent::Motion& motion = content.motions[i];
+    const MotionCertificate& certificate = motion.certificate;
+    Json entry = {{"label", motion.label},
+                  {"verdict", swept::toString(certificate.verdict)},
+                  {"free_until", certificate.freeUntil},
+                  {"from", toJson(motion.from)},
+                  {"to", toJson(motion.to)},
+                  {"first_frame", frames.firstFrame[i]},
+                  {"steps", spans[i].steps}};
+    entry["contacts"] = Json::array();
+    if (certificate.witness) entry["contacts"].push_back(toJson(*certificate.witness));
+    entry["pieces"] = piecesJson(piecesOf(checker, spans[i]));
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json stateJson(const LabelledState& state, const Checker* checker) {
+  Json json = {{"label", state.label}, {"values", toJson(state.q)}};
+  json["verdict"] = nullptr;
+  json["contacts"] = Json::array();
+  if (checker == nullptr) return json;
+  Workspace workspace(*checker);
+  const StateReport report = checker->reportState(state.q, workspace);
+  json["verdict"] = swept::toString(report.verdict);
+  json["clearance"] = finiteOrNull(report.clearance);
+  json["nearest"] = Json::array({report.nearestA, report.nearestB});
+  for (const Witness& contact : report.contacts) json["contacts"].push_back(toJson(contact));
+  return json;
+}
+
+std::vector<PageSpan> spansOf(const PageContent& content) {
+  std::vector<PageSpan> spans;
+  const int steps = kFramesPerPiece * piecesPerMotion(content.motions.size());
+  for (const PageContent::Motion& motion : content.motions)
+    spans.push_back({.from = motion.from, .to = motion.to, .steps = steps});
+  if (content.motions.empty())
+    for (const LabelledState& state : content.states)
+      spans.push_back({.from = state.q, .to = state.q, .steps = 0});
+  return spans;
+}
+
+/// Links that bodies move with, and the tip.
+std::vector<int> linksOf(const std::vector<PageBody>& bodies, int tipLink) {
+  std::vector<int> links;
+  const auto add = [&](int link) {
+    if (link >= 0 && std::ranges::find(links, link) == links.end()) links.push_back(link);
+  };
+  for (const PageBody& body : bodies) add(body.link);
+  add(tipLink);
+  return links;
+}
+
+Json variablesJson(const Robot& robot, const Group& group) {
+  Json json = Json::array();
+  for (const int v : group.variables) {
+    const Variable& variable = robot.variables()[static_cast<std::size_t>(v)];
+    json.push_back({{"name", variable.name}, {"unit", unitOf(robot, variable)}});
+  }
+  return json;
+}
+
+/// What every page says.
+Json factsJson(const Arguments& args, const Robot& robot, const World& world,
+               const Checker* checker, const PageContent& content) {
+  Json json = Json::array();
+  const auto add = [&](const std::string& name, const std::string& value) {
+    json.push_back(Json::array({name, value}));
+  };
+  for (const auto& [name, value] : content.facts) add(name, value);
+  add("robot", robot.name());
+  if (checker != nullptr) {
+    add("group", checker->group().name);
+    add("margin", shortNumber(checker->options().margin) + " m");
+    add("tolerance", shortNumber(checker->options().tolerance) + " m");
+    add("pairs checked", std::to_string(checker->checkedPairs().size()) + ", left out " +
+                             std::to_string(checker->skippedPairs().size()));
+  }
+  add("bodies in the world", std::to_string(world.bodies().size()));
+  add("command", args.page.commandLine);
+  add("swept", SWEPT_VERSION);
+  return json;
+}
+
+}  // namespace
+
+PageContent::Tone toneOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Free:
+      return PageContent::Tone::Good;
+    case Verdict::Collision:
+      return PageContent::Tone::Bad;
+    case Verdict::Undecided:
+      break;
+  }
+  return PageContent::Tone::Unsure;
+}
+
+Json pageJson(const Arguments& args, const Robot& robot, const World& world, const Checker* checker,
+              const PageContent& content) {
+  const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
+  const auto reference = checker == nullptr ? std::nullopt : checker->options().reference;
+  const std::vector<PageBody> bodies = pageBodies(robot, world, checker);
+  const std::vector<PageSpan> spans = spansOf(content);
+  const PageFrames frames =
+      framesOf(robot, group, reference, spans, linksOf(bodies, group.tipLink));
+  PageGeometries geometries;
+  Json json = {{"subcommand", args.command->name},
+               {"tone", toString(content.tone)},
+               {"headline", content.headline},
+               {"facts", factsJson(args, robot, world, checker, content)},
+               {"clouds", cloudsText(world)},
+               {"variables", variablesJson(robot, group)},
+               {"bodies", bodiesJson(bodies, frames, geometries)}};
+  json["geometries"] = geometries.geometriesJson();
+  json["covers"] = geometries.coversJson();
+  json["frames"] = framesJson(robot, frames);
+  json["tip"] = group.tipLink < 0
+                    ? Json(nullptr)
+                    : Json(robot.links()[static_cast<std::size_t>(group.tipLink)].name);
+  json["motions"] = Json::array();
+  json["states"] = Json::array();
+  if (content.motions.empty())
+    for (const LabelledState& state : content.states)
+      json["states"].push_back(stateJson(state, checker));
+  else
+    json["motions"] = motionsJson(*checker, content, spans, frames);
+  json["clearances"] =
+      checker == nullptr ? Json(nullptr) : clearancesOf(*checker, bodies, frames).json();
+  return json;
+}
+
+}  // namespace swept

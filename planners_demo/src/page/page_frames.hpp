@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "swept/robot_model/robot.hpp"
+
+namespace swept {
+
+/// A motion that is drawn as `steps` + 1 frames, kFramesPerPiece for each of its parts, or, with 0
+/// steps, a state: then `to` is `from`.
+struct PageSpan {
+  std::vector<double> from, to;
+  int steps = 0;
+};
+
+/// Poses of links, frame by frame.
+struct PageFrames {
+  std::vector<int> links;                             ///< indices, in the order of each frame
+  std::vector<std::vector<Eigen::Isometry3d>> poses;  ///< model_from_link: [frame][link]
+  std::vector<int> firstFrame;                        ///< per span
+
+  /// model_from_link of a link that is among `links`.
+  const Eigen::Isometry3d& pose(std::size_t frame, int link) const;
+};
+
+/// The frames of all spans, one after the other. Between two frames t steps evenly, and poses are
+/// those that the checker checks. `reference` as LinkMotion takes it.
+PageFrames framesOf(const Robot& robot, const Group& group,
+                    const std::optional<Eigen::VectorXd>& reference,
+                    const std::vector<PageSpan>& spans, std::vector<int> links);
+
+/// Parts that are certified by themselves, for each of so many motions: few enough that all of them
+/// stay a page.
+int piecesPerMotion(std::size_t motions);
+/// Frames within a part: a browser draws what is between two of them on straight lines.
+inline constexpr int kFramesPerPiece = 2;
+
+}  // namespace swept

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "output/text_output.hpp"
+#include "page/page_frames.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// One of the equal parts of a motion, certified by itself.
+struct PagePiece {
+  MotionCertificate certificate;
+  /// m, proven and attained; both 0 where there is a collision.
+  MotionClearance clearance;
+};
+
+/// The equal parts of a motion. Their ends are Checker::interpolate's, so that each
+/// begins exactly where the one before it ends.
+std::vector<PagePiece> piecesOf(const Checker& checker, const PageSpan& span);
+
+/// `lanes`: proven in single precision alone; `exact`: exact geometry was asked too; `undecided`,
+/// `collision`.
+std::string_view tierOf(const MotionCertificate& certificate);
+
+/// Arrays `tiers`, `lower` and `upper` (m; null: no pairs), a value for each piece.
+Json piecesJson(const std::vector<PagePiece>& pieces);
+
+}  // namespace swept

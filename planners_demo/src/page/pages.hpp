@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "command_line/arguments.hpp"
+#include "command_line/exit_code.hpp"
+#include "input/task.hpp"
+#include "plan/planning.hpp"
+
+namespace CLI {
+class App;
+}
+
+/// Pages of the subcommands: the robot, its world and the result in one HTML file. A program that
+/// was built without three.js has neither the option nor the subcommand `view`.
+namespace swept {
+
+struct Command;
+
+void addHtmlOption(CLI::App& app, Arguments& args);
+
+/// The subcommands that there are for pages alone: `view`, or none.
+std::span<const Command* const> pageCommands();
+
+/// Throws UsageError when the file of --html could not be written: better before the work than
+/// after it. Does nothing without --html, as all that follow.
+void requirePageFile(const Arguments& args);
+
+/// They write the page and say so on stdout, unless that is JSON. Throw UsageError.
+void writeCheckPage(const Arguments& args, const Model& model, const Task& task);
+void writeMotionPage(const Arguments& args, const Model& model, const Task& task);
+void writePlanPage(const Arguments& args, const Model& model, const Task& task,
+                   const PlanRequest& request, const PlanOutcome& outcome);
+/// `checker` may be null.
+void writeInfoPage(const Arguments& args, const Model& model, const Checker* checker);
+
+}  // namespace swept

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "page/pages.hpp"
+
+/// For a program without pages. No option leads to one.
+namespace swept {
+
+void addHtmlOption(CLI::App&, Arguments&) {}
+
+std::span<const Command* const> pageCommands() {
+  return {};
+}
+
+void requirePageFile(const Arguments&) {}
+void writeCheckPage(const Arguments&, const Model&, const Task&) {}
+void writeMotionPage(const Arguments&, const Model&, const Task&) {}
+void writePlanPage(const Arguments&, const Model&, const Task&, const PlanRequest&,
+                   const PlanOutcome&) {}
+void writeInfoPage(const Arguments&, const Model&, const Checker*) {}
+
+}  // namespace swept

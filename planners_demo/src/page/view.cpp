@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "page/view.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "page/pages.hpp"
+
+namespace swept {
+namespace {
+
+/// An empty file of its own in the folder for such.
+std::string temporaryPage() {
+  std::error_code noFolder;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(noFolder);
+  if (noFolder) throw UsageError("no folder for temporary files: " + noFolder.message());
+  std::string name = (folder / "swept-XXXXXX.html").string();
+  constexpr int kEnding = 5;
+  const int descriptor = mkstemps(name.data(), kEnding);
+  if (descriptor < 0) throw UsageError("cannot write '" + name + "': " + std::strerror(errno));
+  close(descriptor);
+  return name;
+}
+
+/// What it says is of no interest: without a desktop the name is on stdout all the same.
+void openInBrowser(const std::string& file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
+    execlp("xdg-open", "xdg-open", file.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  if (child > 0) waitpid(child, nullptr, 0);
+}
+
+bool showsStates(const Arguments& args) {
+  return !args.states.empty() || !args.problems.empty();
+}
+
+/// Null without a group, and for one that cannot move: without states there is nothing to judge.
+std::shared_ptr<const Checker> checkerOf(const Arguments& args, const Model& model,
+                                         Warnings& warnings) {
+  if (args.group.empty() && model.robot->groups().size() > 1) return nullptr;
+  const Group& group = chooseGroup(*model.robot, args.group);
+  if (args.group.empty() && group.variables.empty()) return nullptr;
+  return makeChecker(args, model, group, model.world, warnings);
+}
+
+}  // namespace
+
+ExitCode runView(const Arguments& given) {
+  Arguments args = given;
+  requirePageFile(args);
+  Warnings warnings(args.quiet);
+  const Model model = loadModel(args, warnings);
+  const Task task = showsStates(args) ? loadTask(args, model, warnings) : Task{};
+  const auto checker = showsStates(args) ? task.checker : checkerOf(args, model, warnings);
+  if (given.page.file.empty()) args.page.file = temporaryPage();
+  if (showsStates(args))
+    writeCheckPage(args, model, task);
+  else
+    writeInfoPage(args, model, checker.get());
+  if (given.page.file.empty()) openInBrowser(args.page.file);
+  return ExitCode::Free;
+}
+
+}  // namespace swept

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/options.hpp"
+#include "page/view.hpp"
+
+namespace swept {
+namespace {
+
+void addOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args);
+  addCheckerOptions(app, args);
+  addSceneOptions(app, args);
+  app.add_option("states", args.states, "states to show; without: the default state")
+      ->type_name("STATE");
+  addProblemOptions(app, args, "shows start and goals in its world");
+  app.add_option("-o,--output", args.page.file,
+                 "where the page goes; without: a temporary file, opened with xdg-open")
+      ->type_name("FILE.html");
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kViewCommand{.name = "view",
+                           .summary = "Look at a robot, a scene and states in a browser",
+                           .example =
+                               "swept view models/robots/rook7/rook7.urdf ready --group arm "
+                               "--scene models/scenes/shelf.yaml -o page.html",
+                           .exitCodes = kVerdictExitCodes,
+                           .addOptions = addOptions,
+                           .run = runView,
+                           .notes = stateNotes};
+
+}  // namespace swept
