@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "enclosed.hpp"
 
+#include <array>
+#include <map>
+#include <numeric>
+#include <vector>
+
 #include "inside.hpp"
 
 namespace swept::verify {
@@ -14,12 +19,35 @@ Vector3d pointOf(const Element& element) {
   return element.discs.empty() ? element.ellipsoid->center : element.discs.front().center;
 }
 
+/// A point of each part of a body that hangs together: elements with a point in common do, and
+/// all of them are on the same side of a surface that none of them meets.
+std::vector<Vector3d> pointsOf(const Body& body) {
+  std::vector<std::size_t> above(body.elements().size());
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  const auto first = [&](std::size_t element) {
+    while (above[element] != element) element = above[element] = above[above[element]];
+    return element;
+  };
+  std::map<std::array<double, 3>, std::size_t> seen;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    for (const Vector3d& point : body.elements()[i].points) {
+      const auto [entry, isNew] = seen.try_emplace({point.x(), point.y(), point.z()}, i);
+      if (!isNew) above[first(i)] = first(entry->second);
+    }
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    if (above[i] == i) points.push_back(pointOf(body.elements()[i]));
+  return points;
+}
+
 void requireOutside(const Body& solid, const Body& other, const Isometry3d& solid_from_other,
                     const std::string& place) {
+  if (solid.solids().empty()) return;
+  const std::vector<Vector3d> points = pointsOf(other);
   for (const Surface& surface : solid.solids()) {
     const Enclosure enclosure(surface);
-    for (const Element& element : other.elements()) {
-      const Side side = enclosure.sideOf(solid_from_other * pointOf(element));
+    for (const Vector3d& point : points) {
+      const Side side = enclosure.sideOf(solid_from_other * point);
       if (side == Side::Outside) continue;
       throw Refusal(place + ": at the beginning, " + other.name() +
                     (side == Side::Inside ? " is inside " : " cannot be told to be outside ") +
