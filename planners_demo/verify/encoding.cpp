@@ -45,6 +45,10 @@ std::vector<Number> decoded(const std::string& text, const std::string& where) {
 
 }  // namespace
 
+std::string base64Of(std::span<const std::uint8_t> bytes) {
+  return encoded(bytes.data(), bytes.size_bytes());
+}
+
 std::string base64Of(std::span<const double> numbers) {
   return encoded(numbers.data(), numbers.size_bytes());
 }

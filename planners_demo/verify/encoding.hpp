@@ -7,8 +7,10 @@
 #include <vector>
 
 /// Numbers of a path file, bit for bit: base64 of IEEE doubles and 32-bit integers, little endian.
+/// And digests.
 namespace swept::verify {
 
+std::string base64Of(std::span<const std::uint8_t> bytes);
 std::string base64Of(std::span<const double> numbers);
 std::string base64Of(std::span<const std::uint32_t> numbers);
 

@@ -298,20 +298,5 @@ TEST_F(BatchOutput, ProgressIsForTerminalsOnly) {
   EXPECT_EQ(batch_.err, "");
 }
 
-TEST(BatchHelp, TheExamplesOfTheHelpRun) {
-  const TemporaryFolder folder;
-  for (const std::string name : {"planners", "summary"}) {
-    const Outcome help = runSwept({"bench", name, "--help"});
-    EXPECT_EQ(help.exitCode, 0);
-    std::smatch match;
-    ASSERT_TRUE(std::regex_search(help.out, match, std::regex("\nExample:\n  (swept .*)\n")));
-    std::string command = match[1];
-    command.replace(command.find("results.jsonl"), 13, folder.path("results.jsonl"));
-    const Outcome run = runShell(command);
-    EXPECT_EQ(run.exitCode, 0) << run.err;
-    EXPECT_THAT(run.out, testing::HasSubstr("\nshelf  RRTConnect  discrete:0.05 "));
-  }
-}
-
 }  // namespace
 }  // namespace swept::test

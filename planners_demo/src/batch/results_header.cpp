@@ -5,12 +5,22 @@
 
 #include <array>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 
-#include "batch/digest.hpp"
 #include "swept/robot_model/input.hpp"
+#include "verify/encoding.hpp"
 
 namespace swept {
 namespace {
+
+/// SHA-256 of a file's bytes.
+std::string fileDigest(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream) throw InputError(file, 0, "file cannot be read");
+  return verify::digestOf(bytes);
+}
 
 constexpr const char* kFormat = "swept bench planners";
 constexpr int kVersion = 1;
@@ -56,6 +66,7 @@ Json resultsHeader(const Batch& batch) {
                  {"pad", args.pads},
                  {"scale", args.scales},
                  {"allow", args.allowed},
+                 {"attach", args.attached},
                  {"time_limit", args.time},
                  {"hard_limit", hardLimitOf(args)},
                  {"simplify", !args.noSimplify},

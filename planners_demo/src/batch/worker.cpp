@@ -7,19 +7,18 @@
 #include <string_view>
 #include <utility>
 
-#include "batch/digest.hpp"
 #include "batch/validator.hpp"
 #include "input/states.hpp"
 #include "plan/planning.hpp"
+#include "verify/encoding.hpp"
 
 namespace swept {
 namespace {
 
 std::string digestOf(const std::vector<std::vector<double>>& states) {
-  Digest digest;
-  for (const std::vector<double>& q : states)
-    digest.add({reinterpret_cast<const char*>(q.data()), q.size() * sizeof(double)});
-  return digest.text();
+  std::string numbers;
+  for (const std::vector<double>& q : states) numbers += verify::base64Of(q) + " ";
+  return verify::digestOf(numbers);
 }
 
 PathFacts factsOf(const PlanOutcome& outcome, const BatchArguments& args) {
