@@ -6,6 +6,7 @@
 
 #include "certificate/shape_json.hpp"
 #include "command_line/exit_code.hpp"
+#include "info/info.hpp"
 
 namespace swept {
 namespace {
@@ -29,24 +30,6 @@ Json variableJson(const Variable& variable) {
           {"lower", finiteOrNull(variable.lower)},
           {"upper", finiteOrNull(variable.upper)},
           {"cyclic", variable.cyclic}};
-}
-
-const char* nameOf(JointType type) {
-  switch (type) {
-    case JointType::Fixed:
-      return "fixed";
-    case JointType::Revolute:
-      return "revolute";
-    case JointType::Continuous:
-      return "continuous";
-    case JointType::Prismatic:
-      return "prismatic";
-    case JointType::Planar:
-      return "planar";
-    case JointType::Floating:
-      return "floating";
-  }
-  return "";
 }
 
 std::size_t valuesOf(JointType type) {
@@ -86,7 +69,7 @@ void addValues(const Checker& checker, const Joint& joint, Json& json) {
 
 Json jointJson(const Checker& checker, const Joint& joint) {
   const std::vector<Link>& links = checker.robot().links();
-  Json json = {{"name", joint.name}, {"type", nameOf(joint.type)}};
+  Json json = {{"name", joint.name}, {"type", toString(joint.type)}};
   json["parent"] = joint.parentLink < 0 ? Json(nullptr) : Json(links[joint.parentLink].name);
   json["child"] = links[joint.childLink].name;
   json["pose"] = poseJson(joint.parent_from_joint);
