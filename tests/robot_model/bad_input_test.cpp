@@ -439,7 +439,7 @@ std::vector<BadInput> yamlScenes() {
        "@/s.yaml:4: error: mesh 'y.stl' of object 'crate' not found; looked for @/y.stl"},
       {"SceneEnding", "s.txt", "x",
        "@/s.txt: error: unknown ending '.txt' of a scene file; allowed are "
-       ".yaml, .yml and .scene"},
+       ".yaml, .yml, .scene and .urdf"},
   };
 }
 
