@@ -53,6 +53,7 @@ class ProofCheck {
       : path_(path), proof_(at(path, "proof", "path")) {
     requireSameModel(proof_, modelJson);
     model_ = readModel(modelJson);
+    requireSameClaims();
     const Json& states = readArray(path, "states", "path");
     for (std::size_t i = 0; i < states.size(); ++i)
       states_.push_back(readState(states[i], model_, "state " + std::to_string(i + 1)));
@@ -76,6 +77,18 @@ class ProofCheck {
   }
 
  private:
+  /// What the file says beside states and proof: whoever drives the robot goes by it.
+  void requireSameClaims() const {
+    compareDigests(at(at(proof_, "digests", "proof"), "claims", "digests"), claimDigests(path_),
+                   "path file,");
+    const Json& names = readArray(path_, "joint_names", "path");
+    for (std::size_t i = 0; i < std::max(names.size(), model_.variables.size()); ++i)
+      if (i >= names.size() || i >= model_.variables.size() || names[i] != model_.variables[i].name)
+        throw Refusal("joint_names: they are not the variables of the group, in its order");
+    if (at(path_, "margin", "path") != model_.margin)
+      throw Refusal("margin: it is not that of the model");
+  }
+
   std::string nameOf(PairToProve pair) const {
     return model_.bodies[static_cast<std::size_t>(pair.a)].name() + " - " +
            model_.bodies[static_cast<std::size_t>(pair.b)].name();
@@ -148,6 +161,14 @@ Json digestsOf(const Json& model) {
     rules.erase(kind);
   }
   digests["rules"] = digestOf(rules.dump());
+  return digests;
+}
+
+Json claimDigests(const Json& path) {
+  Json digests = Json::object();
+  for (const auto& [key, value] : path.items())
+    if (key != "states" && key != "proof" && key != "model" && key != "inputs")
+      digests[key] = digestOf(value.dump());
   return digests;
 }
 

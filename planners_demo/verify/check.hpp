@@ -11,6 +11,8 @@ namespace swept::verify {
 /// Names what `model` has, with a digest of each: `joints`, `bodies` and, together, `rules` (all
 /// else).
 Json digestsOf(const Json& model);
+/// Of what a path file has beside its states, its proof and where its model comes from: `claims`.
+Json claimDigests(const Json& path);
 /// Of the two states of a segment.
 std::string stateDigest(const Json& from, const Json& to);
 /// Of what proves a pair of bodies apart during a segment, without its own `digest`.

@@ -84,6 +84,8 @@ void readShape(const Json& json, const Eigen::Isometry3d& frame, const std::stri
 /// A pose is 12 numbers: the rotation by rows, then the translation (m).
 Eigen::Isometry3d readPose(const Json& json, const std::string& where);
 Eigen::Vector3d readVector(const Json& json, const std::string& where);
+/// `json[key]`, a vector of length 1.
+Eigen::Vector3d readUnit(const Json& json, const char* key, const std::string& where);
 double readNumber(const Json& json, const std::string& where);
 /// `json[key]`. Throws Refusal when it is not there.
 const Json& at(const Json& json, const char* key, const std::string& where);

@@ -26,13 +26,6 @@ const Json& readList(const Json& json, const char* key, const std::string& where
   return value;
 }
 
-Vector3d readUnit(const Json& json, const char* key, const std::string& where) {
-  const Vector3d axis = readVector(at(json, key, where), where + ", " + key);
-  if (!(std::abs(axis.norm() - 1.0) <= kUnit))
-    throw Refusal(where + ": " + key + " has not length 1");
-  return axis;
-}
-
 /// Index of a name; -1 for null.
 int indexOf(const std::vector<std::string>& names, const Json& name, const std::string& where) {
   if (name.is_null()) return -1;
@@ -173,6 +166,13 @@ double readNumber(const Json& json, const std::string& where) {
   const double number = json.get<double>();
   if (!std::isfinite(number)) throw Refusal(where + ": not a finite number");
   return number;
+}
+
+Vector3d readUnit(const Json& json, const char* key, const std::string& where) {
+  const Vector3d axis = readVector(at(json, key, where), where + ", " + key);
+  if (!(std::abs(axis.norm() - 1.0) <= kUnit))
+    throw Refusal(where + ": " + key + " has not length 1");
+  return axis;
 }
 
 Vector3d readVector(const Json& json, const std::string& where) {

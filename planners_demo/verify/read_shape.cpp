@@ -87,8 +87,7 @@ void addConvex(const Json& json, const Isometry3d& frame, const std::string& whe
 
 void addFlat(const Json& json, bool solid, const Isometry3d& frame, const std::string& where,
              ShapeParts& parts) {
-  const Vector3d normal =
-      frame.linear() * readVector(at(json, "normal", where), where + ", normal");
+  const Vector3d normal = frame.linear() * readUnit(json, "normal", where);
   const double offset = readNumber(at(json, "offset", where), where + ", offset");
   parts.flats.push_back({normal, offset + normal.dot(frame.translation()), solid});
 }

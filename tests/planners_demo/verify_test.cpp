@@ -139,6 +139,26 @@ TEST_F(Verify, ALeftOutPairOrSegmentIsNamed) {
               StartsWith("refused: proof, segments: "));
 }
 
+TEST_F(Verify, WhatIsSaidBesideTheProofIsNotChangedEither) {
+  EXPECT_EQ(refusal([](Json& path) { path["segments"][0]["clearance"] = 5.0; }),
+            std::string("refused: path file, segments") + kChanged);
+  EXPECT_EQ(refusal([](Json& path) { path["group"] = "slider"; }),
+            std::string("refused: path file, group") + kChanged);
+  const auto signedAnew = [](Json& path) {
+    path["proof"]["digests"]["claims"] = verify::claimDigests(path);
+  };
+  EXPECT_EQ(refusal([&](Json& path) {
+              std::swap(path["joint_names"][0], path["joint_names"][1]);
+              signedAnew(path);
+            }),
+            "refused: joint_names: they are not the variables of the group, in its order\n");
+  EXPECT_EQ(refusal([&](Json& path) {
+              path["margin"] = 0.01;
+              signedAnew(path);
+            }),
+            "refused: margin: it is not that of the model\n");
+}
+
 /// Digests keep nobody from writing others; the proof does.
 TEST_F(Verify, WhatIsNotTrueIsRefusedWhateverTheDigestsSay) {
   EXPECT_THAT(

@@ -5,6 +5,7 @@
 #include "input/clouds.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
+#include "verify/check.hpp"
 
 namespace swept {
 namespace {
@@ -62,6 +63,7 @@ std::string jsonText(const Checker& checker, const PlanRequest& request, const P
   json["inputs"] = inputs;
   if (embed) json["model"] = certificate.model;
   json["proof"] = certificate.proof;
+  if (!certificate.proof.is_null()) json["proof"]["digests"]["claims"] = verify::claimDigests(json);
   return linesOf(json);
 }
 
