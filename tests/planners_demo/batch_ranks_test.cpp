@@ -15,7 +15,7 @@ Outcome runRanks(int ranks, const Words& arguments) {
   std::string line =
       "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
       "OMPI_MCA_rmaps_base_oversubscribe=1; '" SWEPT_MPIEXEC "' -n " +
-      std::to_string(ranks) + " '" + programFile() + "'";
+      std::to_string(ranks) + " '" SWEPT_MPI_PROGRAM "'";
   for (const std::string& word : arguments) line += " '" + word + "'";
   return runShell(line);
 }
@@ -62,7 +62,7 @@ TEST(BatchRanks, ARankThatCannotGoOnEndsTheJob) {
 #else
 
 TEST(BatchRanks, ResultsAreThoseOfOneProcess) {
-  GTEST_SKIP() << "built without SWEPT_MPI";
+  GTEST_SKIP() << "built without MPI";
 }
 
 #endif
