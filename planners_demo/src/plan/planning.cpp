@@ -213,7 +213,7 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
     if (request.goalPose) {
       const auto goal = sampledGoal(*setup, checker, *request.goalPose, request.seed);
       if (!goal->hasStates()) {
-        outcome.failure = whyNotReached(*checker, *request.goalPose, request.seed);
+        outcome.failure = whyNotReached(checker, *request.goalPose, request.seed);
         return outcome;
       }
       setup->setGoal(goal);

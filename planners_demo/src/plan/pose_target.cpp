@@ -2,6 +2,7 @@
 #include "plan/pose_target.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -16,14 +17,17 @@ namespace {
 
 constexpr int kSearches = 300;
 
-/// Within the limits; where there are none, a turn or a metre around zero.
+/// Within the limits; where one is missing, a turn, or 2 pi m, from the other, or around zero.
 std::vector<double> randomState(const Checker& checker, std::mt19937& random) {
   std::vector<double> q;
   for (const int v : checker.group().variables) {
     const Variable& variable = checker.robot().variables()[v];
-    std::uniform_real_distribution<double> within(std::max(variable.lower, -std::numbers::pi),
-                                                  std::min(variable.upper, std::numbers::pi));
-    q.push_back(within(random));
+    constexpr double kRange = 2.0 * std::numbers::pi;
+    const double least = std::isfinite(variable.lower)   ? variable.lower
+                         : std::isfinite(variable.upper) ? variable.upper - kRange
+                                                         : -0.5 * kRange;
+    const double most = std::isfinite(variable.upper) ? variable.upper : least + kRange;
+    q.push_back(std::uniform_real_distribution<double>(least, most)(random));
   }
   return q;
 }
@@ -36,8 +40,10 @@ double deepest(const EndReport& report) {
 
 }  // namespace
 
-std::string whyNotReached(const Checker& checker, const PoseTarget& target, std::uint32_t seed) {
-  const auto robot = std::make_shared<const Robot>(checker.robot());
+std::string whyNotReached(const std::shared_ptr<const Checker>& owner, const PoseTarget& target,
+                          std::uint32_t seed) {
+  const Checker& checker = *owner;
+  const std::shared_ptr<const Robot> robot(owner, &checker.robot());
   const InverseKinematics kinematics(robot, checker.group().name, target.link,
                                      checker.options().reference);
   InverseKinematics::Workspace scratch(kinematics);

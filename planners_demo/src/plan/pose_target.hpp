@@ -21,6 +21,7 @@ struct PoseTarget {
 
 /// Why no free configuration is known that has a link there: `link hand cannot be put there, ...`,
 /// or what is in contact when it is, with the least depth seen.
-std::string whyNotReached(const Checker& checker, const PoseTarget& target, std::uint32_t seed);
+std::string whyNotReached(const std::shared_ptr<const Checker>& checker, const PoseTarget& target,
+                          std::uint32_t seed);
 
 }  // namespace swept
