@@ -56,7 +56,8 @@ TEST(Readme, ItsCommandsPrintWhatItShows) {
     ASSERT_TRUE(block.starts_with("$ swept ")) << block;
     const auto end = block.find('\n');
     const std::string command =
-        replaced(block.substr(2, end - 2), "path.json", folder.path("p.json"));
+        replaced(replaced(block.substr(2, end - 2), "path.json", folder.path("p.json")), "dumps",
+                 folder.path("dumps"));
     const Outcome run = runShell(command);
     EXPECT_EQ(run.err, "") << command;
     EXPECT_EQ(withoutNumbers(replaced(run.out, folder.path("p.json"), "path.json")),

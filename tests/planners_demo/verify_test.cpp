@@ -254,7 +254,7 @@ TEST_F(Verify, FilesThatAreNoPathAreBadInput) {
   EXPECT_EQ(message("{\"proof\": null}"), "F: error: there is no proof in it\n");
   EXPECT_EQ(message("{\"proof\": {}}"), "F: error: it does not say which files it is for\n");
   EXPECT_EQ(message("{\"proof\": {}, \"inputs\": {\"robot\": 3}}"),
-            "F: error: inputs: robot is not what a path file has there\n");
+            "F: error: inputs.robot is 3; it must be text\n");
   EXPECT_THAT(message("{\"proof\":\n {"), StartsWith("F:2: error: malformed JSON: "));
   EXPECT_THAT(runSwept({"verify", "no/such.json"}).err, HasSubstr("no/such.json"));
 }

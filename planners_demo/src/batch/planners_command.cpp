@@ -5,6 +5,7 @@
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
 #include "plan/planners.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -59,6 +60,7 @@ void addOutputOptions(CLI::App& app, Arguments& args) {
   app.add_flag("--list", args.batch.list, "print the runs as JSON lines, run nothing");
   app.add_flag("--stdin", args.batch.fromStdin,
                "the runs are such lines on stdin; results go to stdout as they come");
+  addDumpOption(app, args);
   addResultFileOptions(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);

@@ -9,7 +9,7 @@
 
 #include "batch/validator.hpp"
 #include "input/states.hpp"
-#include "plan/planning.hpp"
+#include "plan/plan_dump.hpp"
 #include "verify/encoding.hpp"
 
 namespace swept {
@@ -48,6 +48,7 @@ Worker::Worker(const Batch& batch, Warnings::Taker warnings)
     : batch_(batch),
       group_(chooseGroup(*batch.model.robot, batch.group)),
       warnings_(std::move(warnings)),
+      dump_(*batch.args),
       like_(makeChecker(*batch.args, batch.model, group_, std::make_shared<const World>(),
                         warnings_)) {}
 
@@ -58,6 +59,16 @@ const std::shared_ptr<const Checker>& Worker::checkerOf(const PlanningProblem& p
     index_ = problem.index;
   }
   return checker_;
+}
+
+/// A result counts without it.
+void Worker::dump(const RunKey& key, const PlanOutcome& outcome) {
+  try {
+    dump_.setProblem(key.set, key.index);
+    dumpFailures(dump_, *like_, outcome);
+  } catch (const std::exception& error) {
+    warnings_(std::string("swept: warning: ") + error.what());
+  }
 }
 
 RunResult Worker::run(const RunKey& key) {
@@ -85,6 +96,7 @@ RunResult Worker::run(const RunKey& key) {
     // to do the other runs.
     outcome.failure = error.what();
   }
+  dump(key, outcome);
   result.status = outcome.status;
   result.failure = outcome.solved() ? "" : failureOf(outcome);
   if (outcome.solved() || outcome.status.empty() || !args.batch.noTimes) {

@@ -6,6 +6,8 @@
 
 #include "batch/run_result.hpp"
 #include "input/task.hpp"
+#include "plan/planning.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 
@@ -27,10 +29,12 @@ class Worker {
 
  private:
   const std::shared_ptr<const Checker>& checkerOf(const PlanningProblem& problem);
+  void dump(const RunKey& key, const PlanOutcome& outcome);
 
   const Batch& batch_;
   const Group& group_;
   Warnings warnings_;
+  QueryDump dump_;
   std::shared_ptr<const Checker> like_;
   /// The last problem and its checker: neighbours in a batch have the same.
   std::string set_;

@@ -12,6 +12,7 @@
 #include "input/states.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -114,7 +115,7 @@ std::vector<EdgeResult> measure(const Checker& checker, const std::vector<BenchM
 /// A run of the program over the edges of a file, one problem after the other.
 class EdgeRun {
  public:
-  explicit EdgeRun(const Arguments& args) : args_(args), warnings_(args.quiet) {
+  explicit EdgeRun(const Arguments& args) : args_(args), warnings_(args.quiet), dump_(args) {
     bench_.margin = args.margin;
     bench_.tolerance = args.tolerance;
     bench_.passes = args.passes;
@@ -136,6 +137,7 @@ class EdgeRun {
                         " problems, now " + parts[i].set + " " + std::to_string(parts[i].index));
       addProblem(problems.problem(parts[i].set, parts[i].index), group, parts[i], edges);
     }
+    dump_.announce();
     return std::move(bench_);
   }
 
@@ -163,11 +165,23 @@ class EdgeRun {
       result = results[i];
       result.length = edges[part.places[i]].length;
       if (!fcl.empty()) result.fcl = fcl[i];
+      dumpUndecided(*checker, part, motions[i], result, part.places[i] + 1);
     }
+  }
+
+  /// Collisions are no failures here: the edges come from a planner that tried them.
+  void dumpUndecided(const Checker& checker, const EdgesOfProblem& part, const BenchMotion& motion,
+                     const EdgeResult& result, std::size_t row) {
+    if (result.verdict != Verdict::Undecided) return;
+    MotionCertificate certificate;
+    certificate.verdict = result.verdict;
+    dump_.setProblem(part.set, part.index);
+    dump_.motion(checker, "edge " + std::to_string(row), motion.from, motion.to, certificate);
   }
 
   const Arguments& args_;
   Warnings warnings_;
+  QueryDump dump_;
   BenchClock clock_;
   Model model_;
   EdgeBench bench_;

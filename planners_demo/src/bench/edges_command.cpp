@@ -2,6 +2,7 @@
 #include <limits>
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -31,6 +32,7 @@ void addOptions(CLI::App& app, Arguments& args) {
             return peer == "fcl" ? "" : "must be fcl, not " + CLI::detail::trim_copy(peer);
           },
           ""));
+  addDumpOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);
 }

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "certificate/inputs.hpp"
 #include "certificate/model_json.hpp"
 #include "command_line/commands.hpp"
+#include "input/inputs.hpp"
 #include "input/json_value.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
@@ -19,7 +19,8 @@ namespace {
 Json modelOfFiles(const Arguments& args, const Json& path, Warnings& warnings) {
   if (!path.contains("inputs"))
     throw InputError(args.verify.path, 0, "it does not say which files it is for");
-  Arguments inputs = inputsOf(path["inputs"], args.verify.path);
+  const nlohmann::json recorded(path["inputs"]);
+  Arguments inputs = inputsOf(JsonValue(recorded, "inputs", args.verify.path));
   inputs.command = &kPlanCommand;
   if (!args.verify.robot.empty()) inputs.robot = args.verify.robot;
   if (!args.verify.scene.empty()) inputs.scene = args.verify.scene;

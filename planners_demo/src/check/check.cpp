@@ -7,6 +7,7 @@
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -45,6 +46,7 @@ Json stateJson(const LabelledState& state, const StateReport& report) {
 
 ExitCode runCheck(const Arguments& args) {
   requirePageFile(args);
+  QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
@@ -58,6 +60,7 @@ ExitCode runCheck(const Arguments& args) {
       const StateReport report = task.checker->reportState(state.q, workspace);
       text += stateText(state.label, report);
       states.push_back(stateJson(state, report));
+      dump.state(*task.checker, state.label, state.q, report.verdict);
       code = worse(code, exitCodeOf(report.verdict));
     }
   }
@@ -70,6 +73,7 @@ ExitCode runCheck(const Arguments& args) {
   } else {
     std::cout << text;
   }
+  dump.announce();
   writeCheckPage(args, model, task);
   return code;
 }

@@ -2,6 +2,7 @@
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
 #include "page/pages.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -12,6 +13,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   addSceneOptions(app, args);
   app.add_option("states", args.states, "states to check")->type_name("STATE");
   addProblemOptions(app, args, "checks start and goals in its world");
+  addDumpOption(app, args);
   addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);

@@ -8,6 +8,7 @@
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -78,6 +79,7 @@ Json segmentJson(const Segment& segment) {
 
 ExitCode runMotion(const Arguments& args) {
   requirePageFile(args);
+  QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
@@ -94,6 +96,8 @@ ExitCode runMotion(const Arguments& args) {
       const Segment segment = examine(from, task.states[i], *task.checker, workspace);
       text += segmentText(segment);
       segments.push_back(segmentJson(segment));
+      dump.motion(*task.checker, segment.from + " to " + segment.to, from.q, task.states[i].q,
+                  segment.certificate);
       code = worse(code, exitCodeOf(segment.certificate.verdict));
     }
   }
@@ -107,6 +111,7 @@ ExitCode runMotion(const Arguments& args) {
   } else {
     std::cout << text;
   }
+  dump.announce();
   writeMotionPage(args, model, task);
   return code;
 }

@@ -58,8 +58,9 @@ struct Arguments {
   std::string set;
   std::optional<int> index;
 
-  std::string cases;  ///< JSON file of replay
-  std::string shell;  ///< of completion
+  std::vector<std::string> cases;  ///< JSON files of replay
+  std::string dump;                ///< folder for queries that are not free
+  std::string shell;               ///< of completion
 
   std::string edges;  ///< CSV file of bench edges
   int passes = 5;

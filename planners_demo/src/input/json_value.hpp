@@ -36,6 +36,8 @@ class JsonValue {
   std::vector<JsonValue> elements() const;
   std::vector<JsonValue> elements(std::size_t count) const;
 
+  const std::string& file() const { return *file_; }
+  bool isObject() const { return value_->is_object(); }
   bool isText() const { return value_->is_string(); }
   bool isNull() const { return value_->is_null(); }
   bool boolean() const;

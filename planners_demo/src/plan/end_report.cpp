@@ -50,7 +50,7 @@ std::string contactText(const EndContact& contact) {
 
 EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspace& workspace) {
   const StateReport found = checker.reportState(state.q, workspace);
-  EndReport report{.label = state.label, .verdict = found.verdict};
+  EndReport report{.label = state.label, .q = state.q, .verdict = found.verdict};
   if (found.contacts.empty()) return report;
   const std::vector<CertifiedBody> bodies = certifiedBodies(checker);
   for (const Witness& contact : found.contacts) {

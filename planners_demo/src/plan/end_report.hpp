@@ -21,6 +21,7 @@ struct EndContact {
 /// Why a state can, or cannot, be an end of a path.
 struct EndReport {
   std::string label;
+  std::vector<double> q;
   Verdict verdict = Verdict::Undecided;
   std::vector<EndContact> contacts = {};
 };

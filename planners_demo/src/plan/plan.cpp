@@ -5,14 +5,15 @@
 #include <optional>
 
 #include "certificate/certificate.hpp"
-#include "certificate/inputs.hpp"
 #include "command_line/commands.hpp"
 #include "input/clouds.hpp"
+#include "input/inputs.hpp"
 #include "input/poses.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "plan/path_files.hpp"
+#include "plan/plan_dump.hpp"
 #include "plan/plan_sets.hpp"
 #include "plan/planners.hpp"
 #include "plan/planning.hpp"
@@ -155,6 +156,7 @@ ExitCode runPlan(const Arguments& args) {
   requireEnds(args);
 
   requirePageFile(args);
+  QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
@@ -168,6 +170,7 @@ ExitCode runPlan(const Arguments& args) {
         args.quiet);
     outcome = plan(task.checker, task.states, request);
   }
+  dumpFailures(dump, *task.checker, outcome);
   if (file && outcome.proven()) writePath(args, *file, *task.checker, request, outcome, warnings);
   if (args.json) {
     std::cout << planJson(args, *task.checker, request, outcome).dump(2) << '\n';
@@ -176,6 +179,7 @@ ExitCode runPlan(const Arguments& args) {
               << resultLine(outcome);
     if (file && outcome.proven()) std::cout << "path written to " << args.output << '\n';
   }
+  dump.announce();
   writePlanPage(args, model, task, request, outcome);
   return outcome.code;
 }

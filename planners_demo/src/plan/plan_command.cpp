@@ -3,6 +3,7 @@
 #include "command_line/options.hpp"
 #include "page/pages.hpp"
 #include "plan/planners.hpp"
+#include "replay/query_dump.hpp"
 
 namespace swept {
 namespace {
@@ -59,6 +60,7 @@ void addOptions(CLI::App& app, Arguments& args) {
       ->type_name("N")
       ->check(within(1, 1024, "between 1 and 1024"));
   app.add_flag("-v,--verbose", args.verbose, "OMPL's messages on stderr");
+  addDumpOption(app, args);
   addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);

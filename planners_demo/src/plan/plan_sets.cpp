@@ -10,6 +10,7 @@
 #include "output/progress.hpp"
 #include "output/quantile.hpp"
 #include "output/text_output.hpp"
+#include "plan/plan_dump.hpp"
 #include "plan/plan_sets.hpp"
 #include "plan/planning.hpp"
 
@@ -179,6 +180,7 @@ void checkOptions(const Arguments& args) {
 
 ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   checkOptions(args);
+  QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Group& group = chooseGroup(*model.robot, args.group);
@@ -192,11 +194,16 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
     });
   }
   ExitCode code = ExitCode::Free;
-  for (const Entry& entry : entries) code = worse(code, entry.outcome.code);
+  for (const Entry& entry : entries) {
+    code = worse(code, entry.outcome.code);
+    dump.setProblem(entry.set, entry.index);
+    dumpFailures(dump, *like, entry.outcome);
+  }
   if (args.json)
     std::cout << setsJson(entries, request).dump(2) << '\n';
   else
     std::cout << setsText(entries);
+  dump.announce();
   return code;
 }
 

@@ -169,8 +169,12 @@ ReplayCase readCase(const JsonValue& entry) {
   result.id = entry.at("id").text();
   const JsonValue place = entry.renamed("case '" + result.id + "':");
   result.query = place.at("query").text();
+  if (isRobotQuery(result.query)) {
+    result.robot = readRobotQuestion(result.query, place);
+    return result;
+  }
   result.skipReason = unsupported(result.query, place);
-  if (result.skipReason.empty()) result.question = readQuestion(kQueries.at(result.query), place);
+  if (result.skipReason.empty()) result.pair = readQuestion(kQueries.at(result.query), place);
   return result;
 }
 

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "replay/robot_cases.hpp"
 #include "swept/core/continuous/motions.hpp"
 #include "swept/core/shapes.hpp"
 
-/// Cases of two shapes with a known answer, read from JSON; planners_demo/README.md has the format.
+/// Cases with a known answer, read from JSON; planners_demo/README.md has the format.
 namespace swept {
 
 enum class PairQuery {
@@ -40,9 +41,10 @@ struct PairQuestion {
 /// An entry of the file: a question, or the reason why this program does not answer it.
 struct ReplayCase {
   std::string id;
-  std::string query;                     ///< as the file names it
-  std::optional<PairQuestion> question;  ///< empty: skipped
-  std::string skipReason;  ///< `query ccd_robot`, `shape robot`; empty with a question
+  std::string query;                   ///< as the file names it
+  std::optional<PairQuestion> pair;    ///< of two shapes
+  std::optional<RobotQuestion> robot;  ///< of a robot in its world
+  std::string skipReason;              ///< `query ccd_robot`, `shape robot`; empty with a question
 };
 
 /// Throws InputError, which names the case, the key, its value and what is allowed.

@@ -6,7 +6,8 @@ namespace swept {
 namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
-  app.add_option("cases", args.cases, "cases of two shapes each; planners_demo/README.md")
+  app.add_option("cases", args.cases,
+                 "cases: pairs of shapes, states and motions of robots; planners_demo/README.md")
       ->required()
       ->type_name("FILE.json");
   addJsonOption(app, args);
@@ -16,7 +17,7 @@ void addOptions(CLI::App& app, Arguments& args) {
 
 const Command kReplayCommand{
     .name = "replay",
-    .summary = "Distances of shape pairs against known answers",
+    .summary = "Queries from files, asked again, against known answers",
     .example = "swept replay models/cases.json",
     .exitCodes = "Exit codes: 0 all passed or skipped, 1 a case failed, 3 bad input or usage.",
     .addOptions = addOptions,

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "certificate/inputs.hpp"
+#include "input/inputs.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "input/task.hpp"
-#include "swept/robot_model/input.hpp"
 
 namespace swept {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kMostProblems = std::numeric_limits<int>::max();
 
 /// Of an `--attach`: whether its shape is a mesh file.
 bool isFile(const std::string& attached) {
@@ -23,7 +25,7 @@ bool isFile(const std::string& attached) {
 /// Reads or writes the fields of Arguments that count, one after the other.
 class Writer {
  public:
-  explicit Writer(const fs::path& pathFile) : folder_(fs::absolute(pathFile).parent_path()) {}
+  explicit Writer(const fs::path& file) : folder_(fs::absolute(file).parent_path()) {}
 
   void file(const char* key, const std::string& name) {
     if (!name.empty()) json_[key] = relative(name);
@@ -65,8 +67,9 @@ class Writer {
 
 class Reader {
  public:
-  Reader(const Json& json, const fs::path& pathFile) : json_(json), pathFile_(pathFile) {
-    if (!json.is_object()) refuse("inputs");
+  explicit Reader(const JsonValue& json)
+      : json_(json), folder_(fs::path(json.file()).parent_path()) {
+    if (!json.isObject()) json.refuse("an object");
   }
 
   void file(const char* key, std::string& name) {
@@ -77,24 +80,18 @@ class Reader {
     texts(key, names);
     for (std::string& name : names) name = absolute(name);
   }
-  template <typename Value>
-  void value(const char* key, std::optional<Value>& value) {
-    if (!json_.contains(key)) return;
-    if (!json_[key].is_number()) refuse(key);
-    value = json_[key].get<Value>();
+  void value(const char* key, std::optional<double>& value) {
+    if (json_.has(key)) value = json_.at(key).notNegative();
+  }
+  void value(const char* key, std::optional<int>& value) {
+    if (json_.has(key)) value = static_cast<int>(json_.at(key).whole(0, kMostProblems));
   }
   void text(const char* key, std::string& text) {
-    if (!json_.contains(key)) return;
-    if (!json_[key].is_string()) refuse(key);
-    text = json_[key].get<std::string>();
+    if (json_.has(key)) text = json_.at(key).text();
   }
   void texts(const char* key, std::vector<std::string>& texts) {
-    if (!json_.contains(key)) return;
-    if (!json_[key].is_array()) refuse(key);
-    for (const Json& item : json_[key]) {
-      if (!item.is_string()) refuse(key);
-      texts.push_back(item.get<std::string>());
-    }
+    if (!json_.has(key)) return;
+    for (const JsonValue& item : json_.at(key).elements()) texts.push_back(item.text());
   }
   void packages(const char* key, std::vector<std::string>& packages) {
     texts(key, packages);
@@ -113,14 +110,10 @@ class Reader {
 
  private:
   std::string absolute(const std::string& name) const {
-    return (pathFile_.parent_path() / name).lexically_normal().string();
+    return (folder_ / name).lexically_normal().string();
   }
-  [[noreturn]] void refuse(const std::string& key) const {
-    throw InputError(pathFile_.string(), 0,
-                     "inputs: " + key + " is not what a path file has there");
-  }
-  const Json& json_;
-  fs::path pathFile_;
+  const JsonValue& json_;
+  fs::path folder_;
 };
 
 template <typename Visitor, typename Args>
@@ -147,8 +140,8 @@ void visit(Visitor& visitor, Args& args) {
 
 }  // namespace
 
-Json inputsJson(const Arguments& args, const fs::path& pathFile) {
-  Writer writer(pathFile);
+Json inputsJson(const Arguments& args, const fs::path& file) {
+  Writer writer(file);
   visit(writer, args);
   const std::string srdf = chooseSrdf(args).file;
   if (srdf.empty())
@@ -161,14 +154,13 @@ Json inputsJson(const Arguments& args, const fs::path& pathFile) {
   return json;
 }
 
-Arguments inputsOf(const Json& inputs, const fs::path& pathFile) {
+Arguments inputsOf(const JsonValue& inputs) {
   Arguments args;
-  Reader reader(inputs, pathFile);
+  Reader reader(inputs);
   visit(reader, args);
-  std::string srdf;
-  reader.text("srdf", srdf);
-  args.srdf = srdf;
-  if (srdf != "none") reader.file("srdf", args.srdf);
+  if (args.robot.empty()) inputs.at("robot").refuse("a URDF file");
+  reader.text("srdf", args.srdf);
+  if (args.srdf != "none") reader.file("srdf", args.srdf);
   std::optional<double> margin, tolerance;
   reader.value("margin", margin);
   reader.value("tolerance", tolerance);

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "plan/planning.hpp"
+#include "replay/query_dump.hpp"
+
+namespace swept {
+
+/// The ends that cannot be used, and the segments that are not proven.
+void dumpFailures(QueryDump& dump, const Checker& checker, const PlanOutcome& outcome);
+
+}  // namespace swept

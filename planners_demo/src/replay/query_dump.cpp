@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "replay/query_dump.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+
+#include "command_line/exit_code.hpp"
+#include "output/whole_file.hpp"
+#include "replay/robot_cases.hpp"
+#include "verify/encoding.hpp"
+
+namespace swept {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the digest in a file's name: 48 bits.
+constexpr std::size_t kNameDigits = 12;
+
+std::string folderOf(const Arguments& args) {
+  if (!args.dump.empty()) return args.dump;
+  const char* variable = std::getenv("SWEPT_DUMP_DIR");
+  return variable == nullptr ? "" : variable;
+}
+
+}  // namespace
+
+void addDumpOption(CLI::App& app, Arguments& args) {
+  app.add_option("--dump", args.dump,
+                 "folder: what is not free is written into it, a file each for 'swept replay'; "
+                 "without: the folder of SWEPT_DUMP_DIR, if that is set")
+      ->type_name("DIR");
+}
+
+QueryDump::QueryDump(const Arguments& args) : args_(args), folder_(folderOf(args)) {
+  if (folder_.empty()) return;
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw UsageError("cannot make the folder '" + folder_ + "': " + error.message());
+  requireWritable(fs::path(folder_) / "case.json");
+}
+
+void QueryDump::state(const Checker& checker, const std::string& label,
+                      const std::vector<double>& q, Verdict verdict) {
+  MotionCertificate found;
+  found.verdict = verdict;
+  write(checker, label, {q}, found);
+}
+
+void QueryDump::motion(const Checker& checker, const std::string& label,
+                       const std::vector<double>& from, const std::vector<double>& to,
+                       const MotionCertificate& certificate) {
+  write(checker, label, {from, to}, certificate);
+}
+
+void QueryDump::setProblem(const std::string& set, int index) {
+  args_.set = set;
+  args_.index = index;
+}
+
+void QueryDump::write(const Checker& checker, const std::string& label,
+                      const std::vector<std::vector<double>>& states,
+                      const MotionCertificate& found) {
+  if (folder_.empty() || found.verdict == Verdict::Free) return;
+  RobotQuestion question;
+  question.inputs = args_;
+  question.states = states;
+  question.expected = found.verdict;
+  question.inputs.group = checker.group().name;
+  for (const int v : checker.group().variables)
+    question.jointNames.push_back(checker.robot().variables()[v].name);
+  if (found.witness) {
+    question.contactAfter = found.freeUntil;
+    question.contactBy = found.witness->t;
+  }
+  const fs::path folder(folder_);
+  const std::string problem =
+      args_.index ? args_.set + " " + std::to_string(*args_.index) + ", " : std::string();
+  const std::string text = robotCaseText(problem + label, question, folder / "case.json");
+  const std::string digest = verify::digestOf(text).substr(0, kNameDigits);
+  writeWholeFile(folder / ((states.size() == 2 ? "motion-" : "state-") + digest + ".json"), text);
+  ++written_;
+}
+
+void QueryDump::announce() const {
+  if (written_ == 0 || args_.quiet) return;
+  std::cerr << "swept: wrote " << written_ << (written_ == 1 ? " query" : " queries") << " that "
+            << (written_ == 1 ? "is" : "are") << " not free to '" << folder_
+            << "'; 'swept replay' asks " << (written_ == 1 ? "it" : "them") << " again\n";
+}
+
+}  // namespace swept
