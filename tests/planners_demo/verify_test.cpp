@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "gantry.hpp"
+#include "page_data.hpp"
 #include "verify/check.hpp"
 
 /// `swept plan -o` writes a proof, and `swept verify` accepts it as it is and no other.
@@ -240,6 +241,30 @@ TEST_F(Verify, WhatMayTouchIsSaid) {
             "verified: 1 segments, 0 pairs of bodies, 0 intervals, 0 planes\n"
             "there is no pair to check\n"
             "not checked (allowed: --allow): cube - post\n");
+}
+
+TEST_F(Verify, APageShowsThePathAndWhetherItsProofHolds) {
+  if (!programHasPages()) GTEST_SKIP() << "built without three.js";
+  const std::string page = gantry_.folder().path("page.html");
+  const auto dataOf = [&](const Json& path, int exitCode) {
+    const std::string file = gantry_.folder().write("shown.json", path.dump());
+    const Outcome run = runSwept({"verify", file, "--html", page});
+    EXPECT_EQ(run.exitCode, exitCode) << run.err;
+    EXPECT_THAT(run.out, testing::EndsWith("page written to " + page + "\n"));
+    return pageData(gantry_.folder().read("page.html"));
+  };
+  const auto data = dataOf(path_, 0);
+  EXPECT_EQ(data["subcommand"], "verify");
+  EXPECT_EQ(data["headline"], "verified");
+  EXPECT_EQ(data["tone"], "good");
+  EXPECT_EQ(data["motions"].size(), path_["states"].size() - 1);
+  Json changed = path_;
+  changed["states"][1][0] = changed["states"][1][0].get<double>() + 0.01;
+  const auto refused = dataOf(changed, 1);
+  EXPECT_THAT(refused["headline"].get<std::string>(), StartsWith("refused: state 2"));
+  EXPECT_EQ(refused["tone"], "bad");
+  changed["states"] = "none";
+  EXPECT_EQ(dataOf(changed, 1)["tone"], "bad");
 }
 
 TEST_F(Verify, FilesThatAreNoPathAreBadInput) {

@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "certificate/model_json.hpp"
+#include "certificate/verify_outcome.hpp"
 #include "command_line/commands.hpp"
 #include "input/inputs.hpp"
 #include "input/json_value.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
+#include "page/pages.hpp"
 #include "swept/robot_model/input.hpp"
 #include "verify/check.hpp"
 
 namespace swept {
 namespace {
 
-/// The robot and world of the files that the path file names, or of those given instead.
-Json modelOfFiles(const Arguments& args, const Json& path, Warnings& warnings) {
+/// The files that the path file names, or those given instead, read.
+struct Files {
+  Model model;
+  Task task;
+};
+
+Files filesOf(const Arguments& args, const Json& path, Warnings& warnings) {
   if (!path.contains("inputs"))
     throw InputError(args.verify.path, 0, "it does not say which files it is for");
   const nlohmann::json recorded(path["inputs"]);
@@ -24,16 +32,30 @@ Json modelOfFiles(const Arguments& args, const Json& path, Warnings& warnings) {
   inputs.command = &kPlanCommand;
   if (!args.verify.robot.empty()) inputs.robot = args.verify.robot;
   if (!args.verify.scene.empty()) inputs.scene = args.verify.scene;
-  const Model model = loadModel(inputs, warnings);
-  return modelJson(*loadTask(inputs, model, warnings).checker);
+  Files files;
+  files.model = loadModel(inputs, warnings);
+  files.task = loadTask(inputs, files.model, warnings);
+  return files;
 }
 
-verify::Summary examine(const Arguments& args, const Json& path, Warnings& warnings) {
-  if (!path.contains("model")) return verify::checkProof(path, modelOfFiles(args, path, warnings));
-  const verify::Summary summary = verify::checkProof(path, path["model"]);
-  if (args.verify.files || !args.verify.robot.empty() || !args.verify.scene.empty())
-    verify::requireSameModel(path["proof"], modelOfFiles(args, path, warnings));
-  return summary;
+/// Whether the files are of account, because the path file does not have what is in them, or
+/// because the caller wants them to be.
+bool needsFiles(const Arguments& args, const Json& path) {
+  return !path.contains("model") || args.verify.files || !args.verify.robot.empty() ||
+         !args.verify.scene.empty() || !args.page.file.empty();
+}
+
+/// `files`: those of filesOf(), or null.
+VerifyOutcome examine(const Json& path, const Files* files) {
+  VerifyOutcome outcome;
+  try {
+    const Json model = files == nullptr ? Json() : modelJson(*files->task.checker);
+    outcome.summary = verify::checkProof(path, path.contains("model") ? path["model"] : model);
+    if (files != nullptr && path.contains("model")) verify::requireSameModel(path["proof"], model);
+  } catch (const verify::Refusal& refusal) {
+    outcome.refusal = refusal.what();
+  }
+  return outcome;
 }
 
 std::string clearanceText(double clearance) {
@@ -52,7 +74,9 @@ std::string summaryText(const verify::Summary& summary) {
   return text;
 }
 
-Json summaryJson(const verify::Summary& summary) {
+Json outcomeJson(const VerifyOutcome& outcome) {
+  if (!outcome.holds()) return {{"verified", false}, {"refusal", outcome.refusal}};
+  const verify::Summary& summary = outcome.summary;
   Json json = {{"verified", true},
                {"refusal", nullptr},
                {"segments", summary.segments},
@@ -68,28 +92,25 @@ Json summaryJson(const verify::Summary& summary) {
 }  // namespace
 
 ExitCode runVerify(const Arguments& args) {
+  requirePageFile(args);
   Warnings warnings(args.quiet);
   const Json path = parseOrderedJson(args.verify.path);
   if (!path.is_object() || !path.contains("proof") || path["proof"].is_null())
     throw InputError(args.verify.path, 0, "there is no proof in it");
-  try {
-    verify::Summary summary;
-    {
-      Progress progress("verifying", args.quiet);
-      summary = examine(args, path, warnings);
-    }
-    if (args.json)
-      std::cout << summaryJson(summary).dump(2) << '\n';
-    else
-      std::cout << summaryText(summary);
-    return ExitCode::Free;
-  } catch (const verify::Refusal& refusal) {
-    if (args.json)
-      std::cout << Json{{"verified", false}, {"refusal", refusal.what()}}.dump(2) << '\n';
-    else
-      std::cout << "refused: " << refusal.what() << '\n';
-    return ExitCode::Collision;
+  std::optional<Files> files;
+  VerifyOutcome outcome;
+  {
+    Progress progress("verifying", args.quiet);
+    if (needsFiles(args, path)) files = filesOf(args, path, warnings);
+    outcome = examine(path, files ? &*files : nullptr);
   }
+  if (args.json)
+    std::cout << outcomeJson(outcome).dump(2) << '\n';
+  else
+    std::cout << (outcome.holds() ? summaryText(outcome.summary)
+                                  : "refused: " + outcome.refusal + "\n");
+  if (files) writeVerifyPage(args, files->model, files->task, path, outcome);
+  return outcome.holds() ? ExitCode::Free : ExitCode::Collision;
 }
 
 }  // namespace swept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 namespace {
@@ -16,6 +17,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   app.add_flag("--files", args.verify.files,
                "compare a robot and world that are in the path file with the files they came from, "
                "too");
+  addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);
 }

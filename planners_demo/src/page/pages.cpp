@@ -8,10 +8,12 @@
 #include <iostream>
 
 #include "command_line/options.hpp"
+#include "input/json_value.hpp"
 #include "output/progress.hpp"
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
 #include "page/view.hpp"
+#include "swept/robot_model/input.hpp"
 
 namespace swept {
 namespace {
@@ -84,6 +86,21 @@ void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOu
   add("motions certified",
       std::to_string(outcome.certified) + ", refused " + std::to_string(outcome.refused));
   if (outcome.solved()) add("path length", shortNumber(outcome.length));
+}
+
+/// The states of a path file, each within the limits. Throws InputError or UsageError.
+std::vector<std::vector<double>> pathStates(const Json& path, const Checker& checker,
+                                            const std::string& file) {
+  const nlohmann::json plain(path.contains("states") ? path["states"] : Json());
+  std::vector<std::vector<double>> states;
+  for (const JsonValue& place : JsonValue(plain, "states", file).elements()) {
+    std::vector<double> q;
+    for (const JsonValue& value : place.elements(checker.group().variables.size()))
+      q.push_back(value.number());
+    states.push_back(std::move(q));
+  }
+  if (states.empty()) throw InputError(file, 0, "states must hold one or more");
+  return states;
 }
 
 }  // namespace
@@ -165,6 +182,38 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
   addPlanFacts(content, request, outcome);
   // A path may consist of its start alone.
   if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};
+  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+}
+
+void writeVerifyPage(const Arguments& args, const Model& model, const Task& task, const Json& file,
+                     const VerifyOutcome& outcome) {
+  if (args.page.file.empty()) return;
+  std::vector<std::vector<double>> states{task.states.front().q};
+  try {
+    states = pathStates(file, *task.checker, args.verify.path);
+  } catch (const InputError&) {
+    if (outcome.holds()) throw;  // what is wrong with them is why the path is refused
+  }
+  PageContent content;
+  Workspace workspace(*task.checker);
+  for (std::size_t i = 0; i + 1 < states.size(); ++i)
+    content.motions.push_back(
+        {.label = "segment " + std::to_string(i + 1),
+         .from = states[i],
+         .to = states[i + 1],
+         .certificate = task.checker->certifyMotion(states[i], states[i + 1], workspace)});
+  if (content.motions.empty()) content.states = {{.label = "start", .q = states.front()}};
+  content.tone = outcome.holds() ? PageContent::Tone::Good : PageContent::Tone::Bad;
+  content.headline = outcome.holds() ? "verified" : "refused: " + outcome.refusal;
+  if (outcome.holds()) {
+    const verify::Summary& summary = outcome.summary;
+    content.facts = {{"every pair keeps more than", clearanceText(summary.clearance)},
+                     {"pairs of bodies", std::to_string(summary.pairs)},
+                     {"intervals", std::to_string(summary.intervals)},
+                     {"separating planes", std::to_string(summary.planes)}};
+    for (const auto& [reason, pairs] : summary.allowed)
+      content.facts.emplace_back("not checked (" + reason + ")", joined(pairs));
+  }
   writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
 }
 

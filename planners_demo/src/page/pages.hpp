@@ -3,9 +3,11 @@
 
 #include <span>
 
+#include "certificate/verify_outcome.hpp"
 #include "command_line/arguments.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/task.hpp"
+#include "output/text_output.hpp"
 #include "plan/planning.hpp"
 
 namespace CLI {
@@ -32,6 +34,9 @@ void writeCheckPage(const Arguments& args, const Model& model, const Task& task)
 void writeMotionPage(const Arguments& args, const Model& model, const Task& task);
 void writePlanPage(const Arguments& args, const Model& model, const Task& task,
                    const PlanRequest& request, const PlanOutcome& outcome);
+/// `file`: the path's, as parsed; its states are shown.
+void writeVerifyPage(const Arguments& args, const Model& model, const Task& task, const Json& file,
+                     const VerifyOutcome& outcome);
 /// `checker` may be null.
 void writeInfoPage(const Arguments& args, const Model& model, const Checker* checker);
 

@@ -15,6 +15,8 @@ void writeCheckPage(const Arguments&, const Model&, const Task&) {}
 void writeMotionPage(const Arguments&, const Model&, const Task&) {}
 void writePlanPage(const Arguments&, const Model&, const Task&, const PlanRequest&,
                    const PlanOutcome&) {}
+void writeVerifyPage(const Arguments&, const Model&, const Task&, const Json&,
+                     const VerifyOutcome&) {}
 void writeInfoPage(const Arguments&, const Model&, const Checker*) {}
 
 }  // namespace swept
