@@ -17,35 +17,36 @@ using Eigen::Vector3d;
 constexpr double kDoubt = 1e-10;
 constexpr int kRays = 32;
 
-/// Sets of vertices that are joined one edge at a time.
+/// Sets of triangles that are joined one edge at a time.
 class Joined {
  public:
-  explicit Joined(std::size_t vertices) : above_(vertices) {
+  explicit Joined(std::size_t triangles) : above_(triangles) {
     std::iota(above_.begin(), above_.end(), 0);
   }
-  int find(int vertex) {
-    while (above(vertex) != vertex) vertex = above(vertex) = above(above(vertex));
-    return vertex;
+  int find(int triangle) {
+    while (above(triangle) != triangle) triangle = above(triangle) = above(above(triangle));
+    return triangle;
   }
   void join(int a, int b) { above(find(a)) = find(b); }
 
  private:
-  int& above(int vertex) { return above_[static_cast<std::size_t>(vertex)]; }
+  int& above(int triangle) { return above_[static_cast<std::size_t>(triangle)]; }
   std::vector<int> above_;
 };
 
 struct Edge {
-  int triangles = 0;
+  std::vector<int> triangles;
   int net = 0;  ///< passed one way, less the other way
 };
 
 std::map<std::pair<int, int>, Edge> edgesOf(const Surface& surface) {
   std::map<std::pair<int, int>, Edge> edges;
-  for (const std::array<int, 3>& triangle : surface.triangles) {
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const std::array<int, 3>& triangle = surface.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
       const int from = triangle[k], to = triangle[(k + 1) % 3];
       Edge& edge = edges[std::minmax(from, to)];
-      ++edge.triangles;
+      edge.triangles.push_back(static_cast<int>(i));
       edge.net += from < to ? 1 : -1;
     }
   }
@@ -89,26 +90,28 @@ Enclosure::Enclosure(const Surface& surface)
     upper_ = upper_.cwiseMax(vertex);
   }
   const std::map<std::pair<int, int>, Edge> edges = edgesOf(surface);
-  Joined joined(surface.vertices.size());
-  for (const auto& [ends, edge] : edges) joined.join(ends.first, ends.second);
-  for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+  Joined joined(surface.triangles.size());
+  for (const auto& [ends, edge] : edges)
+    for (const int triangle : edge.triangles) joined.join(triangle, edge.triangles.front());
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     componentOf_.push_back(joined.find(static_cast<int>(i)));
   for (const auto& [ends, edge] : edges) {
-    Component& component = components_[componentOf_[static_cast<std::size_t>(ends.first)]];
-    component.closed = component.closed && edge.triangles % 2 == 0;
+    Component& component = components_[joined.find(edge.triangles.front())];
+    component.closed = component.closed && edge.triangles.size() % 2 == 0;
     component.oriented = component.oriented && edge.net == 0;
   }
 }
 
 Side Enclosure::sideAlong(const Vector3d& ray, const Vector3d& point) const {
   std::map<int, std::pair<int, int>> crossed;  // per component: number, and outward less inward
-  for (const std::array<int, 3>& triangle : surface_.triangles) {
+  for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+    const std::array<int, 3>& triangle = surface_.triangles[i];
     const auto corner = [&](std::size_t k) -> Vector3d {
       return surface_.vertices[static_cast<std::size_t>(triangle[k])] - point;
     };
     const Crossing found = crossing(ray, corner(0), corner(1), corner(2));
     if (found == Crossing::None) continue;
-    const int component = componentOf_[static_cast<std::size_t>(triangle[0])];
+    const int component = componentOf_[i];
     if (!components_.at(component).closed) continue;
     if (found == Crossing::Doubtful) return Side::Unknown;
     auto& [number, net] = crossed[component];

@@ -11,7 +11,8 @@ namespace swept::verify {
 
 enum class Side { Outside, Inside, Unknown };
 
-/// The closed components of a surface, which has to outlive it.
+/// The closed components of a surface, which has to outlive it. Triangles with an edge in common
+/// are of one component.
 class Enclosure {
  public:
   explicit Enclosure(const Surface& surface);
@@ -31,7 +32,7 @@ class Enclosure {
 
   const Surface& surface_;
   Eigen::Vector3d lower_, upper_;  ///< m, box of the surface
-  std::vector<int> componentOf_;   ///< per vertex
+  std::vector<int> componentOf_;   ///< per triangle
   std::map<int, Component> components_;
 };
 

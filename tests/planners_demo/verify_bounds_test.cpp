@@ -8,11 +8,8 @@
 #include <set>
 
 #include "program.hpp"
-#include "swept/core/triangle_mesh.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/link_motion.hpp"
-#include "verify/enclosed.hpp"
-#include "verify/inside.hpp"
 #include "verify/intervals.hpp"
 #include "verify/proof.hpp"
 
@@ -224,101 +221,6 @@ TEST_P(VerifyBounds, NoPointAcceleratesMore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, VerifyBounds, testing::ValuesIn(kSubjects));
-
-/// A cube with a cubic cavity, 2 and 1 m; the cavity's triangles may be turned either way round.
-verify::Surface hollow(bool turned) {
-  verify::Surface surface;
-  for (const double half : {1.0, 0.5}) {
-    const int first = static_cast<int>(surface.vertices.size());
-    for (int corner = 0; corner < 8; ++corner)
-      surface.vertices.emplace_back((corner & 1) != 0 ? half : -half,
-                                    (corner & 2) != 0 ? half : -half,
-                                    (corner & 4) != 0 ? half : -half);
-    constexpr int kFaces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    for (const auto& face : kFaces) {
-      std::array<int, 3> triangle{first + face[0], first + face[1], first + face[2]};
-      if (half < 1.0 && turned) std::swap(triangle[1], triangle[2]);
-      surface.triangles.push_back(triangle);
-    }
-  }
-  return surface;
-}
-
-TEST(VerifyEnclosure, AgreesWithTheLibrary) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(-1.3, 1.3);
-  for (const bool turned : {false, true}) {
-    const verify::Surface surface = hollow(turned);
-    std::vector<Eigen::Vector3i> triangles;
-    for (const auto& t : surface.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    const TriangleMesh mesh = TriangleMesh::build(surface.vertices, triangles);
-    const verify::Enclosure enclosure(surface);
-    int inside = 0;
-    for (int i = 0; i < 2000; ++i) {
-      const Vector3d point(uniform(random), uniform(random), uniform(random));
-      const bool truth = mesh.encloses(point);
-      inside += truth ? 1 : 0;
-      EXPECT_EQ(enclosure.sideOf(point), truth ? verify::Side::Inside : verify::Side::Outside);
-    }
-    EXPECT_GE(inside, 600);
-    EXPECT_LE(inside, 1400);
-    EXPECT_EQ(enclosure.sideOf({0.9, 0.0, 0.0}), verify::Side::Inside);
-  }
-  verify::Surface open = hollow(false);
-  open.triangles.erase(open.triangles.begin());
-  EXPECT_EQ(verify::Enclosure(open).sideOf({0.9, 0.0, 0.0}), verify::Side::Outside)
-      << "the outer cube is open, and the point outside the inner one";
-}
-
-/// Planes between a ball and each triangle of a box around it hold; that it is inside does not.
-TEST(VerifyEnclosure, WhatIsInsideIsRefused) {
-  const verify::Surface cavity = hollow(false);
-  verify::Surface cube;
-  cube.vertices.assign(cavity.vertices.begin(), cavity.vertices.begin() + 8);
-  cube.triangles.assign(cavity.triangles.begin(), cavity.triangles.begin() + 12);
-  std::vector<verify::Element> faces;
-  for (const auto& t : cube.triangles)
-    faces.push_back({.points = {cube.vertices[t[0]], cube.vertices[t[1]], cube.vertices[t[2]]}});
-  verify::Model model;
-  model.links = {"link"};
-  model.jointOf = {-1};
-  model.bodies.emplace_back(
-      "ball", std::vector<verify::Element>{{.points = {Vector3d::Zero()}, .radius = 0.1}},
-      std::vector<verify::Flat>{}, std::vector<verify::Surface>{});
-  model.linkOf = {0, -1};
-  model.paddings = {0.0, 0.0};
-  for (const bool solid : {true, false}) {
-    model.bodies.resize(1, model.bodies.front());
-    model.bodies.emplace_back(
-        "box", faces, std::vector<verify::Flat>{},
-        solid ? std::vector<verify::Surface>{cube} : std::vector<verify::Surface>{});
-    const verify::Motion motion(model, {}, {});
-    const verify::PairMotion between(model, motion, {0, 1}, 0.0, 1.0);
-    const verify::Body& box = model.bodies[1];
-    const auto tree = [&](const auto& self, int node) -> Json {
-      const verify::Body::Node& own = box.nodes()[node];
-      if (own.left >= 0) return {{"b", Json::array({self(self, own.left), self(self, own.right)})}};
-      Vector3d middle = Vector3d::Zero();
-      for (const Vector3d& point : box.elements()[own.first].points) middle += point / 3.0;
-      Eigen::Index axis = 0;
-      middle.cwiseAbs().maxCoeff(&axis);
-      Vector3d way = Vector3d::Zero();
-      way[axis] = middle[axis];
-      return {way.x(), way.y(), way.z(), 0.89};
-    };
-    const Json proof = {{"intervals", Json::array({Json::array({0.0, 1.0, tree(tree, 0)})})}};
-    EXPECT_EQ(checkPair(model, motion, {0, 1}, proof, "here").planes, 12u);
-    try {
-      requireNotEnclosed(model, motion, {0, 1}, proof, "here");
-      EXPECT_FALSE(solid);
-    } catch (const verify::Refusal& refusal) {
-      EXPECT_TRUE(solid);
-      EXPECT_STREQ(refusal.what(), "here: at the beginning, ball is inside box");
-    }
-  }
-}
 
 }  // namespace
 }  // namespace swept::test
