@@ -2,6 +2,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "command_line/arguments.hpp"
 #include "command_line/command.hpp"
@@ -30,6 +31,11 @@ int main(int argc, char** argv) {
     std::cerr << error.what() << '\n';
   } catch (const std::bad_alloc&) {
     std::cerr << "swept: error: out of memory\n";
+  } catch (const std::system_error& error) {
+    // What a thread that cannot be started throws.
+    const bool threads = error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << "swept: error: " << (threads ? "out of memory, or of threads" : error.what())
+              << '\n';
   } catch (const std::exception& error) {
     std::cerr << "swept: error: " << error.what() << '\n';
   } catch (...) {

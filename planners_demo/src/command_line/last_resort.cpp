@@ -40,6 +40,8 @@ void onAbort(int) {
 void installLastResort() {
   std::set_terminate(onTerminate);
   std::signal(SIGABRT, onAbort);
+  // A file that may not grow is an error of its write, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace swept

@@ -9,7 +9,9 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cstdint>
+#include <exception>
 #include <fstream>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -93,6 +95,17 @@ void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d&
   }
 }
 
+/// Too little memory is no fault of the file, but for Assimp it is as any other.
+void rethrowNoMemory(const Assimp::Importer& importer) {
+  try {
+    if (const std::exception_ptr thrown = importer.GetException()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    return;  // the caller has a message for it
+  }
+}
+
 }  // namespace
 
 MeshFileContent readMeshFile(const std::filesystem::path& file) {
@@ -106,6 +119,7 @@ MeshFileContent readMeshFile(const std::filesystem::path& file) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
+    rethrowNoMemory(importer);
     throw MeshFileError(std::string("cannot be read: ") + importer.GetErrorString());
   }
   MeshFileContent content;

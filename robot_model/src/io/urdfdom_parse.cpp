@@ -6,6 +6,7 @@
 
 #include <exception>
 #include <mutex>
+#include <new>
 #include <thread>
 
 namespace swept::detail {
@@ -51,6 +52,8 @@ urdf::ModelInterfaceSharedPtr parseWithUrdfdom(const std::string& text, const In
   try {
     if (auto model = urdf::parseURDF(text)) return model;
     reason = capture.errors();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     reason = error.what();
   }
