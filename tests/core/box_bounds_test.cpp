@@ -156,6 +156,173 @@ TEST_P(BoxBounds, MayStopEarlyOnlyBeyondEnough) {
   EXPECT_GT(stopped, 20);
 }
 
+using Vector3l = Eigen::Matrix<long double, 3, 1>;
+
+/// Times the length of `along`: how far the box reaches at most, its axes being what they are.
+long double extentAlong(const OrientedBox& box, const Vector3l& along) {
+  const long double size =
+      static_cast<long double>(box.half[0]) + box.half[1] + static_cast<long double>(box.half[2]);
+  long double extent = 0.0L;
+  for (int j = 0; j < 3; ++j) {
+    const Vector3l axis = vectorOf(box.axes[j]).cast<long double>();
+    extent += (static_cast<long double>(box.half[j]) + 4.0L * 0x1p-24L * size) *
+              std::abs(along.dot(axis));
+  }
+  return extent;
+}
+
+/// m. What the boxes are apart along a direction of any length, from the first to the second.
+long double separationAlong(const OrientedBox& box, const Isometry3d& first_from_second,
+                            const OrientedBox& other, const Vector3d& direction) {
+  const Eigen::Matrix<long double, 3, 3> linear = first_from_second.linear().cast<long double>();
+  const Vector3l along = direction.cast<long double>();
+  const Vector3l center = linear * other.center.cast<long double>() +
+                          first_from_second.translation().cast<long double>() -
+                          box.center.cast<long double>();
+  const long double extents =
+      extentAlong(box, along) + extentAlong(other, linear.transpose() * along);
+  return (along.dot(center) - extents) / std::sqrt(along.squaredNorm());
+}
+
+/// Boxes of all kinds around a box: in general position, flat ones, needles, points, the box itself
+/// and boxes that touch a face of it.
+OrientedBox partnerOf(const OrientedBox& box, int kind, double scale, reference::Random& random) {
+  OrientedBox other = randomBox(random, 0.7 * scale, 0.5 * scale);
+  if (kind % 8 == 1) other.half[0] = 0.0F;
+  if (kind % 8 == 2) other.half[0] = other.half[1] = 0.0F;
+  if (kind % 8 == 3) other.half = {};
+  if (kind % 8 == 4) other = box;
+  if (kind % 8 == 5) {
+    other = box;
+    other.center += 2.0 * static_cast<double>(box.half[1]) * vectorOf(box.axes[1]);
+  }
+  return other;
+}
+
+struct Neighbors {
+  double scale;
+  Isometry3d first_from_second;
+  WideNode node;
+  OrientedBox other;
+  BoxFrames frames;
+
+  /// m. What a gap may be below the separation: what rounding is allowed, and the axes.
+  double slack(int lane) const {
+    const OrientedBox box = node.box(lane);
+    const Vector3d center = first_from_second * other.center - box.center;
+    const double size =
+        center.cwiseAbs().sum() + vectorOf(box.half).sum() + vectorOf(other.half).sum();
+    return 1.01 * (frames.rounding + frames.perMetre * size);
+  }
+};
+
+Neighbors neighbors(int round, reference::Random& random) {
+  Neighbors all;
+  all.scale = std::pow(10.0, random.uniform(-6.0, 6.0));
+  const bool still = round % 8 == 4 || round % 8 == 5;
+  all.first_from_second = still ? Isometry3d::Identity() : random.pose(0.6 * all.scale);
+  all.node = emptyNode(random.vector(0.5 * all.scale).cast<float>().cast<double>());
+  all.node.count = WideNode::kLanes;
+  double reach = 0.0;
+  for (int lane = 0; lane < WideNode::kLanes; ++lane) {
+    all.node.set(lane, randomBox(random, 0.7 * all.scale, 0.5 * all.scale));
+    reach = std::max(reach, reachOf(all.node.box(lane)));
+  }
+  all.other = partnerOf(all.node.box(round % WideNode::kLanes), round, all.scale, random);
+  all.frames = BoxFrames(all.first_from_second, reach + reachOf(all.other));
+  return all;
+}
+
+TEST_P(BoxBounds, AlongTheirDirectionsTheBoxesAreAsFarApart) {
+  reference::Random random(14);
+  int apart = 0, total = 0, best = 0;
+  for (int round = 0; round < 1600; ++round) {
+    const Neighbors all = neighbors(round, random);
+    ASSERT_TRUE(all.frames.usable());
+    std::array<float, WideNode::kLanes> lower{}, directed{};
+    BoxDirections directions;
+    const float enough = round % 2 == 0 ? static_cast<float>(random.uniform(0.0, all.scale))
+                                        : std::numeric_limits<float>::infinity();
+    boxLowerBounds(all.node, all.frames, all.other, enough, lower);
+    boxLowerBounds(all.node, all.frames, all.other, enough, directed, directions);
+    EXPECT_EQ(lower, directed);
+    for (int lane = 0; lane < WideNode::kLanes; ++lane) {
+      ++total;
+      if (!(lower[lane] > 0.0F)) continue;
+      ++apart;
+      const OrientedBox box = all.node.box(lane);
+      const BoxGap gap = boxGap(box, all.frames, all.other, directions.of(lane));
+      EXPECT_NEAR(gap.direction.norm(), 1.0, 1e-12);
+      const long double separation =
+          separationAlong(box, all.first_from_second, all.other, gap.direction);
+      EXPECT_LE(gap.value, separation);
+      EXPECT_GE(gap.value, separation - all.slack(lane));
+      // Of edges at a small angle, single precision knows the direction less well.
+      const double wanted = (1.0 - 1e-5) * lower[lane] - all.slack(lane);
+      best += gap.value >= wanted ? 1 : 0;
+    }
+  }
+  EXPECT_GT(apart, total * 3 / 10);
+  EXPECT_LT(apart, total * 9 / 10);
+  EXPECT_GT(best, apart * 999 / 1000);
+}
+
+TEST_P(BoxBounds, ProveNothingOfTheBoxItselfAndOfOneThatTouches) {
+  reference::Random random(15);
+  for (int round = 0; round < 800; ++round) {
+    const Neighbors all = neighbors(round % 2 == 0 ? 8 * round + 4 : 8 * round + 5, random);
+    std::array<float, WideNode::kLanes> lower{};
+    BoxDirections directions;
+    boxLowerBounds(all.node, all.frames, all.other, std::numeric_limits<float>::infinity(), lower,
+                   directions);
+    const int lane = (round % 2 == 0 ? 4 : 5) % WideNode::kLanes;
+    EXPECT_LE(lower[lane], 0.0F);
+    const OrientedBox box = all.node.box(lane);
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_LE(boxGap(box, all.frames, all.other, vectorOf(box.axes[j])).value, 0.0);
+    }
+    EXPECT_LE(boxGap(box, all.frames, all.other, directions.of(lane)).value, 0.0);
+  }
+}
+
+TEST(BoxGapAlong, IsProvenInAnyDirectionOfAnyLength) {
+  reference::Random random(16);
+  int apart = 0, total = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const Neighbors all = neighbors(round, random);
+    for (int lane = 0; lane < WideNode::kLanes; ++lane) {
+      const OrientedBox box = all.node.box(lane);
+      const Vector3d center = all.first_from_second * all.other.center - box.center;
+      const Vector3d turned = lane % 2 == 0 ? center : random.vector(all.scale);
+      const Vector3d along = std::pow(10.0, random.uniform(-30.0, 30.0)) * turned;
+      if (along.isZero(0.0)) continue;
+      const BoxGap gap = boxGap(box, all.frames, all.other, along);
+      const long double separation =
+          separationAlong(box, all.first_from_second, all.other, gap.direction);
+      EXPECT_NEAR(gap.direction.norm(), 1.0, 1e-12);
+      EXPECT_GE(gap.direction.dot(center), 0.0);
+      EXPECT_LE(gap.value, separation);
+      EXPECT_GE(gap.value, separation - all.slack(lane));
+      ++total;
+      apart += gap.value > 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(apart, total * 3 / 10);
+  EXPECT_LT(apart, total * 7 / 10);
+}
+
+TEST(BoxGapAlong, IsNoneWithoutADirection) {
+  OrientedBox other;
+  other.center.x() = 10.0;
+  const BoxFrames frames(Isometry3d::Identity(), 20.0);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_GT(boxGap({}, frames, other, Vector3d::UnitX()).value, 9.9);
+  for (const double length : {0.0, 1e-200, kInfinity, std::nan("")}) {
+    const Vector3d along(length, 0.0, 0.0);
+    EXPECT_FALSE(boxGap({}, frames, other, along).value > 0.0);
+  }
+}
+
 /// Enters through the slab of each axis; negative: misses by as much.
 double passesInside(const Placed& box, const Vector3d& origin, const Vector3d& direction) {
   const Vector3d from = box.pose.inverse() * origin;

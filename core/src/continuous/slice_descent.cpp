@@ -58,7 +58,7 @@ void SliceDescent::look(const OpenPair& pair) {
     // Children are looked at together; what would be left again may well be far away by now.
     const bool ofA = !a.piece.isLeaf();
     if (!roots && isTooFast(a, b, approach) &&
-        areBoxesApart(ofA ? a : b, ofA, ofA ? b : a, approach, known)) {
+        isApart(pieces_.gap((ofA ? a : b).piece, ofA, (ofA ? b : a).piece), approach, known)) {
       return;
     }
   }
@@ -132,7 +132,8 @@ void SliceDescent::descend(const Part& a, const Part& b, const Known& known) {
 void SliceDescent::descendInto(const PiecePair::Split& split, const Part& other, double beyond,
                                const Vector3d& guess) {
   PiecePair::Bounds lower;
-  pieces_.boundChildren(split, other.piece, beyond, lower);
+  BoxDirections directions;
+  pieces_.boundChildren(split, other.piece, beyond, lower, &directions);
   ++effort_.volumeTests;
   std::array<int, WideNode::kLanes> order;
   int count = 0;
@@ -155,15 +156,15 @@ void SliceDescent::descendInto(const PiecePair::Split& split, const Part& other,
     const Part &a = split.ofA ? child : other, &b = split.ofA ? other : child;
     const PartApproach approach(slice_.approach, a.motion, b.motion);
     if (lower[lane] > approach.most()) continue;
-    if (lower[lane] > 0.0F && areBoxesApart(child, split.ofA, other, approach, known)) continue;
+    if (lower[lane] > 0.0F) {
+      const BoxGap gap = pieces_.gap(piece, split.ofA, other.piece, directions.of(lane));
+      if (isApart(gap, approach, known)) continue;
+    }
     descend(a, b, known);
   }
 }
 
-/// Along the best of the boxes' own axes.
-bool SliceDescent::areBoxesApart(const Part& child, bool ofA, const Part& other,
-                                 const PartApproach& approach, Known& known) const {
-  const BoxGap gap = pieces_.gap(child.piece, ofA, other.piece);
+bool SliceDescent::isApart(const BoxGap& gap, const PartApproach& approach, Known& known) const {
   if (!(gap.value > 0.0)) return false;
   known = {gap.direction, provenBy(gap.value, gap.direction, approach)};
   return gap.value > approach.along(gap.direction);

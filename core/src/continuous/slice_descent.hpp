@@ -80,8 +80,7 @@ class SliceDescent {
   void descend(const Part& a, const Part& b, const Known& known);
   void descendInto(const PiecePair::Split& split, const Part& other, double beyond,
                    const Eigen::Vector3d& guess);
-  bool areBoxesApart(const Part& child, bool ofA, const Part& other, const PartApproach& approach,
-                     Known& known) const;
+  bool isApart(const BoxGap& gap, const PartApproach& approach, Known& known) const;
   void testLeaves(const Part& a, const Part& b, const PartApproach& approach,
                   const Eigen::Vector3d& guess);
   void leaveOpen(const Part& a, const Part& b, const Known& known, double approach);

@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "narrowphase/cloud_enclosure.hpp"
 
-#include <algorithm>
+#include <array>
+#include <cmath>
 
-#include "bvh/any_near.hpp"
+#include "bvh/pending_boxes.hpp"
+#include "simd/box_bounds.hpp"
 
 namespace swept::detail {
 
 namespace {
 
 using Eigen::Vector3d;
-
-/// A capsule that contains the box, in another frame.
-struct Surrounding {
-  LineSegment axis;
-  double radius;  ///< m
-};
-Surrounding surrounding(const OrientedBox& box, const Eigen::Isometry3d& frame_from_box) {
-  const auto longest =
-      static_cast<std::size_t>(std::ranges::max_element(box.half) - box.half.begin());
-  const Vector3d half(box.half[0], box.half[1], box.half[2]);
-  Vector3d others = half;
-  others[static_cast<Eigen::Index>(longest)] = 0.0;
-  const auto& axis = box.axes[longest];
-  const Vector3d along =
-      half[static_cast<Eigen::Index>(longest)] * Vector3d(axis[0], axis[1], axis[2]);
-  // The axes are unit vectors and perpendicular up to the rounding of single precision.
-  return {{frame_from_box * box.center, frame_from_box.linear() * along},
-          others.norm() + 1e-5 * half.norm()};
-}
 
 bool contains(const OrientedBox& box, const Vector3d& point) {
   const Vector3d off = point - box.center;
@@ -39,6 +22,31 @@ bool contains(const OrientedBox& box, const Vector3d& point) {
   return true;
 }
 
+/// Calls `stop` with the points of a cloud whose boxes may meet another box, until it is true of
+/// one.
+template <typename Stop>
+void anyNearBox(const PointCloud& cloud, const BoxFrames& cloud_from_box, const OrientedBox& box,
+                const Stop& stop) {
+  const WideBvh& bvh = cloud.bvh();
+  PendingBoxes pending;
+  while (!pending.isEmpty()) {
+    const std::int32_t top = pending.pop().child;
+    if (bvh.isBucket(top)) {
+      const auto [first, last] = bvh.pointsOf(top);
+      for (std::int32_t point = first; point < last; ++point) {
+        if (stop(point)) return;
+      }
+      continue;
+    }
+    const WideNode& node = bvh.nodes()[static_cast<std::size_t>(top)];
+    std::array<float, WideNode::kLanes> apart{};
+    if (cloud_from_box.usable()) boxLowerBounds(node, cloud_from_box, box, 0.0F, apart);
+    for (int lane = 0; lane < node.count; ++lane) {
+      if (!(apart[lane] > 0.0F)) pending.push({0.0F, node.child[lane]});
+    }
+  }
+}
+
 }  // namespace
 
 /// What is not in the box around all triangles is not enclosed by any.
@@ -47,8 +55,8 @@ std::optional<Vector3d> enclosedPoint(const TriangleMesh& mesh, const PointCloud
   std::optional<Vector3d> found;
   if (mesh.report().closedComponents == 0) return found;
   const OrientedBox& box = mesh.bvh().rootBox();
-  const auto [axis, radius] = surrounding(box, mesh_from_cloud.inverse());
-  anyNear(cloud.bvh(), axis, radius, [&](int index) {
+  const BoxFrames frames(mesh_from_cloud, mesh.bvh().reach() + cloud.bvh().reach());
+  anyNearBox(cloud, frames.inverse(), box, [&](int index) {
     const Vector3d& center = cloud.points()[static_cast<std::size_t>(index)];
     const Vector3d point = mesh_from_cloud * center;
     if (contains(box, point) && mesh.encloses(point)) found = center;

@@ -26,12 +26,11 @@ class PieceDescent {
         found_(found) {}
 
   void run() {
-    descend(part(true, pieces_.rootA()), part(false, pieces_.rootB()), found_.result.hint);
+    begin(pieces_.rootA(), pieces_.rootB());
     while (!waiting_.isEmpty() && !found_.inContact()) {
       const WaitingPairs::Pair next = waiting_.pop();
       if (next.lower > found_.settledBeyond({})) return found_.settle(next.lower);
-      descend(part(true, pieces_.piece(true, next.placeA)),
-              part(false, pieces_.piece(false, next.placeB)), found_.result.hint);
+      begin(pieces_.piece(true, next.placeA), pieces_.piece(false, next.placeB));
     }
   }
 
@@ -47,8 +46,13 @@ class PieceDescent {
     return motions_.of(ofA, piece);
   }
 
-  void descend(const Part& a, const Part& b, const Vector3d& guess) {
-    const PieceApproach approach = motions_.approach(a.motion, b.motion);
+  void begin(const Piece& pieceA, const Piece& pieceB) {
+    const Part a = part(true, pieceA);
+    const Part b = part(false, pieceB);
+    descend(a, b, motions_.approach(a.motion, b.motion), found_.result.hint);
+  }
+
+  void descend(const Part& a, const Part& b, const PieceApproach& approach, const Vector3d& guess) {
     if (a.piece.isLeaf() && b.piece.isLeaf()) {
       testLeaves(a.piece, b.piece, approach, guess);
       return;
@@ -57,7 +61,9 @@ class PieceDescent {
     const PiecePair::Split split = pieces_.split(a.piece, b.piece, room);
     const Part& other = split.ofA ? b : a;
     PiecePair::Bounds lower;
-    pieces_.boundChildren(split, other.piece, found_.settledBeyond(approach), lower);
+    BoxDirections directions;
+    pieces_.boundChildren(split, other.piece, found_.settledBeyond(approach), lower,
+                          approach ? &directions : nullptr);
     ++found_.result.iterations;
     std::array<int, WideNode::kLanes> order;
     const int open = sortOpen(*split.node, lower, found_.settledBeyond(approach), order);
@@ -70,13 +76,18 @@ class PieceDescent {
       }
       if (putOff(split, lane, other.piece, lower[lane])) continue;
       const Part child = part(split.ofA, PiecePair::child(split, lane));
+      const Part &first = split.ofA ? child : other, &second = split.ofA ? other : child;
+      const PieceApproach closer = motions_.approach(first.motion, second.motion);
       Vector3d direction = guess;
-      if (settledAlong(child, split.ofA, other, lower[lane], direction)) continue;
-      if (split.ofA) {
-        descend(child, other, direction);
-      } else {
-        descend(other, child, direction);
+      if (closer) {
+        const BoxGap gap =
+            gapOf(child.piece, split.ofA, other.piece, lower[lane], directions.of(lane));
+        if (settledAlong(gap, *closer, direction)) continue;
+        if (settledByBody(child.piece, split.ofA, other.piece, found_.goalOfMotion(*closer),
+                          direction))
+          continue;
       }
+      descend(first, second, closer, direction);
     }
   }
 
@@ -105,26 +116,20 @@ class PieceDescent {
     return open;
   }
 
-  /// Whether the boxes are apart as their motion needs in any direction, or along the best of their
-  /// own axes. `direction` receives that axis, from a to b.
-  bool settledAlong(const Part& part, bool ofA, const Part& other, double lower,
-                    Vector3d& direction) {
-    if (goal_.approach == nullptr) return false;
-    const PartApproach approach(*goal_.approach, (ofA ? part : other).motion,
-                                (ofA ? other : part).motion);
-    if (!found_.failed && lower > approach.most()) {
-      found_.settle(lower);
-      return true;
-    }
-    const BoxGap gap = lower > 0.0 ? pieces_.gap(part.piece, ofA, other.piece) : BoxGap{};
-    if (gap.value > 0.0) {
-      direction = gap.direction;
-      if (!found_.failed && gap.value > approach.along(direction)) {
-        found_.settle(gap.value);
-        return true;
-      }
-    }
-    return settledByBody(part.piece, ofA, other.piece, found_.goalOfMotion(approach), direction);
+  /// Along the direction of a bound, where that says that the boxes are apart.
+  BoxGap gapOf(const Piece& child, bool ofA, const Piece& other, float lower,
+               const Vector3d& along) const {
+    return lower > 0.0F ? pieces_.gap(child, ofA, other, along) : BoxGap{};
+  }
+
+  /// Whether the boxes are apart as their motion needs. `direction` receives that of the gap, if
+  /// there is one.
+  bool settledAlong(const BoxGap& gap, const PartApproach& approach, Vector3d& direction) {
+    if (!(gap.value > 0.0)) return false;
+    direction = gap.direction;
+    if (found_.failed || !(gap.value > approach.along(direction))) return false;
+    found_.settle(gap.value);
+    return true;
   }
 
   /// A node's box against a round body itself: against the body's own box alone, all of a mesh that

@@ -123,20 +123,25 @@ Piece PiecePair::piece(bool ofA, int place) const {
   return child({ofA, index, &side.bvh->node(index, room)}, place % WideNode::kLanes);
 }
 
-void PiecePair::boundChildren(const Split& split, const Piece& other, double enough,
-                              Bounds& lower) const {
+void PiecePair::boundChildren(const Split& split, const Piece& other, double enough, Bounds& lower,
+                              BoxDirections* directions) const {
   const WideNode& node = *split.node;
   const Convex& body = (split.ofA ? b_ : a_).convex;
   const bool flat = other.isWhole() && body.isFlat();
   if (flat || !frames_.usable()) {
+    if (directions != nullptr) *directions = {};
     for (int i = 0; i < node.count; ++i) {
       lower[i] = flat ? boundAgainstFlat(node.box(i), split.ofA) : 0.0F;
     }
     return;
   }
   const double grown = other.isWhole() ? body.radius + body.error : 0.0;
-  boxLowerBounds(node, split.ofA ? frames_ : back_, other.box, aboveInSingle(enough + grown),
-                 lower);
+  const BoxFrames& frames = split.ofA ? frames_ : back_;
+  if (directions != nullptr) {
+    boxLowerBounds(node, frames, other.box, aboveInSingle(enough + grown), lower, *directions);
+  } else {
+    boxLowerBounds(node, frames, other.box, aboveInSingle(enough + grown), lower);
+  }
   if (!(grown > 0.0)) return;
   for (int i = 0; i < node.count; ++i) {
     lower[i] = roundedDown(static_cast<double>(lower[i]) - grown);
@@ -163,13 +168,26 @@ float PiecePair::boundAgainstFlat(const OrientedBox& box, bool ofA) const {
   return roundedDown(apart.lower - rounded);
 }
 
-BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other) const {
+bool PiecePair::hasGaps(bool ofA, const Piece& other) const {
+  return frames_.usable() && !(other.isWhole() && (ofA ? b_ : a_).convex.isFlat());
+}
+
+BoxGap PiecePair::ofBodies(BoxGap gap, bool ofA, const Piece& other) const {
   const Convex& body = (ofA ? b_ : a_).convex;
-  if (!frames_.usable() || (other.isWhole() && body.isFlat())) return {};
-  BoxGap gap = boxGap(child.box, ofA ? frames_ : back_, other.box);
   if (other.isWhole()) gap.value -= body.radius + body.error;
   if (!ofA) gap.direction = -(a_from_b_.linear() * gap.direction);
   return gap;
+}
+
+BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other) const {
+  if (!hasGaps(ofA, other)) return {};
+  return ofBodies(boxGap(child.box, ofA ? frames_ : back_, other.box), ofA, other);
+}
+
+BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other,
+                      const Vector3d& along) const {
+  if (!hasGaps(ofA, other)) return {};
+  return ofBodies(boxGap(child.box, ofA ? frames_ : back_, other.box, along), ofA, other);
 }
 
 /// Returns the centre that the body is given about, in its side's frame.

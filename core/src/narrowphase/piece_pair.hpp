@@ -64,11 +64,15 @@ class PiecePair {
 
   /// m. Lower bounds on the distances between the children of a node and a piece of the other side;
   /// exact ones are not of interest beyond `enough`.
-  void boundChildren(const Split& split, const Piece& other, double enough, Bounds& lower) const;
+  /// `directions`: null, or along what, in the frame of the node's side.
+  void boundChildren(const Split& split, const Piece& other, double enough, Bounds& lower,
+                     BoxDirections* directions = nullptr) const;
 
   /// A direction (unit, a's frame, from a to b) along which a child and a piece of the other side
   /// are apart, and by how much (m, proven); not positive: none found.
   BoxGap gap(const Piece& child, bool ofA, const Piece& other) const;
+  /// Along this one, of boundChildren().
+  BoxGap gap(const Piece& child, bool ofA, const Piece& other, const Eigen::Vector3d& along) const;
 
   static Piece child(const Split& split, int lane) {
     const std::int32_t at = split.node->child[lane];
@@ -113,6 +117,8 @@ class PiecePair {
   double rounding() const { return rounding_; }
 
  private:
+  bool hasGaps(bool ofA, const Piece& other) const;
+  BoxGap ofBodies(BoxGap gap, bool ofA, const Piece& other) const;
   static Eigen::Vector3d placeOne(const Side& side, const Piece& piece, TriangleCorners& corners,
                                   Convex& body);
   float boundAgainstFlat(const OrientedBox& box, bool ofA) const;

@@ -79,36 +79,59 @@ HWY_INLINE void place(const WideNode& node, std::size_t at, const Other& other, 
   }
 }
 
-/// Distance that the gaps along the axes of one box prove together, or the largest of them if none
-/// is positive.
-HWY_INLINE Lanes together(const Lanes (&gap)[3]) {
-  const Tag tag;
-  const auto zero = hn::Zero(tag);
-  const Lanes positive[3] = {hn::Max(gap[0], zero), hn::Max(gap[1], zero), hn::Max(gap[2], zero)};
-  const auto largest = hn::Max(gap[0], hn::Max(gap[1], gap[2]));
-  return hn::Max(largest, hn::Sqrt(dot(positive, positive)));
-}
+/// The largest bound so far, and along what, in the frame of the own axes.
+struct Best {
+  Lanes bound;
+  Lanes along[3];
+};
 
-/// Largest of the bounds of the six face axes.
-HWY_INLINE Lanes faceBounds(const Boxes& boxes, const Other& other) {
+/// Gaps along the axes of one box.
+struct FaceGaps {
+  Lanes gap[3];
+  Lanes positive[3];
+
+  /// Distance that they prove together, or the largest of them if none is positive.
+  HWY_INLINE Lanes together() {
+    const auto zero = hn::Zero(Tag());
+    for (int i = 0; i < 3; ++i) positive[i] = hn::Max(gap[i], zero);
+    const auto largest = hn::Max(gap[0], hn::Max(gap[1], gap[2]));
+    return hn::Max(largest, hn::Sqrt(dot(positive, positive)));
+  }
+};
+
+/// The largest of the bounds of the six face axes.
+template <bool directed>
+HWY_INLINE void faceBounds(const Boxes& boxes, const Other& other, Best& best) {
   const Tag tag;
   const auto rounding = hn::Set(tag, other.rounding);
   const Lanes otherHalf[3] = {hn::Set(tag, other.half[0]), hn::Set(tag, other.half[1]),
                               hn::Set(tag, other.half[2])};
-  Lanes gap[3];
+  FaceGaps own;
   for (int i = 0; i < 3; ++i) {
     const auto extents = hn::Add(hn::Add(boxes.half[i], rounding), dot(boxes.spread[i], otherHalf));
-    gap[i] = hn::Sub(hn::Abs(boxes.along[i]), extents);
+    own.gap[i] = hn::Sub(hn::Abs(boxes.along[i]), extents);
   }
-  const auto best = together(gap);
+  const auto bound = own.together();
+  FaceGaps others;
+  Lanes along[3];
   for (int j = 0; j < 3; ++j) {
     const Lanes axis[3] = {hn::Set(tag, other.axes[j][0]), hn::Set(tag, other.axes[j][1]),
                            hn::Set(tag, other.axes[j][2])};
     const Lanes spread[3] = {boxes.spread[0][j], boxes.spread[1][j], boxes.spread[2][j]};
     const auto extents = hn::Add(hn::Add(otherHalf[j], rounding), dot(spread, boxes.half));
-    gap[j] = hn::Sub(hn::Abs(dot(axis, boxes.offset)), extents);
+    along[j] = dot(axis, boxes.offset);
+    others.gap[j] = hn::Sub(hn::Abs(along[j]), extents);
   }
-  return hn::Max(best, together(gap));
+  const auto otherBound = others.together();
+  best.bound = hn::Max(bound, otherBound);
+  if constexpr (directed) {
+    const auto ofOther = hn::Gt(otherBound, bound);
+    for (int j = 0; j < 3; ++j) others.positive[j] = hn::CopySign(others.positive[j], along[j]);
+    for (int i = 0; i < 3; ++i) {
+      best.along[i] = hn::IfThenElse(ofOther, dot(boxes.turn[i], others.positive),
+                                     hn::CopySign(own.positive[i], boxes.along[i]));
+    }
+  }
 }
 
 /// Not larger than 1 / sqrt(x) but for its own rounding, however rough the approximation: Newton's
@@ -120,9 +143,10 @@ HWY_INLINE Lanes reciprocalRoot(Lanes d) {
   return hn::Mul(halved, hn::NegMulAdd(hn::Mul(d, rough), rough, hn::Set(tag, 3.0F)));
 }
 
-/// Largest of the bounds of the nine edge axes. In the frame of the own axes, axis i x the other's
-/// axis j has the components (next) -turn[last][j] and (last) turn[next][j].
-HWY_INLINE Lanes edgeBounds(const Boxes& boxes, const Other& other, Lanes best) {
+/// The largest of the bounds of the nine edge axes, too. In the frame of the own axes, axis i x the
+/// other's axis j has the components (next) -turn[last][j] and (last) turn[next][j].
+template <bool directed>
+HWY_INLINE void edgeBounds(const Boxes& boxes, const Other& other, Best& best) {
   const Tag tag;
   const auto rounding = hn::Set(tag, other.rounding);
   // More than 1: what the rounded square of a cosine may exceed the true one by.
@@ -141,14 +165,22 @@ HWY_INLINE Lanes edgeBounds(const Boxes& boxes, const Other& other, Lanes best) 
           hn::MulAdd(hn::Set(tag, other.half[jNext]), boxes.spread[i][jLast],
                      hn::MulAdd(hn::Set(tag, other.half[jLast]), boxes.spread[i][jNext], own));
       const auto square = hn::NegMulAdd(boxes.turn[i][j], boxes.turn[i][j], one);
-      best = hn::Max(best, hn::Mul(hn::Sub(along, extents), reciprocalRoot(square)));
+      const auto bound = hn::Mul(hn::Sub(along, extents), reciprocalRoot(square));
+      if constexpr (directed) {
+        const auto better = hn::Gt(bound, best.bound);
+        best.along[i] = hn::IfThenZeroElse(better, best.along[i]);
+        best.along[next] = hn::IfThenElse(better, hn::Neg(boxes.turn[last][j]), best.along[next]);
+        best.along[last] = hn::IfThenElse(better, boxes.turn[next][j], best.along[last]);
+      }
+      best.bound = hn::Max(best.bound, bound);
     }
   }
-  return best;
 }
 
-void LowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& box,
-                 float enough, float* lower) {
+/// `directions`: null, or where the components go.
+template <bool directed>
+HWY_INLINE void lowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& box,
+                            float enough, float* lower, BoxDirections* directions) {
   const Tag tag;
   const Other other = prepare(node, frames, box);
   // The square roots, the sums of squares and the lengths of the axes are off by a few ulps.
@@ -156,12 +188,30 @@ void LowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBo
   for (std::size_t at = 0; at < WideNode::kLanes; at += hn::Lanes(tag)) {
     Boxes boxes;
     place(node, at, other, boxes);
-    auto best = faceBounds(boxes, other);
-    if (!hn::AllTrue(tag, hn::Gt(best, hn::Set(tag, enough)))) {
-      best = edgeBounds(boxes, other, best);
+    Best best;
+    faceBounds<directed>(boxes, other, best);
+    if (!hn::AllTrue(tag, hn::Gt(best.bound, hn::Set(tag, enough)))) {
+      edgeBounds<directed>(boxes, other, best);
     }
-    hn::StoreU(hn::Mul(best, shrink), tag, lower + at);
+    hn::StoreU(hn::Mul(best.bound, shrink), tag, lower + at);
+    if constexpr (directed) {
+      for (int i = 0; i < 3; ++i) {
+        const Lanes component[3] = {loaded(node.axes[0][i], at), loaded(node.axes[1][i], at),
+                                    loaded(node.axes[2][i], at)};
+        hn::Store(dot(component, best.along), tag, directions->component[i].data() + at);
+      }
+    }
   }
+}
+
+void LowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& box,
+                 float enough, float* lower) {
+  lowerBounds<false>(node, frames, box, enough, lower, nullptr);
+}
+
+void DirectedBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& box,
+                    float enough, float* lower, BoxDirections* directions) {
+  lowerBounds<true>(node, frames, box, enough, lower, directions);
 }
 
 /// A ray misses a box if one of these separates them: an axis of the box that it starts beyond and
@@ -217,11 +267,18 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 HWY_EXPORT(LowerBounds);
+HWY_EXPORT(DirectedBounds);
 HWY_EXPORT(Hit);
 
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower) {
   HWY_DYNAMIC_DISPATCH(LowerBounds)(node, frames, other, enough, lower.data());
+}
+
+void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
+                    float enough, std::array<float, WideNode::kLanes>& lower,
+                    BoxDirections& directions) {
+  HWY_DYNAMIC_DISPATCH(DirectedBounds)(node, frames, other, enough, lower.data(), &directions);
 }
 
 std::uint32_t boxesHit(const WideNode& node, const Eigen::Vector3d& origin,

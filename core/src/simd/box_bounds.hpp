@@ -45,12 +45,30 @@ class BoxFrames {
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower);
 
-/// The best of the same axes for one pair of boxes, as a direction.
+/// Along which a positive bound of each lane was found: of any length and either sense, in the
+/// first frame. In single precision: a proposal, which boxGap() makes a proof of.
+struct alignas(32) BoxDirections {
+  std::array<WideNode::Row, 3> component;
+
+  Eigen::Vector3d of(int lane) const {
+    return {component[0][lane], component[1][lane], component[2][lane]};
+  }
+};
+/// The same, and where.
+void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
+                    float enough, std::array<float, WideNode::kLanes>& lower,
+                    BoxDirections& directions);
+
+/// What a pair of boxes is apart along a direction.
 struct BoxGap {
   double value = 0.0;  ///< m, proven separation along `direction`; not positive: none found
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, first frame, towards `other`
 };
+/// The best of the same axes for one pair of boxes.
 BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other);
+/// `along`: in the first frame, of any length and either sense.
+BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other,
+              const Eigen::Vector3d& along);
 
 /// Bit i: the ray may hit box i of the node; clear only when it certainly misses. A NaN hits.
 /// `origin`: m, in the frame of the boxes; `direction`: a unit vector.

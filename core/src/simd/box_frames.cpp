@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 /// Below this sine of the angle between two axes their cross product is left out.
 constexpr double kLeastSine = 0.02;
 constexpr double kMostSkew = 1e-4;
+/// Of a direction's length: the squares of components that matter beside it do not underflow.
+constexpr double kLeastSquare = 1e-200;
 
 /// Columns.
 Matrix3d axesOf(const OrientedBox& box) {
@@ -26,6 +28,20 @@ Matrix3d axesOf(const OrientedBox& box) {
 
 Vector3d halfOf(const OrientedBox& box) {
   return {box.half[0], box.half[1], box.half[2]};
+}
+
+double sumOf(const std::array<float, 3>& half) {
+  return static_cast<double>(half[0]) + half[1] + half[2];
+}
+
+/// m, times the length of `along`. How far the box reaches from its centre.
+double extentAlong(const OrientedBox& box, const Vector3d& along) {
+  double extent = 0.0;
+  for (int j = 0; j < 3; ++j) {
+    const auto& axis = box.axes[j];
+    extent += box.half[j] * std::abs(axis[0] * along[0] + axis[1] * along[1] + axis[2] * along[2]);
+  }
+  return extent;
 }
 
 }  // namespace
@@ -105,6 +121,28 @@ BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox
     }
   }
   if (gap.value > 0.0) gap.direction = (own * best).normalized();
+  return gap;
+}
+
+// Lemma (any direction). Let n be a unit vector. By the lemma above a box reaches at most
+// sum (h_j + 4 u |h|_1) |n . a_j| from its centre. The |n . a_j| add up to less than 1.8, so the
+// two boxes take 7.2 u m of the 96 u m. All else is done in double precision: the dot products with
+// coordinates relative to each other, and `along` in the second frame, which is the transpose's
+// whatever the linear part. It rounds by less than a u m, and the coordinates before they are
+// relative by what BoxFrames allows for.
+BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other,
+              const Vector3d& along) {
+  BoxGap gap;
+  const double squared = along.squaredNorm();
+  if (!(squared > kLeastSquare)) return gap;
+  const Vector3d center = frames.linear * other.center + frames.translation - box.center;
+  const double size = center.cwiseAbs().sum() + sumOf(box.half) + sumOf(other.half);
+  const double inverse = 1.0 / std::sqrt(squared);
+  const double apart = along.dot(center) * inverse;
+  const double extents =
+      (extentAlong(box, along) + extentAlong(other, frames.linear.transpose() * along)) * inverse;
+  gap.value = std::abs(apart) - extents - (frames.rounding + frames.perMetre * size);
+  gap.direction = std::copysign(inverse, apart) * along;
   return gap;
 }
 
