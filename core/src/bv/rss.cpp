@@ -182,9 +182,9 @@ Rss Rss::merge(const Rss& a, const Rss& b) {
   const std::array<Vector3d, 8> corners = cornersOf(a, b);
   const Vector3d origin = corners.front();
   Rss best = everything();
-  const auto consider = [&](const Matrix3d& axes) {
+  const auto consider = [&](const Matrix3d& frame) {
     const auto ballAt = [&](std::size_t i) {
-      return Ball{axes.transpose() * (corners[i] - origin), i < 4 ? a.radius : b.radius};
+      return Ball{frame.transpose() * (corners[i] - origin), i < 4 ? a.radius : b.radius};
     };
     Interval across;
     double reach = 0.0;
@@ -195,7 +195,7 @@ Rss Rss::merge(const Rss& a, const Rss& b) {
       reach = std::max(reach, detail::magnitude(ball.at) + ball.radius);
     }
     const Slab slab{0.5 * (across.upper - across.lower), 0.5 * (across.upper + across.lower)};
-    const Rss merged = fitBalls(corners.size(), ballAt, slab, axes, origin, reach);
+    const Rss merged = fitBalls(corners.size(), ballAt, slab, frame, origin, reach);
     if (!(merged.size() >= best.size())) best = merged;
   };
   consider(a.axes);

@@ -177,12 +177,13 @@ void SurfaceFeatures::markOrphans(std::size_t vertices) {
                                                                       triangles_[t][(k + 1) % 3]};
   }
   for (int e = 0; e < static_cast<int>(ends.size()); ++e) {
-    const auto& [p, q] = ends[static_cast<std::size_t>(e)];
+    const std::array<int, 2> own = ends[static_cast<std::size_t>(e)];
     eachNeighbour(leastBusy(beside(e)), [&](int u) {
       for (int k = 0; k < 3; ++k) {
         const int f = edge(u, k);
-        const auto& [r, s] = ends[static_cast<std::size_t>(f)];
-        if (f <= e || p == r || p == s || q == r || q == s || !areOrphans(e, f)) continue;
+        const std::array<int, 2>& other = ends[static_cast<std::size_t>(f)];
+        const bool meet = std::ranges::find_first_of(own, other) != own.end();
+        if (f <= e || meet || !areOrphans(e, f)) continue;
         mark(beside(e));
         mark(beside(f));
       }
