@@ -156,6 +156,23 @@ TEST(MeshFiles, NoOtherFileIsOpened) {
   EXPECT_NE(test::inputError([&] { withMeshes(folder, {"filename='trap.mtl'"}); }), "");
 }
 
+/// Assimp 5.2 runs without end on the one and fails an assertion on the other.
+TEST(MeshFiles, WhatHangsOrCrashesAssimpIsRefused) {
+  const test::TemporaryFolder folder;
+  folder.write("cut.ply", "ply\nformat ascii 1.0\neleme");
+  folder.write("short.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 e 1 3\n");
+  const auto message = [&](const std::string& name) -> std::string {
+    try {
+      withMeshes(folder, {"filename='" + name + "'"});
+    } catch (const InputError& error) {
+      return error.message();
+    }
+    return "none";
+  };
+  EXPECT_THAT(message("cut.ply"), ::testing::StartsWith("mesh 'cut.ply' of link 'a' "));
+  EXPECT_THAT(message("short.off"), ::testing::StartsWith("mesh 'short.off' of link 'a' "));
+}
+
 TEST(MeshFiles, TooLargeIsRefusedBeforeReading) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("huge.stl", "");

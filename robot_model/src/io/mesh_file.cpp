@@ -1,46 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mesh_file.hpp"
 
-#include <assimp/MemoryIOWrapper.h>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 #include <cstdint>
-#include <exception>
+#include <cstring>
 #include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
 
+#include "io/child_process.hpp"
 #include "io/collada_check.hpp"
+#include "io/mesh_import.hpp"
 
 namespace swept::detail {
 
 namespace {
 
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{256} << 20;
-constexpr std::size_t kMaxTriangles = 20'000'000;
 
-/// Shows assimp one file, held in memory, and nothing else of the file system.
-class OneFile final : public Assimp::IOSystem {
- public:
-  OneFile(std::string name, const std::vector<std::uint8_t>& bytes)
-      : name_(std::move(name)), bytes_(bytes) {}
-  bool Exists(const char* file) const override { return name_ == file; }
-  char getOsSeparator() const override { return '/'; }
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (name_ != file || mode[0] != 'r') return nullptr;
-    return new Assimp::MemoryIOStream(bytes_.data(), bytes_.size());
-  }
-  void Close(Assimp::IOStream* stream) override { delete stream; }
-
- private:
-  std::string name_;
-  const std::vector<std::uint8_t>& bytes_;
-};
+/// Assimp reads some 10 MB in a second and takes some 50 times a file's size.
+constexpr unsigned kSeconds = 3;
+constexpr unsigned kBytesPerSecond = 1 << 18;
+constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMemoryPerByte = 400;
 
 std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
   std::error_code error;
@@ -57,52 +39,36 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-using RowMajor4f = Eigen::Matrix<float, 4, 4, Eigen::RowMajor>;
+/// First letter of what a child says; what follows is the content, or a message.
+enum class Kind : char { Content = 'c', Error = 'e' };
 
-Eigen::Matrix4d toEigen(const aiMatrix4x4& matrix) {
-  return Eigen::Map<const RowMajor4f>(&matrix.a1).cast<double>();
+template <typename Item>
+void append(const std::vector<Item>& items, std::string& text) {
+  const std::uint64_t count = items.size();
+  text.append(reinterpret_cast<const char*>(&count), sizeof count);
+  text.append(reinterpret_cast<const char*>(items.data()), count * sizeof(Item));
 }
 
-void appendMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
-                MeshFileContent& content) {
-  const int first = static_cast<int>(content.vertices.size());
-  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-    const aiVector3D& v = mesh.mVertices[i];
-    const Eigen::Vector4d p = file_from_node * Eigen::Vector4d(v.x, v.y, v.z, 1.0);
-    content.vertices.emplace_back(p.head<3>());
-  }
-  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-    const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // a point or a line
-    content.triangles.emplace_back(first + static_cast<int>(face.mIndices[0]),
-                                   first + static_cast<int>(face.mIndices[1]),
-                                   first + static_cast<int>(face.mIndices[2]));
-  }
-  if (content.triangles.size() > kMaxTriangles) {
-    throw MeshFileError("has more than " + std::to_string(kMaxTriangles) +
-                        " triangles, which is the most allowed");
-  }
+template <typename Item>
+std::string_view take(std::string_view text, std::vector<Item>& items) {
+  std::uint64_t count = 0;
+  std::memcpy(&count, text.data(), sizeof count);
+  items.resize(count);
+  std::memcpy(static_cast<void*>(items.data()), text.data() + sizeof count, count * sizeof(Item));
+  return text.substr(sizeof count + count * sizeof(Item));
 }
 
-void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& file_from_parent,
-                MeshFileContent& content) {
-  const Eigen::Matrix4d file_from_node = file_from_parent * toEigen(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    appendMesh(*scene.mMeshes[node.mMeshes[i]], file_from_node, content);
-  }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    appendNode(scene, *node.mChildren[i], file_from_node, content);
-  }
-}
-
-/// Too little memory is no fault of the file, but for Assimp it is as any other.
-void rethrowNoMemory(const Assimp::Importer& importer) {
+std::string saidOf(const std::string& name, const std::vector<std::uint8_t>& bytes) {
   try {
-    if (const std::exception_ptr thrown = importer.GetException()) std::rethrow_exception(thrown);
+    const MeshFileContent content = importMesh(name, bytes);
+    std::string text(1, static_cast<char>(Kind::Content));
+    append(content.vertices, text);
+    append(content.triangles, text);
+    return text;
+  } catch (const MeshFileError& error) {
+    return static_cast<char>(Kind::Error) + std::string(error.what());
   } catch (const std::bad_alloc&) {
-    throw;
-  } catch (...) {
-    return;  // the caller has a message for it
+    return static_cast<char>(Kind::Error) + std::string("cannot be read: out of memory");
   }
 }
 
@@ -112,19 +78,19 @@ MeshFileContent readMeshFile(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = readBytes(file);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.find("<COLLADA") != std::string_view::npos) checkCollada(text);
-  // Assimp picks the reader by the name's ending.
-  const std::string name = file.filename().string();
-  Assimp::Importer importer;
-  importer.SetIOHandler(new OneFile(name, bytes));
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    rethrowNoMemory(importer);
-    throw MeshFileError(std::string("cannot be read: ") + importer.GetErrorString());
+  const ChildLimits limits{
+      .seconds = kSeconds + static_cast<unsigned>(bytes.size() / kBytesPerSecond),
+      .bytes = kMemory + kMemoryPerByte * bytes.size()};
+  std::string said;
+  try {
+    said = runInChild([&] { return saidOf(file.filename().string(), bytes); }, limits);
+  } catch (const ChildError& error) {
+    throw MeshFileError(std::string("cannot be read: assimp ") + error.what());
   }
+  const std::string_view rest = std::string_view(said).substr(1);
+  if (said.front() == static_cast<char>(Kind::Error)) throw MeshFileError(std::string(rest));
   MeshFileContent content;
-  appendNode(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), content);
-  if (content.triangles.empty()) throw MeshFileError("has no triangles");
+  take(take(rest, content.vertices), content.triangles);
   return content;
 }
 

@@ -26,6 +26,9 @@ struct MeshFileError : std::runtime_error {
 /// take the coordinates as they stand in the file (what RViz and MoveIt show), while assimp by
 /// itself would turn a Z_UP file so that y points up.
 ///
+/// Assimp runs in a process of its own, for as long and with as much memory as a file of that size
+/// can reasonably take: one that makes it crash or hang is refused as any other.
+///
 /// No other file is opened, not even one that this file names (materials, textures, buffers).
 /// Throws MeshFileError for a file over 256 MB, one with more than 20 million triangles, one that
 /// assimp cannot read, or one without triangles.

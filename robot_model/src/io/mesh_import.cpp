@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/mesh_import.hpp"
+
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace swept::detail {
+
+namespace {
+
+constexpr std::size_t kMaxTriangles = 20'000'000;
+
+/// Shows assimp one file, held in memory, and nothing else of the file system.
+class OneFile final : public Assimp::IOSystem {
+ public:
+  OneFile(std::string name, const std::vector<std::uint8_t>& bytes)
+      : name_(std::move(name)), bytes_(bytes) {}
+  bool Exists(const char* file) const override { return name_ == file; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (name_ != file || mode[0] != 'r') return nullptr;
+    return new Assimp::MemoryIOStream(bytes_.data(), bytes_.size());
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::string name_;
+  const std::vector<std::uint8_t>& bytes_;
+};
+
+using RowMajor4f = Eigen::Matrix<float, 4, 4, Eigen::RowMajor>;
+
+Eigen::Matrix4d toEigen(const aiMatrix4x4& matrix) {
+  return Eigen::Map<const RowMajor4f>(&matrix.a1).cast<double>();
+}
+
+void appendMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
+                MeshFileContent& content) {
+  const int first = static_cast<int>(content.vertices.size());
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D& v = mesh.mVertices[i];
+    const Eigen::Vector4d p = file_from_node * Eigen::Vector4d(v.x, v.y, v.z, 1.0);
+    content.vertices.emplace_back(p.head<3>());
+  }
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // a point or a line
+    content.triangles.emplace_back(first + static_cast<int>(face.mIndices[0]),
+                                   first + static_cast<int>(face.mIndices[1]),
+                                   first + static_cast<int>(face.mIndices[2]));
+  }
+  if (content.triangles.size() > kMaxTriangles) {
+    throw MeshFileError("has more than " + std::to_string(kMaxTriangles) +
+                        " triangles, which is the most allowed");
+  }
+}
+
+void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& file_from_parent,
+                MeshFileContent& content) {
+  const Eigen::Matrix4d file_from_node = file_from_parent * toEigen(node.mTransformation);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    appendMesh(*scene.mMeshes[node.mMeshes[i]], file_from_node, content);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    appendNode(scene, *node.mChildren[i], file_from_node, content);
+  }
+}
+
+/// Too little memory is no fault of the file, but for Assimp it is as any other.
+void rethrowNoMemory(const Assimp::Importer& importer) {
+  try {
+    if (const std::exception_ptr thrown = importer.GetException()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    return;  // the caller has a message for it
+  }
+}
+
+}  // namespace
+
+MeshFileContent importMesh(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+  Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(name, bytes));
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    rethrowNoMemory(importer);
+    throw MeshFileError(std::string("cannot be read: ") + importer.GetErrorString());
+  }
+  MeshFileContent content;
+  appendNode(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), content);
+  if (content.triangles.empty()) throw MeshFileError("has no triangles");
+  return content;
+}
+
+}  // namespace swept::detail
