@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz_input.hpp"
+#include "swept/robot_model/world.hpp"
+
+using namespace swept;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = fuzz::files().write("table.scene", fuzz::textOf(data, size));
+  fuzz::mayRefuse([&] { World::load(file); });
+  return 0;
+}

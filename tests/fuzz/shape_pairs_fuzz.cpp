@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+
+#include "shape_input.hpp"
+#include "swept/core/distance.hpp"
+#include "swept/core/signed_distance.hpp"
+
+/// Answers about two shapes against each other, against libccd, and against points of the shapes.
+namespace swept::fuzz {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+double leastOfPoints(const Sampled& a, const Sampled& b, const Isometry3d& a_from_b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : a.points)
+    for (const Vector3d& q : b.points) least = std::min(least, (p - a_from_b * q).norm());
+  return least;
+}
+
+void examine(const Sampled& a, const Sampled& b, const Isometry3d& a_from_b) {
+  const double scale = boundingSphere(a.shape).radius + boundingSphere(b.shape).radius +
+                       boundingSphere(a.shape).center.norm() +
+                       boundingSphere(b.shape).center.norm() + a_from_b.translation().norm();
+  const double slack = 1e-12 * scale;
+  const DistanceResult apart = distance(a.shape, b.shape, a_from_b);
+  if (!(apart.lower >= 0.0 && apart.lower <= apart.upper)) fail("no interval");
+  if (apart.lower > leastOfPoints(a, b, a_from_b) + slack) fail("points are nearer than proven");
+  const DistanceResult mirrored = distance(b.shape, a.shape, a_from_b.inverse());
+  if (apart.lower > mirrored.upper + slack || mirrored.lower > apart.upper + slack)
+    fail("b from a is another distance than a from b");
+  const SignedDistanceResult both = signedDistance(a.shape, b.shape, a_from_b);
+  if (!(both.lower <= both.upper)) fail("no interval of the signed distance");
+  if (both.lower > apart.upper + slack || apart.lower > std::max(0.0, both.upper) + slack)
+    fail("the signed distance is another one");
+  const Contact contact = collide(a.shape, b.shape, a_from_b);
+  if (contact == Contact::Touching && apart.lower > slack) fail("touching, and apart");
+  if (contact == Contact::Separate && apart.upper < -slack) fail("separate, and in overlap");
+  if (contact == Contact::Separate && both.upper < -slack) fail("separate, and deep");
+}
+
+}  // namespace
+}  // namespace swept::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace swept::fuzz;
+  Numbers numbers(data, size);
+  const double scale = numbers.size();
+  const Sampled a = shape(numbers, scale);
+  const Sampled b = shape(numbers, scale * (numbers.byte() % 4 == 0 ? numbers.size() : 1.0));
+  examine(a, b, pose(numbers, 2.0 * scale));
+  return 0;
+}
