@@ -94,7 +94,7 @@ inline Sampled shape(Numbers& numbers, double scale) {
     case 7:
       return hull(numbers, scale);
     default:
-      return mesh(a);
+      return mesh(a > 0.0 ? a : scale);
   }
 }
 
