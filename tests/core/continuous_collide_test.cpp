@@ -364,13 +364,37 @@ TEST(ContinuousCollide, WhatIsNotFiniteIsUndecided) {
     options.margin = bad;
     EXPECT_EQ(continuousCollide(ball, kStill, ball, motion, options).verdict, Verdict::Undecided);
   }
-  for (const double bad : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad : {kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+    ContinuousOptions length, time;
+    length.tolerance = time.timeTolerance = bad;
+    for (const ContinuousOptions& options : {length, time}) {
+      const ContinuousResult result = continuousCollide(ball, kStill, ball, motion, options);
+      EXPECT_EQ(result.verdict, Verdict::Undecided) << bad;
+      EXPECT_EQ(result.freeUntil, 0.0) << bad;
+    }
+  }
+  for (const double bad : {-1.0, 0.0}) {
     ContinuousOptions options;
     options.tolerance = bad;
     const ContinuousResult result = continuousCollide(ball, kStill, ball, motion, options);
     EXPECT_LE(result.freeUntil, 2.8 / 8.0 + 1e-12);
     EXPECT_LT(result.effort.intervals, 1000);
   }
+}
+
+/// Lengths whose squares underflow: a ball that goes through a plane at t = 0.8.
+TEST(ContinuousCollide, NothingIsProvenOfWhatIsTooSmallToMeasure) {
+  int decided = 0;
+  for (int power = -300; power <= 0; power += 5) {
+    const double s = std::pow(10.0, power);
+    const UniformMotion motion = flight({0, 3.0 * s, 0}, {0, 0.5 * s, 0});
+    const ContinuousResult found = continuousCollide(makeHalfSpace(Vector3d::UnitY(), 0.0), kStill,
+                                                     makeSphere(s), motion, to(1e-6 * s));
+    EXPECT_NE(found.verdict, Verdict::Free) << power;
+    EXPECT_LE(found.freeUntil, 0.8) << power;
+    decided += found.verdict == Verdict::Collision ? 1 : 0;
+  }
+  EXPECT_GT(decided, 20) << "most are large enough";
 }
 
 /// Workspaces hold memory, no answers.

@@ -68,6 +68,11 @@ BoundingSphere ballAround(const Side& side, const Shape& shape) {
   return {box.center, half * (1.0 + 1e-6)};
 }
 
+bool areFinite(const ContinuousOptions& options) {
+  return std::isfinite(options.margin) && std::isfinite(options.tolerance) &&
+         std::isfinite(options.timeTolerance);
+}
+
 /// The earliest intervals first, each with what is left open of the one it is part of.
 class TimeSearch {
  public:
@@ -86,7 +91,7 @@ class TimeSearch {
         waiting_(data.waiting) {}
 
   ContinuousResult run() {
-    if (!(options_.margin >= 0.0) || !std::isfinite(options_.margin)) return result_;
+    if (!(options_.margin >= 0.0) || !areFinite(options_)) return result_;
     if (decidedAtStart()) return result_;
     open_.assign(1, OpenPair{});
     waiting_.assign(1, Interval{0.0, 1.0, 0, 1});

@@ -19,6 +19,9 @@ constexpr double kUp = 1.0 + 1e-13;
 /// Relative: velocities and what is made of them here, as vectors, are sums of fewer than fifty
 /// products; and half an interval, which they are multiplied by, is rounded up by kUp.
 constexpr double kVelocityRounding = 2e-13;
+/// m. Squares of lengths below 1e-154 m underflow: what is made of norms here may be short by as
+/// much, a few times.
+constexpr double kUnderflow = 1e-150;
 
 /// How the two approach, for some observer, in the world frame; see ApproachBound.
 struct Approach {
@@ -134,7 +137,7 @@ MotionSlice RelativeMotion::over(double from, double to, double margin) const {
   const double poses = a_.rounding(reachOf(ballA_, a, b)) + b_.rounding(reachOf(ballB_, b, a));
   const double product =
       tolerance::kRoundingPerJoint * (a.pose.translation().norm() + b.pose.translation().norm());
-  bound.required = margin + (1.0 + half) * poses + product +
+  bound.required = margin + kUnderflow + (1.0 + half) * poses + product +
                    (std::isfinite(moved) ? kVelocityRounding * moved : 0.0);
   return slice;
 }
