@@ -10,12 +10,13 @@ require_tools() {
 }
 
 # Runs all workloads of FOLDER and leaves: instruction_set, and in counts a line `NAME QUERIES
-# INSTRUCTIONS_PER_QUERY` for each. Where the instructions went is in FOLDER/callgrind.out, for
-# callgrind_annotate.
+# INSTRUCTIONS_PER_QUERY` for each. Where the instructions went is in FOLDER/callgrind.out.PID, for
+# callgrind_annotate; meshes are read in processes of their own, whose files say nothing.
 count_instructions() {
   local output
+  rm -f "$1"/callgrind.out.*
   if ! output="$(valgrind --tool=callgrind --instr-atstart=no --combine-dumps=yes \
-    --callgrind-out-file="$1/callgrind.out" "$1/instruction_workload" 2>&1)"; then
+    --callgrind-out-file="$1/callgrind.out.%p" "$1/instruction_workload" 2>&1)"; then
     echo "FAILED: $output"
     return 1
   fi
@@ -28,5 +29,5 @@ count_instructions() {
       delete queries[name]
     }
     END { for (name in queries) { print "FAILED: no count of " name > "/dev/stderr"; exit 1 } }
-    ' - "$1/callgrind.out" <<<"$output")"
+    ' - "$1"/callgrind.out.* <<<"$output")"
 }
