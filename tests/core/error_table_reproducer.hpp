@@ -84,7 +84,7 @@ class Reproducer {
       std::string text = "TriangleMesh::build(std::vector<Vector3d>" + list(s.vertices()) +
                          ", std::vector<Eigen::Vector3i>{";
       for (const Eigen::Vector3i& t : s.triangles()) {
-        text += "{" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
+        text += std::to_string(t[0]).insert(0, 1, '{') + ", " + std::to_string(t[1]) + ", " +
                 std::to_string(t[2]) + "}, ";
       }
       return text + "})";
