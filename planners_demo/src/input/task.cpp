@@ -17,6 +17,8 @@
 namespace swept {
 namespace {
 
+constexpr double kLeastAccuracy = 1e-5;  // m
+
 std::vector<PackageFolder> packageFolders(const Arguments& args) {
   std::vector<PackageFolder> folders;
   for (const std::string& text : args.packages) {
@@ -206,7 +208,7 @@ std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<
 }
 
 double clearanceAccuracy(const Checker& checker) {
-  return 0.1 * checker.options().tolerance;
+  return std::max(0.1 * checker.options().tolerance, kLeastAccuracy);
 }
 
 Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {

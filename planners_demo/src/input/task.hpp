@@ -62,7 +62,9 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
 std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
                                            Warnings& warnings);
 
-/// m. How narrow the interval around a least clearance is: a tenth of the tolerance that decides.
+/// m. How narrow the interval around a least clearance is: a tenth of the tolerance that decides,
+/// but no less than 1e-5: where two bodies stay equally far apart all the way, the work grows with
+/// the inverse.
 double clearanceAccuracy(const Checker& checker);
 
 /// A configuration and what to call it.
