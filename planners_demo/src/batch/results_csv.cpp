@@ -9,13 +9,6 @@ constexpr std::string_view kHeader =
     "path_length [rad or m],segments,certified,certified_clearance [m],missed_collisions,undecided,"
     "path,planning [s],simplification [s],certification [s]\n";
 
-std::string cellOf(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string truth(bool value) {
   return value ? "true" : "false";
 }
@@ -43,7 +36,7 @@ std::vector<std::string> timeCells(const std::optional<RunTimes>& times) {
 
 std::string rowOf(const RunResult& result) {
   const RunKey& key = result.key;
-  std::vector<std::string> cells{cellOf(key.set),
+  std::vector<std::string> cells{csvCell(key.set),
                                  std::to_string(key.index),
                                  key.planner,
                                  key.validator,
@@ -51,7 +44,7 @@ std::string rowOf(const RunResult& result) {
                                  std::to_string(key.seed),
                                  truth(result.solved()),
                                  result.status,
-                                 cellOf(result.failure),
+                                 csvCell(result.failure),
                                  count(result.statesChecked),
                                  count(result.motionsChecked)};
   for (std::string& cell : pathCells(result.path)) cells.push_back(std::move(cell));

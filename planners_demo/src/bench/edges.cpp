@@ -8,6 +8,7 @@
 
 #include "bench/edges_file.hpp"
 #include "bench/edges_output.hpp"
+#include "bench/peer.hpp"
 #include "command_line/commands.hpp"
 #include "input/states.hpp"
 #include "input/task.hpp"
@@ -26,16 +27,6 @@ double secondsOf(const Work& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-void checkOptions(const Arguments& args) {
-  if (args.against.empty()) return;
-  if (!builtWithFcl())
-    throw UsageError("--against fcl: this build has no FCL; install it and configure again");
-  if (args.margin > 0.0)
-    throw UsageError(
-        "--against fcl needs a margin of 0: whether FCL finds a collision is not a "
-        "matter of distance");
 }
 
 /// The edges asked for, in the order of the file.
@@ -191,7 +182,7 @@ class EdgeRun {
 }  // namespace
 
 ExitCode runBenchEdges(const Arguments& args) {
-  checkOptions(args);
+  requirePeer(args);
   const EdgeBench bench = EdgeRun(args).run();
   if (args.json)
     std::cout << benchJson(bench).dump(2) << '\n';

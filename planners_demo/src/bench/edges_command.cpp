@@ -24,14 +24,8 @@ void addOptions(CLI::App& app, Arguments& args) {
   app.add_option("--passes", args.passes, "each motion's time is the least of N (default 5)")
       ->type_name("N")
       ->check(within(1, 10000, "between 1 and 10000"));
-  app.add_option("--against", args.against,
-                 "'fcl': also FCL under OMPL's discrete validator, on the same motions")
-      ->type_name("PEER")
-      ->check(CLI::Validator(
-          [](std::string& peer) -> std::string {
-            return peer == "fcl" ? "" : "must be fcl, not " + CLI::detail::trim_copy(peer);
-          },
-          ""));
+  addAgainstOption(app, args,
+                   "'fcl': also FCL under OMPL's discrete validator, on the same motions");
   addDumpOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);

@@ -40,6 +40,10 @@ bool builtWithFcl() {
   return true;
 }
 
+std::string fclVersion() {
+  return FCL_VERSION;
+}
+
 ob::StateValidityCheckerPtr fclValidity(const ob::SpaceInformationPtr& si, const Checker& checker) {
   return std::make_shared<FclValidity>(si, checker);
 }

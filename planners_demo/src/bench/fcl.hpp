@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bench/clock.hpp"
@@ -24,6 +25,8 @@ struct FclResult {
 
 /// Is FCL part of this build?
 bool builtWithFcl();
+/// Its version; empty without it.
+std::string fclVersion();
 
 /// What a user of OMPL and FCL gets: OMPL's DiscreteMotionValidator at its default resolution
 /// (steps of 1 % of the space's extent) in the state space of the group; a state is valid when FCL

@@ -10,6 +10,10 @@ bool builtWithFcl() {
   return false;
 }
 
+std::string fclVersion() {
+  return {};
+}
+
 std::vector<FclResult> measureFcl(const Checker&, const std::vector<BenchMotion>&, int,
                                   const BenchClock&) {
   throw UsageError("this build has no FCL");

@@ -95,6 +95,16 @@ struct Arguments {
   std::int64_t budget = 20'000'000;  ///< per pair of links
   int samples = 1000;                ///< per pair of links
 
+  struct Report {
+    int motions = 1000;                                                     ///< over all worlds
+    std::vector<double> resolutions = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005};  ///< share of the extent
+    std::vector<double> tolerances = {0.1, 0.03, 0.01, 0.003, 0.001, 1e-4};  ///< m
+    int every = 1;     ///< only each so many-th problem
+    std::string csv;   ///< empty: no such file
+    std::string svg;   ///< how the names of the pictures begin; empty: none
+    std::string html;  ///< empty: no page
+  } report;
+
   struct Page {
     std::string file;         ///< empty: no page
     std::string commandLine;  ///< as it could be typed again in a shell

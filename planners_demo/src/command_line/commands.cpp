@@ -14,7 +14,7 @@ std::span<const Command* const> commands() {
                                      &kReplayCommand};
     list.insert(list.end(), pageCommands().begin(), pageCommands().end());
     list.insert(list.end(), {&kBenchEdgesCommand, &kBenchPlannersCommand, &kBenchSummaryCommand,
-                             &kCompletionCommand});
+                             &kReportCommand, &kCompletionCommand});
     return list;
   }();
   return all;

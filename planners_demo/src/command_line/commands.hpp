@@ -36,6 +36,9 @@ ExitCode runBenchPlanners(const Arguments& args);
 extern const Command kBenchSummaryCommand;
 ExitCode runBenchSummary(const Arguments& args);
 
+extern const Command kReportCommand;
+ExitCode runReport(const Arguments& args);
+
 extern const Command kCompletionCommand;
 ExitCode runCompletion(const Arguments& args);
 

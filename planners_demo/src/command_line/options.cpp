@@ -26,7 +26,7 @@ void addRobotOptions(CLI::App& app, Arguments& args) {
       ->allow_extra_args(false);
 }
 
-void addCheckerOptions(CLI::App& app, Arguments& args) {
+void addRuleOptions(CLI::App& app, Arguments& args) {
   app.add_option("--group", args.group, "planning group; not needed when there is only one")
       ->type_name("NAME");
   app.add_option("--margin", args.margin, "m; free means: more than this apart (default 0)")
@@ -52,6 +52,10 @@ void addCheckerOptions(CLI::App& app, Arguments& args) {
          "frame, X,Y,Z[,QX,QY,QZ,QW] (repeatable)")
       ->type_name("SHAPE@LINK")
       ->allow_extra_args(false);
+}
+
+void addCheckerOptions(CLI::App& app, Arguments& args) {
+  addRuleOptions(app, args);
   app.add_option("--tolerance", args.tolerance,
                  "m; motions that keep more than margin + tolerance are decided (default 0.001)")
       ->type_name("M")
@@ -92,6 +96,16 @@ void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what) 
   app.add_option("--index", args.index, "number of the problem in the set")
       ->type_name("N")
       ->needs(problems);
+}
+
+void addAgainstOption(CLI::App& app, Arguments& args, const std::string& what) {
+  app.add_option("--against", args.against, what)
+      ->type_name("PEER")
+      ->check(CLI::Validator(
+          [](std::string& peer) -> std::string {
+            return peer == "fcl" ? "" : "must be fcl, not " + CLI::detail::trim_copy(peer);
+          },
+          ""));
 }
 
 void addSeedOption(CLI::App& app, Arguments& args) {

@@ -12,11 +12,15 @@ namespace swept {
 CLI::Validator within(double low, double high, const std::string& what);
 
 void addRobotOptions(CLI::App& app, Arguments& args);
-/// --group, --margin, --tolerance and the rules.
+/// --group, --margin and the rules.
+void addRuleOptions(CLI::App& app, Arguments& args);
+/// The same and --tolerance.
 void addCheckerOptions(CLI::App& app, Arguments& args);
 void addSceneOptions(CLI::App& app, Arguments& args);
 /// `what` says what the subcommand does with a problem.
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
+/// `what` says what is done with the peer.
+void addAgainstOption(CLI::App& app, Arguments& args, const std::string& what);
 void addSeedOption(CLI::App& app, Arguments& args);
 void addJsonOption(CLI::App& app, Arguments& args);
 void addQuietOption(CLI::App& app, Arguments& args);

@@ -43,6 +43,13 @@ std::string joined(std::span<const std::string> items, const std::string& separa
   return text;
 }
 
+std::string csvCell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::string witnessText(const Witness& witness) {
   return witness.bodyA + " - " + witness.bodyB + ": distance " + lengthText(witness.distance) +
          " m, at " + pointText(witness.pointA) + " and " + pointText(witness.pointB);

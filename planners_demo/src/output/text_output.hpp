@@ -26,6 +26,8 @@ std::string lengthText(double metres);
 std::string pointText(const Eigen::Vector3d& point);
 /// `a, b, c`.
 std::string joined(std::span<const std::string> items, const std::string& separator = ", ");
+/// A cell of a CSV file, in quotes where it needs them.
+std::string csvCell(const std::string& text);
 /// `link - body: distance 0.001 m, at [..] and [..]`.
 std::string witnessText(const Witness& witness);
 

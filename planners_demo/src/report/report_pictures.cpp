@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/report_output.hpp"
+
+namespace swept {
+namespace {
+
+struct SeriesKind {
+  Validator::Kind kind;
+  const char* name;
+};
+// In the order of their colours and markers.
+constexpr SeriesKind kSeries[] = {{Validator::Kind::Certified, "certified, by tolerance"},
+                                  {Validator::Kind::Discrete, "discrete, by step"},
+                                  {Validator::Kind::Fcl, "discrete with FCL, by step"}};
+
+std::string labelOf(const ReportMethod& method) {
+  const std::string number = shortNumber(method.setting);
+  return method.kind == Validator::Kind::Certified ? number + " m" : number;
+}
+
+/// `value` of a row, or none: no point.
+template <typename Value>
+Plot plotOf(Plot plot, const std::vector<ReportRow>& rows, const Value& value) {
+  int style = 0;
+  for (const auto& [kind, name] : kSeries) {
+    PlotSeries series{.name = name, .style = style++, .points = {}};
+    for (const ReportRow& row : rows) {
+      const std::optional<double> y = value(row);
+      if (row.method.kind != kind || !y || !(row.mean > 0.0)) continue;
+      series.points.push_back({.x = row.mean,
+                               .y = *y,
+                               .label = labelOf(row.method),
+                               .title = row.method.name() + ": " + shortNumber(*y) + ", " +
+                                        shortNumber(row.mean) + " ns"});
+    }
+    if (!series.points.empty()) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+}  // namespace
+
+std::vector<ReportPicture> reportPictures(const ErrorReport& report) {
+  std::vector<ReportPicture> pictures;
+  const auto add = [&](const std::string& name, Plot plot) {
+    if (!plot.series.empty()) pictures.push_back({.name = name, .plot = std::move(plot)});
+  };
+  const std::string of = report.robot + ": ";
+  const std::vector<ReportRow> motions = report.rowsOf(ReportPart::Motions);
+  add("missed", plotOf({.title = of + "collisions that are missed",
+                        .yLabel = "of the motions that collide",
+                        .unit = Plot::Unit::Share,
+                        .series = {}},
+                       motions, [](const ReportRow& row) { return row.rates->missedRate(); }));
+  add("false-alarms",
+      plotOf({.title = of + "free motions that are refused",
+              .yLabel = "of the motions that are free",
+              .unit = Plot::Unit::Share,
+              .series = {}},
+             motions, [](const ReportRow& row) { return row.rates->falseAlarmRate(); }));
+  for (const ReportPart part : {ReportPart::FirstContact, ReportPart::Clearance,
+                                ReportPart::Distance, ReportPart::Penetration}) {
+    std::string name = toString(part);
+    if (part == ReportPart::FirstContact) name = "first-contact";
+    add(name, plotOf({.title = of + "error of the " + toString(part),
+                      .yLabel = "mean error",
+                      .unit = Plot::Unit::Metres,
+                      .series = {}},
+                     report.rowsOf(part),
+                     [](const ReportRow& row) { return std::optional(row.error->mean); }));
+  }
+  return pictures;
+}
+
+}  // namespace swept
