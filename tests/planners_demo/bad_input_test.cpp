@@ -88,7 +88,7 @@ const Case kOptions[] = {
     {"UnknownSubcommand",
      {"verfy"},
      kError + "no subcommand 'verfy'; there are info, check, motion, plan, verify, acm, replay, " +
-         (programHasPages() ? "view, " : "") + "bench, completion (try --help)"},
+         (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},
     {"UnknownOption", both("check", {"left", "--frobnicate"}),
      kError + "The following argument was not expected: --frobnicate (try --help)"},

@@ -108,9 +108,10 @@ TEST(Faults, AnInterruptEndsEachLongCommand) {
   const TemporaryFolder folder;
   const std::vector<Words> commands{
       {"plan", kRook, "home", "-2.8,0,0,0,0,0,0", "--group", "arm", "--scene",
-       "models/scenes/cage.yaml", "--time", "60", "-o", folder.path("p.json")},
+       "models/scenes/cage.yaml", "--planner", "RRTstar", "--time", "60", "-o",
+       folder.path("p.json")},
       {"plan", kRook, "--group", "arm", "--problems", "models/problems.json", "--set",
-       "narrow_slot", "--time", "60", "--planner", "PRMstar"},
+       "narrow_slot", "--time", "60", "--planner", "RRTstar"},
       {"acm", kRook, "--samples", "100000000", "-o", folder.path("o.srdf")},
       {"bench", "edges", kRook, "--group", "arm", "--problems", "models/problems.json", "--edges",
        "models/edges.csv", "--passes", "10000"}};
