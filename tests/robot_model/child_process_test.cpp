@@ -87,6 +87,15 @@ TEST(ChildProcess, MemoryIsBounded) {
   EXPECT_EQ(runInChild(take(128 << 20), limits), "none left");
 }
 
+TEST(ChildProcess, WhatItSaysIsBounded) {
+  const std::string text(1 << 20, 'x');
+  EXPECT_EQ(runInChild([&] { return text; }, {.seconds = 20, .bytes = 256 << 20}), text);
+  // It has the text already, and so needs no memory for it.
+  std::string large(8 << 20, 'x');
+  const auto give = [&] { return std::move(large); };
+  EXPECT_EQ(endingOf(give, {.seconds = 20, .bytes = 4 << 20}), "said too much");
+}
+
 /// A child inherits the pipes of others, which must not keep it from being seen to end.
 TEST(ChildProcess, ManyAtOnceFromSeveralThreads) {
   std::vector<std::thread> threads;

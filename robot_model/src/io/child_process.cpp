@@ -149,14 +149,15 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  std::string listenUntil(Clock::time_point latest, unsigned seconds) {
+  std::string listenUntil(Clock::time_point latest, const ChildLimits& limits) {
     std::string text;
     while (!isWhole(text)) {
+      if (text.size() > limits.bytes) throw ChildError("said too much");
       const Heard heard = listen(descriptor_, text);
       // The pipe of one that is gone may be held open by a child of another thread.
       if (heard == Heard::End || (heard == Heard::Nothing && isGone())) throw ChildError(ending());
       if (Clock::now() > latest)
-        throw ChildError("took more than " + std::to_string(seconds * kWallPerCpu) + " s");
+        throw ChildError("took more than " + std::to_string(limits.seconds * kWallPerCpu) + " s");
     }
     return text.substr(sizeof(std::uint64_t));
   }
@@ -195,7 +196,7 @@ std::string runInChild(const std::function<std::string()>& work, const ChildLimi
   const Bounds bounds(limits);
   Child child(work, bounds);
   const auto latest = Clock::now() + std::chrono::seconds(limits.seconds * kWallPerCpu);
-  return child.listenUntil(latest, limits.seconds);
+  return child.listenUntil(latest, limits);
 }
 
 }  // namespace swept::detail

@@ -49,10 +49,17 @@ void append(const std::vector<Item>& items, std::string& text) {
   text.append(reinterpret_cast<const char*>(items.data()), count * sizeof(Item));
 }
 
+[[noreturn]] void refuseContent() {
+  throw MeshFileError("cannot be read: assimp returned no mesh");
+}
+
+/// A file that overwrote the child's memory may have it say anything.
 template <typename Item>
 std::string_view take(std::string_view text, std::vector<Item>& items) {
   std::uint64_t count = 0;
+  if (text.size() < sizeof count) refuseContent();
   std::memcpy(&count, text.data(), sizeof count);
+  if (count > (text.size() - sizeof count) / sizeof(Item)) refuseContent();
   items.resize(count);
   std::memcpy(static_cast<void*>(items.data()), text.data() + sizeof count, count * sizeof(Item));
   return text.substr(sizeof count + count * sizeof(Item));
@@ -88,6 +95,7 @@ MeshFileContent readMeshFile(const std::filesystem::path& file) {
     throw MeshFileError(std::string("cannot be read: assimp ") + error.what());
   }
   const std::string_view rest = std::string_view(said).substr(1);
+  if (said.empty()) refuseContent();
   if (said.front() == static_cast<char>(Kind::Error)) throw MeshFileError(std::string(rest));
   MeshFileContent content;
   take(take(rest, content.vertices), content.triangles);
