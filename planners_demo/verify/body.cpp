@@ -109,8 +109,8 @@ void Body::gather(Node& node) const {
     return std::tuple(ball.center.x(), ball.center.y(), ball.center.z(), ball.radius);
   };
   std::ranges::sort(node.balls, {}, key);
-  const auto rest = std::ranges::unique(node.balls, {}, key);
-  node.balls.erase(rest.begin(), rest.end());
+  const auto isSame = [&key](const Ball& a, const Ball& b) { return key(a) == key(b); };
+  node.balls.erase(std::unique(node.balls.begin(), node.balls.end(), isSame), node.balls.end());
 }
 
 double Body::support(int node, const Vector3d& direction) const {

@@ -71,15 +71,15 @@ Side Side::of(const Shape& shape) {
   return std::visit(
       [](const auto& body) -> Side {
         if constexpr (std::is_same_v<decltype(body), const TriangleMesh&>) {
-          const Convex outer = grownAround(body.coarseHull());
-          const double dent = body.dent() + outer.radius;
-          return {&body, nullptr, &body.bvh(), Convex::of(body.hull()), outer, dent};
+          const Convex shell = grownAround(body.coarseHull());
+          const double reach = body.dent() + shell.radius;
+          return {&body, nullptr, &body.bvh(), Convex::of(body.hull()), shell, reach};
         } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
           Convex hull = Convex::of(body.hull());
           hull.radius = body.largestRadius();
-          Convex outer = grownAround(body.hull());
-          outer.radius += body.largestRadius();
-          return {nullptr, &body, &body.bvh(), hull, outer, hull.extent};
+          Convex shell = grownAround(body.hull());
+          shell.radius += body.largestRadius();
+          return {nullptr, &body, &body.bvh(), hull, shell, hull.extent};
         } else {
           return {nullptr, nullptr, nullptr, Convex::of(body), {}, 0.0};
         }

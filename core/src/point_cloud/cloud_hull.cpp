@@ -22,7 +22,7 @@ std::vector<Vector3d> farthestPoints(std::span<const Vector3d> points, const Clo
     found.push_back(tree.farthest(spreadDirection(i, kDirections)));
   }
   std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   std::vector<Vector3d> kept;
   for (const std::size_t point : found) kept.push_back(points[point]);
   return kept;

@@ -26,8 +26,7 @@ struct Stopped {};
 Arguments inOrder(Arguments args) {
   for (std::vector<double>* list : {&args.report.resolutions, &args.report.tolerances}) {
     std::ranges::sort(*list, std::ranges::greater());
-    const auto rest = std::ranges::unique(*list);
-    list->erase(rest.begin(), rest.end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   return args;
 }

@@ -49,9 +49,11 @@ EvenParts::EvenParts(const CheckerModel& model, std::span<const double> from,
       if (t > 0.0 && t < 1.0) workspace.passages.push_back({t, waypoint.time});
     }
   }
-  std::ranges::sort(workspace.passages, {}, &Passage::t);
-  const auto repeated = std::ranges::unique(workspace.passages, {}, &Passage::t);
-  workspace.passages.erase(repeated.begin(), repeated.end());
+  auto& passages = workspace.passages;
+  std::ranges::sort(passages, {}, &Passage::t);
+  passages.erase(std::unique(passages.begin(), passages.end(),
+                             [](const Passage& a, const Passage& b) { return a.t == b.t; }),
+                 passages.end());
 }
 
 EvenPart EvenParts::part(const Passage& begin, const Passage& end) {

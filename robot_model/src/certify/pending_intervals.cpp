@@ -88,10 +88,10 @@ OpenPairs sortOpenPairs(const PendingInterval& interval, WorkspaceData& workspac
   for (auto at = first; at != end; ++at) {
     bool onAll = false;
     bool onPart = false;
-    for (const PendingPart& part :
-         std::ranges::equal_range(workspace.parts, *at, {}, &PendingPart::pair)) {
-      onAll = onAll || (part.begin <= interval.begin && interval.end <= part.end);
-      onPart = onPart || (part.begin < interval.end && interval.begin < part.end);
+    auto part = std::ranges::lower_bound(workspace.parts, *at, {}, &PendingPart::pair);
+    for (; part != workspace.parts.end() && part->pair == *at; ++part) {
+      onAll = onAll || (part->begin <= interval.begin && interval.end <= part->end);
+      onPart = onPart || (part->begin < interval.end && interval.begin < part->end);
     }
     if (onAll) {
       first[static_cast<std::ptrdiff_t>(found.onAll++)] = *at;

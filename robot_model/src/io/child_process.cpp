@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kTick = 50;        // ms, between looks at a child that says nothing
 constexpr int kUnfinished = 17;  // exit code of a child that could not say all
 
-/// Bytes of address space in use; 0: not known.
-std::uint64_t addressSpace() {
+/// Bytes of address space in use; 0: not known. Builds with sanitizers do not ask.
+[[maybe_unused]] std::uint64_t addressSpace() {
   std::ifstream stream("/proc/self/statm");
   std::uint64_t pages = 0;
   if (!(stream >> pages)) return 0;

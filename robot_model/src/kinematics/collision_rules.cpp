@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -97,8 +96,8 @@ CollisionRules& CollisionRules::scale(std::string body, double factor) {
 
 const Rule* CollisionRules::findLast(std::string_view bodyA, std::string_view bodyB,
                                      auto&& wanted) const {
-  for (const Rule& rule : std::views::reverse(rules_))
-    if (wanted(rule) && isAbout(rule, bodyA, bodyB)) return &rule;
+  for (auto rule = rules_.rbegin(); rule != rules_.rend(); ++rule)
+    if (wanted(*rule) && isAbout(*rule, bodyA, bodyB)) return &*rule;
   return nullptr;
 }
 
