@@ -281,6 +281,9 @@ TEST_F(Verify, FilesThatAreNoPathAreBadInput) {
   EXPECT_EQ(message("{\"proof\": {}, \"inputs\": {\"robot\": 3}}"),
             "F: error: inputs.robot is 3; it must be text\n");
   EXPECT_THAT(message("{\"proof\":\n {"), StartsWith("F:2: error: malformed JSON: "));
+  // Deep enough to exhaust the stack of what would print it.
+  EXPECT_EQ(message("{\"group\":\n" + std::string(400'000, '[') + std::string(400'000, ']') + "}"),
+            "F:2: error: objects and arrays are nested deeper than 500\n");
   EXPECT_THAT(runSwept({"verify", "no/such.json"}).err, HasSubstr("no/such.json"));
 }
 

@@ -364,6 +364,8 @@ std::vector<BadInput> yamlScenes() {
   return {
       {"YamlSyntax", "s.yaml", "world:\n  collision_objects: [\n",
        "@/s.yaml:3: error: malformed YAML: end of sequence flow not found"},
+      {"YamlNested", "s.yaml", "world:\n  " + std::string(100'000, '['),
+       "@/s.yaml:2: error: malformed YAML: mappings and lists are nested too deeply"},
       {"YamlList", "s.yaml", "- 1\n", "@/s.yaml:1: error: a planning scene must be a mapping"},
       {"YamlNoObjects", "s.yaml", "name: x\n",
        "@/s.yaml:1: error: a planning scene needs 'world' or 'collision_objects'"},

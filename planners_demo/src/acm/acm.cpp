@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "acm/acm_output.hpp"
 #include "command_line/commands.hpp"
 #include "output/progress.hpp"
 #include "output/whole_file.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
-
-/// Robot::load has read the same file and found nothing wrong with it.
-std::string contentsOf(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(file, 0, "file cannot be read");
-  return text.str();
-}
 
 /// What hides collisions is said aloud.
 void warnOfDefaults(const AcmResult& result, Warnings& warnings) {
@@ -48,7 +38,7 @@ ExitCode runAcm(const Arguments& args) {
   Warnings warnings(args.quiet);
   if (!args.output.empty()) requireWritable(args.output);
   const Model model = loadModel(args, warnings);
-  const std::string srdf = model.srdf.file.empty() ? "" : contentsOf(model.srdf.file);
+  const std::string srdf = model.srdf.file.empty() ? "" : readTextFile(model.srdf.file);
   CollisionMatrixOptions options;
   options.margin = args.margin;
   options.budget = args.budget;

@@ -16,6 +16,7 @@
 #include "command_line/exit_code.hpp"
 #include "output/whole_file.hpp"
 #include "swept/robot_model/input.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
@@ -67,6 +68,7 @@ Results parseResults(const std::string& text, const std::string& file) {
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const std::string line = text.substr(begin, end - begin);
     if (++number == 1) {
+      requireShallowJson(line, file);
       results.header = Json::parse(line, nullptr, false);
       requireHeader(results.header, file);
     } else {

@@ -8,6 +8,7 @@
 #include "command_line/exit_code.hpp"
 #include "plan/planners.hpp"
 #include "swept/robot_model/input.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
@@ -108,6 +109,7 @@ Json keyJson(const RunKey& key) {
 }
 
 nlohmann::json parseJsonLine(const std::string& line, const std::string& source, int number) {
+  requireShallowJson(line, source, number);
   nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) throw InputError(source, number, "the line is not a JSON object");
   return json;

@@ -2,25 +2,14 @@
 #include "input/json_value.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "swept/robot_model/input.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
 
 using nlohmann::json;
-
-std::string contents(const std::string& file) {
-  if (!std::filesystem::exists(file)) throw InputError(file, 0, "file not found");
-  if (!std::filesystem::is_regular_file(file)) throw InputError(file, 0, "not a regular file");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw InputError(file, 0, "file cannot be read");
-  return text;
-}
 
 /// Without the library's own name and place in front.
 std::string reasonOf(const json::exception& error, std::string_view front) {
@@ -31,7 +20,8 @@ std::string reasonOf(const json::exception& error, std::string_view front) {
 
 template <typename Value>
 Value parsed(const std::string& file) {
-  const std::string text = contents(file);
+  const std::string text = readTextFile(file);
+  requireShallowJson(text, file);
   try {
     return Value::parse(text);
   } catch (const json::parse_error& error) {

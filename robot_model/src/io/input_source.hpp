@@ -27,7 +27,4 @@ class InputSource {
   LoadOptions options_;
 };
 
-/// The whole file. Throws InputError (line 0) when it is not a readable regular file.
-std::string readTextFile(const std::filesystem::path& file);
-
 }  // namespace swept::detail

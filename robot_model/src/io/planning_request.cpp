@@ -5,6 +5,7 @@
 
 #include "io/input_source.hpp"
 #include "io/yaml.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
@@ -111,7 +112,7 @@ void readGoal(const YamlPlace& goal, const LoadOptions& options, PlanningRequest
 PlanningRequest PlanningRequest::load(const std::filesystem::path& yaml,
                                       const LoadOptions& options) {
   const detail::InputSource source(yaml.string(), options);
-  const YamlPlace root = YamlPlace::parse(detail::readTextFile(yaml), source);
+  const YamlPlace root = YamlPlace::parse(readTextFile(yaml), source);
   PlanningRequest request;
   if (const YamlPlace group = root.at("group_name"); group.present()) request.group = group.text();
   request.start = readStart(root.at("start_state"));

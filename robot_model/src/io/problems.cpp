@@ -8,6 +8,7 @@
 
 #include "io/input_source.hpp"
 #include "io/numbers.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 
@@ -160,6 +161,7 @@ std::string reasonOf(const json::exception& error, const char* front) {
 }
 
 json parseJson(const std::string& text, const std::string& file) {
+  requireShallowJson(text, file);
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
@@ -190,7 +192,7 @@ std::string listed(const std::vector<Value>& values) {
 ProblemFile ProblemFile::load(const std::filesystem::path& json) {
   ProblemFile result;
   result.file_ = json.string();
-  const auto root = parseJson(detail::readTextFile(json), result.file_);
+  const auto root = parseJson(readTextFile(json), result.file_);
   if (!root.is_object() || root.empty()) {
     throw InputError(result.file_, 0, "the file must be an object of problem sets { SET: [...] }");
   }

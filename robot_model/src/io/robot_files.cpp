@@ -5,6 +5,7 @@
 #include "io/srdf.hpp"
 #include "io/urdf_model.hpp"
 #include "io/urdf_outline.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 
@@ -37,9 +38,9 @@ std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std
 std::shared_ptr<const Robot> Robot::load(const std::filesystem::path& urdf,
                                          const std::filesystem::path& srdf,
                                          const LoadOptions& options) {
-  const std::string urdfText = detail::readTextFile(urdf);
+  const std::string urdfText = readTextFile(urdf);
   if (srdf.empty()) return parse(urdfText, urdf.string(), {}, {}, options);
-  const std::string srdfText = detail::readTextFile(srdf);
+  const std::string srdfText = readTextFile(srdf);
   if (srdfText.empty()) throw InputError(srdf.string(), 1, "malformed XML: the document is empty");
   return parse(urdfText, urdf.string(), srdfText, srdf.string(), options);
 }

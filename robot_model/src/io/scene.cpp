@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scene.hpp"
 
+#include "swept/robot_model/text_file.hpp"
+
 namespace swept {
 
 World World::load(const std::filesystem::path& scene, const LoadOptions& options) {
@@ -12,7 +14,7 @@ World World::load(const std::filesystem::path& scene, const LoadOptions& options
                      "unknown ending '" + ending +
                          "' of a scene file; allowed are .yaml, .yml, .scene and .urdf");
   }
-  const std::string text = detail::readTextFile(scene);
+  const std::string text = readTextFile(scene);
   const detail::InputSource source(scene.string(), options);
   return yaml ? detail::readSceneYaml(text, source) : detail::readSceneText(text, source);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/yaml.hpp"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <cmath>
 #include <utility>
 
@@ -17,6 +19,8 @@ YamlPlace::YamlPlace(YAML::Node node, std::string name, int line, const InputSou
 YamlPlace YamlPlace::parse(const std::string& text, const InputSource& source) {
   try {
     return {YAML::Load(text), "", 1, &source};
+  } catch (const YAML::DeepRecursion& error) {
+    source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
   } catch (const YAML::Exception& error) {
     source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
   }
