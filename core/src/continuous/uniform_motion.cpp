@@ -30,7 +30,7 @@ UniformMotion::UniformMotion(const Isometry3d& start, const Vector3d& turn,
       rotation_(start.linear()),
       position_(start * reference),
       displacement_(displacement),
-      axis_(turn.stableNormalized()),
+      axis_(turn.isZero(0.0) ? Vector3d(Vector3d::Zero()) : turn.stableNormalized()),
       angle_(turn.stableNorm()) {}
 
 UniformMotion UniformMotion::still(const Isometry3d& pose) {

@@ -64,8 +64,9 @@ int argMax(Points points, const Key& key) {
 /// Four points that spread as far as a quick look tells.
 struct Spread {
   std::array<int, 4> corners;
-  Eigen::Vector3d axis;    ///< from the first to the second
-  Eigen::Vector3d normal;  ///< unit, of the first three; not finite when these are collinear
+  Eigen::Vector3d axis;  ///< from the first to the second
+  /// Unit, of the first three; zero when these are on a line.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double width = 0.0;      ///< distance of the third from the line of the first two
   double thickness = 0.0;  ///< distance of the fourth from the plane of the first three
 
@@ -84,8 +85,10 @@ struct Spread {
     corners[2] = argMax(
         points, [&](const Eigen::Vector3d& p) { return axis.cross(p - origin).squaredNorm(); });
     const Eigen::Vector3d across = axis.cross(points[corners[2]] - origin);
-    width = across.norm() / axis.norm();
-    normal = across / across.norm();
+    const double area = across.norm();
+    if (area == 0.0) return;  // one point, or points on a line
+    width = area / axis.norm();
+    normal = across / area;
     corners[3] =
         argMax(points, [&](const Eigen::Vector3d& p) { return std::abs(normal.dot(p - origin)); });
     thickness = std::abs(normal.dot(points[corners[3]] - origin));

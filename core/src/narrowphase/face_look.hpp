@@ -60,10 +60,12 @@ Look look(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
     if (found.separation > look.separation) {
       note(found, look);
       look.normal = -(a_from_b.linear() * look.normal);
-      look.gap.normal = look.normal;
-      std::swap(look.gap.pointA, look.gap.pointB);
-      look.gap.pointA = a_from_b * look.gap.pointA;
-      look.gap.pointB = a_from_b * look.gap.pointB;
+      if (look.exact) {
+        look.gap.normal = look.normal;
+        std::swap(look.gap.pointA, look.gap.pointB);
+        look.gap.pointA = a_from_b * look.gap.pointA;
+        look.gap.pointB = a_from_b * look.gap.pointB;
+      }
     }
   }
   look.gap.rounding = pairRounding(a, b, a_from_b);

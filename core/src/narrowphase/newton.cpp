@@ -180,7 +180,9 @@ bool edgeAndSpot(const Frames& f, const Vector3d& normal, const Spots& spots, do
     const Vector3d n = spread * u + edge.lean * edge.axis;
     const Placed placed = place(f.first, edge, u);
     const Vector3d w = f.onOther(n) - placed.start;
-    const double along = std::clamp(w.dot(placed.vector) / placed.vector.squaredNorm(), 0.0, 1.0);
+    const double square = placed.vector.squaredNorm();
+    if (square == 0.0) return false;
+    const double along = std::clamp(w.dot(placed.vector) / square, 0.0, 1.0);
     const Vector3d onEdge = along * placed.vector;
     const double separation = n.dot(w + placed.start - f.first.support(n));
     if (finish(separation, n, placed.start + onEdge, w - onEdge, tolerance, gap)) return true;

@@ -45,6 +45,7 @@ bool insideEdges(const Vector3d& start, const Vector3d& edge, const Vector3d& ot
   const Vector3d rise = across(otherEdge, edge);
   const Vector3d offset = otherStart - start;
   const double height = rise.squaredNorm();
+  if (height == 0.0) return false;  // parallel
   const double t = -offset.dot(rise) / height;
   if (!(t > 0.0 && t < 1.0)) return false;
   onOther = otherStart + t * otherEdge;
@@ -66,7 +67,9 @@ bool insideFace(const Vector3d& point, const std::array<Vector3d, 3>& corners,
   const Vector3d side = -edges[(k + 2) % 3];
   const Vector3d rise = across(side, base);
   const double length = base.squaredNorm();
-  const double top = (point - corners[k]).dot(rise) / rise.squaredNorm();
+  const double height = rise.squaredNorm();
+  if (height == 0.0) return false;  // a triangle without area
+  const double top = (point - corners[k]).dot(rise) / height;
   if (!(top >= 0.0 && top <= 1.0)) return false;
   const Vector3d level = corners[k] + top * side;
   const double along = (point - level).dot(base) / length;
