@@ -334,6 +334,17 @@ TEST(Checker, MisuseIsAnError) {
   options.reference = Eigen::VectorXd::Zero(2);
   EXPECT_EQ(message([&] { Checker(robot, "all", world, options); }),
             "Checker: the reference has 2 values, the robot 3 variables");
+  options.reference.reset();
+  options.maxPairs = 7;
+  EXPECT_EQ(message([&] { Checker(robot, "all", clutter(1), options); }),
+            "Checker: more than 7 pairs of bodies to check: the group has 6 shapes, the world 8");
+  options.maxPairs = 50;
+  auto balls = std::make_shared<World>();
+  swept::WorldBody many{.name = "balls"};
+  for (int i = 0; i < 20; ++i) many.parts.push_back({swept::Sphere{0.01}, at(0.02 * i, 0.5, 0.5)});
+  balls->add(many);
+  EXPECT_EQ(message([&] { Checker(robot, "all", balls, options); }),
+            "Checker: more than 50 pairs of shapes to check: the group has 6 shapes, the world 20");
   const Checker checker(robot, "all", world);
   Workspace workspace(checker);
   const std::vector<double> tooShort{0.0};

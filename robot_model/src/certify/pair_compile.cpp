@@ -58,6 +58,17 @@ class PairCompiler {
     }
   }
 
+  template <typename Pair>
+  void add(const Pair& pair, std::vector<Pair>& pairs, const char* what) const {
+    if (pairs.size() == model_.options.maxPairs) {
+      throw std::invalid_argument(
+          "Checker: more than " + std::to_string(model_.options.maxPairs) + " pairs of " + what +
+          " to check: the group has " + std::to_string(model_.robotGeometry.size()) +
+          " shapes, the world " + std::to_string(model_.worldGeometry.size()));
+    }
+    pairs.push_back(pair);
+  }
+
   double marginOf(const std::string& a, double paddingA, const std::string& b,
                   double paddingB) const {
     if (rules_.empty()) return model_.options.margin;
@@ -114,7 +125,7 @@ class PairCompiler {
           pair.reason = PairReason::Allowed;
         else
           pair.reason = carrier.body == 0 ? PairReason::Unmoved : PairReason::OutOfReach;
-        model_.bodyPairs.push_back(pair);
+        add(pair, model_.bodyPairs, "bodies");
       }
       for (int i = firstOf_[c]; i < firstOf_[c + 1]; ++i)
         for (std::size_t j = 0; j < model_.worldGeometry.size(); ++j)
@@ -149,7 +160,7 @@ class PairCompiler {
     pair.travelA = travelSlot(a, 0);
     pair.rounding = rounding(robot.levers.reach + world.magnitude, robot.levers.path.size());
     pair.margin = bodies.margin;
-    model_.pairs.push_back(pair);
+    add(pair, model_.pairs, "shapes");
   }
 
   int lastCommonAncestor(int a, int b) const {
@@ -182,8 +193,8 @@ class PairCompiler {
       const std::size_t base = model_.bodyPairs.size();
       for (std::size_t b = a + 1; b < count && firstOf_[a] < firstOf_[a + 1]; ++b)
         if (firstOf_[b] < firstOf_[b + 1])
-          model_.bodyPairs.push_back(
-              carrierPair(static_cast<int>(a), static_cast<int>(b), disabled));
+          add(carrierPair(static_cast<int>(a), static_cast<int>(b), disabled), model_.bodyPairs,
+              "bodies");
       for (int i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
         for (std::size_t k = base; k < model_.bodyPairs.size(); ++k)
           for (int j = firstOf_[model_.bodyPairs[k].b]; j < firstOf_[model_.bodyPairs[k].b + 1];
@@ -231,7 +242,7 @@ class PairCompiler {
     pair.rounding =
         rounding(a.levers.reach + b.levers.reach, a.levers.path.size() + b.levers.path.size());
     pair.margin = bodies.margin;
-    model_.pairs.push_back(pair);
+    add(pair, model_.pairs, "shapes");
   }
 
   CheckerModel& model_;

@@ -36,6 +36,8 @@ struct CheckerOptions {
   std::optional<Eigen::VectorXd> reference = {};
   /// Cap on the intervals examined per motion; a motion that needs more is Undecided.
   int maxIntervals = tolerance::kMaxIntervals;
+  /// Cap on the pairs of shapes that are checked, some 300 bytes each, and on the pairs of bodies.
+  std::size_t maxPairs = 10'000'000;
   CollisionRules rules = {};
   std::vector<AttachedBody> attached = {};
 };
@@ -144,9 +146,9 @@ class Workspace {
 class Checker {
  public:
   /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin or
-  /// tolerance, a reference of the wrong size, a rule that names a body that is not there, and an
+  /// tolerance, a reference of the wrong size, a rule that names a body that is not there, an
   /// attached body whose link or touch link is not there, whose name is taken, or with a shape or
-  /// pose that AttachedBody does not allow.
+  /// pose that AttachedBody does not allow, and for more pairs than CheckerOptions::maxPairs.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
