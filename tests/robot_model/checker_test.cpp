@@ -183,6 +183,30 @@ TEST(Checker, TheMarginIsKeptAndItsViolationWitnessed) {
   EXPECT_EQ(report.nearestB, "obstacle");
 }
 
+TEST(Checker, StatesAreDecidedNextToTheMargin) {
+  const auto world = clutter(3);
+  const Checker checker = makeChecker(kArm, world);
+  Workspace workspace(checker);
+  std::mt19937 engine(8);
+  std::uniform_real_distribution<double> value(-2.0, 2.0);
+  int seen = 0;
+  for (int i = 0; i < 24; ++i) {
+    const std::vector<double> q{value(engine), value(engine), 0.1};
+    const double clearance = checker.clearance(q, workspace);
+    if (!(clearance > 0.001)) continue;
+    ++seen;
+    constexpr double kStep = 1e-7;  // m
+    CheckerOptions options;
+    for (const double side : {-kStep, kStep}) {
+      options.margin = clearance + side;
+      const Checker near = makeChecker(kArm, world, options);
+      Workspace own(near);
+      EXPECT_EQ(near.checkState(q, own), side < 0.0 ? Verdict::Free : Verdict::Collision) << i;
+    }
+  }
+  EXPECT_GT(seen, 8);
+}
+
 TEST(Checker, SaysWhatItChecksAndWhatItLeavesOut) {
   auto world = std::make_shared<World>();
   world->add("near", swept::Sphere{0.1}, at(0.5, 0.5, 0.0));

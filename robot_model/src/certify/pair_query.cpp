@@ -219,7 +219,8 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   SeparationQuery query;
   query.approach = bound;
   query.contact = pair.margin;
-  query.tolerance = kQueryShare * model_.options.tolerance;
+  // A state cannot be divided: what is left open there stays so.
+  query.tolerance = half > 0.0 ? kQueryShare * model_.options.tolerance : tolerance::kDistance;
   query.guess = hint(index);
   query.thorough = answer.travel <= model_.options.tolerance;
   const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
