@@ -129,6 +129,7 @@ Answer judgeClearance(const StiffSample& sample, swept::Workspace& workspace) {
   const Real truth = std::max(Real(0), sample.least);
   const double slack = slackOf(sample);
   answer.apart = sample.least > 0;
+  answer.work = found.intervals;
   answer.error = abs(Real(found.upper) - truth).convert_to<double>() / sample.reach;
   answer.bound = (found.upper - found.lower) / sample.reach;
   const Real attained = std::max(Real(0), sample.distance(found.t));
@@ -213,7 +214,8 @@ void measure(const StiffCase& from, std::vector<Row>& rows) {
   Row state = rowOf("checkState", from, false);
   state.hasBound = false;
   Row motion = rowOf("certifyMotion", from, true);
-  Row clearance = rowOf("motionClearance", from, false);
+  Row clearance = rowOf("motionClearance", from, true);
+  if (from.clearanceLimit > 0.0) clearance.workLimit = from.clearanceLimit;
   Row spin = rowOf("continuousCollide", from, true);
   // Without the ceiling more of them are free.
   spin.bothSides = false;

@@ -43,6 +43,7 @@ struct StiffCase {
   double workLimit;
   std::function<StiffSample(Random& random, int i)> draw;
   bool bothSides = true;
+  double clearanceLimit = 0.0;  ///< of motionClearance instead of workLimit; 0: the same
 };
 
 /// A joint of a chain, and what is between it and the one before.

@@ -376,6 +376,33 @@ TEST(Checker, MisuseIsAnError) {
             "Checker: a configuration of group 'all' has 3 values, not 1");
 }
 
+/// A plate 0.1 m above the floor that slides, or turns about an axis beside it.
+std::string plateOn(const std::string& joint) {
+  return R"(<robot name="plate"><link name="base"/><link name="plate"><collision>
+    <origin xyz="0.4 0 0.15"/><geometry><box size="0.3 0.2 0.1"/></geometry></collision></link>
+    <joint name="j" type=")" +
+         joint + R"("><parent link="base"/><child link="plate"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>)";
+}
+
+TEST(Checker, WhatSlidesAlongAnotherKeepsItsClearanceInFewIntervals) {
+  const auto floor = worldOf(swept::Box{Vector3d(4.0, 4.0, 0.5)}, at(0.0, 0.0, -0.5));
+  std::string slide = plateOn("prismatic");
+  slide.replace(slide.find("0 0 1\"/><limit"), 5, "1 0 0");
+  for (const auto& [urdf, most] : {std::pair(slide, 60), std::pair(plateOn("revolute"), 20'000)}) {
+    const Checker checker = makeChecker(urdf.c_str(), floor);
+    Workspace workspace(checker);
+    const std::vector<double> from{-1.5};
+    const std::vector<double> to{1.5};
+    constexpr double kAccuracy = 1e-8;
+    const auto found = checker.motionClearance(from, to, kAccuracy, workspace);
+    EXPECT_LE(found.lower, 0.1);
+    EXPECT_NEAR(found.upper, 0.1, 1e-12);
+    EXPECT_LE(found.upper - found.lower, kAccuracy);
+    EXPECT_LE(found.intervals, most) << urdf;
+  }
+}
+
 TEST(Checker, TheCapOnIntervalsEndsInUndecided) {
   CheckerOptions options;
   options.maxIntervals = 3;

@@ -11,7 +11,9 @@ namespace {
 
 /// Branch and bound over intervals and pairs. Distances at the middles give upper bounds; less what
 /// the pair can approach within the interval, lower ones. Whatever cannot be below the best upper
-/// bound by more than the accuracy is dropped.
+/// bound by more than the accuracy is dropped. What a pair can approach along the direction in
+/// which it is nearest is the better bound where it moves across that, as bodies do that slide
+/// along others.
 class ClearanceSearch {
  public:
   ClearanceSearch(const CheckerModel& model, double accuracy, WorkspaceData& workspace)
@@ -21,7 +23,7 @@ class ClearanceSearch {
   }
 
   MotionClearance run(std::span<const double> from, std::span<const double> to) {
-    if (!query_.start(from, to)) return {0.0, 0.0, 0.0};
+    if (!query_.start(from, to)) return {};
     auto& now = workspace_.generation;
     auto& next = workspace_.nextGeneration;
     workspace_.arena.resize(model_.pairs.size());
@@ -43,7 +45,7 @@ class ClearanceSearch {
     const double middle = 0.5 * (interval.begin + interval.end);
     const double half = 0.5 * (interval.end - interval.begin);
     query_.moveTo(middle);
-    const bool last = ++intervals_ >= model_.options.maxIntervals;
+    const bool last = ++found_.intervals >= model_.options.maxIntervals;
     const std::size_t first = workspace_.nextArena.size();
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
       const double bound = boundPair(workspace_.arena[i], middle, half);
@@ -75,7 +77,11 @@ class ClearanceSearch {
       found_.upper = distance.upper;
       found_.t = middle;
     }
-    return distance.lower - travel;
+    const double lower = distance.lower - travel;
+    const double wanted = found_.upper - slack();
+    if (lower >= wanted || !(wanted > 0.0)) return lower;
+    const bool stays = query_.staysBeyond(index, half, wanted, distance, 0.25 * slack());
+    return stays ? wanted : lower;
   }
 
   const CheckerModel& model_;
@@ -83,7 +89,6 @@ class ClearanceSearch {
   PairQuery query_;
   double accuracy_;
   MotionClearance found_;
-  int intervals_ = 0;
 };
 
 }  // namespace
@@ -100,6 +105,7 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
       all.t = part.timeOf(own.t);
     }
     all.lower = std::min(all.lower, own.lower);
+    all.intervals += own.intervals;
     return all.upper > 0.0;
   });
   return all;

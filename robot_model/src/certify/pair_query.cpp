@@ -194,15 +194,20 @@ void PairQuery::relativeMotion(const GeometryPair& pair, double half,
   bound.ballB = {a_from_world * (center(pair.b) - world_from_a.translation()), b.radius};
 }
 
-PairAnswer PairQuery::prove(std::uint32_t index, double half) {
-  const GeometryPair& pair = model_.pairs[index];
-  PairAnswer answer;
+ApproachBound PairQuery::approach(const GeometryPair& pair, double half, double separation) {
   ApproachBound bound;
   bound.travel = travel(pair, half);
   double acceleration = this->bound(pair.travelA).acceleration;
   if (pair.travelB >= 0) acceleration += this->bound(pair.travelB).acceleration;
   bound.curvature = 0.5 * half * half * acceleration * (1.0 + kVelocityRounding);
-  bound.required = pair.margin + rounding(pair) + kVelocityRounding * bound.travel;
+  bound.required = separation + rounding(pair) + kVelocityRounding * bound.travel;
+  return bound;
+}
+
+PairAnswer PairQuery::prove(std::uint32_t index, double half) {
+  const GeometryPair& pair = model_.pairs[index];
+  PairAnswer answer;
+  ApproachBound bound = approach(pair, half, pair.margin);
   const Vector3d velocity = half * relativeVelocity(pair);
   answer.travel = bound.travel;
   const Coarse coarse = compareBounds(pair, bound, velocity, answer.normal);
@@ -247,6 +252,25 @@ PairDistance PairQuery::measure(std::uint32_t index, double enough, double accur
   result.pointA = world_from_a * found.pointA;
   result.pointB = world_from_a * found.pointB;
   return result;
+}
+
+bool PairQuery::staysBeyond(std::uint32_t index, double half, double distance,
+                            const PairDistance& now, double accuracy) {
+  const GeometryPair& pair = model_.pairs[index];
+  const Isometry3d& world_from_a = pose(pair.a);
+  const Vector3d across = world_from_a.linear().transpose() * (now.pointB - now.pointA);
+  const double length = across.norm();
+  if (!(length > 0.0)) return false;
+  SeparationQuery query;
+  query.approach = approach(pair, half, distance);
+  relativeMotion(pair, half, world_from_a, half * relativeVelocity(pair), query.approach);
+  query.guess = across / length;
+  query.tolerance = accuracy;
+  // Between convex shapes no direction is better than the one in which they are nearest.
+  if (!(now.lower + accuracy > query.approach.along(query.guess))) return false;
+  const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
+                                           world_from_a.inverse() * poseOfB(pair), query);
+  return result.status == Separation::Separated;
 }
 
 SignedClearance PairQuery::measureSigned(std::uint32_t index, double accuracy) {

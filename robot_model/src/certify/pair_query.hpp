@@ -43,6 +43,10 @@ class PairQuery {
   PairDistance measure(std::uint32_t pair, double enough, double accuracy);
   /// The same, negative where they overlap; see signedDistance().
   SignedClearance measureSigned(std::uint32_t pair, double accuracy);
+  /// Whether the pair stays farther apart than `distance` (m) on [t - half, t + half], `now` being
+  /// its distance at t. False: not proven.
+  bool staysBeyond(std::uint32_t pair, double half, double distance, const PairDistance& now,
+                   double accuracy);
   /// m per unit of t, model frame: of a point of b past a point of a, both m, model frame, at t.
   Eigen::Vector3d velocity(std::uint32_t pair, const Eigen::Vector3d& pointA,
                            const Eigen::Vector3d& pointB);
@@ -78,6 +82,8 @@ class PairQuery {
   Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
                        const Eigen::Vector3d& relativeVelocity, Eigen::Vector3d& towards);
   Eigen::Vector3d relativeVelocity(const GeometryPair& pair);
+  /// Without directions, which relativeMotion() adds. `separation` in m.
+  ApproachBound approach(const GeometryPair& pair, double half, double separation);
   void relativeMotion(const GeometryPair& pair, double half, const Eigen::Isometry3d& world_from_a,
                       const Eigen::Vector3d& velocity, ApproachBound& bound);
   const Shape& shapeOfB(const GeometryPair& pair) const;

@@ -95,6 +95,7 @@ struct MotionClearance {
   double lower = 0.0;  ///< m, proven for every t
   double upper = 0.0;  ///< m, attained at t
   double t = 0.0;
+  int intervals = 0;  ///< examined
 };
 
 /// Signed distance of the checked pair that is nearest or, where some overlap, deepest in each
