@@ -24,7 +24,8 @@ std::string commas(const std::vector<double>& values) {
 
 }  // namespace
 
-void Judge::motion(const State& from, const State& to, const MotionCertificate& certificate) {
+void Judge::motion(const State& from, const State& to, const MotionCertificate& certificate,
+                   swept::MotionQuery query) {
   from_ = &from;
   to_ = &to;
   ++report_.motions;
@@ -44,7 +45,7 @@ void Judge::motion(const State& from, const State& to, const MotionCertificate& 
   if (certificate.witness.has_value() != (certificate.verdict == Verdict::Collision))
     fail("a witness is there exactly when the verdict is collision");
   provenPrefix(free ? 1.0 : certificate.freeUntil, free);
-  if (!free) stop(certificate.freeUntil);
+  if (!free && query == swept::MotionQuery::FirstContact) stop(certificate.freeUntil);
   if (certificate.verdict == Verdict::Undecided) grazes(certificate.undecidedAt);
   if (certificate.witness) witness(certificate);
 }

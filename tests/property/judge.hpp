@@ -19,7 +19,9 @@ class Judge {
         margin_(scenario.checker->options().margin),
         tolerance_(scenario.checker->options().tolerance) {}
 
-  void motion(const State& from, const State& to, const swept::MotionCertificate& certificate);
+  /// `query` is what was asked: where a proven prefix ends is held against FirstContact only.
+  void motion(const State& from, const State& to, const swept::MotionCertificate& certificate,
+              swept::MotionQuery query = swept::MotionQuery::FirstContact);
 
   /// No answer depends on what the workspace was used for, nor on how much was asked. `a` and `b`
   /// are the ends of the last motion as configurations of the group.

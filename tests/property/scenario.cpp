@@ -80,12 +80,10 @@ Scenario loadScenario(const ScenarioFiles& files, const swept::CheckerOptions& o
   return s;
 }
 
-Scenario clutterScenario(const ScenarioFiles& files, std::uint64_t seed,
-                         const swept::CheckerOptions& options) {
+Clutter makeClutter(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> size(0.03, 0.14);
-  auto world = std::make_shared<swept::World>();
-  std::vector<oracle::Body> bodies;
+  Clutter clutter;
   for (int i = 0; i < 20; ++i) {
     swept::WorldBody body;
     oracle::Body twin;
@@ -116,10 +114,17 @@ Scenario clutterScenario(const ScenarioFiles& files, std::uint64_t seed,
       else
         add(swept::TriangleMesh::build(corners, triangles), std::move(piece));
     }
-    world->add(std::move(body));
-    bodies.push_back(std::move(twin));
+    clutter.world.add(std::move(body));
+    clutter.twins.push_back(std::move(twin));
   }
-  Scenario s = assemble(files, world, std::move(bodies), options);
+  return clutter;
+}
+
+Scenario clutterScenario(const ScenarioFiles& files, std::uint64_t seed,
+                         const swept::CheckerOptions& options) {
+  Clutter clutter = makeClutter(seed);
+  Scenario s = assemble(files, std::make_shared<const swept::World>(std::move(clutter.world)),
+                        std::move(clutter.twins), options);
   s.worldArguments = "--clutter " + std::to_string(seed);
   s.onlyHere = true;
   return s;

@@ -36,6 +36,13 @@ struct ScenarioFiles {
 
 Scenario loadScenario(const ScenarioFiles& files, const swept::CheckerOptions& options = {});
 
-/// A world of random solids of every shape, the same for both, some of them compound.
+/// A world of random solids of every shape, the same for both, some of them compound. The names do
+/// not depend on the seed: `clutter0`, `clutter1`, ...
+struct Clutter {
+  swept::World world;
+  std::vector<oracle::Body> twins;
+};
+Clutter makeClutter(std::uint64_t seed);
+
 Scenario clutterScenario(const ScenarioFiles& files, std::uint64_t seed,
                          const swept::CheckerOptions& options = {});
