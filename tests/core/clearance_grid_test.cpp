@@ -107,6 +107,35 @@ TEST(ClearanceGrid, NeverSaysMoreFromFarAway) {
   }
 }
 
+/// Where the bound has least to spare: a point in the corner of its cell that is next to the shape,
+/// and the shape in the corner of a cell that is next to the point.
+TEST(ClearanceGrid, NeverSaysMoreFromCornerToCorner) {
+  constexpr double kWithin = 1.0 - 1e-6;  // of the way from the middle of a cell
+  std::vector<Vector3d> points{Vector3d::Zero(), Vector3d(4.0, 4.1, 4.2)};
+  const ClearanceGridOptions options{.window = ClearanceGridOptions().window, .cells = 60'000};
+  const ClearanceGrid frame = ClearanceGrid::build(PointCloud::build(points, 0.0), options);
+  const double side = 2.0 * frame.voxel();
+  const Vector3d middle =
+      frame.box().lower + side * Vector3d(20.5, 20.5, 20.5);  // of a cell in the middle of the box
+  ASSERT_TRUE((frame.box().upper - middle).minCoeff() > 15.0 * side);
+  points.emplace_back();
+  for (int i = 0; i < 27; ++i) {
+    if (i == 13) continue;
+    const Vector3d towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const Vector3d p = middle + 0.5 * kWithin * side * towards;
+    for (int cells = 2; cells < 10; ++cells) {
+      points.back() = middle + (cells - 0.5 * kWithin) * side * towards;
+      const ClearanceGrid grid = ClearanceGrid::build(PointCloud::build(points, 0.0), options);
+      ASSERT_EQ(grid.box().lower, frame.box().lower);
+      ASSERT_EQ(grid.voxel(), frame.voxel());
+      const double exact = (points.back() - p).norm();
+      ASSERT_LE(grid.clearance(p), exact) << towards.transpose() << ", " << cells << " cells";
+      ASSERT_FALSE(grid.isFarther(p, exact)) << towards.transpose() << ", " << cells << " cells";
+      EXPECT_GT(grid.clearance(p), 0.0);
+    }
+  }
+}
+
 /// Where an ulp is larger than a voxel, roundings are all that is between the bound and the truth.
 TEST(ClearanceGrid, CountsRoundingsOfLargeCoordinates) {
   std::mt19937 random(3);

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Breaks the library on purpose, one place at a time, and sees whether a test notices. See README.md."""
+
+import argparse
+import pathlib
+import re
+import sys
+import time
+
+from mutations import Malformed, read_all
+from report import append_result, print_report, read_results, result_of, succeeded
+from work_tree import Failed, WorkTree
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
+
+
+def regex(text):
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a regular expression: {error}")
+
+
+def positive(text):
+    if not text.isdigit() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
+    return int(text)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--list", action="store_true", help="print the mutations and end")
+    what.add_argument("--check", action="store_true", help="only see that each mutation fits the tree once")
+    what.add_argument("--report", metavar="RESULTS", help="print the table of these results and end")
+    parser.add_argument("--only", type=regex, metavar="REGEX", help="mutations whose COMPONENT/NAME has this in it")
+    parser.add_argument("--work", metavar="DIR", help="folder for the copy of the tree, kept between runs")
+    parser.add_argument("--results", metavar="FILE",
+                        help="appended to; what is in it is not run again (default: results.jsonl in --work)")
+    parser.add_argument("--again", action="store_true", help="run also what is in the results")
+    parser.add_argument("--named", action="store_true",
+                        help="run only the tests that a mutation names, and leave what these do not notice open")
+    parser.add_argument("-j", type=positive, default=2, metavar="N", help="jobs of builds and tests (default: 2)")
+    parser.add_argument("--timeout", type=positive, default=300, metavar="S",
+                        help="s, after which a test without a limit of its own does not end (default: 300)")
+    options = parser.parse_args()
+    if not (options.list or options.check or options.report or options.work):
+        parser.error("--work is needed: a folder for the copy of the tree")
+    if options.report and not pathlib.Path(options.report).is_file():
+        parser.error(f"--report: no file '{options.report}'")
+    return options
+
+
+def faults(mutations):
+    """Prints what does not fit the tree; their number."""
+    count = 0
+    for mutation in mutations:
+        fault = mutation.fault(SOURCE)
+        if fault:
+            print(f"{mutation.where}: {mutation.name}: {fault}", file=sys.stderr)
+            count += 1
+    return count
+
+
+def judge(work, mutation, named_only):
+    """Outcome, and the test that decided it. No outcome: the tests that it names do not notice."""
+    first = work.matching(mutation.tests)
+    if not work.build(first):
+        return "does not compile", None
+    failure = work.first_failure(first)
+    if failure is None:
+        if named_only:
+            return None, None
+        if not work.build():
+            return "does not compile", None
+        failure = work.first_failure([name for name in work.tests if name not in first])
+    if failure is None:
+        return "survived", None
+    return ("does not end" if failure.timed_out else "caught"), failure.test
+
+
+def try_one(work, mutation, named_only):
+    begin = time.monotonic()
+    work.mutate(mutation)
+    try:
+        outcome, test = judge(work, mutation, named_only)
+    finally:
+        work.restore(mutation)
+    return {"mutation": mutation.name, "digest": mutation.digest(), "outcome": outcome, "by": test,
+            "seconds": round(time.monotonic() - begin)}
+
+
+def prepare(work, mutations):
+    """Builds and runs, without a mutation, what the mutations name."""
+    work.lock()
+    work.sync()
+    work.configure()
+    named = set()
+    for mutation in mutations:
+        first = work.matching(mutation.tests)
+        if not first:
+            raise Failed(f"{mutation.where}: {mutation.name}: no test matches '{mutation.tests}'")
+        named.update(first)
+    work.require_passing(sorted(named))
+
+
+def campaign(options, mutations):
+    results_file = options.results or pathlib.Path(options.work) / "results.jsonl"
+    results = read_results(results_file)
+    open_ones = [m for m in mutations if options.again or result_of(m, results) is None]
+    work = WorkTree(SOURCE, options.work, options.j, options.timeout)
+    if open_ones:
+        prepare(work, open_ones)
+    for number, mutation in enumerate(open_ones, 1):
+        result = try_one(work, mutation, options.named)
+        # Worth something only if the test that fails, or all of them, pass without it.
+        if result["outcome"] == "survived":
+            work.require_passing(sorted(work.tests))
+        elif result["by"]:
+            work.require_passing([result["by"]])
+        if result["outcome"]:
+            append_result(results_file, result)
+        print(f"{number}/{len(open_ones)} {mutation.name}: {result['outcome'] or 'left open'} {result['by'] or ''}"
+              f" ({result['seconds']} s)", flush=True)
+    results = read_results(results_file)
+    print_report(mutations, results)
+    return 0 if succeeded(mutations, results) else 1
+
+
+def main():
+    options = arguments()
+    mutations = read_all(HERE / "mutations")
+    if options.only:
+        mutations = [m for m in mutations if options.only.search(f"{m.component}/{m.name}")]
+        if not mutations:
+            raise Failed(f"--only '{options.only.pattern}': no mutation has this in COMPONENT/NAME, see --list")
+    if options.list:
+        for mutation in mutations:
+            print(f"{mutation.component}/{mutation.name}  {mutation.file}  {mutation.why}")
+        return 0
+    if options.report:
+        results = read_results(options.report)
+        print_report(mutations, results)
+        return 0 if succeeded(mutations, results) else 1
+    if faults(mutations):
+        return 1
+    if options.check:
+        print(f"{len(mutations)} mutations fit the tree")
+        return 0
+    return campaign(options, mutations)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (Malformed, Failed) as error:
+        print(f"mutate.py: error: {error}", file=sys.stderr)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        sys.exit(130)
