@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Fuzzes each target from its corpus, as many at once as there are processors, and prints a line for
+# each: inputs run, edges covered, inputs kept because they cover more, finds. Exit code 1: there are
+# finds, which are in build/fuzz/finds.
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
+build="$root/build/fuzz"
+
+usage() {
+  echo "usage: tests/fuzz/run.sh [--seconds N] [TARGET ...]"
+  echo "Targets: $(targets | tr '\n' ' ')"
+  echo "Without targets: all of them. Seconds: of each target, 60 without."
+}
+
+targets() {
+  (cd "$root/tests/fuzz" && ls -- *_fuzz.cpp | sed 's/_fuzz\.cpp$//')
+}
+
+# What libFuzzer says of the run: fuzz_one TARGET.
+fuzz_one() {
+  local target="$1" log="$build/logs/$1.log"
+  local found="$build/found/$target" finds="$build/finds/$target"
+  mkdir -p "$build/logs" "$found" "$finds"
+  # Reading a mesh waits for a process: up to its limit of wall time.
+  "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 \
+    -print_final_stats=1 -artifact_prefix="$finds/" "$found" "$root/tests/fuzz/corpus/$target" \
+    >"$log" 2>&1 || true
+  awk -v target="$target" -v finds="$(find "$finds" -type f | wc -l)" '
+    / cov: / { for (i = 1; i < NF; i++) if ($i == "cov:") cover = $(i + 1) }
+    /^stat::number_of_executed_units/ { runs = $2 }
+    /^stat::new_units_added/ { kept = $2 }
+    END {
+      if (runs == "") { print target ": did not end as it should, see its log"; exit }
+      printf "%-14s %10d inputs, %5d edges, %5d kept, %d finds\n", target, runs, cover, kept, finds
+    }' "$log"
+}
+
+seconds=60
+wanted=()
+while (($# > 0)); do
+  case "$1" in
+    --seconds)
+      seconds="${2:-}"
+      if ! [[ "$seconds" =~ ^[1-9][0-9]*$ ]]; then
+        echo "error: --seconds is '$seconds'; it must be a whole number from 1" >&2
+        exit 2
+      fi
+      shift 2
+      ;;
+    -h | --help) usage && exit 0 ;;
+    *)
+      if ! targets | grep -qx -- "$1"; then
+        echo "error: no target '$1'; there are: $(targets | tr '\n' ' ')" >&2
+        exit 2
+      fi
+      wanted+=("$1")
+      shift
+      ;;
+  esac
+done
+if ((${#wanted[@]} == 0)); then mapfile -t wanted < <(targets); fi
+
+(cd "$root" && cmake --preset fuzz >/dev/null &&
+  cmake --build --preset fuzz --parallel "$(nproc)" --target "${wanted[@]/%/_fuzz}" >/dev/null)
+export -f fuzz_one
+export root build seconds
+printf '%s\n' "${wanted[@]}" | xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'fuzz_one {}' |
+  tee "$build/summary.txt"
+if grep -qv ' 0 finds$' "$build/summary.txt"; then
+  echo "error: finds are in $build/finds, what was printed in $build/logs" >&2
+  exit 1
+fi
