@@ -36,7 +36,9 @@ def new_browser():
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.chrome.service.Service(shutil.which("chromedriver"))
-    return webdriver.Chrome(service=service, options=options)
+    browser = webdriver.Chrome(service=service, options=options)
+    browser.set_script_timeout(120)  # s; a busy machine draws slowly
+    return browser
 
 
 class BrowserTest(unittest.TestCase):
