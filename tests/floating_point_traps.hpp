@@ -17,15 +17,6 @@ class FloatingPointTraps {
   FloatingPointTraps(const FloatingPointTraps&) = delete;
   FloatingPointTraps& operator=(const FloatingPointTraps&) = delete;
 
-  /// Clang computes what is not asked for yet, such as both sides of a condition.
-  static constexpr bool areExact() {
-#ifdef __clang__
-    return false;
-#else
-    return true;
-#endif
-  }
-
  private:
   static constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 };

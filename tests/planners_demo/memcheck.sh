@@ -19,7 +19,7 @@ bad=0
 expect() {
   local expected="$1" status=0
   shift
-  # oneTBB keeps what its threads have until the end, and assimp's importers hold on to some.
+  # What is lost, and not what libraries keep until the end.
   valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=definite \
     --errors-for-leak-kinds=definite "$swept" "$@" >"$folder/out" 2>"$folder/err" || status=$?
   if ((status == expected)); then
