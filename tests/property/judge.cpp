@@ -15,14 +15,14 @@ constexpr double kNear = 5e-3;     // m, closer than this is grazing
 constexpr double kWitness = 1e-6;  // m, how far a witness point may be off
 constexpr double kFar = 0.02;      // m, clearances beyond this are all alike
 
+}  // namespace
+
 std::string commas(const std::vector<double>& values) {
   std::ostringstream out;
   out << std::setprecision(17);
   for (size_t i = 0; i < values.size(); ++i) out << (i ? "," : "") << values[i];
   return out.str();
 }
-
-}  // namespace
 
 void Judge::motion(const State& from, const State& to, const MotionCertificate& certificate,
                    swept::MotionQuery query) {

@@ -6,6 +6,9 @@
 
 #include "refuter.hpp"
 
+/// As on a command line, to the last bit.
+std::string commas(const std::vector<double>& values);
+
 /// Holds the checker's answers about motions against the oracle; what does not fit goes into the
 /// report. Motions are pairs of full states of the oracle.
 class Judge {

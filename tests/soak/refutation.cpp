@@ -18,13 +18,6 @@ constexpr double kTouch = 1e-6;  // m: so close, the oracle calls it contact
 constexpr double kFar = 0.01;    // m: distances beyond the margin and this are all alike
 constexpr int kRebuilt = 16;     // one sample in so many is asked in a checker made anew
 
-std::string commas(const std::vector<double>& values) {
-  std::ostringstream out;
-  out << std::setprecision(17);
-  for (std::size_t i = 0; i < values.size(); ++i) out << (i ? "," : "") << values[i];
-  return out.str();
-}
-
 bool same(const swept::Witness& a, const swept::Witness& b) {
   return a.t == b.t && a.bodyA == b.bodyA && a.bodyB == b.bodyB && a.pointA == b.pointA &&
          a.pointB == b.pointB && a.distance == b.distance;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "models.hpp"
 #include "worker.hpp"
 
 namespace soak {
@@ -103,22 +104,9 @@ std::vector<std::unique_ptr<Stage>> makeStages(const Options& options) {
     stages.push_back(std::make_unique<Stage>(options.files, options.seed, options.margin));
     return stages;
   }
-  struct Model {
-    const char *name, *group;
-    double margin;  // m
-  };
-  // Between them every joint type, and one margin.
-  constexpr Model kModels[] = {{"rook7", "arm_with_gripper", 0.0},
-                               {"rook6", "arm", 0.005},
-                               {"rook6_cart", "whole_body", 0.0},
-                               {"drifter", "body", 0.0}};
   for (const Model& model : kModels) {
-    const auto folder = std::filesystem::path(SWEPT_MODELS_DIR) / "robots" / model.name;
-    ScenarioFiles files;
-    files.robot = folder / (std::string(model.name) + ".urdf");
-    files.srdf = folder / (std::string(model.name) + ".srdf");
-    files.group = model.group;
-    stages.push_back(std::make_unique<Stage>(files, options.seed, model.margin));
+    const double margin = model.name == "rook6" ? 0.005 : 0.0;  // m
+    stages.push_back(std::make_unique<Stage>(filesOf(model), options.seed, margin));
   }
   return stages;
 }
