@@ -38,7 +38,8 @@ void expectDistances(const std::function<Case(std::mt19937&)>& draw, int count =
     ASSERT_NEAR(swapped.upper, test.distance, 1.1 * tolerance::kLibccdDistance) << "case " << i;
     overlaps += test.distance == 0.0 ? 1 : 0;
     if (test.distance == 0.0 || test.distance > 1e-6) {
-      ASSERT_EQ(libccdIntersect(test.a, test.b, test.a_from_b), test.distance == 0.0);
+      ASSERT_EQ(libccdIntersect(test.a, test.b, test.a_from_b),
+                test.distance == 0.0 ? Contact::Touching : Contact::Separate);
     }
   }
   EXPECT_GE(overlaps, count / 20);
@@ -178,13 +179,13 @@ TEST(LibccdDistance, EnclosedShapesTouch) {
   const Isometry3d pose = shifted({0.3, -0.2, 0.1});
   for (const Shape& inner : {Shape(makeSphere(0.1)), Shape(makeCylinder(0.1, 0.2)),
                              Shape(boxMesh(Vector3d::Constant(0.1)))}) {
-    EXPECT_TRUE(libccdIntersect(room, inner, pose));
-    EXPECT_TRUE(libccdIntersect(inner, room, pose.inverse()));
+    EXPECT_EQ(libccdIntersect(room, inner, pose), Contact::Touching);
+    EXPECT_EQ(libccdIntersect(inner, room, pose.inverse()), Contact::Touching);
   }
   const test::Soup soup = test::boxSoup(-Vector3d::Ones(), Vector3d::Ones());
   const TriangleMesh walls =
       TriangleMesh::build(soup.vertices, soup.triangles, MeshInterior::Surface);
-  EXPECT_FALSE(libccdIntersect(walls, makeSphere(0.1), pose));
+  EXPECT_EQ(libccdIntersect(walls, makeSphere(0.1), pose), Contact::Separate);
   EXPECT_NEAR(libccdDistance(walls, makeSphere(0.1), pose, {}).upper, 0.6, 2e-6);
 }
 
@@ -202,12 +203,28 @@ TEST(LibccdDistance, StopsWhereAsked) {
   EXPECT_LE(libccdDistance(ball, ball, pose, contact).upper, 2.5);
 }
 
+// Of needles like these ccdMPRIntersect goes round for ever, its portal no longer getting smaller.
+TEST(LibccdIntersect, EndsWhereItsPortalNoLongerGetsSmaller) {
+  std::mt19937 random(52);
+  int unknown = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Shape needle = makeCylinder(1e-11, 0.06);
+    const Shape longOne = makeCylinder(2e-9, 1e8);
+    const Isometry3d pose = test::randomPose(random, 0.1);
+    unknown += libccdIntersect(needle, longOne, pose) == Contact::Unknown ? 1 : 0;
+    const DistanceResult found = libccdDistance(needle, longOne, pose, {});
+    ASSERT_EQ(found.lower, 0.0);
+  }
+  EXPECT_GE(unknown, 100);
+  EXPECT_LE(unknown, 900);
+}
+
 TEST(LibccdDistance, AnswersNothingForAPoseThatIsNoNumber) {
   const Isometry3d pose = shifted({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
   const DistanceResult result = libccdDistance(makeSphere(1.0), makeSphere(1.0), pose, {});
   EXPECT_EQ(result.lower, 0.0);
   EXPECT_EQ(result.upper, std::numeric_limits<double>::infinity());
-  EXPECT_FALSE(libccdIntersect(makeSphere(1.0), makeSphere(1.0), pose));
+  EXPECT_EQ(libccdIntersect(makeSphere(1.0), makeSphere(1.0), pose), Contact::Unknown);
 }
 
 }  // namespace

@@ -53,9 +53,7 @@ DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d&
 Contact collide(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                 Backend backend) {
   if (!detail::isFinite(a_from_b)) return Contact::Unknown;
-  if (wantsLibccd(a, b, backend)) {
-    return detail::libccdIntersect(a, b, a_from_b) ? Contact::Touching : Contact::Separate;
-  }
+  if (wantsLibccd(a, b, backend)) return detail::libccdIntersect(a, b, a_from_b);
   Contact contact = Contact::Unknown;
   if (detail::convexCollide(a, b, a_from_b, contact)) return contact;
   DistanceOptions options;

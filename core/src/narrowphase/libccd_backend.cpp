@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -104,6 +105,7 @@ struct Body {
   double radius;           ///< m, of a ball around `center` that contains the piece
   double growth = 0.0;     ///< m
   mutable int evaluations = 0;
+  int allowed = 0;  ///< evaluations
 
   Body(const Shape& shape, const Eigen::Isometry3d& where) : piece(pieceOf(shape)), pose(where) {
     // MPR needs a point inside; that of a bounding ball is inside only for a symmetric solid.
@@ -129,7 +131,11 @@ void toCcd(const Eigen::Vector3d& from, ccd_vec3_t* to) {
 
 void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* result) {
   const Body& body = *static_cast<const Body*>(object);
-  ++body.evaluations;
+  if (++body.evaluations > body.allowed) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    ccdVec3Set(result, kNone, kNone, kNone);
+    return;
+  }
   const Eigen::Vector3d unit =
       Eigen::Vector3d(direction->v[0], direction->v[1], direction->v[2]).stableNormalized();
   const Eigen::Vector3d local =
@@ -141,9 +147,15 @@ void center(const void* object, ccd_vec3_t* result) {
   toCcd(static_cast<const Body*>(object)->center, result);
 }
 
+enum class Met : std::uint8_t { No, Yes, Unknown };
+
 /// Minkowski portal refinement. libccd's GJK stops early on round shapes: against closed forms its
 /// distances were off by up to 2 mm, those of its portal refinement by the bisection's step.
-bool meet(const Body& a, const Body& b) {
+///
+/// ccdMPRIntersect has no limit of its own, and goes round for ever on some flat shapes. A support
+/// point that is not a number fails each of its comparisons, which ends it.
+Met meet(Body& a, Body& b) {
+  constexpr int kMostSupports = 10'000;  // 200 are many
   constexpr unsigned long kMostIterations = 200;
   constexpr double kPortalTolerance = 1e-3 * tolerance::kLibccdDistance;
   ccd_t ccd;
@@ -154,7 +166,11 @@ bool meet(const Body& a, const Body& b) {
   ccd.center2 = center;
   ccd.max_iterations = kMostIterations;
   ccd.mpr_tolerance = kPortalTolerance;
-  return ccdMPRIntersect(&a, &b, &ccd) != 0;
+  a.allowed = a.evaluations + kMostSupports;
+  b.allowed = b.evaluations + kMostSupports;
+  const bool met = ccdMPRIntersect(&a, &b, &ccd) != 0;
+  if (a.evaluations > a.allowed) return Met::Unknown;
+  return met ? Met::Yes : Met::No;
 }
 
 /// The state of a query over all pairs of pieces.
@@ -163,6 +179,7 @@ struct Search {
   double enough;
   double contact;
   int evaluations = 0;
+  bool unknown = false;  ///< whether two pieces meet as they are was not found for some
 
   bool done() const { return upper <= contact; }
 
@@ -170,8 +187,11 @@ struct Search {
     if ((a.center - b.center).norm() - a.radius - b.radius >= upper) return;
     a.evaluations = b.evaluations = 0;
     a.growth = 0.0;
-    if (meet(a, b)) {
+    const Met met = meet(a, b);
+    if (met == Met::Yes) {
       upper = 0.0;
+    } else if (met == Met::Unknown) {
+      unknown = true;
     } else if (upper > tolerance::kLibccdDistance) {
       bisect(a, b);
     }
@@ -179,18 +199,20 @@ struct Search {
   }
 
  private:
-  void bisect(Body& a, const Body& b) {
+  void bisect(Body& a, Body& b) {
     double apart = 0.0;
     // Grown by the distance of the centres they meet, grown by less than `upper` maybe not.
     double together = std::min(upper, (a.center - b.center).norm());
     if (together == upper) {
       a.growth = std::max(0.0, upper - tolerance::kLibccdDistance);
-      if (!meet(a, b)) return;
+      if (meet(a, b) != Met::Yes) return;
       together = a.growth;
     }
     while (together - apart > tolerance::kLibccdDistance && together > contact && apart <= enough) {
       a.growth = 0.5 * (apart + together);
-      (meet(a, b) ? together : apart) = a.growth;
+      const Met met = meet(a, b);
+      if (met == Met::Unknown) break;
+      (met == Met::Yes ? together : apart) = a.growth;
     }
     upper = std::min(upper, together);
   }
@@ -309,12 +331,13 @@ DistanceResult libccdDistance(const Shape& a, const Shape& b, const Eigen::Isome
   return result;
 }
 
-bool libccdIntersect(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b) {
-  if (!a_from_b.matrix().allFinite()) return false;
+Contact libccdIntersect(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b) {
+  if (!a_from_b.matrix().allFinite()) return Contact::Unknown;
   // Started at the accuracy, the search has nothing to refine: it only looks for overlap.
   Search search{tolerance::kLibccdDistance, 0.0, 0.0};
   examineShapes(a, b, a_from_b, search);
-  return search.upper <= 0.0;
+  if (search.upper <= 0.0) return Contact::Touching;
+  return search.unknown ? Contact::Unknown : Contact::Separate;
 }
 
 }  // namespace swept::detail
