@@ -8,6 +8,7 @@
 #include <queue>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "cover/outer_polyhedron.hpp"
 #include "geometry/mesh_components.hpp"
@@ -23,6 +24,9 @@ double distance(const Nearest& nearest, const Vector3d& p,
   if (found.primitive < 0) found = nearest.find(p, std::numeric_limits<double>::infinity());
   return std::sqrt(found.squared);
 }
+
+template <typename S, typename... Others>
+constexpr bool kIsOneOf = (std::is_same_v<S, Others> || ...);
 
 [[noreturn]] void refuse(const char* name) {
   throw std::invalid_argument(std::string("no balls cover a ") + name + ", which is unbounded");
@@ -50,7 +54,9 @@ Solid::Solid(const Shape& shape) {
   } else {
     std::visit(
         [&](const auto& convex) {
-          if constexpr (requires { outerPoints(convex); }) {
+          using S = std::remove_cvref_t<decltype(convex)>;
+          if constexpr (!kIsOneOf<S, Sphere, ConvexHull, Plane, HalfSpace, TriangleMesh,
+                                  PointCloud>) {
             const OuterPoints outer = outerPoints(convex);
             useHull(ConvexHull::of(outer.points), outer.slack);
           }

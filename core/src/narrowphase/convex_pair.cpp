@@ -22,7 +22,7 @@ using Core = Convex::Core;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kCores = 9;
+constexpr std::size_t kCores = static_cast<std::size_t>(Core::HalfSpace) + 1;  // the last one
 
 template <Core kind>
 constexpr bool kFlat = kind == Core::Plane || kind == Core::HalfSpace;
@@ -164,7 +164,8 @@ constexpr Core coreOf() {
   if constexpr (std::is_same_v<Body, Ellipsoid>) return Core::Ellipsoid;
   if constexpr (std::is_same_v<Body, Plane>) return Core::Plane;
   if constexpr (std::is_same_v<Body, HalfSpace>) return Core::HalfSpace;
-  return Core::Points;
+  if constexpr (std::is_same_v<Body, ConvexHull>) return Core::Points;
+  if constexpr (std::is_same_v<Body, Triangle>) return Core::Points;
 }
 
 /// Calls `query` with the bodies of two convex shapes; false if one is not convex.
