@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "continuous_truth.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "workloads.hpp"
 
@@ -190,7 +201,7 @@ class LinkPast {
 };
 
 inline std::vector<LinkUnderTest> linksUnderTest() {
-  const std::filesystem::path ours = std::filesystem::path(SWEPT_MODELS_DIR) / "robots";
+  const std::filesystem::path ours = std::filesystem::path(modelsDir()) / "robots";
   std::vector<LinkUnderTest> links;
   links.emplace_back(ours / "rook7" / "rook7", "arm", "hand");
   links.emplace_back(ours / "rook6" / "rook6", "arm", "wrist_2");

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <memory>
 #include <numbers>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "continuous_link.hpp"
 #include "continuous_truth.hpp"
+#include "models_dir.hpp"
 #include "workloads.hpp"
 
 /// Motions that all hit, with first contacts known to about 1e-12 m from closed forms, triangle
@@ -166,7 +177,7 @@ inline void fillMeshes(CurveWorkload& work, const Soup& still, const Soup& movin
 
 inline std::vector<CurveWorkload> meshCurves(std::mt19937_64& random) {
   std::vector<CurveWorkload> list;
-  const std::filesystem::path models = std::filesystem::path(SWEPT_MODELS_DIR) / "robots";
+  const std::filesystem::path models = std::filesystem::path(modelsDir()) / "robots";
   const LinkUnderTest hand(models / "rook7" / "rook7", "arm", "hand");
   const LinkUnderTest wrist(models / "rook6" / "rook6", "arm", "wrist_1");
   const Soup handSoup = soupOf(hand.mesh()), wristSoup = soupOf(wrist.mesh());

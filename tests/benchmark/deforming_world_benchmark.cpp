@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "fcl_peer.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "timing.hpp"
 
@@ -96,7 +97,7 @@ void row(const MarkdownTable& table, const Checker& empty, int cells) {
 }
 
 void report(std::size_t most) {
-  const std::string rook7 = SWEPT_MODELS_DIR "/robots/rook7/rook7";
+  const std::string rook7 = modelsDir() + "/robots/rook7/rook7";
   const auto robot = Robot::load(rook7 + ".urdf", rook7 + ".srdf");
   World world;
   world.add("table", makeBox({0.6, 0.6, 0.05}),

@@ -8,6 +8,7 @@
 
 #include "box_worlds.hpp"
 #include "mesh_files.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/problems.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
@@ -25,7 +26,7 @@ struct RobotCase {
 
 /// Where the project's own robots are.
 inline std::filesystem::path modelsFolder() {
-  return SWEPT_MODELS_DIR;
+  return modelsDir();
 }
 
 inline std::vector<RobotCase> robotCases(const std::filesystem::path& data) {

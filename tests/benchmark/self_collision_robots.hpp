@@ -2,17 +2,21 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesh_files.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "workloads.hpp"
 
@@ -29,7 +33,7 @@ struct SelfCase {
 };
 
 inline std::vector<SelfCase> selfCases(const std::filesystem::path& data) {
-  const std::filesystem::path ours = std::filesystem::path(SWEPT_MODELS_DIR) / "robots";
+  const std::filesystem::path ours = std::filesystem::path(modelsDir()) / "robots";
   const std::filesystem::path theirs = data / "robots";
   return {{"rook7", false, ours / "rook7" / "rook7", {"arm"}},
           {"rook6", false, ours / "rook6" / "rook6", {"arm"}},

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "error_table_row.hpp"
+#include "models_dir.hpp"
 
 /// How far off distances, depths and witness points of each pair of shapes are, against truths in
 /// 50 digits, and that no interval misses its truth. The table in core/README.md states the errors;
@@ -17,7 +18,7 @@ using namespace error_table;
 
 constexpr int kApart = 800;
 constexpr int kOverlapping = 240;
-constexpr const char* kReadme = SWEPT_MODELS_DIR "/../core/README.md";
+const std::string kReadme = modelsDir() + "/../core/README.md";
 
 /// One digit of 1, 2, 5, rounded up from a little more: another instruction set may order sums in
 /// another way.

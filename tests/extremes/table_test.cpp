@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "models_dir.hpp"
 #include "table.hpp"
 
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using extremes::Cells;
 using extremes::Row;
 
-constexpr const char* kReadme = SWEPT_MODELS_DIR "/../tests/extremes/README.md";
+const std::string kReadme = modelsDir() + "/../tests/extremes/README.md";
 
 const std::vector<Row>& rows() {
   static const std::vector<Row> all = extremes::measured();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz_input.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 
 /// Certificates of an arm's motions against its states, one at a time.
@@ -9,7 +10,7 @@ namespace {
 constexpr int kMoments = 17;
 
 std::shared_ptr<const Checker> makeChecker() {
-  const std::string folder = SWEPT_MODELS_DIR;
+  const std::string folder = modelsDir();
   const auto robot =
       Robot::load(folder + "/robots/rook6/rook6.urdf", folder + "/robots/rook6/rook6.srdf", {});
   const auto world =

@@ -2,12 +2,13 @@
 #include "command_line/exit_code.hpp"
 #include "fuzz_input.hpp"
 #include "input/states.hpp"
+#include "models_dir.hpp"
 
 using namespace swept;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const auto kRobot = Robot::load(SWEPT_MODELS_DIR "/robots/rook6_cart/rook6_cart.urdf",
-                                         SWEPT_MODELS_DIR "/robots/rook6_cart/rook6_cart.srdf", {});
+  static const auto kRobot = Robot::load(modelsDir() + "/robots/rook6_cart/rook6_cart.urdf",
+                                         modelsDir() + "/robots/rook6_cart/rook6_cart.srdf", {});
   const Group& group = *kRobot->findGroup("whole_body");
   try {
     const std::string text(fuzz::textOf(data, size));

@@ -8,6 +8,7 @@
 #include <exception>
 #include <iostream>
 
+#include "models_dir.hpp"
 #include "motion_lists.hpp"
 #include "workloads.hpp"
 
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
   try {
     std::vector<std::string> names(argv + 1, argv + argc);
     if (names.empty()) names = instructions::workloadNames();
-    instructions::Models models(SWEPT_MODELS_DIR);
+    instructions::Models models(modelsDir());
     for (const std::string& name : names)
       instructions::count(instructions::makeWorkload(name, models));
     std::cout << "instruction-set " << instructions::instructionSet() << '\n';

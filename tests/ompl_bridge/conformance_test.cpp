@@ -31,6 +31,7 @@
 #include <thread>
 
 #include "fixtures.hpp"
+#include "models_dir.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace swept::test {
@@ -78,7 +79,7 @@ const std::vector<Subject> kSubjects = {
 std::shared_ptr<const Robot> robotCalled(const std::string& name) {
   static std::map<std::string, std::shared_ptr<const Robot>> robots;
   auto& robot = robots[name];
-  const auto folder = std::filesystem::path(SWEPT_MODELS_DIR) / "robots" / name;
+  const auto folder = std::filesystem::path(modelsDir()) / "robots" / name;
   if (!robot) {
     robot = name == "gantry" ? gantry()
             : name == "every_joint"
@@ -94,7 +95,7 @@ std::shared_ptr<const World> worldCalled(const std::string& name) {
     return worldOf({{{1.0, 0.0, 0.3}, {1.2, 1.6, 1.0}}, {{-0.6, 0.0, 0.5}, {0.8, 0.8, 0.8}}});
   }
   return std::make_shared<const World>(
-      World::load(std::filesystem::path(SWEPT_MODELS_DIR) / "scenes" / (name + ".yaml")));
+      World::load(std::filesystem::path(modelsDir()) / "scenes" / (name + ".yaml")));
 }
 
 std::shared_ptr<const Checker> checkerFor(const Subject& subject) {

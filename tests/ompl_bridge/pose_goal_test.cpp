@@ -2,6 +2,7 @@
 // Goals for the pose of a link: what OMPL samples from them and plans to, judged by LinkMotion and
 // by the checker.
 #include "swept/ompl_bridge/pose_goal.hpp"
+#include "models_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -34,13 +35,12 @@ using Configuration = std::vector<double>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::shared_ptr<const Robot> modelled(const std::string& name) {
-  const std::string path = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
   return Robot::load(path + ".urdf", path + ".srdf");
 }
 
 std::shared_ptr<const World> scene(const std::string& name) {
-  return std::make_shared<const World>(
-      World::load(std::string(SWEPT_MODELS_DIR) + "/scenes/" + name));
+  return std::make_shared<const World>(World::load(modelsDir() + "/scenes/" + name));
 }
 
 /// A link of a checker's robot.

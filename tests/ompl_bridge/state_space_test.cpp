@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "fixtures.hpp"
+#include "models_dir.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 #include "swept/robot_model/link_motion.hpp"
 
@@ -214,7 +215,7 @@ TEST(StateSpace, RefusesAGroupWithoutVariables) {
 }
 
 TEST(NamedStates, AreConfigurationsOfTheirGroup) {
-  const std::string folder = std::string(SWEPT_MODELS_DIR) + "/robots/rook6_cart/rook6_cart";
+  const std::string folder = modelsDir() + "/robots/rook6_cart/rook6_cart";
   const auto robot = Robot::load(folder + ".urdf", folder + ".srdf");
   ASSERT_GE(robot->namedStates().size(), 2u);
   for (const NamedState& named : robot->namedStates()) {

@@ -11,6 +11,7 @@
 
 #include "batch.hpp"
 #include "gantry.hpp"
+#include "models_dir.hpp"
 
 namespace swept::test {
 namespace {
@@ -194,9 +195,8 @@ TEST(Batch, MissedCollisionsAreThoseOfMotion) {
   for (const json& run : jsonLines(folder.read("r"))) {
     if (run.contains("format")) continue;
     // `motion` takes no states with a problem; the problem of the file has the path's as its own.
-    json problem =
-        json::parse(std::ifstream(std::string(SWEPT_MODELS_DIR) +
-                                  "/problems.json"))["shelf"][run["index"].get<std::size_t>() - 1];
+    json problem = json::parse(std::ifstream(
+        modelsDir() + "/problems.json"))["shelf"][run["index"].get<std::size_t>() - 1];
     std::map<std::string, int> verdicts;
     for (std::size_t i = 0; i + 1 < run["states"].size(); ++i) {
       problem["start"] = run["states"][i];

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "gantry.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/problems.hpp"
 
@@ -84,7 +85,7 @@ void countMotion(CountTable& table, const std::string& length,
 }
 
 CountTable countsOfTheChecker() {
-  const std::string root = std::string(SWEPT_MODELS_DIR) + "/";
+  const std::string root = modelsDir() + "/";
   const auto robot =
       Robot::load(root + "robots/rook7/rook7.urdf", root + "robots/rook7/rook7.srdf");
   const ProblemFile problems = ProblemFile::load(root + "problems.json");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "models_dir.hpp"
 #include "program.hpp"
 
 /// What every --help shows can be typed as it is.
@@ -57,7 +58,7 @@ TEST_P(Examples, RunAsTheyStand) {
       help.out.substr(begin + 12, help.out.find('\n', begin + 12) - begin - 12);
   EXPECT_THAT(example, HasSubstr("swept " + GetParam().front()));
   const TemporaryFolder folder;
-  std::filesystem::create_directory_symlink(SWEPT_MODELS_DIR, folder.path("models"));
+  std::filesystem::create_directory_symlink(modelsDir(), folder.path("models"));
   const Outcome run = runCommands(example, folder.path());
   // That motion collides; the others' answers are good news.
   EXPECT_EQ(run.exitCode, GetParam().front() == "motion" ? 1 : 0) << example << "\n" << run.out;

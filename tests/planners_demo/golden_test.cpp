@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "models_dir.hpp"
 #include "page_data.hpp"
 #include "program.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(SWEPT_MODELS_DIR).parent_path() / "tests/planners_demo/golden";
+const fs::path kFolder = fs::path(modelsDir()).parent_path() / "tests/planners_demo/golden";
 constexpr double kTolerance = 1e-3;
 constexpr double kAbsolute = 1e-9;
 

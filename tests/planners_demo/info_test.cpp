@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "gantry.hpp"
+#include "models_dir.hpp"
 
 namespace swept::test {
 namespace {
@@ -151,8 +152,8 @@ TEST(Info, NamesStandingContacts) {
 }
 
 TEST(Info, SaysWhyPairsAreCheckedAndHowFarApart) {
-  const std::string rook = std::string(SWEPT_MODELS_DIR) + "/robots/rook7/rook7.urdf";
-  const std::string shelf = std::string(SWEPT_MODELS_DIR) + "/scenes/shelf.yaml";
+  const std::string rook = modelsDir() + "/robots/rook7/rook7.urdf";
+  const std::string shelf = modelsDir() + "/scenes/shelf.yaml";
   const Outcome plain = runSwept({"info", rook, "--group", "arm", "--scene", shelf});
   EXPECT_EQ(plain.exitCode, 0);
   EXPECT_THAT(plain.out, HasSubstr("checked, more than 0 m apart ("));
@@ -171,7 +172,7 @@ TEST(Info, SaysWhyPairsAreCheckedAndHowFarApart) {
 }
 
 TEST(Info, RulesThatMakeNoSenseAreUsageErrors) {
-  const std::string rook = std::string(SWEPT_MODELS_DIR) + "/robots/rook7/rook7.urdf";
+  const std::string rook = modelsDir() + "/robots/rook7/rook7.urdf";
   const auto error = [&](const std::vector<std::string>& more) {
     std::vector<std::string> command{"info", rook, "--group", "arm", "--quiet"};
     command.insert(command.end(), more.begin(), more.end());

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "models_dir.hpp"
 #include "page_data.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/checker.hpp"
@@ -23,8 +24,8 @@ const std::string kShelf = "models/scenes/shelf.yaml";
 
 /// The same robot and world as the program's, loaded here.
 std::shared_ptr<const Robot> rook() {
-  static const auto robot = Robot::load(SWEPT_MODELS_DIR "/robots/rook7/rook7.urdf",
-                                        SWEPT_MODELS_DIR "/robots/rook7/rook7.srdf");
+  static const auto robot = Robot::load(modelsDir() + "/robots/rook7/rook7.urdf",
+                                        modelsDir() + "/robots/rook7/rook7.srdf");
   return robot;
 }
 
@@ -50,7 +51,7 @@ class PlannedPage : public testing::Test {
     html_ = folder.read("page.html");
     data_ = pageData(html_);
     const PlanningProblem problem =
-        ProblemFile::load(SWEPT_MODELS_DIR "/problems.json").problem("shelf", 1);
+        ProblemFile::load(modelsDir() + "/problems.json").problem("shelf", 1);
     checker_ = std::make_unique<Checker>(rook(), "arm", std::make_shared<World>(problem.world));
   }
   static void TearDownTestSuite() { checker_.reset(); }
@@ -102,7 +103,7 @@ TEST_F(PlannedPage, LinksAreWhereForwardKinematicsPutsThem) {
 
 TEST_F(PlannedPage, MotionsFollowEachOtherFromStartToGoal) {
   const PlanningProblem problem =
-      ProblemFile::load(SWEPT_MODELS_DIR "/problems.json").problem("shelf", 1);
+      ProblemFile::load(modelsDir() + "/problems.json").problem("shelf", 1);
   const json& motions = data_["motions"];
   EXPECT_EQ(valuesOf(motions.front()["from"]), problem.start);
   EXPECT_THAT(problem.goals, testing::Contains(valuesOf(motions.back()["to"])));

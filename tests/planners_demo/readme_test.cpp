@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "models_dir.hpp"
 #include "program.hpp"
 
 /// What the README shows is what the tree holds and the program prints.
@@ -13,7 +14,7 @@ namespace swept::test {
 namespace {
 
 std::string fileText(const std::string& name) {
-  std::ifstream stream(std::string(SWEPT_MODELS_DIR "/../") + name);
+  std::ifstream stream((modelsDir() + "/../") + name);
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();
@@ -45,7 +46,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST(Readme, ItsProgramIsTheExample) {
   ASSERT_EQ(blocks("cpp").size(), 1u);
-  EXPECT_THAT(fileText("planners_demo/examples/01_plan.cpp"),
+  EXPECT_THAT(fileText("planners_demo/examples/07_plan.cpp"),
               testing::HasSubstr("\n" + blocks("cpp").front()));
 }
 

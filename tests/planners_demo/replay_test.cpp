@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "models_dir.hpp"
 #include "program.hpp"
 
 namespace swept::test {
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 const std::string kFile = "models/cases.json";
 
 json ourCases() {
-  std::ifstream stream(SWEPT_MODELS_DIR "/cases.json");
+  std::ifstream stream(modelsDir() + "/cases.json");
   return json::parse(stream);
 }
 

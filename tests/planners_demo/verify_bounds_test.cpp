@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "models_dir.hpp"
 #include "program.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/link_motion.hpp"
@@ -40,9 +41,8 @@ constexpr Subject kSubjects[] = {
 class VerifyBounds : public testing::TestWithParam<Subject> {
  protected:
   VerifyBounds() {
-    const std::string base = std::string(SWEPT_MODELS_DIR) + "/robots/" + GetParam().robot;
-    const std::string scene =
-        std::string(SWEPT_MODELS_DIR) + "/scenes/" + GetParam().scene + ".yaml";
+    const std::string base = modelsDir() + "/robots/" + GetParam().robot;
+    const std::string scene = modelsDir() + "/scenes/" + GetParam().scene + ".yaml";
     const TemporaryFolder folder;
     const Outcome run = runSwept({"plan", base + ".urdf", GetParam().start, GetParam().goal,
                                   "--group", GetParam().group, "--scene", scene, "--embed", "-q",

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 
+#include "models_dir.hpp"
 #include "scenario.hpp"
 
 /// Robots of models/ that refuters ask about.
@@ -17,7 +19,7 @@ inline const std::array kModels{Model{"rook7", "arm_with_gripper"}, Model{"rook6
                                 Model{"rook6_cart", "whole_body"}, Model{"drifter", "body"}};
 
 inline ScenarioFiles filesOf(const Model& model) {
-  const auto folder = std::filesystem::path(SWEPT_MODELS_DIR) / "robots" / model.name;
+  const auto folder = std::filesystem::path(modelsDir()) / "robots" / model.name;
   ScenarioFiles files;
   files.robot = folder / (model.name + ".urdf");
   files.srdf = folder / (model.name + ".srdf");

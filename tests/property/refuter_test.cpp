@@ -2,6 +2,7 @@
 // For each model and scene: a thousand random motions, every Free one sampled at 1e-3 rad by code
 // that shares nothing with the checker. One overlap fails, with a command line that replays it.
 #include "refuter.hpp"
+#include "models_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@
 
 namespace {
 
-const std::filesystem::path kModels = SWEPT_MODELS_DIR;
+const std::filesystem::path kModels = modelsDir();
 
 std::vector<std::filesystem::path> scenes() {
   std::vector<std::filesystem::path> found;

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace {
@@ -24,7 +25,7 @@ using swept::MotionCertificate;
 using swept::Verdict;
 using swept::Workspace;
 
-const std::filesystem::path kModels = SWEPT_MODELS_DIR;
+const std::filesystem::path kModels = modelsDir();
 const std::filesystem::path kPaths = SWEPT_PATHS_DIR;
 constexpr char kVerdicts[] = "verdicts.csv";
 

@@ -16,6 +16,7 @@
 #include <map>
 #include <sstream>
 
+#include "models_dir.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace {
@@ -23,7 +24,7 @@ namespace {
 namespace ob = ompl::base;
 using swept::Verdict;
 
-const std::filesystem::path kModels = SWEPT_MODELS_DIR;
+const std::filesystem::path kModels = modelsDir();
 
 struct Motion {
   std::string robot;

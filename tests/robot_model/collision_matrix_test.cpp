@@ -2,6 +2,7 @@
 // Which pairs of links can collide: pairs that are known by construction, and a refuter that looks
 // for contacts of pairs said never to have any.
 #include "swept/robot_model/collision_matrix.hpp"
+#include "models_dir.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -168,7 +169,7 @@ TEST(CollisionMatrix, ACheckerFindsTheWitnesses) {
   }
   EXPECT_GT(onChains, 5);
   for (const char* name : {"rook6", "rook7"}) {
-    const std::string files = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+    const std::string files = modelsDir() + "/robots/" + name + "/" + name;
     const auto robot = Robot::load(files + ".urdf");
     EXPECT_GT(witnessesFound(robot, collisionMatrix(*robot, {.budget = 1000, .samples = 100})), 8);
   }
@@ -371,7 +372,7 @@ class OwnRobots : public testing::TestWithParam<const char*> {};
 /// The models' generator proved its pairs with other covers and bounds.
 TEST_P(OwnRobots, AgreeWithTheirSrdf) {
   const std::string name = GetParam();
-  const std::string files = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+  const std::string files = modelsDir() + "/robots/" + name + "/" + name;
   const auto robot = Robot::load(files + ".urdf", files + ".srdf");
   const auto reports = collisionMatrix(*robot, {.budget = 100'000, .samples = 200});
   std::mt19937 random(4);

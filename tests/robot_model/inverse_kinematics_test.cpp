@@ -2,6 +2,7 @@
 // Inverse kinematics against the forward kinematics of LinkMotion, which it shares no chain with,
 // and against arms whose answers are known.
 #include "swept/robot_model/inverse_kinematics.hpp"
+#include "models_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,7 +110,7 @@ Chain telescope() {
 }
 
 std::shared_ptr<const Robot> modelled(const std::string& name) {
-  const std::string path = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
   return Robot::load(path + ".urdf", path + ".srdf");
 }
 

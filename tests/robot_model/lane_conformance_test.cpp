@@ -5,6 +5,7 @@
 #include "certify/state_check.hpp"
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
+#include "models_dir.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
@@ -63,7 +64,7 @@ struct Tiers {
 };
 
 Tiers compile(const Case& which) {
-  const std::string folder = std::string(SWEPT_MODELS_DIR) + "/";
+  const std::string folder = modelsDir() + "/";
   const std::string robot = folder + "robots/" + which.robot + "/" + which.robot;
   const auto loaded = Robot::load(robot + ".urdf", robot + ".srdf");
   const auto world = std::make_shared<World>(

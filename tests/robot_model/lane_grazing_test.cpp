@@ -4,6 +4,7 @@
 #include "certify/motion_check.hpp"
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
+#include "models_dir.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -85,7 +86,7 @@ std::string ballsRobot() {
 
 std::shared_ptr<const Robot> robotOf(const std::string& name) {
   if (name == "balls") return Robot::parse(ballsRobot(), "balls.urdf");
-  const std::string path = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
   return Robot::load(path + ".urdf", path + ".srdf");
 }
 

@@ -8,6 +8,7 @@
 
 #include "../core/cover_samples.hpp"
 #include "input_files.hpp"
+#include "models_dir.hpp"
 #include "swept/core/sphere_cover.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -68,7 +69,7 @@ int expectSoundRobot(const Robot& robot, double finest) {
 }
 
 TEST(LinkCover, ContainsTheLinksOfOurRobots) {
-  const std::filesystem::path robots = std::filesystem::path(SWEPT_MODELS_DIR) / "robots";
+  const std::filesystem::path robots = std::filesystem::path(modelsDir()) / "robots";
   for (const char* name : {"drifter", "rook6", "rook6_cart", "rook7"}) {
     const auto robot = Robot::load(robots / name / (std::string(name) + ".urdf"));
     EXPECT_GT(expectSoundRobot(*robot, 0.02), 0);

@@ -3,6 +3,7 @@
 // withoutRobot() against the signed distance of every point to every piece of every link, placed by
 // kinematics of the test's own.
 #include "swept/robot_model/self_filter.hpp"
+#include "models_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
 std::shared_ptr<const Robot> model(const std::string& name) {
-  const std::string path = std::string(SWEPT_MODELS_DIR) + "/robots/" + name + "/" + name;
+  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
   return Robot::load(path + ".urdf", path + ".srdf");
 }
 

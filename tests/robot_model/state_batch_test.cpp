@@ -6,6 +6,7 @@
 #include <array>
 #include <random>
 
+#include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept {
@@ -23,7 +24,7 @@ constexpr std::array<Case, 4> kCases{{{"rook7", "arm_with_gripper", 1.5},
                                       {"drifter", "body", 0.6}}};
 
 std::string models(const std::string& file) {
-  return std::string(SWEPT_MODELS_DIR) + "/" + file;
+  return modelsDir() + "/" + file;
 }
 
 std::shared_ptr<const Robot> load(const Case& which) {

@@ -9,6 +9,7 @@
 
 #include "lane_robots.hpp"
 #include "lanes/joint_table.hpp"
+#include "models_dir.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
@@ -133,7 +134,7 @@ inline std::vector<Named> buildRobotsWithTables() {
     all->lanes = detail::compileLanes(*all);
     return std::shared_ptr<const CheckerModel>(all);
   };
-  const std::string folder = std::string(SWEPT_MODELS_DIR) + "/robots/";
+  const std::string folder = modelsDir() + "/robots/";
   const auto load = [&](const std::string& name) {
     return Robot::load(folder + name + "/" + name + ".urdf", folder + name + "/" + name + ".srdf");
   };

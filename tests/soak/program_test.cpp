@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "models_dir.hpp"
+
 namespace {
 
 using testing::HasSubstr;
@@ -61,8 +63,8 @@ class Program {
   int out_ = -1;
 };
 
-const std::string kRobot = SWEPT_MODELS_DIR "/robots/rook6/rook6.urdf";
-const std::string kSrdf = SWEPT_MODELS_DIR "/robots/rook6/rook6.srdf";
+const std::string kRobot = modelsDir() + "/robots/rook6/rook6.urdf";
+const std::string kSrdf = modelsDir() + "/robots/rook6/rook6.srdf";
 
 TEST(SoakProgram, SigintEndsItEarlyWithWhatWasDone) {
   const Program program({"--robot", kRobot, "--srdf", kSrdf, "--group", "arm"});

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "drawer.hpp"
+#include "models_dir.hpp"
 #include "run.hpp"
 
 namespace soak {
@@ -26,7 +27,7 @@ const Options& smallOptions() {
     o.updates = 50;
     o.sampleOneIn = 100;
     o.growth = 100.0;
-    const auto folder = std::filesystem::path(SWEPT_MODELS_DIR) / "robots/rook6";
+    const auto folder = std::filesystem::path(modelsDir()) / "robots/rook6";
     o.files.robot = folder / "rook6.urdf";
     o.files.srdf = folder / "rook6.srdf";
     o.files.group = "arm";
