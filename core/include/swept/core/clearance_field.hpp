@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "swept/core/arithmetic.hpp"
+
 namespace swept::detail {
 
 /// What a ClearanceGrid reads, for kernels of another kind: SIMD lanes, single precision. Its own

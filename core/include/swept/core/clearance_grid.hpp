@@ -16,6 +16,7 @@ namespace detail {
 struct ClearanceField;
 }
 
+/// Where clearances are wanted, and what they may cost.
 struct ClearanceGridOptions {
   /// m, the shape's frame: where clearances are wanted. Where it does not meet the shape's box, the
   /// grid is that of the whole shape.
@@ -64,6 +65,7 @@ class ClearanceGrid {
   double error() const;
   double reach() const;     ///< m, 37 voxels; see clearance()
   const Aabb& box() const;  ///< m, around the shape, or its part in the window, and a bit larger
+  /// On the heap, of both grids.
   std::size_t bytes() const;
   /// The arrays (clearance_field.hpp).
   const std::shared_ptr<const detail::ClearanceField>& field() const;

@@ -37,7 +37,9 @@ class NoisyPointCloud {
   static NoisyPointCloud build(std::span<const Eigen::Vector3d> points, double radius,
                                double standardDeviation);
 
+  /// Points, at least one.
   std::size_t size() const;
+  /// For the queries.
   const detail::NoisyCloudData& data() const { return *data_; }
 
  private:
@@ -46,6 +48,7 @@ class NoisyPointCloud {
   std::shared_ptr<const detail::NoisyCloudData> data_;
 };
 
+/// How well a probability is to be known, and what that may cost.
 struct CollisionProbabilityOptions {
   /// Probability. Stop when upper - lower is at most this. Between two clouds, where that is out of
   /// reach: stop when three standard errors are. Zero or NaN: go on until the effort is spent.
@@ -74,7 +77,7 @@ struct CollisionProbability {
   /// Of `probability`, as an estimate from samples; 0 where none were drawn. Speaks of chance: it
   /// widens no bound and proves nothing.
   double standardError = 0.0;
-  ProbabilityEffort effort;
+  ProbabilityEffort effort;  ///< spent, whether or not the accuracy was reached
 };
 
 /// Probability. The bounds of each point or pair are wider by this, for the roundings of erfc, exp
@@ -112,17 +115,19 @@ CollisionProbability collisionProbability(const NoisyPointCloud& a, const NoisyP
                                           const Eigen::Isometry3d& a_from_b,
                                           const CollisionProbabilityOptions& options = {});
 
+/// Whether a probability is above a threshold.
 enum class Exceeds : std::uint8_t {
   Undecided,  ///< within the accuracy of the threshold, or the effort is spent
   No,         ///< proven: the probability is at most the threshold
   Yes,        ///< proven: it is greater
 };
 
+/// The answer, and the bounds that gave it.
 struct ThresholdResult {
-  Exceeds answer = Exceeds::Undecided;
-  double lower = 0.0;  ///< as in CollisionProbability
-  double upper = 1.0;
-  ProbabilityEffort effort;
+  Exceeds answer = Exceeds::Undecided;  ///< Undecided unless a bound proves it
+  double lower = 0.0;                   ///< as in CollisionProbability
+  double upper = 1.0;                   ///< likewise
+  ProbabilityEffort effort;             ///< spent until the bounds told
 };
 
 /// Whether the probability exceeds a threshold. Stops as soon as the bounds tell, which is much
@@ -131,6 +136,7 @@ struct ThresholdResult {
 ThresholdResult probabilityExceeds(const NoisyPointCloud& a, const Shape& b,
                                    const Eigen::Isometry3d& a_from_b, double threshold,
                                    const CollisionProbabilityOptions& options = {});
+/// The same for two clouds; the noise of both counts.
 ThresholdResult probabilityExceeds(const NoisyPointCloud& a, const NoisyPointCloud& b,
                                    const Eigen::Isometry3d& a_from_b, double threshold,
                                    const CollisionProbabilityOptions& options = {});

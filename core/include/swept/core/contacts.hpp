@@ -17,10 +17,12 @@ struct ContactPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double depth = 0.0;  ///< m, >= 0; infinity where no translation separates
   int pieceA = -1;     ///< triangle of a mesh, point of a cloud; -1 for other shapes
-  int pieceB = -1;
+  int pieceB = -1;     ///< likewise, of b
 };
 
+/// Whether two shapes touch, and whether all places are known.
 struct ContactsResult {
+  /// Separate: proven. Unknown: within rounding of touching, or a pose that is not finite.
   Contact status = Contact::Unknown;
   bool complete = false;  ///< every pair of pieces that touches is in the list
   int effort = 0;         ///< pairs of pieces (boxes and triangles) looked at

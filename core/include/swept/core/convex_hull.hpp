@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "swept/core/arithmetic.hpp"
+
 namespace swept {
 
 /// Solid convex hull of a set of points.
@@ -23,8 +25,8 @@ class ConvexHull {
   static ConvexHull coarser(const ConvexHull& hull);
   /// Larger by a factor above zero from a middle (m), and so is `error()`.
   static ConvexHull scaled(const ConvexHull& hull, double factor, const Eigen::Vector3d& middle);
-  static constexpr std::size_t kFew = 400;
-  static constexpr int kCoarse = 192;
+  static constexpr std::size_t kFew = 400;  ///< vertices
+  static constexpr int kCoarse = 192;       ///< vertices
 
   /// m, in the local frame.
   const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }
@@ -35,7 +37,7 @@ class ConvexHull {
   /// m. All x, then all y, then all z of the vertices, each list filled up to a multiple of
   /// `kLanes` with the first vertex: what a vectorised scan reads.
   std::span<const double> coordinates() const { return data_->coordinates; }
-  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kLanes = 8;  ///< doubles
 
  private:
   struct Data {

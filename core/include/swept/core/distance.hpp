@@ -10,11 +10,13 @@
 
 namespace swept {
 
+/// Who answers.
 enum class Backend : std::uint8_t {
   Native,  ///< our GJK: certified lower bounds
   Libccd,  ///< libccd for bounded pairs: no certified bound, `lower` is always 0; for comparison
 };
 
+/// When a query may stop, and where it starts.
 struct DistanceOptions {
   /// m. Stop as soon as the distance is proven to exceed this.
   double enough = std::numeric_limits<double>::infinity();
@@ -25,7 +27,7 @@ struct DistanceOptions {
   /// Warm start: a direction from a to b in a's frame, such as the `normal` of a result for a pose
   /// nearby; zero if none is known. Changes the effort, not what is proven.
   Eigen::Vector3d guess = Eigen::Vector3d::Zero();
-  Backend backend = Backend::Native;
+  Backend backend = Backend::Native;  ///< that answers
 };
 
 /// Euclidean distance between two solids, as an interval.
@@ -50,6 +52,7 @@ struct DistanceResult {
 DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                         const DistanceOptions& options = {});
 
+/// Whether two solids share a point: proven either way, or not known.
 enum class Contact : std::uint8_t { Unknown, Separate, Touching };
 
 /// Whether the solids share a point. `Unknown` only when they are within rounding of touching.

@@ -40,7 +40,9 @@ class PointCloud {
   /// Contains the points, without their balls: their convex hull, or for more than
   /// ConvexHull::kFew of them a body of few vertices around it.
   const ConvexHull& hull() const { return data_->hull; }
+  /// The hierarchy, for the queries.
   const detail::WideBvh& bvh() const { return *data_->bvh; }
+  /// On the heap.
   std::size_t bytes() const;
 
  private:

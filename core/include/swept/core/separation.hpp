@@ -44,14 +44,16 @@ struct ApproachBound {
   }
 };
 
+/// What is known about two bodies during an interval.
 enum class Separation : std::uint8_t {
   Unproven,   ///< neither of the two
   Separated,  ///< proven for the whole interval
   Contact,    ///< two points at most `contact` apart at the middle of the interval are known
 };
 
+/// What is to be proven, and how hard to try.
 struct SeparationQuery {
-  ApproachBound approach;
+  ApproachBound approach;                   ///< what the two may approach by, and have to keep
   double contact = 0.0;                     ///< m
   double tolerance = tolerance::kDistance;  ///< m, accuracy wanted where neither can be shown
   Eigen::Vector3d guess =
@@ -61,8 +63,9 @@ struct SeparationQuery {
   bool thorough = true;
 };
 
+/// The answer, and what the next query may start from.
 struct SeparationResult {
-  Separation status = Separation::Unproven;
+  Separation status = Separation::Unproven;                ///< see Separation
   double upper = std::numeric_limits<double>::infinity();  ///< m, |pointB - pointA|, if computed
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, a's frame; valid when upper is finite
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, a's frame; valid when upper is finite

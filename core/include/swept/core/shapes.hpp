@@ -12,14 +12,17 @@
 
 namespace swept {
 
+/// @file
 /// Shapes are closed sets in a local frame, centred at its origin where that makes sense, and solid
 /// but for triangles, planes and open meshes. Lengths are in metres. `makeSphere` and friends check
 /// their arguments.
 
+/// All points at most `radius` from the origin.
 struct Sphere {
   double radius;  ///< m
 };
 
+/// All points whose coordinates are within plus and minus the half extents.
 struct Box {
   Eigen::Vector3d halfExtents;  ///< m, along the local axes
 };
@@ -42,6 +45,7 @@ struct Cone {
   double halfLength;  ///< m, half of the height
 };
 
+/// All points with (x / a)^2 + (y / b)^2 + (z / c)^2 <= 1, with a, b, c the semi-axes.
 struct Ellipsoid {
   Eigen::Vector3d semiAxes;  ///< m, along the local axes
 };
@@ -67,6 +71,7 @@ struct HalfSpace {
 using Shape = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle,
                            Plane, HalfSpace, TriangleMesh, PointCloud>;
 
+///@{
 /// Each throws std::invalid_argument, naming the value, unless every size is finite and not
 /// negative.
 Sphere makeSphere(double radius);
@@ -75,18 +80,22 @@ Cylinder makeCylinder(double radius, double fullLength);
 Capsule makeCapsule(double radius, double segmentLength);
 Cone makeCone(double radius, double fullHeight);
 Ellipsoid makeEllipsoid(const Eigen::Vector3d& semiAxes);
+///@}
 /// Throws std::invalid_argument, naming the corner, unless all coordinates are finite.
 Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+///@{
 /// `normal` may have any length, and the set is { normal . x = offset } (or <=) as given. Throws
 /// std::invalid_argument unless all numbers are finite and the normal's length is a normal number.
 Plane makePlane(const Eigen::Vector3d& normal, double offset);
 HalfSpace makeHalfSpace(const Eigen::Vector3d& normal, double offset);
+///@}
 
 /// Ball that contains a shape; of infinite radius for planes and half-spaces.
 struct BoundingSphere {
   Eigen::Vector3d center;  ///< m, in the shape's frame
   double radius;           ///< m, rounded outward
 };
+/// Contains all of the shape, rounding included; not always the smallest that does.
 BoundingSphere boundingSphere(const Shape& shape);
 
 /// The shape, larger by `factor` in all directions from the middle of its box; planes and

@@ -26,7 +26,7 @@ struct SignedDistanceResult {
   /// Nearest points where apart; deepest points, on the surfaces, in convex overlap; in overlap of
   /// meshes the points at which `upper` was found, or a common point. m, a's frame.
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();
-  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< likewise, of b
   /// Unit vector in a's frame, from a to b: moving b along it by -lower ends an overlap of convex
   /// shapes. Zero when no single plane tells (meshes apart).
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

@@ -8,14 +8,15 @@
 
 namespace swept {
 
+/// How fine a cover is, and how large it may get.
 struct SphereCoverOptions {
   /// m. No ball of the finest level should reach farther beyond the shape.
   double finestOverhang = 0.0;
   /// Relative to the radius of the first ball; the larger of both is aimed at. At least 1e-3 of the
   /// radius is, so that a cover stays finite.
   double finestRelative = 1.0 / 32.0;
-  int mostBalls = 4096;  ///< a level that would take the tree past this is left out
-  int mostInnerBalls = 16;
+  int mostBalls = 4096;     ///< a level that would take the tree past this is left out
+  int mostInnerBalls = 16;  ///< in SphereCover::inner; 0: none are looked for
 };
 
 /// A ball in single precision, as vector kernels read it.
@@ -30,8 +31,9 @@ struct CoverBall {
 /// of all ancestors of that leaf; so any set of nodes that meets every path from the root to a leaf
 /// covers the shape. A closed mesh is covered with its interior, an open one is a surface.
 struct SphereCover {
+  /// A ball of the tree.
   struct Node {
-    CoverBall ball;
+    CoverBall ball;  ///< contains what the leaves below it cover of the shape
     float overhang;  ///< m, proven: no point of the ball is farther than this from the shape
     /// m. How far the ball reaches beyond the shape with its pockets filled. Collision meshes are
     /// often open shells; what these surround no body gets into without crossing them, and large
@@ -47,15 +49,15 @@ struct SphereCover {
   };
   /// Of the set of nodes `cut(level)`.
   struct Level {
-    double aimed;  ///< m, `beyond` that the level was built for
-    int ballCount = 0;
+    double aimed;            ///< m, `beyond` that the level was built for
+    int ballCount = 0;       ///< nodes of the cut
     double largestOverhang;  ///< m, proven. More than `aimed` only where an open mesh has a pocket,
                              ///< around a cloud by what its radii differ, and on inputs so extreme
                              ///< that rounding or the cap on work counts
   };
 
-  std::vector<Node> nodes;  ///< parents before children; node 0 is the root
-  std::vector<Level> levels;
+  std::vector<Node> nodes;    ///< parents before children; node 0 is the root
+  std::vector<Level> levels;  ///< from coarse to fine
   /// Wholly inside the solid, largest first, each reaching beyond those before by half its radius;
   /// none for surfaces.
   std::vector<CoverBall> inner;

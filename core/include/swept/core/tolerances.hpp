@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "swept/core/arithmetic.hpp"
+
 /// Every tolerance of swept: its unit, its value and what breaks when it moves.
 namespace swept::tolerance {
 

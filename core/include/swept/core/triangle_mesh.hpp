@@ -24,13 +24,13 @@ enum class MeshInterior : std::uint8_t {
 
 /// What building a mesh did to its input.
 struct MeshReport {
-  int verticesGiven = 0;
-  int verticesKept = 0;  ///< after welding equal positions and dropping unused ones
-  int trianglesGiven = 0;
+  int verticesGiven = 0;      ///< to build()
+  int verticesKept = 0;       ///< after welding equal positions and dropping unused ones
+  int trianglesGiven = 0;     ///< to build()
   int degenerateDropped = 0;  ///< triangles with two equal corners
   int duplicatesDropped = 0;  ///< triangles with the corners of an earlier one, in any order
   int closedComponents = 0;   ///< every edge shared by an even number of triangles
-  int openComponents = 0;
+  int openComponents = 0;     ///< the others
 };
 
 /// Triangles with a hierarchy over them. Immutable; copies share the data.
@@ -66,8 +66,11 @@ class TriangleMesh {
   TriangleMesh moved(std::span<const Eigen::Vector3d> vertices) const;
 
   const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }  ///< m
+  /// In the order of the hierarchy, not that of build().
   const std::vector<Triangle>& triangles() const { return data_->triangles; }
+  /// What build() did; moved() leaves it as it was.
   const MeshReport& report() const { return data_->report; }
+  /// What closed components mean.
   MeshInterior interior() const { return data_->interior; }
   /// True when every component is closed.
   bool isClosed() const { return data_->report.openComponents == 0; }
@@ -89,6 +92,7 @@ class TriangleMesh {
   /// The closed components that are convex solids; none under `Surface`. Their penetration is
   /// exact.
   std::span<const ConvexHull> convexParts() const { return data_->convexParts; }
+  /// The hierarchy, for the queries.
   const detail::WideBvh& bvh() const { return *data_->bvh; }
 
  private:

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "swept/core/arithmetic.hpp"
+
 namespace swept {
 
 /// The corners of a triangle, as a closed set in space; it may be degenerate (a segment, a point).

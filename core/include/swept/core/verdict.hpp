@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "swept/core/arithmetic.hpp"
+
 namespace swept {
 
 /// What is known about a state or a motion.
@@ -15,6 +17,7 @@ enum class Verdict : std::uint8_t {
   Collision,  ///< witnessed: two points of the exact geometry are within the margin
 };
 
+/// `free`, `collision` or `undecided`: as the program prints it.
 constexpr std::string_view toString(Verdict verdict) {
   switch (verdict) {
     case Verdict::Free:

@@ -23,12 +23,14 @@ namespace swept {
 /// `nearest` widens its lower bound by the rounding. World poses are taken as orthonormal to 1e-15.
 class BodyTree {
  public:
+  /// A shape where it is in the world; `id` comes back in the answers.
   struct Body {
-    int id;  ///< the caller's; need not be unique
-    Shape shape;
-    Eigen::Isometry3d world_from_body;
+    int id;                             ///< the caller's; need not be unique
+    Shape shape;                        ///< in its own frame
+    Eigen::Isometry3d world_from_body;  ///< pose in the world
   };
 
+  /// Whether any body touches a shape.
   struct Hit {
     /// Separate: proven for every body. Touching: with `id`. Unknown: no body is known to touch,
     /// and at least one, `id`, is not proven apart (within rounding, or a pose that is not finite).
@@ -36,6 +38,7 @@ class BodyTree {
     int id = -1;  ///< without meaning for Separate
   };
 
+  /// The distance of the nearest body, as an interval.
   struct Nearest {
     double lower = 0.0;  ///< m, proven: no body is nearer; infinity in an empty tree
     double upper = std::numeric_limits<double>::infinity();  ///< m, distance of the points

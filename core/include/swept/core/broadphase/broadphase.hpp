@@ -34,18 +34,24 @@ double boxDistance(const Aabb& a, const Aabb& b);
 
 /// Memory that queries use again; one for each thread. Its content never matters.
 struct BroadphaseScratch {
+  /// What the search for the nearest has yet to look at.
   struct Candidate {
     double distance;      ///< m
     std::uint64_t order;  ///< at the same distance: blocks first, then boxes by handle
   };
+  /// Two boxes; ordered as they are visited.
   struct Pair {
     double distance;  ///< m
+    ///@{
+    /// Within one broadphase a < b.
     BoxHandle a, b;
+    ///@}
+    /// By distance, then by a, then by b.
     auto operator<=>(const Pair&) const = default;
   };
-  std::vector<BoxHandle> handles;
-  std::vector<Candidate> nearest;
-  std::vector<Pair> pairs;
+  std::vector<BoxHandle> handles;  ///< of boxes that overlap the one that is asked about
+  std::vector<Candidate> nearest;  ///< what a search for the nearest has found and not visited
+  std::vector<Pair> pairs;         ///< nearest first
 };
 
 /// Boxes that come, move and go, and which of them overlap. Touching counts.

@@ -16,6 +16,8 @@ namespace swept {
 /// and quick for a handful of boxes.
 class BruteForce {
  public:
+  ///@{
+  /// As `Broadphase` says; each takes time in proportion to the boxes, or pairs, there are.
   BoxHandle registerBox(const Aabb& box);
   std::vector<BoxHandle> registerBoxes(std::span<const Aabb> boxes);
   void unregisterBox(BoxHandle handle);
@@ -90,6 +92,7 @@ class BruteForce {
     }
     return visitPairs(scratch, visitor);
   }
+  ///@}
 
  private:
   void require(BoxHandle handle) const;

@@ -32,21 +32,28 @@ class SweepAndPrune {
   SweepAndPrune(const SweepAndPrune& other);
   SweepAndPrune& operator=(const SweepAndPrune& other);
 
+  /// As `Broadphase` says.
   BoxHandle registerBox(const Aabb& box);
   /// Much cheaper than one by one. The handles are in the order of the boxes.
   std::vector<BoxHandle> registerBoxes(std::span<const Aabb> boxes);
+  /// As `Broadphase` says.
   void unregisterBox(BoxHandle handle);
 
+  /// As `Broadphase` says.
   void update(BoxHandle handle, const Aabb& box);
   /// If a handle comes twice, its last box counts.
   void update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes);
+  /// As `Broadphase` says.
   void updateAll(std::span<const Aabb> boxes);
 
+  /// Boxes that are registered.
   std::size_t size() const;
+  /// Whether the handle is in use.
   bool contains(BoxHandle handle) const;
   const Aabb& box(BoxHandle handle) const;  ///< m, as `boundedOrEverywhere` takes it
   std::size_t bytes() const;                ///< on the heap
 
+  /// As `Broadphase` says. The pairs are known already: this takes their number.
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {
     const Pairs pairs = this->pairs();
@@ -64,6 +71,7 @@ class SweepAndPrune {
     return false;
   }
 
+  /// As `Broadphase` says.
   template <typename Visitor>
   bool collide(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     findOverlapping(box, scratch);
@@ -72,6 +80,7 @@ class SweepAndPrune {
     return false;
   }
 
+  /// As `Broadphase` says: a search in `other` for each box.
   template <typename Visitor>
   bool collide(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
     for (BoxHandle handle = 0; handle < handleEnd(); ++handle) {
@@ -82,6 +91,7 @@ class SweepAndPrune {
     return false;
   }
 
+  /// As `Broadphase` says.
   template <typename Visitor>
   double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     double bound = std::numeric_limits<double>::infinity();
@@ -103,6 +113,7 @@ class SweepAndPrune {
     return bound;
   }
 
+  /// As `Broadphase` says; memory as above.
   template <typename Visitor>
   double distance(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
     double bound = std::numeric_limits<double>::infinity();

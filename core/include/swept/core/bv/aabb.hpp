@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "swept/core/eigen_layout.hpp"
+
 namespace swept {
 
 /// Axis-aligned box; a `BoundingVolume`. Under a pose both boxes are bounded again along the axes
@@ -12,20 +14,26 @@ struct Aabb {
   Eigen::Vector3d lower;  ///< m
   Eigen::Vector3d upper;  ///< m
 
-  static constexpr bool kMergeIsTight = true;
+  static constexpr bool kMergeIsTight = true;  ///< a fit to children is as tight as one to points
 
+  ///@{
+  /// As `BoundingVolume` says.
   static Aabb fit(std::span<const Eigen::Vector3d> points);
   static Aabb merge(const Aabb& a, const Aabb& b);
+  ///@}
   Aabb inflated(double by) const;  ///< by: m
 
+  /// Exact; touching overlaps. A coordinate that is NaN keeps nothing apart.
   bool overlaps(const Aabb& other) const {
     for (int k = 0; k < 3; ++k) {
       if (lower[k] > other.upper[k] || other.lower[k] > upper[k]) return false;
     }
     return true;
   }
+  /// As `BoundingVolume` says; six axes are tried.
   bool overlaps(const Aabb& other, const Eigen::Isometry3d& a_from_b) const;
   double distanceBound(const Aabb& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
+  /// Exact; a coordinate that is NaN keeps nothing out.
   bool contains(const Eigen::Vector3d& p) const {
     for (int k = 0; k < 3; ++k) {
       if (p[k] < lower[k] || p[k] > upper[k]) return false;

@@ -5,6 +5,8 @@
 #include <concepts>
 #include <span>
 
+#include "swept/core/eigen_layout.hpp"
+
 namespace swept {
 
 /// What a hierarchy asks of a bounding volume (Pan, Chitta, Manocha 2012, section III): any type

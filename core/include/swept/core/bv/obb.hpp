@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "swept/core/eigen_layout.hpp"
+
 namespace swept {
 
 /// Oriented box; a `BoundingVolume`. Overlap after Gottschalk, Lin, Manocha 1996 ("OBBTree"): the
@@ -20,10 +22,14 @@ struct Obb {
   static Obb merge(const Obb& a, const Obb& b);
   Obb inflated(double by) const;  ///< by: m
 
+  ///@{
+  /// 15 axes; false only with proof, as `BoundingVolume` says.
   bool overlaps(const Obb& other) const;
   bool overlaps(const Obb& other, const Eigen::Isometry3d& a_from_b) const;
+  ///@}
   /// Best of: the gaps along the three axes of one box, taken together; the gap along an edge pair.
   double distanceBound(const Obb& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
+  /// As `BoundingVolume` says.
   bool contains(const Eigen::Vector3d& p) const;
   const Eigen::Vector3d& center() const { return middle; }         ///< m
   double size() const { return 4.0 * halfExtents.squaredNorm(); }  ///< m^2

@@ -17,16 +17,22 @@ struct Rss {
   Eigen::Vector2d halfLengths;  ///< m
   double radius;                ///< m
 
+  /// Along the axes of the box that Obb::fit finds.
   static Rss fit(std::span<const Eigen::Vector3d> points);
   /// Along the axes of a box that contains the points; its last one becomes the rectangle's normal.
   static Rss fitWithin(std::span<const Eigen::Vector3d> points, const Obb& box);
+  /// As `BoundingVolume` says.
   static Rss merge(const Rss& a, const Rss& b);
   Rss inflated(double by) const;  ///< by: m
 
+  ///@{
+  /// False only if the volumes are proven to share no point.
   bool overlaps(const Rss& other) const;
   bool overlaps(const Rss& other, const Eigen::Isometry3d& a_from_b) const;
+  ///@}
   /// Within 1e-3 of the distance of the two volumes, and never more than it.
   double distanceBound(const Rss& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
+  /// As `BoundingVolume` says.
   bool contains(const Eigen::Vector3d& p) const;
   const Eigen::Vector3d& center() const { return middle; }  ///< m
   /// m^2, squared diagonal of the box around it.

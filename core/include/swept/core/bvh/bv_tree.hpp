@@ -20,18 +20,20 @@ namespace swept {
 /// N primitives, each the convex hull of as many points, grown by a radius.
 struct PrimitivePoints {
   std::span<const Eigen::Vector3d> points;  ///< m; primitive i has [i * per, (i + 1) * per)
-  std::size_t perPrimitive = 1;
-  std::span<const double> radii = {};  ///< m, one per primitive; empty: all zero
+  std::size_t perPrimitive = 1;             ///< at least 1
+  std::span<const double> radii = {};       ///< m, one per primitive; empty: all zero
 
+  /// Primitives.
   std::size_t count() const { return points.size() / perPrimitive; }
 };
 
 /// The shape of a tree, without volumes.
 struct TreeTopology {
+  /// An inner node has both children, a leaf its primitives.
   struct Node {
     int rightChild;  ///< -1: a leaf. The left child of node i is i + 1
     int first;       ///< of the node's primitives, which are contiguous in `order`
-    int count;
+    int count;       ///< of these primitives
   };
   std::vector<Node> nodes;  ///< depth first
   std::vector<int> order;   ///< primitive indices
@@ -50,14 +52,16 @@ inline constexpr int kMaxTreeDepth = 64;
 template <BoundingVolume BV>
 class BvTree {
  public:
-  static constexpr int kMaxDepth = kMaxTreeDepth;
+  static constexpr int kMaxDepth = kMaxTreeDepth;  ///< of any tree, in nodes
 
+  /// Children follow their parents; the root is node 0.
   struct Node {
-    BV volume;
+    BV volume;       ///< contains all primitives below
     int rightChild;  ///< -1: a leaf. The left child of node i is i + 1
     int first;       ///< of the node's primitives, which are contiguous in order()
-    int count;
+    int count;       ///< of these primitives
 
+    /// Leaves have no children.
     bool isLeaf() const { return rightChild < 0; }
   };
 
@@ -71,11 +75,14 @@ class BvTree {
   /// `primitives` has as many as at build, in the same order; their points may be more each.
   void refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit = FitToChildren{});
 
+  /// Depth first, the root first; none in an empty tree.
   const std::vector<Node>& nodes() const { return nodes_; }
+  /// i is not checked.
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   /// Primitive indices in the order of the leaves.
   const std::vector<int>& order() const { return order_; }
   int depth() const { return depth_; }  ///< nodes on the longest path from the root; <= kMaxDepth
+  /// On the heap.
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(int);
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "swept/core/bvh/model_geometry.hpp"
 
@@ -11,8 +13,8 @@ namespace swept {
 /// How a model builds its hierarchy.
 template <BoundingVolume BV>
 struct BvhOptions {
-  SplitFunction split = MeanSplit{};
-  FitFunction<BV> fit = defaultFit<BV>();
+  SplitFunction split = MeanSplit{};       ///< how nodes are parted
+  FitFunction<BV> fit = defaultFit<BV>();  ///< how nodes are bounded
   int maxLeaf = 2;  ///< primitives per leaf, at least 1; 2: half the memory of 1 and faster queries
 };
 
@@ -24,8 +26,9 @@ struct BvhOptions {
 template <BoundingVolume BV>
 class BvhModel : public ModelGeometry {
  public:
-  using Volume = BV;
+  using Volume = BV;  ///< of the nodes
 
+  /// Empty.
   explicit BvhModel(BvhOptions<BV> options = {}) : options_(std::move(options)) {}
 
   /// Building -> Built. Throws std::invalid_argument without triangles or points.
@@ -39,6 +42,7 @@ class BvhModel : public ModelGeometry {
 
   /// Primitives of the tree are triangle indices, or vertex indices of a point cloud.
   const BvTree<BV>& tree() const { return tree_; }
+  /// With the object itself.
   std::size_t bytes() const { return sizeof(*this) + tree_.bytes() + geometryBytes(); }
 
  private:

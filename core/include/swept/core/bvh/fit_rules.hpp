@@ -15,7 +15,7 @@ struct FitInput {
   std::span<const Eigen::Vector3d> points;  ///< m, of all primitives below the node
   double radius = 0.0;                      ///< m, the largest of the points' radii
   const BV* left = nullptr;                 ///< volumes of the children; null at a leaf
-  const BV* right = nullptr;
+  const BV* right = nullptr;                ///< likewise
 };
 
 /// Any callable that bounds a node: the result contains the hull of the points grown by the radius.
@@ -24,6 +24,7 @@ using FitFunction = std::function<BV(const FitInput<BV>&)>;
 
 /// Around all points below: tightest, n log n.
 struct FitToPoints {
+  /// The volume of a node.
   template <BoundingVolume BV>
   BV operator()(const FitInput<BV>& node) const {
     const BV volume = BV::fit(node.points);
@@ -33,6 +34,7 @@ struct FitToPoints {
 
 /// Around the children's volumes: linear; oriented volumes come out looser.
 struct FitToChildren {
+  /// The volume of a node.
   template <BoundingVolume BV>
   BV operator()(const FitInput<BV>& node) const {
     if (node.left == nullptr) return FitToPoints{}(node);

@@ -26,12 +26,14 @@ namespace swept {
 /// vertex). Queries need Built or Updated. clear() leads back to Empty from anywhere.
 enum class BvhState : std::uint8_t { Empty, Building, Built, Replacing, Updating, Updated };
 
+/// `empty`, `building`, ...: as messages of BvhStateError say it.
 std::string_view toString(BvhState state);
 
 /// A call that the state of the model does not allow. what() names the call, the state and the
 /// states that allow it: "BvhModel::addTriangle: model is built; allowed: building".
 class BvhStateError : public std::logic_error {
  public:
+  /// The message is made of these; `call` without the class.
   BvhStateError(std::string_view call, BvhState state, std::initializer_list<BvhState> allowed);
 };
 
@@ -48,6 +50,7 @@ enum class Refresh : std::uint8_t {
 /// with the element and the value, for bad input; either leaves the model as it was.
 class ModelGeometry {
  public:
+  /// Of the model, see BvhState.
   BvhState state() const { return state_; }
 
   /// Empty -> Building. The counts only reserve memory.
@@ -57,6 +60,7 @@ class ModelGeometry {
   /// m.
   int addVertex(const Eigen::Vector3d& position);
   int addTriangle(const Eigen::Vector3i& vertices);  ///< indices of vertices added before
+  /// With three vertices of its own (m); none is shared.
   int addTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
   /// The triangles' indices count from the first of these vertices.
   int addMesh(std::span<const Eigen::Vector3d> vertices,
@@ -66,19 +70,23 @@ class ModelGeometry {
 
   /// Built or Updated -> Replacing; then new positions for vertices first, first + 1, ...
   void beginReplace();
+  /// While Replacing: positions in m for vertices `first` and on.
   void replaceVertices(std::size_t first, std::span<const Eigen::Vector3d> positions);
 
   /// Built or Updated -> Updating; present positions become the previous ones. Then as above.
   void beginUpdate();
+  /// While Updating: positions in m for vertices `first` and on; the others stand still.
   void updateVertices(std::size_t first, std::span<const Eigen::Vector3d> positions);
 
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }  ///< m
   /// m; before the last update. Empty unless Updating or Updated.
   const std::vector<Eigen::Vector3d>& previousVertices() const { return previous_; }
+  /// Indices into vertices(); empty for a cloud.
   const std::vector<Eigen::Vector3i>& triangles() const { return triangles_; }
   const std::vector<double>& radii() const { return radii_; }  ///< m, per point; empty: all zero
   /// No triangles: each vertex is a primitive.
   bool isPointCloud() const { return triangles_.empty(); }
+  /// Triangles, or points of a cloud: what the leaves of a tree hold.
   std::size_t primitiveCount() const {
     return isPointCloud() ? vertices_.size() : triangles_.size();
   }
@@ -98,13 +106,19 @@ class ModelGeometry {
  protected:
   ~ModelGeometry() = default;
 
+  /// Throws BvhStateError, naming `call`, in any other state.
   void requireState(std::string_view call, std::initializer_list<BvhState> allowed) const;
+  /// Throws std::invalid_argument without triangles or points.
   void requirePrimitives() const;
   /// Points of all primitives: at present, or at present and before.
   std::vector<Eigen::Vector3d> primitivePoints() const;
+  /// Of primitivePoints(): 1 or 3, twice that where the model is Updated.
   std::size_t pointsPerPrimitive() const;
+  /// The state from now on; measures extent() anew.
   void enter(BvhState state);
+  /// To what a new model has.
   void clearGeometry();
+  /// On the heap.
   std::size_t geometryBytes() const;
 
  private:

@@ -7,13 +7,15 @@
 #include <functional>
 #include <span>
 
+#include "swept/core/arithmetic.hpp"
+
 namespace swept {
 
 /// A primitive while the tree is built: its box.
 struct SplitItem {
   Eigen::Vector3d lower;  ///< m
   Eigen::Vector3d upper;  ///< m
-  int primitive;
+  int primitive;          ///< its index
 
   double center(int axis) const { return 0.5 * lower[axis] + 0.5 * upper[axis]; }  ///< m
   Eigen::Vector3d center() const { return 0.5 * lower + 0.5 * upper; }             ///< m
@@ -33,22 +35,26 @@ using SplitFunction = std::function<std::size_t(std::span<SplitItem>)>;
 
 /// At the mean of the centres along the axis where these extend farthest.
 struct MeanSplit {
+  /// As `SplitRule` says.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 
 /// Halves, by the median of the centres along the axis where these extend farthest.
 struct MedianSplit {
+  /// As `SplitRule` says.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 
 /// At the mean of the centres along their direction of most spread (Gottschalk, Lin, Manocha 1996).
 struct PrincipalAxisSplit {
+  /// As `SplitRule` says.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 
 /// Least sum over the two sides of surface area times number of primitives, over cuts at equal bins
 /// along the axis where the centres extend farthest (Wald 2007).
 struct SurfaceAreaSplit {
+  /// As `SplitRule` says.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 

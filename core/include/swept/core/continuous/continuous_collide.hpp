@@ -12,6 +12,7 @@
 
 namespace swept {
 
+/// What counts as contact, and how exactly its time is wanted.
 struct ContinuousOptions {
   double margin = 0.0;  ///< m, >= 0. Closer than this, or as close, is contact.
   /// m. Motions that keep more than margin + tolerance are Free; the first contact is found to
@@ -23,14 +24,16 @@ struct ContinuousOptions {
   int maxIntervals = tolerance::kMaxIntervals;
 };
 
+/// What a query took.
 struct ContinuousEffort {
   int intervals = 0;             ///< of time
   std::int64_t volumeTests = 0;  ///< groups of up to eight bounding volumes against another
   std::int64_t leafTests = 0;    ///< triangles, points and convex bodies, pairs of them
 };
 
+/// When two moving shapes first touch, as an interval of t.
 struct ContinuousResult {
-  Verdict verdict = Verdict::Undecided;
+  Verdict verdict = Verdict::Undecided;  ///< see continuousCollide
   /// Proven: the shapes keep more than the margin on [0, freeUntil), and on [0, 1] if Free (it is 1
   /// then).
   double freeUntil = 0.0;
@@ -41,7 +44,7 @@ struct ContinuousResult {
   double contactBy = 1.0;
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, world frame, at contactBy; if Collision
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, world frame, at contactBy; if Collision
-  ContinuousEffort effort;
+  ContinuousEffort effort;                           ///< spent, whatever the verdict
 };
 
 /// Memory for queries of one thread. No result depends on what it held before. It grows with what
@@ -54,6 +57,7 @@ class ContinuousWorkspace {
   ~ContinuousWorkspace();
 
   struct Data;
+  /// For the queries.
   Data& data() { return *data_; }
 
  private:
@@ -73,6 +77,7 @@ class ContinuousWorkspace {
 ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
                                    const Motion& motionB, const ContinuousOptions& options,
                                    ContinuousWorkspace& workspace);
+/// The same, with a workspace made for this query.
 ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
                                    const Motion& motionB, const ContinuousOptions& options = {});
 

@@ -47,16 +47,19 @@ class DeformingMesh {
   /// Builds the hierarchy anew, for the end of the step.
   void rebuild();
 
+  /// As many as build() got.
   std::size_t vertexCount() const;
+  /// As many as build() got; impacts name them by index.
   std::size_t triangleCount() const;
   /// How often moveTo() found it worth the time to build the hierarchy anew.
   std::size_t rebuilds() const;
   /// What the hierarchy's boxes have grown to, against those of the triangles, since it was built:
   /// ratio of surface areas, 1 after a build. From kRebuildGrowth on moveTo() builds anew.
   double growth() const;
-  static constexpr double kRebuildGrowth = 2.0;
+  static constexpr double kRebuildGrowth = 2.0;  ///< see growth()
 
   struct Data;
+  /// For the queries.
   const Data& data() const { return *data_; }
 
  private:
@@ -64,6 +67,7 @@ class DeformingMesh {
   std::unique_ptr<Data> data_;
 };
 
+/// What counts as contact during a step, and what is asked.
 struct DeformingOptions {
   double separation = 0.0;  ///< m, >= 0. Closer than this, or as close, is contact.
   /// m, >= 0. What keeps more than separation + tolerance is Free, and the time of a contact is
@@ -83,9 +87,11 @@ struct TriangleImpact {
   double freeUntil;
   /// A t at which they are at most separation + tolerance apart; 1 if Undecided.
   double contactBy;
+  /// By the members in their order: triangles first.
   auto operator<=>(const TriangleImpact&) const = default;
 };
 
+/// What a query took.
 struct DeformingEffort {
   std::int64_t candidates = 0;  ///< pairs of triangles that no box and no plane kept apart
   std::int64_t features = 0;    ///< vertex-face and edge-edge pairs solved
@@ -93,12 +99,12 @@ struct DeformingEffort {
 
 /// Contacts of a step. Reuse one result to query without allocating.
 struct DeformingResult {
-  Verdict verdict = Verdict::Undecided;
+  Verdict verdict = Verdict::Undecided;  ///< Free: nothing meets, proven
   double freeUntil = 0.0;  ///< proven: no contact on [0, freeUntil), and on [0, 1] if Free
   double contactBy = 1.0;  ///< the earliest t with a known contact; 1 unless Collision
   /// Sorted by triangles; with `firstOnly` one of those that come first, if there is any.
   std::vector<TriangleImpact> impacts;
-  DeformingEffort effort;
+  DeformingEffort effort;  ///< spent, whatever the verdict
 };
 
 /// Memory for queries of one thread. No result depends on what it held before. A query that needs
@@ -111,6 +117,7 @@ class DeformingWorkspace {
   ~DeformingWorkspace();
 
   struct Data;
+  /// For the queries.
   Data& data() { return *data_; }
 
  private:

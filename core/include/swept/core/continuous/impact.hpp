@@ -14,6 +14,7 @@ struct LinearPath {
   Eigen::Vector3d end;    ///< m
 };
 
+/// What counts as contact of two features, and until when.
 struct ImpactOptions {
   double separation = 0.0;  ///< m, >= 0. Closer than this, or as close, is contact.
   /// m. Features that keep more than separation + tolerance are Free, and contactBy - freeUntil is
@@ -39,6 +40,7 @@ struct Impact {
 /// Corners of the face: a triangle at every t, perhaps a degenerate one.
 Impact vertexFaceImpact(const LinearPath& vertex, const std::array<LinearPath, 3>& face,
                         const ImpactOptions& options = {});
+/// The same for two edges, given by their ends.
 Impact edgeEdgeImpact(const std::array<LinearPath, 2>& first,
                       const std::array<LinearPath, 2>& second, const ImpactOptions& options = {});
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "swept/core/shapes.hpp"
 
@@ -16,7 +17,7 @@ struct Twist {
 /// Where a body is and how it moves at one t.
 struct MotionState {
   Eigen::Isometry3d pose;  ///< world_from_body
-  Twist twist;
+  Twist twist;             ///< at the same t
 };
 
 /// What the velocities of a body do not exceed during an interval, per unit of t.
@@ -56,6 +57,7 @@ class Motion {
 
   /// world_from_body. A non-finite t gives a non-finite pose.
   virtual Eigen::Isometry3d at(double t) const = 0;
+  /// Per unit of t, of the body as at() has it.
   virtual Twist velocity(double t) const = 0;
   /// Both at once, for motions to which that is less work.
   virtual MotionState state(double t) const { return {at(t), velocity(t)}; }
@@ -73,6 +75,7 @@ class Motion {
   MotionBound bound(const BoundingSphere& ball, double from, double to) const;
 
  protected:
+  /// `reference`: m, body frame.
   explicit Motion(Eigen::Vector3d reference) : reference_(std::move(reference)) {}
   Motion(const Motion&) = default;
   Motion(Motion&&) = default;

@@ -74,8 +74,10 @@ class FrontList {
 template <CollisionTraversal Node>
 class FrontTraversal {
  public:
+  /// Both have to live until run() is done; the node is of the hierarchies the front belongs to.
   FrontTraversal(Node& node, FrontList& front) : node_(node), front_(front) {}
 
+  /// Calls leafTesting for the pairs of leaves that may touch, until the node can stop.
   void run() {
     if (front_.pairs_.empty()) front_.pairs_.push_back({0, 0, -1});
     ++front_.turn_;

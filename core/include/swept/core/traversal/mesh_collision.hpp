@@ -9,12 +9,15 @@
 
 namespace swept {
 
+/// Two triangles that touch, by index.
 struct TrianglePair {
   int first;   ///< triangle of the first model
   int second;  ///< triangle of the second model, or of the same one
+  /// By first, then by second.
   auto operator<=>(const TrianglePair&) const = default;
 };
 
+/// How many pairs are wanted.
 struct MeshCollisionOptions {
   std::size_t maxPairs = 1;  ///< stop at this many touching pairs; 1: yes or no
 };
@@ -26,8 +29,9 @@ struct MeshCollisionResult {
   /// coordinates.
   bool touching = false;
   std::vector<TrianglePair> pairs;  ///< at most maxPairs of the touching ones; each once
-  TraversalEffort effort;
+  TraversalEffort effort;           ///< what the traversal took
 
+  /// For the next query; keeps the memory.
   void reset() {
     touching = false;
     pairs.clear();
@@ -39,10 +43,13 @@ struct MeshCollisionResult {
 template <BoundingVolume BV>
 class MeshCollisionNode : public MeshPair<BV> {
  public:
+  /// Throws as collideMeshes. `result` is added to.
   MeshCollisionNode(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                     const MeshCollisionOptions& options, MeshCollisionResult& result)
       : MeshPair<BV>(a, b, a_from_b, "collideMeshes"), maxPairs_(options.maxPairs), out_(result) {}
 
+  ///@{
+  /// As `CollisionTraversal` says.
   bool bvTesting(int i, int j) {
     ++out_.effort.bvTests;
     return !this->first(i).volume.overlaps(this->second(j).volume, this->a_from_b_);
@@ -58,6 +65,7 @@ class MeshCollisionNode : public MeshPair<BV> {
     });
   }
   bool canStop() const { return out_.pairs.size() >= maxPairs_; }
+  ///@}
 
  private:
   std::size_t maxPairs_;

@@ -25,12 +25,13 @@ struct MeshDistanceResult {
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, a's frame
   int triangleA = -1;                                      ///< with pointA; -1 only without a bound
   int triangleB = -1;                                      ///< with pointB
-  TraversalEffort effort;
+  TraversalEffort effort;                                  ///< what the traversal took
 };
 
 /// Branch and bound: the best distance so far, and the least bound of what was left out for it.
 class DistanceSearch {
  public:
+  /// With no bound yet.
   explicit DistanceSearch(const MeshDistanceOptions& options) : options_(options) {}
 
   /// Whether what is at least this far away cannot matter. Remembers the bound it dismisses. NaN is
@@ -42,6 +43,7 @@ class DistanceSearch {
     lower_ = std::min(lower_, bound);
     return true;
   }
+  /// `lower` (m) is proven for a pair of leaves that was looked at.
   void examined(double lower) { lower_ = std::min(lower_, lower); }
   /// m; proven for everything dismissed or examined.
   double lower(double upper) const { return std::clamp(lower_, 0.0, upper); }
@@ -61,6 +63,7 @@ inline double rankOfOverlap(const Eigen::Vector3d& a, const Eigen::Vector3d& b) 
 template <BoundingVolume BV>
 class MeshDistanceNode : public MeshPair<BV> {
  public:
+  /// Throws as meshDistance. `result` is made better where a pair is nearer.
   MeshDistanceNode(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                    const MeshDistanceOptions& options, MeshDistanceResult& result)
       : MeshPair<BV>(a, b, a_from_b, "meshDistance"),
@@ -71,6 +74,8 @@ class MeshDistanceNode : public MeshPair<BV> {
                   (b.extent() + a_from_b.translation().template lpNorm<1>())),
         out_(result) {}
 
+  ///@{
+  /// As `DistanceTraversal` says.
   double bvTesting(int i, int j) {
     ++out_.effort.bvTests;
     const BV& volume = this->first(i).volume;
@@ -96,6 +101,7 @@ class MeshDistanceNode : public MeshPair<BV> {
     });
   }
   bool canStop(double bound) { return search_.dismiss(std::max(0.0, bound), out_.upper); }
+  ///@}
   /// To be called after the traversal.
   void finish() { out_.lower = search_.lower(out_.upper); }
 

@@ -15,6 +15,8 @@ namespace swept {
 template <BoundingVolume BV>
 class MeshPair {
  public:
+  ///@{
+  /// As `PairTraversal` says; the larger volume is descended first.
   bool isFirstLeaf(int i) const { return first(i).isLeaf(); }
   bool isSecondLeaf(int j) const { return second(j).isLeaf(); }
   bool firstOverSecond(int i, int j) const {
@@ -22,6 +24,7 @@ class MeshPair {
   }
   std::array<int, 2> firstChildren(int i) const { return {i + 1, first(i).rightChild}; }
   std::array<int, 2> secondChildren(int j) const { return {j + 1, second(j).rightChild}; }
+  ///@}
 
  protected:
   /// Throws, naming `call`, unless both models can be queried and have triangles.
@@ -33,8 +36,11 @@ class MeshPair {
   }
   ~MeshPair() = default;
 
+  ///@{
+  /// Nodes of either tree.
   const typename BvTree<BV>::Node& first(int i) const { return a_.tree().node(i); }
   const typename BvTree<BV>::Node& second(int j) const { return b_.tree().node(j); }
+  ///@}
   /// Triangle of b, in a's frame (m).
   TriangleCorners secondCorners(int triangle) const {
     const TriangleCorners c = b_.corners(triangle);
@@ -52,9 +58,9 @@ class MeshPair {
     }
   }
 
-  const BvhModel<BV>& a_;
-  const BvhModel<BV>& b_;
-  Eigen::Isometry3d a_from_b_;
+  const BvhModel<BV>& a_;       ///< the first model
+  const BvhModel<BV>& b_;       ///< the second model
+  Eigen::Isometry3d a_from_b_;  ///< pose of b
 };
 
 }  // namespace swept

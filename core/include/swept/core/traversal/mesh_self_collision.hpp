@@ -10,12 +10,15 @@ namespace swept {
 template <BoundingVolume BV>
 class MeshSelfCollisionNode : public MeshPair<BV> {
  public:
+  /// Throws as selfCollideMesh. `result` is added to.
   MeshSelfCollisionNode(const BvhModel<BV>& model, const MeshCollisionOptions& options,
                         MeshCollisionResult& result)
       : MeshPair<BV>(model, model, Eigen::Isometry3d::Identity(), "selfCollideMesh"),
         maxPairs_(options.maxPairs),
         out_(result) {}
 
+  ///@{
+  /// As `SelfCollisionTraversal` says.
   bool bvTesting(int i, int j) {
     ++out_.effort.bvTests;
     return !this->first(i).volume.overlaps(this->second(j).volume);
@@ -33,6 +36,7 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
     });
   }
   bool canStop() const { return out_.pairs.size() >= maxPairs_; }
+  ///@}
 
  private:
   bool shareVertex(int t, int u) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <concepts>
+#include <string_view>
 
 #include "swept/core/distance.hpp"
 #include "swept/core/traversal/mesh_distance.hpp"
@@ -21,9 +22,12 @@ concept TriangleLeaf = requires(Leaf& leaf, const TriangleCorners& corners, doub
 /// Leaf test against a shape, by the queries of distance.hpp. Keeps a reference to the shape.
 class ShapeLeaf {
  public:
+  /// `mesh_from_shape`: pose of the shape in the mesh's frame.
   ShapeLeaf(const Shape& shape, const Eigen::Isometry3d& mesh_from_shape);
 
+  /// Of a triangle (m, mesh frame) and the shape.
   Contact collide(const TriangleCorners& corners);
+  /// Of a triangle (m, mesh frame) and the shape; stops where it is proven to exceed `enough` (m).
   DistanceResult distance(const TriangleCorners& corners, double enough);
 
  private:
@@ -40,19 +44,24 @@ std::array<Eigen::Vector3d, 8> boxCorners(const Shape& shape,
 template <BoundingVolume BV>
 class MeshAndOne {
  public:
+  ///@{
+  /// As `PairTraversal` says; only the mesh is descended.
   bool isFirstLeaf(int i) const { return node(i).isLeaf(); }
   bool isSecondLeaf(int) const { return true; }
   bool firstOverSecond(int, int) const { return true; }
   std::array<int, 2> firstChildren(int i) const { return {i + 1, node(i).rightChild}; }
   std::array<int, 2> secondChildren(int) const { return {0, 0}; }
+  ///@}
 
  protected:
+  /// Throws, naming `call`, unless the mesh can be queried and has triangles.
   MeshAndOne(const BvhModel<BV>& mesh, const BV& volume, std::string_view call)
       : mesh_(mesh), volume_(volume) {
     mesh.requireTriangles(call);
   }
   ~MeshAndOne() = default;
 
+  /// Of the mesh.
   const typename BvTree<BV>::Node& node(int i) const { return mesh_.tree().node(i); }
   /// Calls visit(t) for the triangles of leaf i until it returns false.
   template <typename Visit>
@@ -62,28 +71,32 @@ class MeshAndOne {
     }
   }
 
-  const BvhModel<BV>& mesh_;
-  BV volume_;
+  const BvhModel<BV>& mesh_;  ///< the mesh
+  BV volume_;                 ///< of the shape, in the mesh's frame
 };
 
+/// Whether a mesh's surface touches a shape.
 struct MeshShapeCollisionResult {
   /// Touching: some triangle touches the shape. Separate: none does. Unknown: some are within
   /// rounding.
   Contact contact = Contact::Unknown;
-  int triangle = -1;  ///< one that touches, or is within rounding; -1: none
-  TraversalEffort effort;
+  int triangle = -1;       ///< one that touches, or is within rounding; -1: none
+  TraversalEffort effort;  ///< what the traversal took
 };
 
 /// Traversal node of a triangle model and one shape: ends at the first triangle that touches.
 template <BoundingVolume BV, TriangleLeaf Leaf = ShapeLeaf>
 class MeshShapeCollisionNode : public MeshAndOne<BV> {
  public:
+  /// Throws as collideMeshShape.
   MeshShapeCollisionNode(const BvhModel<BV>& mesh, const BV& volume, Leaf& leaf,
                          MeshShapeCollisionResult& result)
       : MeshAndOne<BV>(mesh, volume, "collideMeshShape"), leaf_(leaf), out_(result) {
     out_.contact = Contact::Separate;
   }
 
+  ///@{
+  /// As `CollisionTraversal` says.
   bool bvTesting(int i, int) {
     ++out_.effort.bvTests;
     return !this->node(i).volume.overlaps(this->volume_);
@@ -100,6 +113,7 @@ class MeshShapeCollisionNode : public MeshAndOne<BV> {
     });
   }
   bool canStop() const { return out_.contact == Contact::Touching; }
+  ///@}
 
  private:
   Leaf& leaf_;
@@ -111,6 +125,7 @@ class MeshShapeCollisionNode : public MeshAndOne<BV> {
 template <BoundingVolume BV, TriangleLeaf Leaf = ShapeLeaf>
 class MeshShapeDistanceNode : public MeshAndOne<BV> {
  public:
+  /// Throws as meshShapeDistance.
   MeshShapeDistanceNode(const BvhModel<BV>& mesh, const BV& volume, Leaf& leaf,
                         const MeshDistanceOptions& options, MeshDistanceResult& result)
       : MeshAndOne<BV>(mesh, volume, "meshShapeDistance"),
@@ -118,6 +133,8 @@ class MeshShapeDistanceNode : public MeshAndOne<BV> {
         leaf_(leaf),
         out_(result) {}
 
+  ///@{
+  /// As `DistanceTraversal` says.
   double bvTesting(int i, int) {
     ++out_.effort.bvTests;
     const BV& volume = this->node(i).volume;
@@ -140,6 +157,7 @@ class MeshShapeDistanceNode : public MeshAndOne<BV> {
     });
   }
   bool canStop(double bound) { return search_.dismiss(std::max(0.0, bound), out_.upper); }
+  ///@}
   /// To be called after the traversal.
   void finish() { out_.lower = search_.lower(out_.upper); }
 

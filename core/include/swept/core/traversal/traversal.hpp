@@ -5,6 +5,8 @@
 #include <concepts>
 #include <cstdint>
 
+#include "swept/core/arithmetic.hpp"
+
 namespace swept {
 
 /// The recursions over pairs of hierarchies and what they ask of a traversal node (Pan, Chitta,
@@ -16,10 +18,11 @@ namespace swept {
 
 /// Effort of a traversal.
 struct TraversalEffort {
-  std::int64_t bvTests = 0;
-  std::int64_t leafTests = 0;
+  std::int64_t bvTests = 0;    ///< pairs of volumes
+  std::int64_t leafTests = 0;  ///< pairs of primitives
 };
 
+/// Two hierarchies side by side.
 template <typename Node>
 concept PairTraversal = requires(Node& node, const Node& constant, int i, int j) {
   { constant.isFirstLeaf(i) } -> std::same_as<bool>;
