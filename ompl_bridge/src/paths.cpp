@@ -14,21 +14,24 @@
 
 namespace swept {
 
+std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
+                                                  const Checker& checker) {
+  detail::requireSpaceOf(checker, *path.getSpaceInformation()->getStateSpace());
+  const StateConversion conversion(checker.robot(), checker.group());
+  std::vector<std::vector<double>> states(path.getStateCount(),
+                                          std::vector<double>(conversion.dimension()));
+  for (std::size_t i = 0; i < states.size(); ++i)
+    conversion.toConfiguration(path.getState(static_cast<unsigned int>(i)), states[i]);
+  return states;
+}
+
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker) {
-  detail::requireSpaceOf(checker, *path.getSpaceInformation()->getStateSpace());
+  const std::vector<std::vector<double>> states = configurationsOf(path, checker);
   std::vector<MotionCertificate> certificates;
-  if (path.getStateCount() == 0) return certificates;
-
-  const StateConversion conversion(checker.robot(), checker.group());
   Workspace workspace(checker);
-  std::vector<double> from(conversion.dimension()), to(conversion.dimension());
-  conversion.toConfiguration(path.getState(0), from);
-  for (std::size_t i = 1; i < path.getStateCount(); ++i) {
-    conversion.toConfiguration(path.getState(static_cast<unsigned int>(i)), to);
-    certificates.push_back(checker.certifyMotion(from, to, workspace));
-    from.swap(to);
-  }
+  for (std::size_t i = 1; i < states.size(); ++i)
+    certificates.push_back(checker.certifyMotion(states[i - 1], states[i], workspace));
   return certificates;
 }
 

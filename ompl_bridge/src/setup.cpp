@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "preconditions.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/validity_checker.hpp"
 
@@ -24,6 +25,16 @@ ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> c
     si->setMotionValidator(std::make_shared<CertifiedMotionValidator>(si, std::move(checker)));
   }
   return setup;
+}
+
+void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
+                     std::span<const double> start, std::span<const double> goal) {
+  detail::requireSpaceOf(checker, *setup.getStateSpace());
+  const StateConversion conversion(checker.robot(), checker.group());
+  ompl::base::ScopedState<> from(setup.getStateSpace()), to(setup.getStateSpace());
+  conversion.toState(start, from.get());
+  conversion.toState(goal, to.get());
+  setup.setStartAndGoalStates(from, to);
 }
 
 }  // namespace swept

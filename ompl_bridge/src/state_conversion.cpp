@@ -9,7 +9,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
@@ -41,35 +40,6 @@ void requireSize(std::size_t given, int dimension) {
 }
 
 }  // namespace
-
-std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
-                                       std::string_view name) {
-  const NamedState* state = robot.findNamedState(name, group.name);
-  if (state == nullptr) {
-    std::string known;
-    for (const NamedState& other : robot.namedStates())
-      if (other.group == group.name) known += (known.empty() ? "" : ", ") + other.name;
-    throw std::invalid_argument("group `" + group.name + "` has no named state `" +
-                                std::string(name) + "`; it has " +
-                                (known.empty() ? "none" : known));
-  }
-  std::vector<double> q;
-  for (const int variable : group.variables) {
-    const auto found = std::ranges::find(state->values, variable, &std::pair<int, double>::first);
-    if (found == state->values.end())
-      throw std::invalid_argument("named state `" + state->name + "` of group `" + group.name +
-                                  "` has no value for `" + robot.variables()[variable].name + "`");
-    q.push_back(found->second);
-  }
-  return q;
-}
-
-NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q) {
-  requireSize(q.size(), static_cast<int>(group.variables.size()));
-  NamedState state{std::move(name), group.name, {}};
-  for (std::size_t i = 0; i < q.size(); ++i) state.values.emplace_back(group.variables[i], q[i]);
-  return state;
-}
 
 StateConversion::StateConversion(const Robot& robot, const Group& group) {
   const std::vector<detail::JointRun> runs = detail::jointRuns(robot, group);

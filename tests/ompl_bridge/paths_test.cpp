@@ -3,6 +3,7 @@
 #include "swept/ompl_bridge/paths.hpp"
 
 #include <gtest/gtest.h>
+#include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/planners/prm/LazyPRM.h>
 #include <ompl/geometric/planners/prm/PRM.h>
@@ -30,11 +31,8 @@ class Paths : public testing::Test {
     SetupOptions options;
     options.motions = motions;
     const auto setup = makeSimpleSetup(checker_, options);
-    const StateConversion conversion(checker_->robot(), checker_->group());
-    ob::ScopedState<> start(setup->getStateSpace()), goal(setup->getStateSpace());
-    conversion.toState(std::vector<double>{-0.8, -0.5, -0.5}, start.get());
-    conversion.toState(std::vector<double>{0.8, -0.5, -0.5}, goal.get());
-    setup->setStartAndGoalStates(start, goal);
+    setStartAndGoal(*setup, *checker_, std::vector<double>{-0.8, -0.5, -0.5},
+                    std::vector<double>{0.8, -0.5, -0.5});
     return setup;
   }
   static bool allFree(const std::vector<MotionCertificate>& certificates) {
@@ -47,6 +45,33 @@ class Paths : public testing::Test {
   std::shared_ptr<const Checker> checker_ =
       std::make_shared<const Checker>(gantry(), "all", worldOf(wall_));
 };
+
+TEST_F(Paths, BeginAndEndWhereTheSetupIsTold) {
+  const auto setup = throughTheWindow();
+  const std::vector<double> start{0.1, 0.2, 0.3}, goal{0.4, 0.5, 0.6}, two{0.1, 0.2};
+  setStartAndGoal(*setup, *checker_, start, goal);
+  const auto expectEnds = [&] {
+    ASSERT_EQ(setup->getProblemDefinition()->getStartStateCount(), 1u);
+    og::PathGeometric ends(setup->getSpaceInformation());
+    EXPECT_TRUE(configurationsOf(ends, *checker_).empty());
+    ends.append(setup->getProblemDefinition()->getStartState(0));
+    ends.append(setup->getGoal()->as<ob::GoalState>()->getState());
+    EXPECT_EQ(configurationsOf(ends, *checker_), (std::vector{start, goal}));
+  };
+  expectEnds();
+  EXPECT_THROW(setStartAndGoal(*setup, *checker_, two, goal), std::invalid_argument);
+  EXPECT_THROW(setStartAndGoal(*setup, *checker_, goal, two), std::invalid_argument);
+  // As many values, in another kind of state.
+  const Checker cart(
+      Robot::parse("<robot name='cart'><link name='floor'/><link name='deck'/>"
+                   "<joint name='roll' type='planar'><parent link='floor'/><child link='deck'/>"
+                   "<axis xyz='0 0 1'/></joint></robot>",
+                   "cart.urdf"),
+      "all", std::make_shared<World>());
+  ASSERT_EQ(cart.dimension(), checker_->dimension());
+  EXPECT_THROW(setStartAndGoal(*setup, cart, goal, start), std::invalid_argument);
+  expectEnds();
+}
 
 TEST_F(Paths, BecomeShorterAndStayProven) {
   const auto setup = throughTheWindow();
@@ -94,6 +119,7 @@ TEST_F(Paths, OfOtherGroupsAreRefused) {
   const auto setup = throughTheWindow();
   og::PathGeometric path(setup->getSpaceInformation());
   const Checker turn(everyJoint(), "turn_only", std::make_shared<World>());
+  EXPECT_THROW(configurationsOf(path, turn), std::invalid_argument);
   EXPECT_THROW(simplifyPath(path, turn, 1.0), std::invalid_argument);
   ob::PlannerData data(setup->getSpaceInformation());
   EXPECT_THROW(certifyEdges(data, turn), std::invalid_argument);

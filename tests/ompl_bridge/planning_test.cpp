@@ -23,11 +23,7 @@ class Planning : public testing::Test {
                                     const std::vector<double>& from,
                                     const std::vector<double>& to) {
     const auto setup = makeSimpleSetup(checker);
-    const StateConversion conversion(checker->robot(), checker->group());
-    ob::ScopedState<> start(setup->getStateSpace()), goal(setup->getStateSpace());
-    conversion.toState(from, start.get());
-    conversion.toState(to, goal.get());
-    setup->setStartAndGoalStates(start, goal);
+    setStartAndGoal(*setup, *checker, from, to);
     return setup;
   }
 };

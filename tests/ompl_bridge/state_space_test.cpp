@@ -233,36 +233,6 @@ TEST(NamedStates, AreConfigurationsOfTheirGroup) {
   }
 }
 
-TEST(NamedStates, ThatAreMissingAreNamed) {
-  const auto robot = Robot::parse(
-      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
-      "<joint name='x' type='prismatic'><parent link='a'/><child link='b'/>"
-      "<limit lower='0' upper='1' effort='1' velocity='1'/></joint>"
-      "<joint name='y' type='prismatic'><parent link='b'/><child link='c'/>"
-      "<limit lower='0' upper='1' effort='1' velocity='1'/></joint></robot>",
-      "r.urdf",
-      "<robot name='r'><group name='both'><joint name='x'/><joint name='y'/></group>"
-      "<group name='one'><joint name='x'/></group>"
-      "<group_state name='half' group='both'><joint name='x' value='0.5'/></group_state>"
-      "<group_state name='full' group='both'><joint name='x' value='1'/><joint name='y' value='1'/>"
-      "</group_state></robot>",
-      "r.srdf");
-  const auto message = [&](const char* group, const char* name) -> std::string {
-    try {
-      namedConfiguration(*robot, *robot->findGroup(group), name);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(message("both", "full"), "");
-  EXPECT_EQ(message("both", "half"), "named state `half` of group `both` has no value for `y`");
-  EXPECT_EQ(message("both", "home"), "group `both` has no named state `home`; it has half, full");
-  EXPECT_EQ(message("one", "full"), "group `one` has no named state `full`; it has none");
-  EXPECT_THROW(makeNamedState(*robot->findGroup("both"), "s", std::vector<double>{1.0}),
-               std::invalid_argument);
-}
-
 TEST(StateConversion, RoundTripsStatesOfEveryGroup) {
   const auto robot = everyJoint();
   for (const Group& group : robot->groups()) {

@@ -127,12 +127,7 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 
 void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometric& path,
              bool clearance) {
-  const StateConversion conversion(checker.robot(), checker.group());
-  for (std::size_t i = 0; i < path.getStateCount(); ++i) {
-    std::vector<double> q(static_cast<std::size_t>(checker.dimension()));
-    conversion.toConfiguration(path.getState(static_cast<unsigned>(i)), q);
-    outcome.states.push_back(std::move(q));
-  }
+  outcome.states = configurationsOf(path, checker);
   outcome.code = ExitCode::Free;
   Workspace workspace(checker);
   for (std::size_t i = 0; i + 1 < outcome.states.size(); ++i) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <span>
+
 #include "certify/checker_model.hpp"
 
 namespace swept::detail {

@@ -149,4 +149,9 @@ double LinkMotion::rounding(double reach) const {
   return tolerance::kRoundingPerJoint * joints * path_->perUnit * (path_->reach + reach);
 }
 
+Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,
+                    std::span<const double> q, const std::optional<Eigen::VectorXd>& reference) {
+  return LinkMotion(robot, group, link, q, q, reference).at(0.0);
+}
+
 }  // namespace swept

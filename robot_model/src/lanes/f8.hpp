@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstdint>
+
 #include "lanes/row.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "lanes/lane_model.hpp"
 #include "lanes/lane_scratch.hpp"
 

@@ -7,6 +7,8 @@
 #define SWEPT_LANES_OBSTACLE_KERNELS
 #endif
 
+#include <cstdint>
+
 #include "lanes/f8.hpp"
 #include "lanes/obstacles.hpp"
 #include "lanes/placed_ball.hpp"

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 
 #include "lanes/f8.hpp"
 #include "lanes/placed_ball.hpp"

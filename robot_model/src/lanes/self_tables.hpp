@@ -8,6 +8,7 @@
 #endif
 
 #include <bit>
+#include <cstdint>
 
 #include "lanes/f8.hpp"
 #include "lanes/placed_ball.hpp"

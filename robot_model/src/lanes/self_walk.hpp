@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 #include "lanes/lane_model.hpp"
 #include "lanes/lane_scratch.hpp"
 

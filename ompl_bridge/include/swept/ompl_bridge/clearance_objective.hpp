@@ -22,7 +22,9 @@ class CertifiedClearanceObjective : public ompl::base::MaximizeMinClearanceObjec
   CertifiedClearanceObjective(const ompl::base::SpaceInformationPtr& si,
                               std::shared_ptr<const Checker> checker, double accuracy = 1e-3);
   ~CertifiedClearanceObjective() override;
+  /// m, Checker::clearance of the state: 0 in contact.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
+  /// m, proven for the whole motion between the two states.
   ompl::base::Cost motionCost(const ompl::base::State* s1,
                               const ompl::base::State* s2) const override;
 

@@ -28,9 +28,12 @@ class CertifiedMotionValidator : public ompl::base::MotionValidator {
   CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si,
                            std::shared_ptr<const Checker> checker);
   ~CertifiedMotionValidator() override;
+  ///@{
+  /// See the class. Undecided is not valid. Never throws on states of the space.
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override;
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const override;
+  ///@}
 
  private:
   bool count(bool free) const;

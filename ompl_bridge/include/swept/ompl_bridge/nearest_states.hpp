@@ -74,15 +74,19 @@ class JointTree {
 template <typename T>
 class NearestStates : public ompl::NearestNeighbors<T> {
  public:
+  /// Distance of two elements.
   using DistanceFunction = typename ompl::NearestNeighbors<T>::DistanceFunction;
 
+  /// The metric of the planner's space; call it before anything is added.
   void setDistanceFunction(const DistanceFunction& distance) override {
     ompl::NearestNeighbors<T>::setDistanceFunction(distance);
     if (others_) others_->setDistanceFunction(distance);
   }
 
+  /// True: nearest first.
   bool reportsSortedResults() const override { return true; }
 
+  /// Forgets all elements, and what kind of states they had.
   void clear() override {
     tree_.clear();
     items_.clear();
@@ -91,12 +95,14 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   }
 
   using ompl::NearestNeighbors<T>::add;
+  /// Its state must not change until it is removed.
   void add(const T& data) override {
     if (others_ == nullptr && place(data)) return;
     if (others_ == nullptr) useOthers();
     others_->add(data);
   }
 
+  /// False: it is not there.
   bool remove(const T& data) override {
     if (others_) return others_->remove(data);
     for (const auto& [distance, index] : closest(data, items_.size(), 0.0)) {
@@ -109,6 +115,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     return false;
   }
 
+  /// Throws ompl::Exception when there is none.
   T nearest(const T& data) const override {
     if (others_) return others_->nearest(data);
     if (size() == 0) throw ompl::Exception("No elements found in nearest neighbors data structure");
@@ -119,22 +126,26 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     return *items_[closest(data, 1, kAnywhere).front().second];
   }
 
+  /// The k nearest, or all if there are fewer; instead of what is in `found`.
   void nearestK(const T& data, std::size_t k, std::vector<T>& found) const override {
     if (others_) return others_->nearestK(data, k, found);
     found.clear();
     if (k > 0) collect(closest(data, k, kAnywhere), found);
   }
 
+  /// Those not farther than `radius`, in the metric; instead of what is in `found`.
   void nearestR(const T& data, double radius, std::vector<T>& found) const override {
     if (others_) return others_->nearestR(data, radius, found);
     found.clear();
     collect(closest(data, items_.size(), radius), found);
   }
 
+  /// Elements that are there.
   std::size_t size() const override {
     return others_ ? others_->size() : items_.size() - unused_.size();
   }
 
+  /// All elements, in no particular order; instead of what is in `all`.
   void list(std::vector<T>& all) const override {
     if (others_) return others_->list(all);
     all.clear();

@@ -9,8 +9,13 @@
 
 #include "swept/robot_model/checker.hpp"
 
-/// Certificates for what planners have found.
+/// What planners have found: its configurations, and certificates for it.
 namespace swept {
+
+/// The states of a path, in order, as configurations of the checker's group. Throws
+/// std::invalid_argument when the path is not of that group.
+std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
+                                                  const Checker& checker);
 
 /// Certificates of all segments of a path, in order: one fewer than it has states. They say nothing
 /// about bounds. Throws std::invalid_argument when the path is not one of the checker's group.
@@ -29,8 +34,11 @@ std::vector<MotionCertificate> simplifyPath(ompl::geometric::PathGeometric& path
 /// An edge of a roadmap or tree, with what is known about its motion.
 class CertifiedEdge : public ompl::base::PlannerDataEdge {
  public:
+  /// Of the motion from the source of the edge to its target.
   explicit CertifiedEdge(MotionCertificate certificate) : certificate_(std::move(certificate)) {}
+  /// The caller owns it, as OMPL asks.
   ompl::base::PlannerDataEdge* clone() const override { return new CertifiedEdge(certificate_); }
+  /// As certifyEdges found it.
   const MotionCertificate& certificate() const { return certificate_; }
 
  private:

@@ -24,6 +24,7 @@ struct SpaceBounds {
 };
 }  // namespace detail
 
+/// How near is enough, and how long to look for states.
 struct PoseGoalOptions {
   double positionTolerance = 1e-3;     ///< m; infinite: any position
   double orientationTolerance = 1e-2;  ///< rad; infinite: any orientation
@@ -65,6 +66,7 @@ class PoseGoal final : public ompl::base::GoalLazySamples {
   /// finite, or beyond the limits of a prismatic joint. Any number of threads may call it.
   double distanceGoal(const ompl::base::State* state) const override;
 
+  /// model_from_tool, as given.
   const Eigen::Isometry3d& target() const { return model_from_tool_; }
 
  private:

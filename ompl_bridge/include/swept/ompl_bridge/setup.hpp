@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/checker.hpp"
@@ -19,14 +20,22 @@ enum class MotionCheck : std::uint8_t {
   Discrete,
 };
 
+/// Of makeSimpleSetup.
 struct SetupOptions {
-  StateSpaceOptions space = {};
-  MotionCheck motions = MotionCheck::Certified;
+  StateSpaceOptions space = {};                  ///< limits and weights
+  MotionCheck motions = MotionCheck::Certified;  ///< who says that a motion is valid
 };
 
 /// One call: space, checker and validator of a group, ready for start, goal and planner.
 /// Throws std::invalid_argument without a checker, and as makeStateSpace and ValidityChecker do.
 ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> checker,
                                                 const SetupOptions& options = {});
+
+/// Start and goal of a setup, in place of those that it had, as configurations of the checker's
+/// group. Throws std::invalid_argument when the setup's space is not of that group, and unless
+/// either configuration has a value for each of the group's variables; the setup stays as it was
+/// then.
+void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
+                     std::span<const double> start, std::span<const double> goal);
 
 }  // namespace swept

@@ -7,10 +7,10 @@
 #include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -46,22 +46,15 @@ struct StateSpaceOptions {
 ompl::base::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
                                          const StateSpaceOptions& options = {});
 
-/// The group's values, in its order, in a state that the SRDF names: what StateConversion::toState
-/// takes. Throws std::invalid_argument when the group has no state of that name (the message lists
-/// those it has) or the state has no value for one of the group's variables.
-std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
-                                       std::string_view name);
-
-/// The other way: a state as an SRDF has it, of the group's values in its order. Throws
-/// std::invalid_argument unless there is one for each of its variables.
-NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q);
-
 /// Copies between a state of makeStateSpace(robot, group) and the group's configuration.
 /// Both throw std::invalid_argument unless q has `dimension()` values.
 class StateConversion {
  public:
+  /// For states of makeStateSpace(robot, group), whatever its options.
   StateConversion(const Robot& robot, const Group& group);
+  /// Values of a configuration.
   int dimension() const { return dimension_; }
+  /// Fills `q` with the values as they are: rad, m, components of quaternions.
   void toConfiguration(const ompl::base::State* state, std::span<double> q) const;
   /// Puts angles of cyclic variables into [-pi, pi) and scales quaternions to unit length, as OMPL
   /// wants them. A zero or non-finite quaternion is copied as it is; such a state is never valid.

@@ -34,10 +34,14 @@ class ValidityChecker : public ompl::base::StateValidityChecker {
   ~ValidityChecker() override;
   using ompl::base::StateValidityChecker::clearance;
   using ompl::base::StateValidityChecker::isValid;
+  /// See the class. Undecided is not valid.
   bool isValid(const ompl::base::State* state) const override;
+  ///@{
+  /// See the class; m.
   double clearance(const ompl::base::State* state) const override;
   double clearance(const ompl::base::State* state, ompl::base::State* validState,
                    bool& validStateAvailable) const override;
+  ///@}
 
  private:
   bool findValid(const ompl::base::State* state, ompl::base::State* validState) const;

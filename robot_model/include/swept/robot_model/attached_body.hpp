@@ -13,13 +13,14 @@ namespace swept {
 /// but neither against that link nor against the touch links. Its name must not be that of a link
 /// or of a body of the world.
 struct AttachedBody {
+  /// A piece of its geometry.
   struct Part {
-    Shape shape;  ///< no plane and no half-space
-    Eigen::Isometry3d link_from_shape;
+    Shape shape;                        ///< no plane and no half-space
+    Eigen::Isometry3d link_from_shape;  ///< pose of the shape in the link's frame
   };
-  std::string name;
-  std::string link;
-  std::vector<Part> parts = {};
+  std::string name;                          ///< as rules and reports call it
+  std::string link;                          ///< that carries it
+  std::vector<Part> parts = {};              ///< its geometry
   std::vector<std::string> touchLinks = {};  ///< may be in contact with it: a gripper's fingers
 };
 

@@ -26,6 +26,7 @@ struct CheckerModel;
 struct WorkspaceData;
 }  // namespace detail
 
+/// What is checked, how far apart things have to be, and how hard to try.
 struct CheckerOptions {
   /// m. Free means: every checked pair keeps more than this, or than what the rules say.
   double margin = 0.0;
@@ -38,7 +39,9 @@ struct CheckerOptions {
   int maxIntervals = tolerance::kMaxIntervals;
   /// Cap on the pairs of shapes that are checked, some 300 bytes each, and on the pairs of bodies.
   std::size_t maxPairs = 10'000'000;
+  /// On top of what the SRDF says, and of `margin`.
   CollisionRules rules = {};
+  /// What links carry.
   std::vector<AttachedBody> attached = {};
 };
 
@@ -54,7 +57,7 @@ struct Witness {
 
 /// What one state looks like, completely.
 struct StateReport {
-  Verdict verdict = Verdict::Undecided;
+  Verdict verdict = Verdict::Undecided;  ///< of checkState
   bool finite = false;  ///< every value of the state is a number; otherwise nothing else is known
   /// Variables (names) outside their limits. Says nothing about geometry; a planner refuses both.
   std::vector<std::string> outsideLimits;
@@ -62,9 +65,13 @@ struct StateReport {
   /// m. Proven lower bound of the least distance over all pairs; margins and paddings are not taken
   /// off. Infinity: no pairs.
   double clearance = 0.0;
-  std::string nearestA, nearestB;  ///< the pair that gave `clearance`; empty without pairs
+  ///@{
+  /// The pair that gave `clearance`; empty without pairs.
+  std::string nearestA, nearestB;
+  ///@}
 };
 
+/// What a query took.
 struct Effort {
   int intervals = 0;           ///< sub-intervals (or states) at which exact geometry was asked
   std::int64_t distances = 0;  ///< exact pair queries
@@ -74,6 +81,7 @@ struct Effort {
 
 /// What is known about a whole motion q(t), t in [0, 1].
 struct MotionCertificate {
+  /// of the whole motion
   Verdict verdict = Verdict::Undecided;
   /// Largest proven t: [0, freeUntil] is Free. 1 when the verdict is Free; 0 when not even the
   /// start is (or nothing about the prefix was asked).
@@ -81,7 +89,7 @@ struct MotionCertificate {
   std::optional<Witness> witness;  ///< engaged exactly when the verdict is Collision
   /// First interval that could not be proven, when the verdict is Undecided.
   double undecidedAt = 0.0;
-  Effort effort;
+  Effort effort;  ///< spent, whatever the verdict
 };
 
 /// How much of a motion's certificate is wanted.
@@ -94,8 +102,8 @@ enum class MotionQuery : std::uint8_t {
 struct MotionClearance {
   double lower = 0.0;  ///< m, proven for every t
   double upper = 0.0;  ///< m, attained at t
-  double t = 0.0;
-  int intervals = 0;  ///< examined
+  double t = 0.0;      ///< in [0, 1], where upper is attained
+  int intervals = 0;   ///< examined
 };
 
 /// Signed distance of the checked pair that is nearest or, where some overlap, deepest in each
@@ -118,6 +126,7 @@ class Checker;
 /// used with another checker than before; used with one, queries allocate nothing.
 class Workspace {
  public:
+  /// For this checker and its versions; any other may use it too, see above.
   explicit Workspace(const Checker& checker);
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
@@ -157,17 +166,21 @@ class Checker {
   /// Throws std::invalid_argument for null, a body with the name of an attached one, and a moving
   /// obstacle with that of a link.
   Checker withWorld(std::shared_ptr<const World> world) const;
-  /// The world with one more body, or without one. Throws as World::add, and for a name that is not
-  /// there.
+  /// The world with one more body. Throws as World::add and withWorld.
   Checker withBody(WorldBody body) const;
   /// The world with this body in the place of the one of the same name, and all rules kept: what a
   /// deforming surface (TriangleMesh::moved), or a sensor's next cloud, is for planners that start
   /// from now on. Takes time in proportion to what the body is made of. Throws as World::replace.
   Checker withReplaced(WorldBody body) const;
+  /// The world with one more moving obstacle: a configuration has a time then. Throws as World::add
+  /// and withWorld.
   Checker withObstacle(MovingObstacle obstacle) const;
+  /// The world without a body or moving obstacle. Throws std::invalid_argument for a name that is
+  /// not there.
   Checker withoutBody(std::string_view name) const;
-  /// Throw as the constructor, and for a name that is not there.
+  /// With one more attached body. Throws as the constructor.
   Checker withAttached(AttachedBody body) const;
+  /// Throws std::invalid_argument for a name that is not there.
   Checker withoutAttached(std::string_view name) const;
   /// Instead of the ones so far. A pair that has to keep more than it had to when the first version
   /// was made, and one with a scaled body, may take more time than in a Checker made with these
@@ -179,10 +192,13 @@ class Checker {
   /// no pose is known (see checkState).
   WorldBody placed(std::string_view attached, std::span<const double> q) const;
 
+  ///@{
+  /// What this version checks. The references live as long as it does.
   const Robot& robot() const;
   const World& world() const;
   const Group& group() const;
   const CheckerOptions& options() const;
+  ///@}
   int dimension() const;  ///< size of a configuration of the group
 
   /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
@@ -208,6 +224,8 @@ class Checker {
   SignedClearance signedClearance(std::span<const double> q, Workspace& workspace,
                                   std::span<double> gradient = {}) const;
 
+  /// What is proven about the motion from one configuration to another. Undecided, too, where an
+  /// end is not finite. Limits do not enter it, but for those of prismatic joints (see checkState).
   MotionCertificate certifyMotion(std::span<const double> from, std::span<const double> to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
@@ -222,6 +240,8 @@ class Checker {
   MotionClearance motionClearance(std::span<const double> from, std::span<const double> to,
                                   double accuracy, Workspace& workspace) const;
 
+  /// Each variable is within its limits, give or take tolerance::kLimit. False for what is not
+  /// finite.
   bool withinLimits(std::span<const double> q) const;
   /// The configuration at t on the motion that certifyMotion checks.
   Eigen::VectorXd interpolate(std::span<const double> from, std::span<const double> to,
@@ -238,8 +258,11 @@ class Checker {
     /// else empty.
     std::string reason;
   };
+  ///@{
+  /// In a fixed order: the same for the same robot, world and rules.
   const std::vector<Pair>& checkedPairs() const;
   const std::vector<Pair>& skippedPairs() const;
+  ///@}
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;

@@ -27,6 +27,7 @@ std::vector<Eigen::Vector3d> loadPoints(const std::filesystem::path& file,
 
 /// What a map of OctoMap calls occupied.
 struct OccupancyMap {
+  /// An occupied leaf of the map's tree.
   struct Cube {
     Eigen::Vector3d center;  ///< m, the map's frame
     double side;             ///< m, along its axes: resolution times a power of 2

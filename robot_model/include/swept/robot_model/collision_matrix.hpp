@@ -29,6 +29,7 @@ enum class PairStatus : std::uint8_t {
 /// `adjacent`, `never`, `may collide`, ...
 std::string_view toString(PairStatus status);
 
+/// What counts as contact, and how hard to look.
 struct CollisionMatrixOptions {
   /// m. Contact means: at most this apart.
   double margin = 0.0;
@@ -42,10 +43,11 @@ struct CollisionMatrixOptions {
   unsigned threads = 0;  ///< 0: as many as there are processors. Reports are the same on any number
 };
 
+/// What is known about two links, over all values of the joints between them.
 struct LinkPairReport {
-  int linkA = -1;  ///< index into Robot::links(), the smaller one
-  int linkB = -1;
-  PairStatus status = PairStatus::Unknown;
+  int linkA = -1;                           ///< index into Robot::links(), the smaller one
+  int linkB = -1;                           ///< likewise, the larger one
+  PairStatus status = PairStatus::Unknown;  ///< see PairStatus
   int joint = -1;  ///< under Adjacent: the joint that connects the two; else -1
   /// Robot variables that change the relative pose; none for links attached rigidly to each other.
   std::vector<int> variables;
@@ -80,10 +82,10 @@ std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
 /// as reasons, in the order of the reports.
 ///
 /// With `srdfText` empty, a new one without groups. Else that text, byte for byte, but for its
-/// <disable_collisions> elements, which the new ones replace where the first one stands (before
-/// </robot> if there is none); those that name a link the robot does not have stay, and pairs that
-/// an <enable_collisions> names are left out. `srdfName` is what messages call the text. Throws
-/// InputError when it is no SRDF.
+/// `disable_collisions` elements, which the new ones replace where the first one stands (before
+/// `robot` ends if there is none); those that name a link the robot does not have stay, and pairs
+/// that an `enable_collisions` names are left out. `srdfName` is what messages call the text.
+/// Throws InputError when it is no SRDF.
 std::string srdfWithPairs(const Robot& robot, std::span<const LinkPairReport> pairs,
                           const std::string& srdfText = {}, const std::string& srdfName = {});
 

@@ -17,10 +17,12 @@ namespace swept {
 /// say something about the same pair or body, the one that was added last counts.
 class CollisionRules {
  public:
+  /// What a rule is about: the functions below, in their order.
   enum class Kind : std::uint8_t { Allow, Check, Margin, Padding, Scale };
+  /// One call of these functions.
   struct Rule {
-    Kind kind;
-    std::string bodyA;
+    Kind kind;           ///< which of them
+    std::string bodyA;   ///< a name, or a pattern with `*`
     std::string bodyB;   ///< empty for rules about one body
     double value = 0.0;  ///< m; of Scale: a factor
     std::string reason;  ///< of Allow
@@ -39,7 +41,9 @@ class CollisionRules {
   /// middle of its box; see `scaled`.
   CollisionRules& scale(std::string body, double factor);
 
+  /// In the order in which they were added.
   const std::vector<Rule>& rules() const { return rules_; }
+  /// No rules: the SRDF and the margin alone count.
   bool empty() const { return rules_.empty(); }
 
   /// Of the rules of a kind that are about the pair or, with `bodyB` empty, about the body, the one

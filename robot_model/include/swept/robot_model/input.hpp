@@ -15,9 +15,12 @@ class InputError : public std::runtime_error {
  public:
   /// line 0: the file has no lines that matter, and is named alone.
   InputError(const std::string& file, int line, const std::string& message);
+  ///@{
+  /// The parts of what(). `line` counts from 1; 0: the file as a whole.
   const std::string& file() const { return file_; }
   int line() const { return line_; }
   const std::string& message() const { return message_; }
+  ///@}
 
  private:
   std::string file_;
@@ -27,8 +30,8 @@ class InputError : public std::runtime_error {
 
 /// Maps the start of a `package://` path to a folder: name `a` or `a/b`. The longest match wins.
 struct PackageFolder {
-  std::string name;
-  std::filesystem::path folder;
+  std::string name;              ///< without `package://`
+  std::filesystem::path folder;  ///< where its files are
 };
 
 /// How files are read.

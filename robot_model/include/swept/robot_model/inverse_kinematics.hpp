@@ -46,6 +46,7 @@ class InverseKinematics {
   /// Scratch memory for one thread; of the object that it was made for and the copies of that.
   class Workspace {
    public:
+    /// Allocates all that solve() needs.
     explicit Workspace(const InverseKinematics& kinematics);
 
    private:
@@ -69,8 +70,11 @@ class InverseKinematics {
   /// Throws std::invalid_argument for spans of the wrong size, and where no value is left.
   InverseKinematics within(std::span<const double> lower, std::span<const double> upper) const;
 
+  ///@{
+  /// As given when it was made.
   const Robot& robot() const;
   const Group& group() const;
+  ///@}
   int dimension() const;  ///< of a configuration of the group
   /// Ways to move: one for each variable, except that the four of a quaternion have three.
   int degreesOfFreedom() const;

@@ -41,4 +41,10 @@ class LinkMotion : public Motion {
   std::shared_ptr<const detail::LinkPath> path_;
 };
 
+/// model_from_link: where a link is at one configuration of a group. `reference` and what it throws
+/// are LinkMotion's, which is quicker for many configurations along one motion.
+Eigen::Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,
+                           std::span<const double> q,
+                           const std::optional<Eigen::VectorXd>& reference = {});
+
 }  // namespace swept

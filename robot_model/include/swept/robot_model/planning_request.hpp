@@ -16,10 +16,10 @@ struct PlanningRequest {
   using JointValues = std::vector<std::pair<std::string, double>>;  ///< rad or m, by joint
   /// Where a link's frame is to be.
   struct PoseGoal {
-    std::string link;
-    Eigen::Isometry3d model_from_link;
-    double positionTolerance;     ///< m: radius of a ball, or half the least side of a box
-    double orientationTolerance;  ///< rad: the least of the three about the axes
+    std::string link;                   ///< whose frame
+    Eigen::Isometry3d model_from_link;  ///< wanted
+    double positionTolerance;           ///< m: radius of a ball, or half the least side of a box
+    double orientationTolerance;        ///< rad: the least of the three about the axes
   };
   std::string group;                ///< empty: the request does not say
   JointValues start;                ///< of the start state; may have joints outside the group

@@ -11,10 +11,10 @@ namespace swept {
 
 /// A start, goals and a world for some joints of a robot.
 struct PlanningProblem {
-  std::string set;
-  int index = 0;  ///< as the file numbers it
-  World world;
-  std::vector<std::string> jointNames;
+  std::string set;                         ///< as the file calls it
+  int index = 0;                           ///< as the file numbers it
+  World world;                             ///< around the robot, model frame
+  std::vector<std::string> jointNames;     ///< that start and goals have values of
   std::vector<double> start;               ///< rad or m, in the order of jointNames
   std::vector<std::vector<double>> goals;  ///< likewise
 };
@@ -28,7 +28,9 @@ class ProblemFile {
   /// Throws InputError.
   static ProblemFile load(const std::filesystem::path& json);
 
+  /// In the order of the file.
   std::vector<std::string> sets() const;
+  /// Of the problems of a set, in the order of the file; none for an unknown set.
   std::vector<int> indices(const std::string& set) const;
   /// Throws InputError when there is no such set or index, and names those there are.
   PlanningProblem problem(const std::string& set, int index) const;

@@ -18,40 +18,43 @@
 
 namespace swept {
 
+/// As in URDF; a planar joint has three values, a floating one seven.
 enum class JointType : std::uint8_t { Fixed, Revolute, Continuous, Prismatic, Planar, Floating };
 
 /// Value of a mimicking joint = multiplier * value of `master` + offset.
 struct Mimic {
-  int master;  ///< index of a joint with variables of its own (chains are resolved)
-  double multiplier;
-  double offset;  ///< rad or m
+  int master;         ///< index of a joint with variables of its own (chains are resolved)
+  double multiplier;  ///< of the master's value
+  double offset;      ///< rad or m
 };
 
 /// A piece of a link's collision geometry.
 struct CollisionGeometry {
-  Shape shape;
-  Eigen::Isometry3d link_from_shape;
-  std::string source;  ///< mesh file, or the primitive's name
+  Shape shape;                        ///< in its own frame
+  Eigen::Isometry3d link_from_shape;  ///< pose of the shape in the link's frame
+  std::string source;                 ///< mesh file, or the primitive's name
   /// Outer and inner balls, in the shape's frame; null for planes and half-spaces. Equal geometries
   /// of a robot share one.
   std::shared_ptr<const SphereCover> cover = nullptr;
   double coverSeconds = 0.0;  ///< s, to build the cover; 0 for all but the first that share one
 };
 
+/// A rigid body of the robot.
 struct Link {
-  std::string name;
-  int parentJoint = -1;  ///< -1 for the root link
-  std::vector<CollisionGeometry> collision;
+  std::string name;                          ///< unique
+  int parentJoint = -1;                      ///< -1 for the root link
+  std::vector<CollisionGeometry> collision;  ///< none: it is checked against nothing
 };
 
+/// How a link moves against its parent.
 struct Joint {
-  std::string name;
-  JointType type = JointType::Fixed;
+  std::string name;                   ///< unique
+  JointType type = JointType::Fixed;  ///< Fixed where nothing moves
   int parentLink = -1;  ///< -1: the joint hangs on the model frame (SRDF virtual joint)
-  int childLink = -1;
+  int childLink = -1;   ///< index of the link that it moves
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  ///< at value zero
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, joint frame; planar: normal
-  std::optional<Mimic> mimic;
+  std::optional<Mimic> mimic;                       ///< engaged: the joint has no variable
   int firstVariable = -1;  ///< into Robot::variables(); -1 for fixed and mimicking joints
 };
 
@@ -60,29 +63,31 @@ struct Joint {
 struct Variable {
   std::string
       name;  ///< the joint's, or `joint/x`, `joint/theta`, `joint/trans_x`, `joint/rot_w`, ...
-  int joint = -1;
+  int joint = -1;       ///< index of its joint
   double lower = 0.0;   ///< rad or m; -infinity where nothing bounds it
   double upper = 0.0;   ///< rad or m
   bool cyclic = false;  ///< angle modulo 2 pi: interpolated the shorter way
 };
 
+/// Joints that are planned for together.
 struct Group {
-  std::string name;
+  std::string name;            ///< as the SRDF has it, or `all`
   std::vector<int> joints;     ///< those with variables, parents before children
   std::vector<int> variables;  ///< in the order of `joints`: the group's configuration
   int tipLink = -1;            ///< end of the chain, or the last link; -1 if none
 };
 
+/// Values that the SRDF gives a name.
 struct NamedState {
-  std::string name;
-  std::string group;
+  std::string name;                            ///< as the SRDF has it
+  std::string group;                           ///< that it belongs to
   std::vector<std::pair<int, double>> values;  ///< (variable, value)
 };
 
 /// Two links that are not checked against each other.
 struct DisabledPair {
-  int linkA;
-  int linkB;
+  int linkA;           ///< index
+  int linkB;           ///< index
   std::string reason;  ///< as the SRDF says it: Adjacent, Never, Default, ...
 };
 
@@ -105,20 +110,32 @@ class Robot {
                                             const std::string& srdfName = {},
                                             const LoadOptions& options = {});
 
+  /// The URDF's.
   const std::string& name() const { return name_; }
+  ///@{
+  /// Parents first; indices elsewhere are into these.
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
   const std::vector<Variable>& variables() const { return variables_; }
+  ///@}
   /// The SRDF's groups; a robot without any has one, `all`, with every joint.
   const std::vector<Group>& groups() const { return groups_; }
+  /// Of all groups.
   const std::vector<NamedState>& namedStates() const { return namedStates_; }
+  /// What the SRDF disables; none without one.
   const std::vector<DisabledPair>& disabledPairs() const { return disabledPairs_; }
 
+  ///@{
+  /// Index by name; none if there is no such thing.
   std::optional<int> findLink(std::string_view name) const;
   std::optional<int> findJoint(std::string_view name) const;
   std::optional<int> findVariable(std::string_view name) const;
+  ///@}
+  ///@{
+  /// Null if there is no such thing; lives as long as the robot.
   const Group* findGroup(std::string_view name) const;
   const NamedState* findNamedState(std::string_view name, std::string_view group) const;
+  ///@}
 
   /// A configuration of all variables: zero where the limits allow it, else the middle of the
   /// limits; identity for floating joints.

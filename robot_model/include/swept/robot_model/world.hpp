@@ -14,26 +14,29 @@ namespace swept {
 
 /// A named rigid obstacle: one or more shapes, fixed in the robot's model frame.
 struct WorldBody {
+  /// A shape where it stands.
   struct Part {
-    Shape shape;
-    Eigen::Isometry3d world_from_shape;
+    Shape shape;                         ///< in its own frame
+    Eigen::Isometry3d world_from_shape;  ///< pose in the model frame
   };
-  std::string name;
-  std::vector<Part> parts = {};
+  std::string name;              ///< unique in its world
+  std::vector<Part> parts = {};  ///< its geometry; none: it is checked against nothing
 };
 
 /// A named rigid obstacle that moves in a known way.
 struct MovingObstacle {
+  /// A shape on the body.
   struct Part {
-    Shape shape;  ///< no plane and no half-space
-    Eigen::Isometry3d body_from_shape;
+    Shape shape;                        ///< no plane and no half-space
+    Eigen::Isometry3d body_from_shape;  ///< pose in the body's frame
   };
+  /// Where the body is at one time.
   struct Waypoint {
-    double time;  ///< s
-    Eigen::Isometry3d world_from_body;
+    double time;                        ///< s
+    Eigen::Isometry3d world_from_body;  ///< pose in the model frame
   };
-  std::string name;
-  std::vector<Part> parts = {};
+  std::string name;              ///< unique in its world
+  std::vector<Part> parts = {};  ///< its geometry
   /// At least one, in order of time. Between two of them the body's origin moves on a straight line
   /// and its orientation by slerp along the shorter arc, both evenly; before the first and after
   /// the last it stands still.
@@ -54,6 +57,7 @@ class World {
 
   /// Throws std::invalid_argument when the name is taken or a pose is not a rigid finite transform.
   void add(WorldBody body);
+  /// A body of one shape. Throws likewise.
   void add(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape);
   /// Throws likewise, and for no waypoints, times that are not finite or do not increase, and
   /// shapes without bounds.
@@ -65,10 +69,16 @@ class World {
   /// Either kind. False: nothing has this name.
   bool remove(std::string_view name);
 
+  ///@{
+  /// In the order in which they were added.
   const std::vector<WorldBody>& bodies() const { return bodies_; }
   const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
+  ///@}
+  ///@{
+  /// Null if there is none of this name; until the world changes.
   const WorldBody* find(std::string_view name) const;
   const MovingObstacle* findObstacle(std::string_view name) const;
+  ///@}
 
  private:
   void requireFree(const std::string& name) const;

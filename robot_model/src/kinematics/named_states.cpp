@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/named_states.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace swept {
+
+std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
+                                       std::string_view name) {
+  const NamedState* state = robot.findNamedState(name, group.name);
+  if (state == nullptr) {
+    std::string known;
+    for (const NamedState& other : robot.namedStates())
+      if (other.group == group.name) known += (known.empty() ? "" : ", ") + other.name;
+    throw std::invalid_argument("group `" + group.name + "` has no named state `" +
+                                std::string(name) + "`; it has " +
+                                (known.empty() ? "none" : known));
+  }
+  std::vector<double> q;
+  for (const int variable : group.variables) {
+    const auto found = std::ranges::find(state->values, variable, &std::pair<int, double>::first);
+    if (found == state->values.end())
+      throw std::invalid_argument("named state `" + state->name + "` of group `" + group.name +
+                                  "` has no value for `" + robot.variables()[variable].name + "`");
+    q.push_back(found->second);
+  }
+  return q;
+}
+
+NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q) {
+  if (q.size() != group.variables.size())
+    throw std::invalid_argument("a configuration of the group has " +
+                                std::to_string(group.variables.size()) + " values, not " +
+                                std::to_string(q.size()));
+  NamedState state{std::move(name), group.name, {}};
+  for (std::size_t i = 0; i < q.size(); ++i) state.values.emplace_back(group.variables[i], q[i]);
+  return state;
+}
+
+}  // namespace swept
