@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "mesh_files.hpp"

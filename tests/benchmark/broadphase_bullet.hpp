@@ -9,6 +9,8 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+
+#include <cstdint>
 #pragma GCC diagnostic pop
 
 #include <memory>

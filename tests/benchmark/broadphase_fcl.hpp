@@ -2,6 +2,7 @@
 #pragma once
 
 #ifdef SWEPT_HAS_FCL
+#include <cstdint>
 #include <memory>
 #include <vector>
 

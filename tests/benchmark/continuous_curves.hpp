@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "continuous_plot.hpp"
 #include "continuous_workloads.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "continuous_sweeps.hpp"
 
 #ifdef SWEPT_HAS_FCL

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "continuous_fcl.hpp"
 #include "mesh_files.hpp"

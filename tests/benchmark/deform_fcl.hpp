@@ -10,6 +10,9 @@
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/collision/mesh_continuous_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
+
+#include <memory>
+#include <vector>
 #pragma GCC diagnostic pop
 
 #include <limits>

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdio>
+#include <limits>
 #include <set>
+#include <vector>
 
 #include "deform_fcl.hpp"
 #include "deform_scenes.hpp"

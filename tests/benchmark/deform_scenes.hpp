@@ -5,7 +5,10 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include "workloads.hpp"
 

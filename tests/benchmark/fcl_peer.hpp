@@ -7,6 +7,8 @@
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
 #include <fcl/fcl.h>
+
+#include <vector>
 #pragma GCC diagnostic pop
 
 #include <memory>

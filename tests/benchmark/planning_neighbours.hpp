@@ -4,6 +4,7 @@
 #include <ompl/datastructures/NearestNeighborsGNATNoThreadSafety.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>

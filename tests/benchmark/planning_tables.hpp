@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "planning_attempt.hpp"
 #include "output/quantile.hpp"
+#include "planning_attempt.hpp"
 #include "timing.hpp"
 
 /// What came of planning, as Markdown.

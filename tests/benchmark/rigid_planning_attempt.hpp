@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>

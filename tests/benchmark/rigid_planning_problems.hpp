@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -3,6 +3,7 @@
 
 #ifdef SWEPT_HAS_FCL
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -11,6 +12,8 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "self_collision_fcl.hpp"
 #include "timing.hpp"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include "error_table_descent.hpp"
 #include "error_table_placement.hpp"
 

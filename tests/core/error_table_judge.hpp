@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <map>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "error_table_depth.hpp"
 #include "error_table_membership.hpp"

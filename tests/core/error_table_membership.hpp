@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
 
 #include "error_table_body.hpp"
 #include "reference_distance.hpp"

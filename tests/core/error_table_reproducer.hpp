@@ -3,6 +3,8 @@
 
 #include <cstdio>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "swept/core/shapes.hpp"
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "error_table_judge.hpp"
 #include "error_table_shapes.hpp"

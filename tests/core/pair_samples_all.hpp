@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mesh_samples.hpp"
 #include "shape_oracle.hpp"

@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "certify/checker_model.hpp"

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <random>
+#include <span>
 #include <vector>
 
 #include "drawer.hpp"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "continuous/deforming_tree.hpp"
 #include "continuous/surface_features.hpp"
 #include "simd/follow_corners.hpp"

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
 
 #include "narrowphase/convex.hpp"
 #include "narrowphase/part_approach.hpp"

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 
 #include "bvh/wide_bvh.hpp"
 #include "narrowphase/convex.hpp"

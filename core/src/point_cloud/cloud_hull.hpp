@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
 #include "point_cloud/cloud_tree.hpp"
 #include "swept/core/convex_hull.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "batch/worker.hpp"
 #include "output/text_output.hpp"
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "command_line/arguments.hpp"
 #include "swept/robot_model/collision_rules.hpp"
 

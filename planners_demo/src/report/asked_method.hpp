@@ -5,6 +5,7 @@
 #include <ompl/geometric/SimpleSetup.h>
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 

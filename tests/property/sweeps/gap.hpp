@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "body.hpp"
 #include "path.hpp"
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
 #include "body.hpp"
 #include "path.hpp"
 #include "swept/core/continuous/continuous_collide.hpp"
