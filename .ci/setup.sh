@@ -1,24 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Sourced by the scripts that build. Needs: root, the top folder of the tree.
 
-# Packages of .ci/apt-packages.txt that are not installed.
+# Packages of a list that are not installed: missing_packages FILE.
 missing_packages() {
   local package
   while read -r package; do
     if [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]]; then
       echo "$package"
     fi
-  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/.ci/apt-packages.txt")
+  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$1")
 }
 
-# Installs what is missing, as root or with sudo; asks for neither when nothing is.
+# Installs what is missing of a list, of .ci/apt-packages.txt without one, as root or with sudo; asks
+# for neither when nothing is: install_packages [FILE].
 install_packages() {
+  local list="${1:-$root/.ci/apt-packages.txt}"
   if ! command -v dpkg-query >/dev/null; then
-    echo "not a Debian system: taking the packages of .ci/apt-packages.txt for installed" >&2
+    echo "not a Debian system: taking the packages of ${list#"$root/"} for installed" >&2
     return
   fi
   local missing
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "$list")
   if ((${#missing[@]} == 0)); then return; fi
   local as_root=()
   if ((EUID != 0)); then

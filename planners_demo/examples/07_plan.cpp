@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans from one state of a group to another, and proves every segment of the path:
-//   example_01_plan ROBOT.urdf ROBOT.srdf SCENE GROUP START GOAL
-// START and GOAL are named states of the SRDF, or comma-separated values in the order of the
-// group's variables.
+// Plans from one named state of a group to another, and proves every segment of the path:
+//   example_07_plan ROBOT.urdf ROBOT.srdf SCENE GROUP START GOAL
+// Exits 0 if all of them are proven free.
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <sstream>
 
 #include "swept/ompl_bridge/ompl_bridge.hpp"
-
-namespace {
-
-std::vector<double> configuration(const swept::Checker& checker, const std::string& text) {
-  if (checker.robot().findNamedState(text, checker.group().name) != nullptr)
-    return swept::namedConfiguration(checker.robot(), checker.group(), text);
-  std::vector<double> q;
-  std::istringstream values(text);
-  for (std::string value; std::getline(values, value, ',');) q.push_back(std::stod(value));
-  return q;
-}
 
 int plan(char** argv) {
   const auto robot = swept::Robot::load(argv[1], argv[2]);
@@ -29,11 +16,10 @@ int plan(char** argv) {
   const auto checker = std::make_shared<const swept::Checker>(robot, argv[4], world);
 
   const auto setup = swept::makeSimpleSetup(checker);
-  const swept::StateConversion conversion(*robot, checker->group());
-  ompl::base::ScopedState<> start(setup->getStateSpace()), goal(setup->getStateSpace());
-  conversion.toState(configuration(*checker, argv[5]), start.get());
-  conversion.toState(configuration(*checker, argv[6]), goal.get());
-  setup->setStartAndGoalStates(start, goal);
+  const auto state = [&](const char* name) {
+    return swept::namedConfiguration(*robot, checker->group(), name);
+  };
+  swept::setStartAndGoal(*setup, *checker, state(argv[5]), state(argv[6]));
   const auto planner = std::make_shared<ompl::geometric::RRTConnect>(setup->getSpaceInformation());
   planner->setNearestNeighbors<swept::NearestStates>();  // several times as fast as the default
   setup->setPlanner(planner);
@@ -47,8 +33,6 @@ int plan(char** argv) {
   }
   return 0;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) try {
   if (argc == 7) return plan(argv);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A motion of one's own: a pendulum that swings by a sine, and what it hits first. Exits 0 if the
-// first contact is when the pendulum's angle says.
+// A motion of one's own: a pendulum that swings by a sine, and when it hits a wall. Exits 0 if that
+// is when the pendulum's angle says.
 #include <cmath>
-#include <cstdio>
+#include <iostream>
 #include <numbers>
 
 #include "swept/core/continuous/continuous_collide.hpp"
 #include "swept/core/continuous/motions.hpp"
-
-namespace {
 
 using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
@@ -38,21 +36,18 @@ class Pendulum : public swept::Motion {
   double amplitude_;  ///< rad
 };
 
-}  // namespace
-
 int main() {
   const Pendulum swing(1.2);
   const swept::AttachedFrame bob(swing, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -1.0)));
-  const auto wall = swept::UniformMotion::still(Eigen::Isometry3d::Identity());
-  swept::ContinuousOptions options;
-  options.tolerance = 1e-6;  // m
-  const swept::ContinuousResult found = continuousCollide(
-      swept::makeHalfSpace(Vector3d::UnitX(), -0.6), wall, swept::makeSphere(0.1), bob, options);
+  const auto still = swept::UniformMotion::still(Eigen::Isometry3d::Identity());
+  const auto found = swept::continuousCollide(swept::makeHalfSpace(Vector3d::UnitX(), -0.6), still,
+                                              swept::makeSphere(0.1), bob, {.tolerance = 1e-6});
 
   // The bob's centre is at x = -sin(angle), and touches at -0.5.
   const double expected = std::asin(std::asin(0.5) / 1.2) / kPi;
-  std::printf("%s, free until %.7f, in contact at %.7f, expected at %.7f\n",
-              toString(found.verdict).data(), found.freeUntil, found.contactBy, expected);
+  std::cout.precision(9);
+  std::cout << toString(found.verdict) << ": proven free until " << found.freeUntil
+            << ", in contact at " << found.contactBy << ", expected at " << expected << '\n';
   return found.verdict == swept::Verdict::Collision && found.freeUntil <= expected &&
                  found.contactBy >= expected && found.contactBy - found.freeUntil < 1e-6
              ? 0

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a depth camera saw as a body of the world, and the next cloud in its place, while whoever
+// has the checker of the cloud before may go on with it.
+//   example_08_cloud MODELS
+// Exits 0 if a point that is new in the way is what the motion runs into.
+#include <iostream>
+
+#include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/cloud_file.hpp"
+#include "swept/robot_model/link_motion.hpp"
+#include "swept/robot_model/named_states.hpp"
+
+using Eigen::Isometry3d;
+
+constexpr double kRadius = 0.015;  // m, that each point stands for: the gaps between points, noise
+
+swept::WorldBody cloudBody(const std::vector<Eigen::Vector3d>& points) {
+  // In the model frame already. Points of the robot itself: see withoutRobot in self_filter.hpp.
+  return {.name = "seen",
+          .parts = {{swept::PointCloud::build(points, kRadius), Isometry3d::Identity()}}};
+}
+
+int main(int argc, char** argv) try {
+  const std::string models = argc > 1 ? argv[1] : "models";
+  const std::string arm = models + "/robots/rook7/rook7";
+  const auto robot = swept::Robot::load(arm + ".urdf", arm + ".srdf");
+  std::vector<Eigen::Vector3d> points = swept::loadPoints(models + "/clouds/shelf.pcd");
+  swept::World world;
+  world.add(cloudBody(points));
+  const swept::Checker checker(robot, "arm", std::make_shared<swept::World>(world));
+  swept::Workspace workspace(checker);
+
+  const auto home = swept::namedConfiguration(*robot, checker.group(), "home");
+  const auto ready = swept::namedConfiguration(*robot, checker.group(), "ready");
+  const auto before = checker.certifyMotion(home, ready, workspace);
+  std::cout << points.size() << " points: " << toString(before.verdict) << '\n';
+
+  // The next cloud has one more point, where the tool will be half-way.
+  const Eigen::VectorXd half = checker.interpolate(home, ready, 0.5);
+  const auto tool = swept::linkPose(*robot, "arm", "tool", std::span(half.data(), half.size()));
+  points.push_back(tool.translation());
+  const swept::Checker next = checker.withReplaced(cloudBody(points));
+  const auto after = next.certifyMotion(home, ready, workspace);
+  std::cout << points.size() << " points: " << toString(after.verdict) << '\n';
+  if (!after.witness) return 1;
+  const swept::Witness& touch = *after.witness;
+  const double off = (touch.pointB - points.back()).norm();
+  std::cout << touch.bodyA << " touches " << touch.bodyB << " at t = " << touch.t << ", " << off
+            << " m from the new point\n";
+
+  const auto still = checker.certifyMotion(home, ready, workspace);
+  return before.verdict == swept::Verdict::Free && still.verdict == swept::Verdict::Free &&
+                 off <= kRadius + 1e-9
+             ? 0
+             : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 3;
+}

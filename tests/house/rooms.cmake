@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The folders at the top are the components, models and tests: cmake -DROOT=TREE -P rooms.cmake. Those that begin with
+# `build`, and hidden ones, are not looked at.
+cmake_minimum_required(VERSION 3.25)
+set(rooms core robot_model ompl_bridge planners_demo models tests)
+file(GLOB entries RELATIVE ${ROOT} ${ROOT}/*)
+foreach(entry IN LISTS entries)
+  if(IS_DIRECTORY ${ROOT}/${entry} AND NOT entry MATCHES "^(build|[.])" AND NOT entry IN_LIST rooms)
+    list(APPEND others ${entry})
+  endif()
+endforeach()
+foreach(room IN LISTS rooms)
+  if(NOT IS_DIRECTORY ${ROOT}/${room})
+    list(APPEND missing ${room})
+  endif()
+endforeach()
+if(others OR missing)
+  list(JOIN rooms ", " rooms)
+  message(FATAL_ERROR "the tree has the folders ${rooms}; beyond these: ${others}; missing: ${missing}")
+endif()

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Sourced by run.sh: one function a case.
+
+# Everything is there, and names no folder of the build.
+case_files() {
+  local file component
+  for file in share/doc/swept/LICENSE share/doc/swept/README.md include/swept/core/arithmetic.hpp; do
+    [[ -f "$prefix/$file" ]] || fail "$file is not installed"
+  done
+  for component in "${installed[@]}"; do
+    diff -r "$root/$component/include/swept/$component" "$prefix/include/swept/$component" ||
+      fail "the headers of $component are not those of the tree"
+    [[ -f "$library_folder/pkgconfig/swept-${component//_/-}.pc" ]] || fail "no .pc file of $component"
+  done
+  if [[ -f "$build/planners_demo/swept" ]]; then [[ -x "$prefix/bin/swept" ]] || fail "no program"; fi
+  if [[ -f "$build/planners_demo/swept-mpi" ]]; then [[ -x "$prefix/bin/swept-mpi" ]] || fail "no MPI program"; fi
+  if grep -rlF -e "$root" -e "$build" -e "$temporary" "$prefix"; then
+    fail "these files name a folder of the sources, of the build, or where they were first installed"
+  fi
+}
+
+# No package is there but those that the core is made for.
+case_core() {
+  local package hidden=()
+  for package in ompl urdfdom urdfdom_headers console_bridge assimp yaml-cpp tinyxml2 TBB nlohmann_json \
+    CLI11 fcl octomap OpenSSL ZLIB MPI Boost GTest; do
+    hidden+=(-D "CMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+  done
+  # A program with a flag of its own against what the proofs assume; swept's comes after it.
+  configure core "${hidden[@]}" -D CMAKE_CXX_FLAGS="$flags -ffp-contract=fast"
+  cmake --build "$temporary/core"
+  "$temporary/core/distance" || fail "the core's answers are wrong"
+
+  local contract needed
+  contract="$(grep -o -e '-ffp-contract=[a-z]*' "$temporary/core/compile_commands.json" | tail -n 1)"
+  [[ "$contract" == -ffp-contract=off ]] || fail "the program is compiled with '$contract'"
+  needed="$(readelf -d "$temporary/core/distance" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p')"
+  if grep -vE '^(libswept_core|libccd|libhwy|libstdc\+\+|libm|libgcc_s|libc|libpthread|lib[a-z]+san|ld-linux.*)\.so' \
+    <<<"$needed"; then
+    fail "the program needs these libraries besides"
+  fi
+}
+
+case_requests() {
+  local names
+  printf -v names '%s;' "${installed[@]}"
+  configure requests -D INSTALLED="${names%;}" -D IS_STATIC="$is_static"
+  # As if the core alone were installed.
+  cp -r "$prefix" "$temporary/core_only"
+  find "$temporary/core_only" -name 'swept_robot_model*.cmake' -delete -o -name 'swept_ompl*.cmake' -delete
+  rm -r "$temporary/requests"
+  prefix="$temporary/core_only" configure requests -D INSTALLED=core -D IS_STATIC="$is_static"
+}
+
+case_full() {
+  if ! has ompl_bridge; then
+    echo "full: left out (ompl_bridge is not installed)"
+    return
+  fi
+  configure full
+  cmake --build "$temporary/full"
+  "$temporary/full/motion" "$root/models/robots/rook7/rook7.urdf" "$root/models/scenes/narrow_slot.yaml" ||
+    fail "the certificates are wrong"
+}
+
+# The same programs by pkg-config alone.
+case_pkg_config() {
+  if ! command -v pkg-config >/dev/null; then
+    echo "pkg_config: left out (needs pkg-config)"
+    return
+  fi
+  export PKG_CONFIG_PATH="$library_folder/pkgconfig"
+  local static=() module words
+  if [[ "$is_static" == ON ]]; then static=(--static); fi
+  for module in "${installed[@]}"; do
+    pkg-config --print-errors --validate "swept-${module//_/-}" || fail "swept-${module//_/-}.pc is not valid"
+  done
+  words="$(pkg-config "${static[@]}" --cflags --libs swept-core)"
+  [[ " $words " == *" -ffp-contract=off "* ]] || fail "no -ffp-contract=off in '$words'"
+  compile_by_words "$here/core/distance.cpp" "$words"
+  "$temporary/by_words" || fail "the core's answers are wrong"
+  if ! has ompl_bridge; then return; fi
+  words="$(pkg-config "${static[@]}" --cflags --libs swept-ompl-bridge)"
+  compile_by_words "$here/full/motion.cpp" "$words"
+  "$temporary/by_words" "$root/models/robots/rook7/rook7.urdf" "$root/models/scenes/narrow_slot.yaml" ||
+    fail "the certificates are wrong"
+}
+
+# compile_by_words SOURCE FLAGS: into $temporary/by_words.
+compile_by_words() {
+  # shellcheck disable=SC2086
+  "$compiler" -std=c++20 $flags "$1" $2 -Wl,-rpath,"$library_folder" -o "$temporary/by_words"
+}
+
+# What no proof holds for is refused: by every header of the core, and when programs are linked.
+case_flags() {
+  local header headers command=("$compiler" -std=c++20 -I "$prefix/include" -isystem "$(eigen_folder)" -x c++)
+  mapfile -t headers < <(cd "$prefix/include" && find swept/core -name '*.hpp')
+  ((${#headers[@]} > 20)) || fail "only ${#headers[@]} headers"
+  for header in "${headers[@]}"; do
+    echo "#include \"$header\"" >"$temporary/one.cpp"
+    refuses 'swept: nothing is proven with -ffast-math' "${command[@]}" -ffast-math -Wfatal-errors -E "$temporary/one.cpp"
+  done
+  echo '#include "swept/core/shapes.hpp"' >"$temporary/one.cpp"
+  "${command[@]}" -E "$temporary/one.cpp" >"$temporary/said" || fail "a program without flags is refused"
+  refuses 'swept: nothing is proven with -ffast-math' "${command[@]}" -Ofast -E "$temporary/one.cpp"
+  refuses 'swept: nothing is proven with -ffast-math' "${command[@]}" -ffinite-math-only -E "$temporary/one.cpp"
+  refuses 'swept: nothing is proven with operations in excess precision' \
+    "${command[@]}" -U__FLT_EVAL_METHOD__ -D__FLT_EVAL_METHOD__=2 -E "$temporary/one.cpp"
+
+  # As with another -march than the library's: poses would lie elsewhere.
+  configure core -D CMAKE_CXX_FLAGS="$flags -DEIGEN_MAX_STATIC_ALIGN_BYTES=128"
+  refuses 'libraryAlignsEigenTypesTo<128,' cmake --build "$temporary/core"
+  # And this is what -mavx leaves of a difference with -DEIGEN_MAX_ALIGN_BYTES=16.
+  configure core -D CMAKE_CXX_FLAGS="$flags -DEIGEN_MALLOC_ALREADY_ALIGNED=0"
+  refuses ', false>' cmake --build "$temporary/core"
+}
+
+# refuses TEXT COMMAND...: the command fails, and says this.
+refuses() {
+  if "${@:2}" >"$temporary/said" 2>&1; then fail "not refused: ${*:2}"; fi
+  grep -qF -e "$1" "$temporary/said" || fail "not '$1' but: $(cat "$temporary/said")"
+}
+
+eigen_folder() { echo "$(cached Eigen3_DIR)" | sed 's|/share/eigen3/cmake$|/include/eigen3|'; }
+
+# The program, from where it was moved to.
+case_program() {
+  if [[ ! -x "$prefix/bin/swept" ]]; then
+    echo "program: left out (it was not built)"
+    return
+  fi
+  local robot="$root/models/robots/rook7/rook7.urdf" scene="$root/models/scenes/narrow_slot.yaml" status=0
+  [[ "$("$prefix/bin/swept" --version)" == "swept $(cached CMAKE_PROJECT_VERSION)" ]] || fail "another version"
+  "$prefix/bin/swept" info "$robot" >"$temporary/said"
+  grep -q rook7 "$temporary/said" || fail "info says: $(cat "$temporary/said")"
+  local page=()
+  if [[ -f "$prefix/share/doc/swept/three_licence.txt" ]]; then page=(--html "$temporary/page.html"); fi
+  "$prefix/bin/swept" motion "$robot" home ready --group arm --scene "$scene" "${page[@]}" \
+    >"$temporary/said" || status=$?
+  ((status == 1)) || fail "exit code $status of a motion in collision: $(cat "$temporary/said")"
+  grep -q collision "$temporary/said" || fail "motion says: $(cat "$temporary/said")"
+  if ((${#page[@]} > 0)); then grep -q '</html>' "$temporary/page.html" || fail "no page"; fi
+}
+
+# swept's sources in another build, by FetchContent: that is configured, and the program compiled. Compiling the core once
+# more takes minutes, so the finished one is put into the command that links the program.
+case_tree() {
+  if [[ "$(cached CMAKE_GENERATOR)" != Ninja ]]; then
+    echo "tree: left out (needs a build by Ninja)"
+    return
+  fi
+  configure tree -D SWEPT_SOURCES="$root"
+  cmake --build "$temporary/tree" --target distance_object
+  local link library
+  link="$("$(cached CMAKE_MAKE_PROGRAM)" -C "$temporary/tree" -t commands distance | tail -n 1)"
+  library="$(find "$library_folder" -name libswept_core.a -o -name libswept_core.so)"
+  [[ "$link" == *" _deps/swept-build/core/libswept_core.a "* ]] || fail "the core is not in: $link"
+  (cd "$temporary/tree" && eval "${link/_deps\/swept-build\/core\/libswept_core.a/$library}")
+  LD_LIBRARY_PATH="$library_folder" "$temporary/tree/distance" || fail "the core's answers are wrong"
+}
+
+# The same, and all of the core compiled in that build.
+case_whole_tree() {
+  configure tree -D SWEPT_SOURCES="$root" -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS="$flags -O0 -g0"
+  cmake --build "$temporary/tree" --target distance --parallel 2
+  "$temporary/tree/distance" || fail "the core's answers are wrong"
+}

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+#   tests/packaging/debs.sh [BUILD]
+# Builds the .deb packages in BUILD (build/deb, which is configured first), looks at what is in them, and builds and runs
+# the core's program against the core's packages alone, unpacked. Needs dpkg-dev and file; runs lintian where it is.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+root="$(cd "$here/../.." && pwd)"
+build="${1:-$root/build/deb}"
+for tool in dpkg-deb dpkg-shlibdeps file; do
+  if ! command -v "$tool" >/dev/null; then
+    echo "error: no $tool; install dpkg-dev and file first" >&2
+    exit 3
+  fi
+done
+temporary="$(mktemp -d)"
+trap 'rm -rf "$temporary"' EXIT
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+(cd "$root" && cmake --preset deb -B "$build" &&
+  cmake --build "$build" --parallel 2 && cd "$build" && cpack -B "$temporary/debs")
+debs="$temporary/debs"
+
+# expect_depends PACKAGE PATTERN [FORBIDDEN]: of its Depends.
+expect_depends() {
+  local depends
+  depends="$(dpkg-deb -f "$debs/$1"_*.deb Depends)"
+  grep -qE "$2" <<<"$depends" || fail "$1 does not depend on '$2': $depends"
+  if [[ -n "${3:-}" ]] && grep -E "$3" <<<"$depends"; then fail "$1 depends on '$3'"; fi
+}
+# expect_file PACKAGE PATTERN
+expect_file() {
+  local content
+  content="$(dpkg-deb -c "$debs/$1"_*.deb)"
+  grep -qE "$2" <<<"$content" || fail "$1 has no '$2': $content"
+}
+
+ls "$debs"/*.deb
+heavy='ompl|assimp|urdfdom|yaml|tinyxml|tbb|nlohmann|boost'
+expect_depends libswept-core0.1 '(^|, )libccd2 .*(^|, )libhwy1|libhwy1.*libccd2' "$heavy"
+expect_depends libswept-core-dev 'libswept-core0.1 \(= .*libeigen3-dev|libeigen3-dev.*libswept-core0.1 \(=' "$heavy"
+expect_depends libswept-robot-model0.1 'libassimp5' ompl
+expect_depends libswept-robot-model0.1 'libswept-core0.1'
+expect_depends libswept-robot-model-dev 'libswept-core-dev' ompl
+expect_depends libswept-ompl-bridge0.1 'libompl16'
+expect_depends libswept-ompl-bridge-dev 'libompl-dev'
+expect_depends swept 'libswept-ompl-bridge0.1' 'dev'
+expect_file libswept-core0.1 'libswept_core\.so\.0\.1 -> libswept_core\.so\.0\.1\.'
+expect_file libswept-core-dev 'libswept_core\.so -> libswept_core\.so\.0\.1'
+expect_file libswept-core-dev 'cmake/swept/sweptConfig\.cmake'
+expect_file libswept-core-dev 'pkgconfig/swept-core\.pc'
+expect_file libswept-core-dev 'include/swept/core/shapes\.hpp'
+expect_file swept 'usr/bin/swept$'
+for deb in "$debs"/*.deb; do
+  mkdir "$temporary/one"
+  dpkg-deb -x "$deb" "$temporary/one"
+  compgen -G "$temporary/one/usr/share/doc/*/copyright" >/dev/null || fail "no copyright in $deb"
+  if grep -rlF -e "$root" -e "$build" "$temporary/one"; then fail "these files of $deb name a folder of the build"; fi
+  rm -r "$temporary/one"
+done
+
+# The core's program, with the core's packages alone.
+for package in libswept-core0.1 libswept-core-dev; do dpkg-deb -x "$debs/$package"_*.deb "$temporary/root"; done
+cmake -S "$here/core" -B "$temporary/core" -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$temporary/root/usr"
+cmake --build "$temporary/core"
+"$temporary/core/distance" || fail "the core's answers are wrong"
+
+if command -v lintian >/dev/null; then lintian --allow-root "$debs"/*.deb || true; fi
+echo "debs: ok"
