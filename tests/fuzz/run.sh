@@ -6,6 +6,7 @@
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 build="$root/build/fuzz"
+source "$root/.ci/setup.sh"
 
 usage() {
   echo "usage: tests/fuzz/run.sh [--seconds N] [TARGET ...]"
@@ -61,6 +62,8 @@ while (($# > 0)); do
 done
 if ((${#wanted[@]} == 0)); then mapfile -t wanted < <(targets); fi
 
+install_packages
+install_packages "$root/.ci/fuzz-packages.txt"
 (cd "$root" && cmake --preset fuzz >/dev/null &&
   cmake --build --preset fuzz --parallel "$(nproc)" --target "${wanted[@]/%/_fuzz}" >/dev/null)
 export -f fuzz_one
