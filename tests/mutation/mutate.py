@@ -9,11 +9,13 @@ import sys
 import time
 
 from mutations import Malformed, read_all
-from report import append_result, print_report, read_results, result_of, succeeded
+from report import append_result, read_results, result_of, succeeded, table, verdict
 from work_tree import Failed, WorkTree
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
+RESULTS = HERE / "results.jsonl"
+TABLE = HERE / "results.md"
 
 
 def regex(text):
@@ -33,13 +35,12 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--list", action="store_true", help="print the mutations and end")
-    what.add_argument("--check", action="store_true", help="only see that each mutation fits the tree once")
-    what.add_argument("--report", metavar="RESULTS", help="print the table of these results and end")
+    what.add_argument("--check", action="store_true",
+                      help="only see that each mutation fits the tree once, and that results.md is that of results.jsonl")
+    what.add_argument("--report", action="store_true", help="write results.md from results.jsonl and end")
     parser.add_argument("--only", type=regex, metavar="REGEX", help="mutations whose COMPONENT/NAME has this in it")
     parser.add_argument("--work", metavar="DIR", help="folder for the copy of the tree, kept between runs")
-    parser.add_argument("--results", metavar="FILE",
-                        help="appended to; what is in it is not run again (default: results.jsonl in --work)")
-    parser.add_argument("--again", action="store_true", help="run also what is in the results")
+    parser.add_argument("--again", action="store_true", help="run also what is in results.jsonl")
     parser.add_argument("--named", action="store_true",
                         help="run only the tests that a mutation names, and leave what these do not notice open")
     parser.add_argument("-j", type=positive, default=2, metavar="N", help="jobs of builds and tests (default: 2)")
@@ -48,8 +49,6 @@ def arguments():
     options = parser.parse_args()
     if not (options.list or options.check or options.report or options.work):
         parser.error("--work is needed: a folder for the copy of the tree")
-    if options.report and not pathlib.Path(options.report).is_file():
-        parser.error(f"--report: no file '{options.report}'")
     return options
 
 
@@ -106,9 +105,12 @@ def prepare(work, mutations):
     work.require_passing(sorted(named))
 
 
-def campaign(options, mutations):
-    results_file = options.results or pathlib.Path(options.work) / "results.jsonl"
-    results = read_results(results_file)
+def write_table(mutations):
+    TABLE.write_text(table(mutations, read_results(RESULTS)))
+
+
+def campaign(options, mutations, every_mutation):
+    results = read_results(RESULTS)
     open_ones = [m for m in mutations if options.again or result_of(m, results) is None]
     work = WorkTree(SOURCE, options.work, options.j, options.timeout)
     if open_ones:
@@ -121,17 +123,32 @@ def campaign(options, mutations):
         elif result["by"]:
             work.require_passing([result["by"]])
         if result["outcome"]:
-            append_result(results_file, result)
+            append_result(RESULTS, result)
+            write_table(every_mutation)
         print(f"{number}/{len(open_ones)} {mutation.name}: {result['outcome'] or 'left open'} {result['by'] or ''}"
               f" ({result['seconds']} s)", flush=True)
-    results = read_results(results_file)
-    print_report(mutations, results)
+    return conclude(mutations)
+
+
+def conclude(mutations):
+    results = read_results(RESULTS)
+    print(verdict(mutations, results))
     return 0 if succeeded(mutations, results) else 1
+
+
+def check(mutations, every_mutation):
+    count = faults(mutations)
+    if not TABLE.is_file() or TABLE.read_text() != table(every_mutation, read_results(RESULTS)):
+        print("results.md is not what results.jsonl says; write it with --report", file=sys.stderr)
+        count += 1
+    if count == 0:
+        print(f"{len(mutations)} mutations fit the tree")
+    return min(count, 1)
 
 
 def main():
     options = arguments()
-    mutations = read_all(HERE / "mutations")
+    every_mutation = mutations = read_all(HERE / "mutations")
     if options.only:
         mutations = [m for m in mutations if options.only.search(f"{m.component}/{m.name}")]
         if not mutations:
@@ -140,16 +157,14 @@ def main():
         for mutation in mutations:
             print(f"{mutation.component}/{mutation.name}  {mutation.file}  {mutation.why}")
         return 0
+    if options.check:
+        return check(mutations, every_mutation)
     if options.report:
-        results = read_results(options.report)
-        print_report(mutations, results)
-        return 0 if succeeded(mutations, results) else 1
+        write_table(every_mutation)
+        return conclude(mutations)
     if faults(mutations):
         return 1
-    if options.check:
-        print(f"{len(mutations)} mutations fit the tree")
-        return 0
-    return campaign(options, mutations)
+    return campaign(options, mutations, every_mutation)
 
 
 if __name__ == "__main__":

@@ -66,9 +66,9 @@ def require(holds, what):
         sys.exit(f"failed: {what}")
 
 
-def require_results(work, column):
+def require_results(tree, column):
     found = {}
-    for line in (work / "results.jsonl").read_text().splitlines():
+    for line in (tree / "tests/mutation/results.jsonl").read_text().splitlines():
         result = json.loads(line)
         require(result["mutation"] not in found, f"{result['mutation']} was run twice")
         found[result["mutation"]] = (result["outcome"], result["by"])
@@ -79,13 +79,15 @@ def require_results(work, column):
 def test_outcomes(tree, work):
     first = run(tree, "--work", work, "--timeout", "10", "--named")
     require(first.returncode == 1, f"--named ends with {first.returncode}: {first.stderr}")
-    require_results(work, 4)
+    require_results(tree, 4)
     # As if it had been killed within a mutation.
     (work / "tree" / "numbers.cpp").write_text("int one() { return 7; }\n")
     second = run(tree, "--work", work, "--timeout", "10")
     require(second.returncode == 1, f"the campaign ends with {second.returncode}: {second.stderr}")
-    require_results(work, 5)
-    require("66.7 % of 6 mutations caught, 0 not run." in second.stdout, f"score: {second.stdout}")
+    require_results(tree, 5)
+    score = "66.7 % of 6 mutations caught, 0 not run."
+    require(score in second.stdout, f"score: {second.stdout}")
+    require(score in (tree / "tests/mutation/results.md").read_text(), "results.md is not written")
     require((work / "tree" / "numbers.cpp").read_text() == SOURCES["numbers.cpp"], "the text is not put back")
     good = run(tree, "--work", work, "--only", "named|elsewhere")
     require(good.returncode == 0, f"two that are caught end with {good.returncode}: {good.stdout}")
@@ -100,6 +102,14 @@ def test_faults(tree):
     numbers.write_text(SOURCES["numbers.cpp"].replace("return 1", "return 4"))
     wrong = run(tree, "--check")
     require("numbers.txt:1: named: its text occurs 0 times" in wrong.stderr, f"said is: {wrong.stderr}")
+    numbers.write_text(SOURCES["numbers.cpp"])
+    results = tree / "tests/mutation/results.md"
+    results.write_text(results.read_text().replace("caught by", "missed by", 1))
+    stale = run(tree, "--check")
+    require(stale.returncode == 1, "a table that is not that of the results is taken")
+    require("results.md is not what results.jsonl says" in stale.stderr, f"said is: {stale.stderr}")
+    require(run(tree, "--report").returncode == 1, "a table with a survivor is a success")
+    require(run(tree, "--check").returncode == 0, "the table that was written anew is refused")
 
 
 with tempfile.TemporaryDirectory() as folder:

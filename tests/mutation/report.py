@@ -49,17 +49,23 @@ def score(mutations, results):
     return sum(r["outcome"] in CAUGHT for r in run), len(run)
 
 
-def print_report(mutations, results):
-    print("| mutation | file | what it breaks | result |\n|---|---|---|---|")
-    for m in mutations:
-        print(f"| `{m.name}` | `{m.file}` | {m.why} | {words(result_of(m, results))} |")
-    print("\n| component | caught | of |\n|---|---|---|")
-    for component in sorted({m.component for m in mutations}):
-        caught, run = score([m for m in mutations if m.component == component], results)
-        print(f"| {component} | {caught} | {run} |")
+def verdict(mutations, results):
     caught, run = score(mutations, results)
     share = 100.0 * caught / run if run else 0.0
-    print(f"| all | {caught} | {run} |\n\n{share:.1f} % of {run} mutations caught, {len(mutations) - run} not run.")
+    return f"{share:.1f} % of {run} mutations caught, {len(mutations) - run} not run."
+
+
+def table(mutations, results):
+    lines = ["# Results", "", "Written by `mutate.py` from `results.jsonl`.", "",
+             "| mutation | file | what it breaks | result |", "|---|---|---|---|"]
+    for m in mutations:
+        lines.append(f"| `{m.name}` | `{m.file}` | {m.why} | {words(result_of(m, results))} |")
+    lines += ["", "| component | caught | of |", "|---|---|---|"]
+    for component in sorted({m.component for m in mutations}):
+        caught, run = score([m for m in mutations if m.component == component], results)
+        lines.append(f"| {component} | {caught} | {run} |")
+    caught, run = score(mutations, results)
+    return "\n".join([*lines, f"| all | {caught} | {run} |", "", verdict(mutations, results), ""])
 
 
 def succeeded(mutations, results):

@@ -20,6 +20,9 @@ class Failure:
     timed_out: bool
 
 
+# What a mutation leaves unused is not its fault.
+PREAMBLE = '#pragma GCC diagnostic ignored "-Wunused"\n'
+
 # As ctest prints it: " 3/12 Test  #7: NAME .......***Failed    1.24 sec".
 TEST_STATUS = re.compile(r"^ *\d+/\d+ Test +#\d+: (\S+) .*\*\*\*(\w+)", re.MULTILINE)
 
@@ -34,7 +37,8 @@ class WorkTree:
         self.source = pathlib.Path(source)
         self.folder = pathlib.Path(folder).resolve()
         self.tree = self.folder / "tree"
-        self.build_folder = self.folder / "build"
+        # Where it is in a clone, so that ccache finds what was compiled there.
+        self.build_folder = self.tree / "build" / "release"
         self.passed_file = self.folder / "passed.json"
         self.log = self.folder / "last.log"
         self.jobs = jobs
@@ -59,7 +63,7 @@ class WorkTree:
         ).stdout.split("\0")
         files = {name for name in listed if name and (self.source / name).is_file()}
         changed = False
-        for path in [p for p in self.tree.rglob("*") if p.is_file()]:
+        for path in [p for p in self.tree.rglob("*") if p.is_file() and not p.is_relative_to(self.build_folder)]:
             if str(path.relative_to(self.tree)) not in files:
                 path.unlink()
                 changed = True
@@ -81,7 +85,7 @@ class WorkTree:
     def configure(self):
         if not (self.build_folder / "build.ninja").is_file():
             self.must(["cmake", "-S", self.tree, "-B", self.build_folder, "-G", "Ninja",
-                       "-DCMAKE_BUILD_TYPE=Release", "-DSWEPT_WARNINGS_AS_ERRORS=OFF"])
+                       "-DCMAKE_BUILD_TYPE=Release", "-DSWEPT_WARNINGS_AS_ERRORS=ON"])
         # Tests are known by name once CMake has run for the tree as it is.
         self.must(["ninja", "-C", self.build_folder, "build.ninja"])
         self.tests = {}
@@ -145,7 +149,7 @@ class WorkTree:
 
     def mutate(self, mutation):
         path = self.tree / mutation.file
-        path.write_text(path.read_text().replace(mutation.original, mutation.replacement))
+        path.write_text(PREAMBLE + path.read_text().replace(mutation.original, mutation.replacement))
 
     def restore(self, mutation):
         """Written anew, hence newer than what was built of the mutation."""
