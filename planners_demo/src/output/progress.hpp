@@ -57,7 +57,7 @@ class ProgressBar {
 };
 
 /// `[#####.....] 50 of 100 runs, 50 %, 1 min 20 s left`; of the time left nothing unless some were
-/// done in `elapsed` s.
+/// done in `elapsed` s. `done` is at most `total`.
 std::string progressText(const std::string& what, std::size_t before, std::size_t done,
                          std::size_t total, double elapsed);
 

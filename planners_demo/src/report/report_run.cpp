@@ -106,6 +106,7 @@ class ReportRun {
     return without(without(methods_, Validator::Kind::Fcl), Validator::Kind::Discrete);
   }
 
+  /// About motions.
   std::size_t answers() const {
     return static_cast<std::size_t>(args_.report.motions) * methods_.size() *
            static_cast<std::size_t>(args_.passes);
@@ -142,9 +143,11 @@ class ReportRun {
   void askAll(const std::string& world, const ReportCheckers& checkers,
               std::vector<ReportMotion>& motions, RandomMotions& random) {
     const Checker& truth = *checkers.truth;
-    const ReportTick tick = [this](std::size_t count) { this->tick(count); };
+    // How many questions the other parts have is known once the motions are judged.
+    const ReportTick counted = [this](std::size_t count) { this->tick(count); };
+    const ReportTick tick = [this](std::size_t) { this->tick(0); };
     std::vector<AskedMethod> asked = askedMethods(methods_, checkers);
-    motions_.add(world, asked, truth, motions, stopwatch_, tick);
+    motions_.add(world, asked, truth, motions, stopwatch_, counted);
     addFirstContacts(contacts_, asked, truth, firstOf(motions, Verdict::Collision, kMostContacts),
                      args_.passes, stopwatch_, tick);
     addClearances(clearances_, asked, truth, firstOf(motions, Verdict::Free, kMostClearances),
