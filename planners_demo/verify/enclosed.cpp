@@ -63,7 +63,8 @@ void requireNotEnclosed(const Model& model, const Motion& motion, PairToProve pa
   const Body& a = model.bodies[static_cast<std::size_t>(pair.a)];
   const Body& b = model.bodies[static_cast<std::size_t>(pair.b)];
   if (a.solids().empty() && b.solids().empty()) return;
-  const bool onePlane = proof.contains("intervals") && proof["intervals"][0][2].is_array();
+  // Of a body without nodes nobody has looked at the intervals.
+  const bool onePlane = !b.nodes().empty() && proof["intervals"][0][2].is_array();
   if (onePlane) return;
   const PairMotion start(model, motion, pair, 0.0, 0.0);
   const Isometry3d a_from_b =

@@ -113,6 +113,7 @@ void addMesh(const Json& json, const Isometry3d& frame, const std::string& where
     surface.triangles.push_back(triangle);
     parts.elements.push_back(std::move(element));
   }
+  if (surface.triangles.empty()) throw Refusal(where + ": a mesh without triangles");
   const Json& solid = at(json, "solid", where);
   if (!solid.is_boolean()) throw Refusal(where + ": solid is neither true nor false");
   if (solid.get<bool>()) parts.solids.push_back(std::move(surface));

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "gantry.hpp"
+#include "verify/check.hpp"
+#include "verify/enclosed.hpp"
+#include "verify/intervals.hpp"
+
+/// Files that somebody made in order to deceive the checker of proofs, or to end it.
+namespace swept::test {
+namespace {
+
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+
+std::string refusalOf(const auto& check) {
+  try {
+    check();
+  } catch (const verify::Refusal& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+/// The square of 2.6e-162 is 1.4 of the smallest number there is, and rounds to one of it.
+TEST(VerifyCrafted, DirectionsOfAnyLengthProveTheSame) {
+  const Gantry gantry;
+  const std::string file = gantry.folder().path("path.json");
+  ASSERT_EQ(gantry.run("plan", {"left", "right", "--embed", "-o", file}).exitCode, 0);
+  const Json path = Json::parse(gantry.folder().read("path.json"));
+  const auto said = [&](double length, double share) {
+    Json changed = path;
+    Json& pair = changed["proof"]["segments"][0]["pairs"][0];
+    Json& plane = pair["intervals"][0][2];
+    Vector3d direction(plane[0].get<double>(), plane[1].get<double>(), plane[2].get<double>());
+    direction *= length / direction.norm();
+    for (std::size_t i = 0; i < 3; ++i) plane[i] = direction[static_cast<int>(i)];
+    plane[3] = share * plane[3].get<double>();
+    pair["digest"] = verify::pairDigest(pair);
+    return refusalOf([&] { verify::checkProof(changed, changed["model"]); });
+  };
+  for (const double length : {1e-300, 2.6e-162, 1e-5, 1.0, 1e200}) {
+    EXPECT_EQ(said(length, 1.0 - 1e-9), "") << length;
+    EXPECT_THAT(said(length, 1.1), HasSubstr("is not proven, only")) << length;
+  }
+}
+
+verify::Surface tetrahedron() {
+  return {{Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()},
+          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+/// A plane of the world has no intervals, whatever the file has under that name.
+TEST(VerifyCrafted, IntervalsThatProveNothingAreNotLookedAt) {
+  verify::Model model;
+  model.links = {"link"};
+  model.jointOf = {-1};
+  std::vector<verify::Element> corners;
+  for (const Vector3d& vertex : tetrahedron().vertices) corners.push_back({.points = {vertex}});
+  model.bodies.emplace_back("solid", corners, std::vector<verify::Flat>{},
+                            std::vector<verify::Surface>{tetrahedron()});
+  model.bodies.emplace_back("ground", std::vector<verify::Element>{},
+                            std::vector<verify::Flat>{{Vector3d::UnitZ(), -1.0, true}},
+                            std::vector<verify::Surface>{});
+  model.linkOf = {0, -1};
+  model.paddings = {0.0, 0.0};
+  const verify::Motion motion(model, {}, {});
+  const Json flats = Json::array({Json::array({Json::array({0.0, 1.0, Json::array({1, 0.9})})})});
+  for (const Json& intervals : {Json::array(), Json(5), Json::array({5})}) {
+    const Json proof = {{"flats", flats}, {"intervals", intervals}};
+    EXPECT_EQ(checkPair(model, motion, {0, 1}, proof, "here").planes, 1u);
+    EXPECT_NO_THROW(requireNotEnclosed(model, motion, {0, 1}, proof, "here")) << intervals;
+  }
+}
+
+TEST(VerifyCrafted, AMeshWithoutTrianglesIsRefused) {
+  for (const bool solid : {false, true}) {
+    const Json mesh = {{"type", "mesh"}, {"vertices", ""}, {"triangles", ""}, {"solid", solid}};
+    verify::ShapeParts parts;
+    EXPECT_EQ(refusalOf([&] {
+                verify::readShape(mesh, Eigen::Isometry3d::Identity(), "body b, shape 1", parts);
+              }),
+              "body b, shape 1: a mesh without triangles");
+  }
+}
+
+}  // namespace
+}  // namespace swept::test
