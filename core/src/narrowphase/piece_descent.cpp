@@ -32,6 +32,8 @@ class PieceDescent {
       if (next.lower > found_.settledBeyond({})) return found_.settle(next.lower);
       begin(pieces_.piece(true, next.placeA), pieces_.piece(false, next.placeB));
     }
+    // Contact at a distance ends the search; what is left may be nearer.
+    if (!waiting_.isEmpty()) found_.settle(waiting_.pop().lower);
   }
 
  private:
@@ -68,8 +70,9 @@ class PieceDescent {
     std::array<int, WideNode::kLanes> order;
     const int open = sortOpen(*split.node, lower, found_.settledBeyond(approach), order);
     for (int i = 0; i < open; ++i) {
-      if (found_.inContact()) return;
       const int lane = order[i];
+      // The rest is farther.
+      if (found_.inContact()) return found_.settle(std::max(0.0F, lower[lane]));
       if (lower[lane] > found_.settledBeyond(approach)) {
         found_.settle(lower[lane]);
         continue;

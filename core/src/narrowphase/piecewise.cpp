@@ -31,7 +31,8 @@ class Search {
       found_.result.normal.setZero();
     }
     // Surfaces that do not meet can still be one inside the other.
-    if (!found_.inContact() && !hullsApart_ && !goal_.surfaces) {
+    const bool meet = found_.inContact() && !(found_.result.lower > 0.0);
+    if (!meet && !hullsApart_ && !goal_.surfaces) {
       const auto enclosed = enclosedPoint(a_, b_, a_from_b_);
       if (enclosed) found_.noteContact(*enclosed);
     }
