@@ -36,6 +36,7 @@ inline void note(const FaceProbe& found, Look& look) {
 template <Convex::Core kindA, Convex::Core kindB>
 Look look(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
   Look look;
+  look.gap.rounding = pairRounding(a, b, a_from_b);
   if constexpr (probe::kHasFaces<kindA>) {
     const FaceProbe found =
         probeFaces(CoreTag<kindA>{}, a, b, a_from_b.linear(), a_from_b.translation());
@@ -53,6 +54,7 @@ Look look(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
         probeFaces(CoreTag<kindB>{}, b, a, a_from_b.linear().transpose(), originOfAInB(a_from_b));
     if (found.inside) {
       look.inside = true;
+      look.exact = false;  // where they touch, rounding may have set a face of a apart
       look.gap.distance = 0.0;
       look.gap.normal = -(a_from_b.linear() * found.normal);
       look.gap.common = a_from_b * found.lowest;
@@ -69,7 +71,6 @@ Look look(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
       }
     }
   }
-  look.gap.rounding = pairRounding(a, b, a_from_b);
   return look;
 }
 

@@ -73,6 +73,7 @@ Nearest inTriangle(const std::array<int, 3>& index, const std::array<Vector3d, 3
   const int k = (i + 2) % 3;
   const Vector3d normal = corner.e.cross(corner.f);
   const double squared = normal.squaredNorm();
+  if (!(squared > 0.0)) return {};
   const Vector3d alongE = corner.f.cross(normal) / squared;
   const Vector3d alongF = normal.cross(corner.e) / squared;
   double s = -p[i].dot(alongE);
