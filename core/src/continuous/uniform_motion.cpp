@@ -13,8 +13,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// rad. Below it a screw's axis is so far away that its place is lost to rounding.
-constexpr double kHardlyTurns = 1e-8;
+/// rad. Below it a screw's axis is so far away that its place is lost to rounding, by more than the
+/// screw differs from a straight line between the same ends.
+constexpr double kHardlyTurns = 1e-7;
 
 /// The rotation vector, of the least length, that turns one orientation into another.
 Vector3d turnBetween(const Matrix3d& start, const Matrix3d& end) {
