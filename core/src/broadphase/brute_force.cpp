@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/broadphase/brute_force.hpp"
 
-#include <stdexcept>
-#include <string>
+#include "broadphase/handles.hpp"
 
 namespace swept {
 
 static_assert(Broadphase<BruteForce>);
 
 void BruteForce::require(BoxHandle handle) const {
-  if (contains(handle)) return;
-  throw std::invalid_argument("broadphase: no box has the handle " + std::to_string(handle));
+  if (!contains(handle)) detail::Handles::refuse(handle);
 }
 
 BoxHandle BruteForce::registerBox(const Aabb& box) {
@@ -38,15 +36,13 @@ void BruteForce::update(BoxHandle handle, const Aabb& box) {
 }
 
 void BruteForce::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
-  if (handles.size() != boxes.size())
-    throw std::invalid_argument("broadphase: as many handles as boxes are needed");
+  detail::Handles::requireAsMany(handles.size(), boxes.size());
   for (const BoxHandle handle : handles) require(handle);
   for (std::size_t i = 0; i < handles.size(); ++i) update(handles[i], boxes[i]);
 }
 
 void BruteForce::updateAll(std::span<const Aabb> boxes) {
-  if (boxes.size() != size())
-    throw std::invalid_argument("broadphase: as many boxes as are registered are needed");
+  detail::Handles::requireAsMany(size(), boxes.size());
   std::size_t next = 0;
   for (std::optional<Aabb>& box : boxes_)
     if (box) box = boundedOrEverywhere(boxes[next++]);

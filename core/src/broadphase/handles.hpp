@@ -18,16 +18,17 @@ class Handles {
  public:
   /// The least that is free.
   BoxHandle take() {
-    ++live_;
     if (free_.empty()) {
       if (used_.size() >= kMost) throw std::length_error("broadphase: more than 2^30 boxes");
       used_.push_back(1);
+      ++live_;
       return static_cast<BoxHandle>(used_.size() - 1);
     }
     std::pop_heap(free_.begin(), free_.end(), std::greater<>());
     const BoxHandle handle = free_.back();
     free_.pop_back();
     used_[handle] = 1;
+    ++live_;
     return handle;
   }
   void giveBack(BoxHandle handle) {
@@ -42,7 +43,9 @@ class Handles {
   BoxHandle end() const { return static_cast<BoxHandle>(used_.size()); }
 
   void require(BoxHandle handle) const {
-    if (contains(handle)) return;
+    if (!contains(handle)) refuse(handle);
+  }
+  [[noreturn]] static void refuse(BoxHandle handle) {
     throw std::invalid_argument("broadphase: no box has the handle " + std::to_string(handle));
   }
   void require(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) const {

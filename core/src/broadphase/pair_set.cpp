@@ -86,11 +86,6 @@ void PairSet::toggle(std::vector<PairKey>& keys, int bits) {
   changed_.clear();
 }
 
-void PairSet::clear() {
-  sorted_.clear();
-  changed_.clear();
-}
-
 void PairSet::replace(std::vector<PairKey>& sorted) {
   sorted_.swap(sorted);
   changed_.clear();

@@ -26,7 +26,6 @@ class PairSet {
   /// Each key that was in goes out and the other way round; one named twice stays. Sorts `keys`,
   /// both halves of which are below 2^bits.
   void toggle(std::vector<PairKey>& keys, int bits);
-  void clear();
   /// `sorted`: strictly ascending; what it held before is given back in it.
   void replace(std::vector<PairKey>& sorted);
 

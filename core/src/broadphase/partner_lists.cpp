@@ -32,15 +32,21 @@ void PartnerLists::clear() {
 }
 
 void PartnerLists::reserve(std::span<const std::uint32_t> counts) {
+  const auto roomFor = [](std::uint32_t count) {
+    return std::max(kLeastRoom, std::bit_ceil(count));
+  };
   std::size_t total = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    lists_[i].offset = static_cast<std::uint32_t>(total);
-    lists_[i].room = std::max(kLeastRoom, std::bit_ceil(counts[i]));
-    total += lists_[i].room;
-  }
+  for (const std::uint32_t count : counts) total += roomFor(count);
   if (total > 0xFFFFFFFF)
     throw std::length_error("SweepAndPrune: more than 2^31 pairs of near boxes");
   arena_.resize(total);
+  // No list has room before there is any.
+  std::uint32_t offset = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    lists_[i].offset = offset;
+    lists_[i].room = roomFor(counts[i]);
+    offset += lists_[i].room;
+  }
 }
 
 std::size_t PartnerLists::bytes() const {

@@ -48,7 +48,8 @@ SweepAndPrune& SweepAndPrune::operator=(SweepAndPrune&& other) noexcept = defaul
 SweepAndPrune::SweepAndPrune(const SweepAndPrune& other)
     : state_(std::make_unique<State>(*other.state_)) {}
 SweepAndPrune& SweepAndPrune::operator=(const SweepAndPrune& other) {
-  *state_ = *other.state_;
+  // What was moved from has no state.
+  if (this != &other) state_ = std::make_unique<State>(*other.state_);
   return *this;
 }
 

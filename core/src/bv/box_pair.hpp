@@ -107,17 +107,18 @@ inline double squaredFaceBound(const BoxPair& p) {
 
 /// m^2; squared lower bound from the nine edge axes.
 inline double squaredEdgeBound(const BoxPair& p) {
-  // The length of the axis is a sine; below this it is not known well enough to divide by.
-  constexpr double kLeastSquaredSine = 1e-6;
+  // The length of the axis is about a sine; below this it is not known well enough to divide by.
+  constexpr double kLeastSquared = 1e-6;
   double best = 0.0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const double square = provenSquare(gapAlongEdges(p, i, j), p.margin);
       if (!(square > best * 1e-6)) continue;
-      const double cosine = p.rotation(i, j);
-      const double squaredSine = 1.0 - cosine * cosine + kVolumeRounding;
-      if (squaredSine < kLeastSquaredSine) continue;
-      const double bound = square / squaredSine;
+      // Not by the cosine: the axes of b may be longer than one.
+      const double across = p.rotation((i + 1) % 3, j), along = p.rotation((i + 2) % 3, j);
+      const double squaredLength = across * across + along * along + kVolumeRounding;
+      if (squaredLength < kLeastSquared) continue;
+      const double bound = square / squaredLength;
       if (bound > best) best = bound;
     }
   }

@@ -61,6 +61,9 @@ class TopologyBuilder {
 
 TreeTopology TreeTopology::build(const PrimitivePoints& primitives, const SplitFunction& split,
                                  int maxLeaf) {
+  if (maxLeaf < 1)
+    throw std::invalid_argument("BvTree: maxLeaf is " + std::to_string(maxLeaf) +
+                                "; allowed: at least 1");
   std::vector<SplitItem> items = itemsOf(primitives);
   TreeTopology topology;
   const TopologyBuilder builder(items, split, maxLeaf, topology);

@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 /// m. Finer voxels than this are not worth their memory.
 constexpr double kFinestVoxel = 0.003;
+/// Four times what Voxels allows for rounding, relative to the coordinates.
+constexpr double kVoxelRoundings = 8e-12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// m, side of voxels such that not too many are to be marked.
@@ -56,7 +58,9 @@ Voxels layOut(const Aabb& box, const Aabb& window, double least, std::size_t cel
               ClearanceField& field) {
   const Vector3d lower = box.lower.cwiseMax(window.lower);
   const Vector3d upper = box.upper.cwiseMin(window.upper);
-  const double side = voxelSide(upper - lower, least, cells);
+  const double reach = std::max(box.lower.lpNorm<1>(), box.upper.lpNorm<1>());
+  // Far out, rounding would reach over several voxels of the finest kind.
+  const double side = voxelSide(upper - lower, std::max(least, kVoxelRoundings * reach), cells);
   field.voxel = static_cast<float>(side);
   field.origin = lower - Vector3d::Constant(2.0 * side);
   for (int i = 0; i < 3; ++i) {
@@ -65,7 +69,6 @@ Voxels layOut(const Aabb& box, const Aabb& window, double least, std::size_t cel
     field.lower[i] = box.lower[i] < lower[i] ? -kInfinity : 0.0;
     field.upper[i] = box.upper[i] > upper[i] ? kInfinity : 4.0 * side * field.blocks[i];
   }
-  const double reach = std::max(box.lower.lpNorm<1>(), box.upper.lpNorm<1>());
   return {field.origin, side, field.blocks, reach};
 }
 

@@ -293,6 +293,7 @@ void ClearanceGrid::clearances(std::span<const Vector3d> points, std::span<doubl
 
 /// As squares, whose own rounding is small beside that of the rest.
 bool ClearanceGrid::isFarther(const Vector3d& center, double radius) const {
+  if (radius < 0.0) return center.allFinite();
   const double size = center.lpNorm<1>();
   if (!(size < kFar)) return data_->farClearance(center) > radius;
   const double asked = radius + data_->rounding(size);

@@ -44,12 +44,12 @@ void touching(const Mesh& a, const Mesh& b, const MeshCollisionOptions& options,
   detail::findMeetingPairs({&a.order, nullptr, &a.end}, {&b.order, nullptr, &b.end}, &a == &b,
                            detail::meetingMargin(0.0, reach), scratch.open, scratch.pairs);
   for (const MeetingPair& pair : scratch.pairs) {
-    if (result.pairs.size() >= options.maxPairs) break;
+    if (result.touching && result.pairs.size() >= options.maxPairs) break;
     ++result.effort.leafTests;
-    if (trianglesTouch(corners(a, a.end, pair.first), corners(b, b.end, pair.second)))
-      result.pairs.push_back(named(a, b, pair));
+    if (!trianglesTouch(corners(a, a.end, pair.first), corners(b, b.end, pair.second))) continue;
+    result.touching = true;
+    if (options.maxPairs > 0) result.pairs.push_back(named(a, b, pair));
   }
-  result.touching = !result.pairs.empty();
   std::sort(result.pairs.begin(), result.pairs.end());
 }
 

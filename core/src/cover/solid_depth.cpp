@@ -18,6 +18,7 @@ double meshDepth(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
   if (!mesh.encloses(point)) return 0.0;
   const detail::Nearest nearest(mesh.vertices(), mesh.triangles(), mesh.bvh());
   const detail::Nearest::Found found = nearest.find(point, std::numeric_limits<double>::infinity());
+  if (!std::isfinite(found.squared)) return 0.0;  // squares that overflow find nothing
   return std::sqrt(found.squared) * (1.0 - 1e-15) - nearest.error(point);
 }
 

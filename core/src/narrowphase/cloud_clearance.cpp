@@ -86,10 +86,11 @@ class NearestBall {
 double clearance(const PointCloud& cloud, const Vector3d& point, double enough) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!point.allFinite() || std::isnan(enough)) return -kInfinity;
-  const double found = NearestBall(cloud, point, enough).run();
-  if (!(found < enough)) return enough;
-  constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
-  return found - kRounding * (point.lpNorm<1>() + cloud.bvh().reach());
+  const double rounding =
+      16.0 * std::numeric_limits<double>::epsilon() * (point.lpNorm<1>() + cloud.bvh().reach());
+  const double most = enough + rounding;
+  const double found = NearestBall(cloud, point, most).run();
+  return found < most ? std::min(enough, found - rounding) : enough;
 }
 
 }  // namespace swept

@@ -33,6 +33,7 @@ struct Convex {
   double extent = 0.0;  ///< m, no point of the core is farther from the local origin
   double shave = 0.0;   ///< m, of an ellipsoid: its core's distance inside the surface `size` gives
   double error = 0.0;   ///< m, the shape may reach this far beyond the core grown by `radius`
+  double omitted = 0.0;  ///< m, the part of `error` that vertices make which a hull leaves out
   std::span<const Eigen::Vector3d> points;
   const double* coordinates = nullptr;  ///< m, of `points` as ConvexHull::coordinates(), or null
 
@@ -197,7 +198,7 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
   convex.points = hull.vertices();
   convex.coordinates = hull.coordinates().data();
   convex.extent = hull.extent();
-  convex.error = hull.error();
+  convex.error = convex.omitted = hull.error();
   return convex;
 }
 

@@ -78,7 +78,8 @@ struct Pair {
         rotation(a_from_b.linear()),
         magnitude(magnitudeOf(bodyA, bodyB, a_from_b)),
         rounding(tolerance::kSupportRounding * magnitude + a.error + b.error),
-        coincident(0.25 * tolerance::kSupportRounding * magnitude + a.error + b.error) {}
+        coincident(0.25 * tolerance::kSupportRounding * magnitude + a.error - a.omitted + b.error -
+                   b.omitted) {}
 
   /// The point of B - A that lies deepest along d, and A's part of it.
   void support(const Vector3d& d, Vector3d& w, Vector3d& onA) const {

@@ -210,6 +210,8 @@ struct Search {
     }
     while (together - apart > tolerance::kLibccdDistance && together > contact && apart <= enough) {
       a.growth = 0.5 * (apart + together);
+      // Far out, doubles are farther apart than the accuracy.
+      if (!(a.growth > apart && a.growth < together)) break;
       const Met met = meet(a, b);
       if (met == Met::Unknown) break;
       (met == Met::Yes ? together : apart) = a.growth;

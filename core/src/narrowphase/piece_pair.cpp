@@ -56,6 +56,7 @@ double reachOf(const Side& side) {
 Convex grownAround(const ConvexHull& hull) {
   Convex convex = Convex::of(hull);
   convex.radius = std::exchange(convex.error, 0.0);
+  convex.omitted = 0.0;
   return convex;
 }
 

@@ -188,8 +188,9 @@ class CloudQuery {
     }
     while (!samples.empty() && effort_.samples < goal_.options.maxSamples) {
       const std::size_t worst = leastKnown(samples, groupOf);
-      samples[worst].draw(kDraws, random);
-      effort_.samples += kDraws;
+      const int draws = std::min(kDraws, goal_.options.maxSamples - effort_.samples);
+      samples[worst].draw(draws, random);
+      effort_.samples += draws;
       ProbabilityRange& range = groups_[groupOf[worst]];
       range.estimate = std::clamp(samples[worst].probability(), range.lower, range.upper);
       if (3.0 * combine(samples, groupOf, result) <= goal_.options.accuracy) break;

@@ -13,6 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::size_t kMostBalls = 10'000'000;
+
 void require(double value, const char* what) {
   if (value > 0.0 && std::isfinite(value)) return;
   std::ostringstream message;
@@ -25,6 +27,17 @@ void requireFinite(const Vector3d& p, const std::string& what) {
   std::ostringstream message;
   message << what << " of the occluded space is (" << p.transpose()
           << "); allowed: finite coordinates";
+  throw std::invalid_argument(message.str());
+}
+
+/// That so many, and those along another ray from a share exp(-length) of the range on, are no more
+/// than allowed.
+void requireFew(std::size_t balls, double length, double factor, double radius, double range) {
+  const double more = factor > 1.0 ? length / std::log(factor) : HUGE_VAL;
+  if (static_cast<double>(balls) + more <= static_cast<double>(kMostBalls)) return;
+  std::ostringstream message;
+  message << "the occluded space of points of radius " << radius << " up to a range of " << range
+          << " takes more than " << kMostBalls << " balls; a larger radius takes fewer";
   throw std::invalid_argument(message.str());
 }
 
@@ -43,7 +56,9 @@ void addShadow(const Vector3d& away, double radius, const Vector3d& sensor, doub
   const double step = std::min(kStep * tangent, kMostStep);
   const double reach = kRounding * std::hypot(step, (1.0 + step) * tangent);
   const double first = (d - radius * (radius / d)) / (1.0 - step);
-  for (double s = first; s * (1.0 - step) < range; s *= (1.0 + step) / (1.0 - step) / kRounding) {
+  const double factor = (1.0 + step) / (1.0 - step) / kRounding;
+  requireFew(balls.radii.size(), std::log(range / (first * (1.0 - step))), factor, radius, range);
+  for (double s = first; s * (1.0 - step) < range; s *= factor) {
     balls.centers.push_back(sensor + (s / d) * away);
     balls.radii.push_back(s * reach);
   }

@@ -36,12 +36,13 @@ class PointSets {
 class PairSets {
  public:
   void add(const NoisyPair& pair) {
-    std::vector<bool>& usedA = usedA_[pair.a];
-    std::vector<bool>& usedB = usedB_[pair.b];
-    std::size_t set = 0;
-    while (has(usedA, set) || has(usedB, set)) ++set;
-    mark(usedA, set);
-    mark(usedB, set);
+    Used& ofA = usedA_[pair.a];
+    Used& ofB = usedB_[pair.b];
+    // Below these all are used: a point with many pairs would look through all of its own for each.
+    std::size_t set = std::max(ofA.least, ofB.least);
+    while (ofA.has(set) || ofB.has(set)) ++set;
+    ofA.mark(set);
+    ofB.mark(set);
     if (set == sets_.size()) sets_.emplace_back();
     sets_[set].add(pair.range);
   }
@@ -58,16 +59,20 @@ class PairSets {
   }
 
  private:
-  static bool has(const std::vector<bool>& used, std::size_t set) {
-    return set < used.size() && used[set];
-  }
-  static void mark(std::vector<bool>& used, std::size_t set) {
-    if (set >= used.size()) used.resize(set + 1);
-    used[set] = true;
-  }
+  /// The sets that have a point.
+  struct Used {
+    bool has(std::size_t set) const { return set < sets.size() && sets[set]; }
+    void mark(std::size_t set) {
+      if (set >= sets.size()) sets.resize(set + 1);
+      sets[set] = true;
+      while (has(least)) ++least;
+    }
+    std::vector<bool> sets;
+    std::size_t least = 0;  ///< that does not have it
+  };
 
-  std::unordered_map<std::size_t, std::vector<bool>> usedA_;  ///< sets, per point
-  std::unordered_map<std::size_t, std::vector<bool>> usedB_;
+  std::unordered_map<std::size_t, Used> usedA_;  ///< per point
+  std::unordered_map<std::size_t, Used> usedB_;
   std::vector<AnyOfRanges> sets_;
 };
 

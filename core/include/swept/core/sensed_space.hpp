@@ -29,8 +29,8 @@ struct Balls {
 /// points themselves are not among them. A point whose ball contains the sensor, or that is out of
 /// range, hides nothing.
 ///
-/// Throws std::invalid_argument for numbers that are not finite, and for a radius or a range that
-/// is not above zero.
+/// Throws std::invalid_argument for numbers that are not finite, for a radius or a range that is
+/// not above zero, and when it takes more than ten million balls.
 Balls occludedBalls(std::span<const Eigen::Vector3d> points, double radius,
                     const Eigen::Vector3d& sensor, double range);
 

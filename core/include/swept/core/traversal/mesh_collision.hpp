@@ -19,7 +19,8 @@ struct TrianglePair {
 
 /// How many pairs are wanted.
 struct MeshCollisionOptions {
-  std::size_t maxPairs = 1;  ///< stop at this many touching pairs; 1: yes or no
+  /// Stop at this many touching pairs; 1, and 0 with no pair at all: yes or no.
+  std::size_t maxPairs = 1;
 };
 
 /// Reuse one result to query without allocating.
@@ -59,12 +60,12 @@ class MeshCollisionNode : public MeshPair<BV> {
       ++out_.effort.leafTests;
       if (trianglesTouch(this->a_.corners(t), this->secondCorners(u))) {
         out_.touching = true;
-        out_.pairs.push_back({t, u});
+        if (maxPairs_ > 0) out_.pairs.push_back({t, u});
       }
       return !canStop();
     });
   }
-  bool canStop() const { return out_.pairs.size() >= maxPairs_; }
+  bool canStop() const { return out_.touching && out_.pairs.size() >= maxPairs_; }
   ///@}
 
  private:

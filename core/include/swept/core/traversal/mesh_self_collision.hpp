@@ -30,12 +30,12 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
       ++out_.effort.leafTests;
       if (trianglesTouch(this->a_.corners(t), this->a_.corners(u))) {
         out_.touching = true;
-        out_.pairs.push_back({std::min(t, u), std::max(t, u)});
+        if (maxPairs_ > 0) out_.pairs.push_back({std::min(t, u), std::max(t, u)});
       }
       return !canStop();
     });
   }
-  bool canStop() const { return out_.pairs.size() >= maxPairs_; }
+  bool canStop() const { return out_.touching && out_.pairs.size() >= maxPairs_; }
   ///@}
 
  private:
