@@ -160,6 +160,8 @@ class BodyCompiler {
     const BoundingSphere ball = boundingSphere(geometry.shape);
     geometry.center = geometry.body_from_shape * ball.center;
     geometry.radius = ball.radius;
+    geometry.magnitude =
+        geometry.body_from_shape.translation().norm() + ball.center.norm() + ball.radius;
     geometry.levers = leverArms(model_.kinematics, geometry.body, geometry.center, ball.radius);
   }
 
@@ -211,9 +213,10 @@ class BodyCompiler {
     Isometry3d world_from_box = part.world_from_shape;
     world_from_box.translation() = part.world_from_shape * middle;
     geometry.box_from_world = world_from_box.inverse();
-    geometry.halfExtents = box.upper - middle;
-    geometry.magnitude = world_from_box.translation().norm() +
-                         (bounded ? geometry.halfExtents.norm() : planeOffset(geometry.shape));
+    geometry.halfExtents = (box.upper - middle).cwiseMax(middle - box.lower);
+    const Vector3d farthest = box.upper.cwiseAbs().cwiseMax(box.lower.cwiseAbs());
+    geometry.magnitude = part.world_from_shape.translation().norm() +
+                         (bounded ? farthest.norm() : planeOffset(geometry.shape));
     model_.worldGeometry.push_back(std::move(geometry));
   }
 

@@ -41,6 +41,7 @@ struct RobotGeometry {
   Eigen::Isometry3d body_from_shape;
   Eigen::Vector3d center;  ///< m, of a ball that contains it, body frame
   double radius = 0.0;     ///< m
+  double magnitude = 0.0;  ///< m, of its coordinates in the shape's frame and of what places that
   LeverArms levers;
   std::shared_ptr<const SphereCover> cover;
 };
@@ -54,7 +55,9 @@ struct WorldGeometry {
   Eigen::Isometry3d world_from_shape;
   Eigen::Isometry3d box_from_world;  ///< frame centred in the box, along its axes
   Eigen::Vector3d halfExtents;       ///< m
-  double magnitude = 0.0;            ///< m, no point is farther from the model frame's origin
+  /// m, of its coordinates in the shape's frame and of what places that: no point is farther from
+  /// the model frame's origin.
+  double magnitude = 0.0;
 };
 
 /// Geometry `a` of the robot against geometry `b` of the world or of the robot.
@@ -126,6 +129,7 @@ struct CheckerModel {
   std::uint32_t firstSelfPair = 0;
   double largestMargin = 0.0;    ///< m, of the pairs
   double largestRounding = 0.0;  ///< m, likewise
+  double largestReach = 0.0;     ///< m, likewise, from the model frame's origin, both together
   /// The world's boxes, for the exact tier; null for a world with few. Handles are indices into
   /// worldGeometry.
   std::shared_ptr<const SweepAndPrune> boxes;
@@ -161,6 +165,13 @@ struct PendingPart {
   double end = 1.0;
 };
 
+/// m. No point of the pair's geometry of the robot is farther from the model frame's origin, of
+/// both together, but for translations of planar and floating joints.
+inline double reachOf(const CheckerModel& model, const GeometryPair& pair) {
+  const double reach = model.robotGeometry[pair.a].levers.reach;
+  return pair.self ? reach + model.robotGeometry[pair.b].levers.reach : reach;
+}
+
 /// An obstacle changes its way.
 struct Passage {
   double t = 0.0;     ///< in [0, 1]
@@ -190,6 +201,7 @@ struct WorkspaceData {
   std::int64_t motionStamp = 0;
   double t = 0.0;
   double wander = 0.0;                 ///< m, of all planar and floating joints together
+  double angleError = 0.0;             ///< rad, of all joints together: rounding of large angles
   std::vector<Eigen::Vector3d> hints;  ///< per pair, within one motion: last direction found
   std::vector<std::int64_t> hintStamps;
   std::vector<std::uint32_t> arena, nextArena, failed;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace swept::detail {
@@ -26,6 +27,13 @@ void placeObstacles(const CheckerModel& model, std::vector<double>& whole) {
   }
 }
 
+constexpr double kWideTurn = 3.0;  // rad
+
+double angleBetween(const MovingObstacle::Waypoint& a, const MovingObstacle::Waypoint& b) {
+  const Eigen::Quaterniond first(a.world_from_body.linear());
+  return first.angularDistance(Eigen::Quaterniond(b.world_from_body.linear()));
+}
+
 }  // namespace
 
 std::span<const double> wholeConfiguration(const CheckerModel& model, std::span<const double> q,
@@ -43,16 +51,30 @@ EvenParts::EvenParts(const CheckerModel& model, std::span<const double> from,
   if (workspace.from.empty()) return;
   const double begin = from.back();
   const double end = to.back();
+  if (!std::isfinite(begin) || !std::isfinite(end)) return;
+  const auto pass = [&](double time) {
+    if (!(time > std::min(begin, end) && time < std::max(begin, end))) return;
+    // Halves: the whole span may overflow.
+    const double t = (0.5 * time - 0.5 * begin) / (0.5 * end - 0.5 * begin);
+    workspace.passages.push_back({std::clamp(t, 0.0, 1.0), time});
+  };
   for (const MovingObstacle& obstacle : model.world->obstacles()) {
-    for (const MovingObstacle::Waypoint& waypoint : obstacle.waypoints) {
-      const double t = (waypoint.time - begin) / (end - begin);
-      if (t > 0.0 && t < 1.0) workspace.passages.push_back({t, waypoint.time});
+    const auto& waypoints = obstacle.waypoints;
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      pass(waypoints[i].time);
+      // About half a turn: from its ends alone rounding would tell which way round.
+      if (i > 0 && angleBetween(waypoints[i - 1], waypoints[i]) > kWideTurn)
+        pass(0.5 * waypoints[i - 1].time + 0.5 * waypoints[i].time);
     }
   }
+  // By time: of a jump both ends may be at the same t.
   auto& passages = workspace.passages;
-  std::ranges::sort(passages, {}, &Passage::t);
+  if (begin < end)
+    std::ranges::sort(passages, std::less<>(), &Passage::time);
+  else
+    std::ranges::sort(passages, std::greater<>(), &Passage::time);
   passages.erase(std::unique(passages.begin(), passages.end(),
-                             [](const Passage& a, const Passage& b) { return a.t == b.t; }),
+                             [](const Passage& a, const Passage& b) { return a.time == b.time; }),
                  passages.end());
 }
 

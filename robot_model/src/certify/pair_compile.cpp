@@ -43,6 +43,7 @@ class PairCompiler {
     for (const GeometryPair& pair : model_.pairs) {
       model_.largestMargin = std::max(model_.largestMargin, pair.margin);
       model_.largestRounding = std::max(model_.largestRounding, pair.rounding);
+      model_.largestReach = std::max(model_.largestReach, reachOf(model_, pair));
     }
   }
 
@@ -86,6 +87,10 @@ class PairCompiler {
     return tolerance::kRoundingPerJoint * magnitudes * static_cast<double>(joints + 2);
   }
 
+  static double magnitudeOf(const RobotGeometry& robot) {
+    return std::max(robot.levers.reach, robot.magnitude);
+  }
+
   int travelSlot(int geometry, int reference) {
     const LeverArms& levers = model_.robotGeometry[geometry].levers;
     std::size_t first = 0;
@@ -106,7 +111,7 @@ class PairCompiler {
     const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
     const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
     const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
-    const double slack = rounding(robot.levers.reach + world.magnitude, robot.levers.path.size());
+    const double slack = rounding(magnitudeOf(robot) + world.magnitude, robot.levers.path.size());
     return outside.norm() > robot.levers.reachFromBase + margin + slack;
   }
 
@@ -158,7 +163,7 @@ class PairCompiler {
     pair.a = a;
     pair.b = b;
     pair.travelA = travelSlot(a, 0);
-    pair.rounding = rounding(robot.levers.reach + world.magnitude, robot.levers.path.size());
+    pair.rounding = rounding(magnitudeOf(robot) + world.magnitude, robot.levers.path.size());
     pair.margin = bodies.margin;
     add(pair, model_.pairs, "shapes");
   }
@@ -240,7 +245,7 @@ class PairCompiler {
     pair.travelA = travelSlot(i, pair.reference);
     pair.travelB = travelSlot(j, pair.reference);
     pair.rounding =
-        rounding(a.levers.reach + b.levers.reach, a.levers.path.size() + b.levers.path.size());
+        rounding(magnitudeOf(a) + magnitudeOf(b), a.levers.path.size() + b.levers.path.size());
     pair.margin = bodies.margin;
     add(pair, model_.pairs, "shapes");
   }

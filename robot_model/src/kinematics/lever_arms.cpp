@@ -40,8 +40,8 @@ Vector3d axisOf(const MovingBody& body) {
 ReachableSet inParent(const ReachableSet& set, const Eigen::Isometry3d& parent_from_joint,
                       const Vector3d& parentAxis) {
   const Vector3d direction = parent_from_joint.linear() * set.axis;
-  const double cosine = parentAxis.dot(direction);
-  const double tilt = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  // Of nearly parallel axes the cosine says next to nothing.
+  const double tilt = parentAxis.cross(direction).norm() * kOutward;
   ReachableSet result;
   result.axis = parentAxis;
   result.ball = parent_from_joint.translation().norm() + set.ball;

@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Product of two quaternions x, y, z, w, as given and summed in the order that OMPL's SO3StateSpace
-/// has: between opposite orientations its rounding decides which way round is taken.
+/// Product of two quaternions x, y, z, w, as given and summed in the order that OMPL's
+/// SO3StateSpace has: between opposite orientations its rounding decides which way round is taken.
 double dot(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
@@ -223,6 +223,9 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       motion.angle = body.multiplier * *q0 + body.offset;
       motion.angleRate = body.multiplier * difference;
       motion.spin = motion.angleRate * body.axis;
+      motion.largestAngle = std::abs(body.multiplier) *
+                                (std::max(std::abs(*q0), std::abs(*q1)) + std::abs(difference)) +
+                            std::abs(body.offset);
       break;
     }
     case JointType::Prismatic: {
@@ -241,6 +244,7 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       motion.rate = body.planarBasis * Vector3d(q1[0] - q0[0], q1[1] - q0[1], 0.0);
       motion.angle = q0[2];
       motion.angleRate = cyclicDifference(q0[2], q1[2]);
+      motion.largestAngle = std::max(std::abs(q0[2]), std::abs(q1[2])) + std::abs(motion.angleRate);
       motion.spin = motion.angleRate * body.planarBasis.col(2);
       motion.wander = std::max(std::hypot(q0[0], q0[1]), std::hypot(q1[0], q1[1]));
       break;

@@ -57,11 +57,12 @@ struct JointMotion {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< m per unit t
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< at t = 0
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();                ///< rad per unit t
-  double angle = 0.0;      ///< rad: a revolute joint's value at t = 0, about its axis
-  double angleRate = 0.0;  ///< rad per unit t
-  double speed = 0.0;      ///< m per unit t, |rate|
-  double spinSpeed = 0.0;  ///< rad per unit t, |spin|
-  double wander = 0.0;     ///< m, planar and floating: largest |translation| over the motion
+  double angle = 0.0;         ///< rad: a revolute joint's value at t = 0, about its axis
+  double angleRate = 0.0;     ///< rad per unit t
+  double speed = 0.0;         ///< m per unit t, |rate|
+  double spinSpeed = 0.0;     ///< rad per unit t, |spin|
+  double wander = 0.0;        ///< m, planar and floating: largest |translation| over the motion
+  double largestAngle = 0.0;  ///< rad, of what the joint's angle is made of, for its rounding
 };
 
 /// Frame and velocity field of a body at one t: the point p (m, model frame) has velocity

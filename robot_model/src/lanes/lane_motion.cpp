@@ -64,6 +64,7 @@ bool addSlide(const LaneModel& model, const KinematicModel& kinematics, std::siz
   const MovingBody& body = kinematics.bodies[index];
   JointMotion joint;
   if (!compileJoint(kinematics, body, from, to, joint)) return false;
+  if (!(joint.largestAngle <= kLargestAngle)) return false;
   const bool floating = body.type == JointType::Floating;
   // Slides are written in the parent's frame.
   const Eigen::Matrix3d lane_from_joint =
@@ -96,6 +97,8 @@ bool addJoints(const LaneModel& model, const KinematicModel& kinematics,
     const double end = to[body.variable];
     const bool cyclic = kinematics.cyclic[body.variable] != 0;
     const double angle = body.multiplier * begin + body.offset;
+    // The shorter way from a small angle to a large one is small, and rounds as the large one does.
+    if (!(std::abs(body.multiplier * end) <= kLargestAngle)) return false;
     const double rate = body.multiplier * (cyclic ? cyclicDifference(begin, end) : end - begin);
     if (!addTurn(angle, rate, std::abs(rate), scratch.motion[i], extent)) return false;
     const bool within =

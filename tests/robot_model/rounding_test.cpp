@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What rounding makes of coordinates, angles and times that are large: nothing is called free that
+// is not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d at(double x, double y, double z) {
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+/// A ball on a joint: it slides along z, or turns about it 1 m away.
+std::shared_ptr<const Robot> ballOn(const std::string& joint, double radius) {
+  const bool turns = joint == "continuous";
+  return Robot::parse(
+      "<robot name='r'><link name='base'/><link name='ball'><collision><origin xyz='" +
+          std::string(turns ? "1 0 0" : "0 0 0") + "'/><geometry><sphere radius='" +
+          std::to_string(radius) + "'/></geometry></collision></link><joint name='j' type='" +
+          joint + "'><parent link='base'/><child link='ball'/><axis xyz='0 0 1'/>" +
+          (turns ? "" : "<limit lower='-1' upper='1' effort='1' velocity='1'/>") +
+          "</joint></robot>",
+      "r.urdf");
+}
+
+Checker checkerIn(const std::shared_ptr<const Robot>& robot, World world) {
+  return {robot, "all", std::make_shared<const World>(std::move(world))};
+}
+
+TriangleMesh slab(double low, double high) {
+  std::vector<Vector3d> vertices;
+  for (int i = 0; i < 8; ++i)
+    vertices.emplace_back((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
+                          (i & 4) != 0 ? high : low);
+  return TriangleMesh::build(vertices, std::vector<Eigen::Vector3i>{{0, 2, 1},
+                                                                    {1, 2, 3},
+                                                                    {4, 5, 6},
+                                                                    {5, 7, 6},
+                                                                    {0, 1, 4},
+                                                                    {1, 5, 4},
+                                                                    {2, 6, 3},
+                                                                    {3, 6, 7},
+                                                                    {0, 4, 2},
+                                                                    {2, 4, 6},
+                                                                    {1, 3, 5},
+                                                                    {3, 7, 5}});
+}
+
+/// As of a survey: vertices millions of metres from their frame, which is as far the other way.
+TEST(Rounding, OfMeshesFarFromTheirOwnFrame) {
+  constexpr double kRadius = 0.0625;
+  const auto robot = ballOn("prismatic", kRadius);
+  for (const double far : {5e5, 5e6, 1e9}) {
+    const double ulp = std::nextafter(far, INFINITY) - far;
+    World world;
+    world.add("slab", slab(far, far + 0.5 + 3.0 * ulp), at(0.0, 0.0, -far));
+    const Checker checker = checkerIn(robot, std::move(world));
+    Workspace workspace(checker);
+    const std::vector<double> below{-0.5}, inside{-kRadius + 0.45 * ulp};
+    EXPECT_NE(checker.checkState(inside, workspace), Verdict::Free) << far;
+    EXPECT_NE(checker.certifyMotion(below, inside, workspace).verdict, Verdict::Free) << far;
+    EXPECT_EQ(checker.checkState(below, workspace), Verdict::Free) << far;
+  }
+}
+
+/// The other way round: a link's.
+TEST(Rounding, OfLinksFarFromTheirOwnFrame) {
+  for (const double far : {5e6, 1e9}) {
+    const double ulp = std::nextafter(far, INFINITY) - far;
+    const auto robot = ballOn("prismatic", 0.0625);
+    AttachedBody load{.name = "load", .link = "ball"};
+    load.parts = {{slab(far, far + 0.5 + 3.0 * ulp), at(0.0, 0.0, 0.2 - far)}};
+    World world;
+    world.add("ball", makeSphere(0.0625), at(0.0, 0.0, 0.5));
+    const Checker checker = checkerIn(robot, std::move(world)).withAttached(load);
+    Workspace workspace(checker);
+    // Its upper side is at 0.7 m and more, the ball's lower one at 0.4375 m.
+    const std::vector<double> below{-0.5}, inside{-0.2625 - 2.6 * ulp};
+    EXPECT_NE(checker.checkState(inside, workspace), Verdict::Free) << far;
+    EXPECT_NE(checker.certifyMotion(below, inside, workspace).verdict, Verdict::Free) << far;
+    EXPECT_EQ(checker.checkState(below, workspace), Verdict::Free) << far;
+  }
+}
+
+TEST(Rounding, OfLargeAngles) {
+  const auto robot = ballOn("continuous", 0.001);
+  for (const double large : {1e3, 1e6, 1e9, 1e12, 1e13, 1e14, 1e15}) {
+    World world;
+    world.add("ball", makeSphere(1e-6), at(std::cos(large), std::sin(large), 0.0));
+    const Checker checker = checkerIn(robot, std::move(world));
+    Workspace workspace(checker);
+    const double there = std::atan2(std::sin(large), std::cos(large));
+    for (const double way : {0.3, -0.3, 0.01, -2.0}) {
+      const std::vector<double> from{there + way}, to{large};
+      EXPECT_NE(checker.certifyMotion(from, to, workspace).verdict, Verdict::Free)
+          << large << " " << way;
+      EXPECT_NE(checker.certifyMotion(to, from, workspace).verdict, Verdict::Free)
+          << large << " " << way;
+    }
+    // Far enough from it nothing changes.
+    const std::vector<double> from{large - 2.0}, to{large - 1.0};
+    if (large < 1e14) {
+      EXPECT_EQ(checker.certifyMotion(from, to, workspace).verdict, Verdict::Free) << large;
+    }
+  }
+}
+
+MovingObstacle ballThrough(const std::vector<MovingObstacle::Waypoint>& waypoints) {
+  MovingObstacle obstacle{.name = "drone", .parts = {{makeSphere(0.05), Isometry3d::Identity()}}};
+  obstacle.waypoints = waypoints;
+  return obstacle;
+}
+
+/// Where it goes from one place to another at once, or nearly.
+TEST(Rounding, OfTimesBetweenWaypoints) {
+  for (const double span : {20.0, 1e3, 1e17, 1e20, 1e308}) {
+    for (const double jump : {1e-6, 1e-12, 1.8e-15}) {
+      World world;
+      world.add(ballThrough({{0.0, at(5.0, 0.0, 0.0)},
+                             {10.0, at(5.0, 0.0, 0.0)},
+                             {10.0 + jump, at(0.0, 0.0, 0.0)},
+                             {20.0, at(0.0, 3.0, 0.0)}}));
+      const Checker checker = checkerIn(ballOn("prismatic", 0.05), std::move(world));
+      Workspace workspace(checker);
+      const std::vector<double> early{0.0, -span}, late{0.0, span}, met{0.0, 10.1};
+      ASSERT_EQ(checker.checkState(met, workspace), Verdict::Collision);
+      for (const bool forwards : {true, false}) {
+        const auto& from = forwards ? early : late;
+        const auto& to = forwards ? late : early;
+        EXPECT_NE(checker.certifyMotion(from, to, workspace).verdict, Verdict::Free)
+            << span << " s, " << jump << " s";
+        EXPECT_LT(checker.motionClearance(from, to, 1e-3, workspace).lower, 1e-3) << span;
+      }
+    }
+  }
+}
+
+/// Which way round, rounding decides: for states and motions the same.
+TEST(Rounding, OfHalfATurnOfAnObstacle) {
+  const auto robot = ballOn("prismatic", 0.05);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] {
+    const double x = normal(random), y = normal(random);
+    return Vector3d(x, y, normal(random));
+  };
+  int met = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::AngleAxisd first(normal(random), vector().normalized());
+    const Vector3d axis = vector().normalized();
+    const Vector3d target = 0.5 * axis.unitOrthogonal();
+    MovingObstacle obstacle{.name = "arm"};
+    for (const double turn : {0.0, std::numbers::pi * (1.0 + (i % 3 - 1) * 1e-16)}) {
+      Isometry3d pose = at(-target.x(), -target.y(), -target.z());
+      pose.linear() = (Eigen::AngleAxisd(turn, axis) * first).toRotationMatrix();
+      obstacle.waypoints.push_back({turn > 0.0 ? 1.0 : 0.0, pose});
+    }
+    Isometry3d tip = Isometry3d::Identity();
+    tip.translation() = obstacle.poseAt(0.5).linear().transpose() * target;
+    obstacle.parts = {{makeSphere(0.05), tip}};
+    World world;
+    world.add(obstacle);
+    const Checker checker = checkerIn(robot, std::move(world));
+    Workspace workspace(checker);
+    met += checker.checkState(std::vector<double>{0.0, 0.5}, workspace) == Verdict::Collision;
+    for (const double end : {1.0, std::nextafter(1.0, 0.0), 0.9})
+      EXPECT_NE(checker
+                    .certifyMotion(std::vector<double>{0.0, 0.0}, std::vector<double>{0.0, end},
+                                   workspace)
+                    .verdict,
+                Verdict::Free)
+          << i << " until " << end;
+  }
+  EXPECT_EQ(met, 1000);
+}
+
+}  // namespace
+}  // namespace swept
