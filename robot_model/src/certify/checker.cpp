@@ -38,6 +38,13 @@ void validate(const Robot& robot, const CheckerOptions& options) {
   if (!options.reference->allFinite()) {
     throw std::invalid_argument("Checker: the reference has a value that is not finite");
   }
+  for (const Joint& joint : robot.joints()) {
+    if (joint.type != JointType::Floating) continue;
+    if (!(options.reference->segment<4>(joint.firstVariable + 3).norm() > 1e-6)) {
+      throw std::invalid_argument("Checker: the quaternion of joint '" + joint.name +
+                                  "' has no direction");
+    }
+  }
 }
 
 const Group& findGroup(const Robot& robot, std::string_view name) {

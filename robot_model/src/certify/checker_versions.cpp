@@ -40,10 +40,14 @@ Checker Checker::version(std::shared_ptr<const World> world, CheckerOptions opti
 Checker Checker::withWorld(std::shared_ptr<const World> next) const {
   if (!next) throw std::invalid_argument("Checker: the world must not be null");
   CheckerOptions changed = options();
+  // A link may have the name of a body that stands still; rules that name both are still about it.
+  const auto isNamed = [&](std::string_view name) {
+    return robot().findLink(name).has_value() || next->find(name) != nullptr ||
+           next->findObstacle(name) != nullptr;
+  };
   const auto forget = [&](const auto& bodies) {
     for (const auto& body : bodies)
-      if (next->find(body.name) == nullptr && next->findObstacle(body.name) == nullptr)
-        changed.rules = changed.rules.without(body.name);
+      if (!isNamed(body.name)) changed.rules = changed.rules.without(body.name);
   };
   if (!changed.rules.empty()) {
     forget(world().bodies());

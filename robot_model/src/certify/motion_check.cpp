@@ -68,7 +68,7 @@ class MotionProver {
     const LaneGoal goal =
         wanted_ == MotionQuery::VerdictOnly ? LaneGoal::Verdict : LaneGoal::Prefix;
     const LaneAnswer answer = searchMotion(model_.lanes, judge_, goal, workspace_.lanes);
-    certificate_.effort.lanes = answer.intervals;
+    certificate_.effort.lanes += answer.intervals;
     if (answer.kind == LaneAnswer::Kind::Contact) {
       certificate_.verdict = Verdict::Collision;
       if (goal == LaneGoal::Prefix) certificate_.freeUntil = certificate_.witness->t;
@@ -220,16 +220,10 @@ class MotionProver {
   std::optional<double> undecidedAt_;
 };
 
-void addEffort(const Effort& more, Effort& effort) {
-  effort.intervals += more.intervals;
-  effort.distances += more.distances;
-  effort.culled += more.culled;
-  effort.lanes += more.lanes;
-}
-
-/// Takes over what a part says; what lies before it is part of the certificate already.
+/// Takes over what a part says; what lies before it, its effort too, is part of the certificate
+/// already.
 void addPart(const EvenPart& part, MotionCertificate&& own, MotionCertificate& all) {
-  addEffort(own.effort, all.effort);
+  all.effort = own.effort;
   const bool open = all.verdict != Verdict::Free;  // an earlier part was left undecided
   if (!open) all.freeUntil = part.timeOf(own.freeUntil);
   if (own.verdict == Verdict::Free) return;
@@ -256,6 +250,7 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
   certificate.verdict = Verdict::Free;
   EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
     MotionCertificate own;
+    own.effort = certificate.effort;  // the cap on intervals is for all parts together
     MotionProver(model, part.from, part.to, wanted, workspace, own).run(part.from, part.to);
     addPart(part, std::move(own), certificate);
     return certificate.verdict != Verdict::Collision;

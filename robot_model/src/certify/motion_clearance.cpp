@@ -16,8 +16,13 @@ namespace {
 /// along others.
 class ClearanceSearch {
  public:
-  ClearanceSearch(const CheckerModel& model, double accuracy, WorkspaceData& workspace)
-      : model_(model), workspace_(workspace), query_(model, workspace), accuracy_(accuracy) {
+  /// `budget`: intervals that may be examined, at least 1.
+  ClearanceSearch(const CheckerModel& model, double accuracy, int budget, WorkspaceData& workspace)
+      : model_(model),
+        workspace_(workspace),
+        query_(model, workspace),
+        accuracy_(accuracy),
+        budget_(budget) {
     found_.lower = std::numeric_limits<double>::infinity();
     found_.upper = std::numeric_limits<double>::infinity();
   }
@@ -45,7 +50,10 @@ class ClearanceSearch {
     const double middle = 0.5 * (interval.begin + interval.end);
     const double half = 0.5 * (interval.end - interval.begin);
     query_.moveTo(middle);
-    const bool last = ++found_.intervals >= model_.options.maxIntervals;
+    ++found_.intervals;
+    --waiting_;
+    // What waits has to be looked at: without a bound on it there is none on the motion.
+    const bool last = waiting_ > budget_ - found_.intervals - 2;
     const std::size_t first = workspace_.nextArena.size();
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
       const double bound = boundPair(workspace_.arena[i], middle, half);
@@ -59,6 +67,7 @@ class ClearanceSearch {
     if (count == 0) return;
     workspace_.nextGeneration.push_back({interval.begin, middle, first, count});
     workspace_.nextGeneration.push_back({middle, interval.end, first, count});
+    waiting_ += 2;
   }
 
   /// m. The accuracy, or half of a clearance that is small against it: what is free is shown to be.
@@ -88,6 +97,8 @@ class ClearanceSearch {
   WorkspaceData& workspace_;
   PairQuery query_;
   double accuracy_;
+  int budget_;
+  int waiting_ = 1;  ///< intervals that are to be examined yet
   MotionClearance found_;
 };
 
@@ -99,7 +110,13 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
   MotionClearance all;
   all.lower = all.upper = std::numeric_limits<double>::infinity();
   EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
-    const MotionClearance own = ClearanceSearch(model, accuracy, workspace).run(part.from, part.to);
+    const int budget = model.options.maxIntervals - all.intervals;
+    if (budget == 0) {  // nothing is known of what is left
+      all.lower = 0.0;
+      return false;
+    }
+    ClearanceSearch search(model, accuracy, budget, workspace);
+    const MotionClearance own = search.run(part.from, part.to);
     if (own.upper < all.upper) {
       all.upper = own.upper;
       all.t = part.timeOf(own.t);

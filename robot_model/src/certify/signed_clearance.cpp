@@ -2,6 +2,8 @@
 #include "certify/signed_clearance.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "certify/near_pairs.hpp"
 #include "certify/obstacle_clock.hpp"
@@ -14,6 +16,9 @@ using Eigen::Vector3d;
 
 /// rad or m. Rates are exact for a step of any size but a quaternion's, which this is small for.
 constexpr double kStep = 1e-6;
+/// Of the distance between numbers of a value's size: fewer are no step. No more than needed, as
+/// obstacles turn where clocks count large numbers.
+constexpr double kFewestUlps = 4.0;
 
 /// The least so far, and whose it is.
 struct Nearest {
@@ -67,10 +72,12 @@ Nearest deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& work
   return nearest;
 }
 
-/// A step of one value that the joint's limits allow; 0: neither way.
-double stepOf(const KinematicModel& model, std::size_t value, double q) {
-  if (q + kStep <= model.upper[value]) return kStep;
-  return q - kStep >= model.lower[value] ? -kStep : 0.0;
+/// A value a step away that the joint's limits allow; the same value: neither way.
+double stepFrom(const KinematicModel& model, std::size_t value, double q) {
+  const double ulps = kFewestUlps * std::numeric_limits<double>::epsilon() * std::abs(q);
+  const double step = std::max(kStep, ulps);
+  if (q + step <= model.upper[value]) return q + step;
+  return q - step >= model.lower[value] ? q - step : q;
 }
 
 /// The velocity of the pair's points past each other along the normal, for each value of the
@@ -82,8 +89,8 @@ void differentiate(const CheckerModel& model, PairQuery& query, std::span<const 
   const std::span<const double> from = wholeConfiguration(model, q, workspace.from);
   for (std::size_t i = 0; i < gradient.size(); ++i) {
     gradient[i] = 0.0;
-    const double step = stepOf(model.kinematics, i, q[i]);
-    workspace.probe[i] = q[i] + step;
+    workspace.probe[i] = stepFrom(model.kinematics, i, q[i]);
+    const double step = workspace.probe[i] - q[i];  // rounding has changed it
     const std::span<const double> to = wholeConfiguration(model, workspace.probe, workspace.to);
     if (step != 0.0 && query.start(from, to)) {
       query.moveTo(0.0);

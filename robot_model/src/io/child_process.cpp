@@ -27,6 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTick = 50;        // ms, between looks at a child that says nothing
+constexpr int kEndTick = 1;      // ms, at one that has closed its pipe: most end at once
 constexpr int kUnfinished = 17;  // exit code of a child that could not say all
 
 /// Bytes of address space in use; 0: not known. Builds with sanitizers do not ask.
@@ -153,9 +154,13 @@ class Child {
     std::string text;
     while (!isWhole(text)) {
       if (text.size() > limits.bytes) throw ChildError("said too much");
+      // Before listening: what one that is gone has said is all in the pipe.
+      const bool gone = isGone();
       const Heard heard = listen(descriptor_, text);
-      // The pipe of one that is gone may be held open by a child of another thread.
-      if (heard == Heard::End || (heard == Heard::Nothing && isGone())) throw ChildError(ending());
+      // The pipe of one that is gone may be held open by a child of another thread; and one that
+      // has closed its pipe may stay.
+      if (gone && heard != Heard::Data) throw ChildError(ending());
+      if (heard == Heard::End) poll(nullptr, 0, kEndTick);
       if (Clock::now() > latest)
         throw ChildError("took more than " + std::to_string(limits.seconds * kWallPerCpu) + " s");
     }
@@ -175,9 +180,8 @@ class Child {
     return ended_;
   }
 
-  std::string ending() {
-    while (!ended_ && waitpid(pid_, &status_, 0) < 0 && errno == EINTR) continue;
-    ended_ = true;
+  /// Of one that is gone.
+  std::string ending() const {
     if (!WIFSIGNALED(status_)) return "ended too soon";
     if (WTERMSIG(status_) == SIGXCPU || WTERMSIG(status_) == SIGKILL)
       return "took too much time or memory";

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/srdf.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept::detail {
 
@@ -13,6 +14,7 @@ namespace {
 struct Members {
   std::set<int> joints;
   std::set<int> links;
+  int depth = 1;  ///< groups in each other, this one included
 };
 
 class GroupResolver {
@@ -29,7 +31,9 @@ class GroupResolver {
  private:
   enum class Progress : std::uint8_t { New, Open, Done };
 
-  const Members& members(int index, int line);
+  /// `level`: 1 for a group that is not asked for by another.
+  const Members& members(int index, int line, int level);
+  void requireShallow(int depth, int line, const SrdfDocument::Group& group) const;
   int link(const std::string& name, int line, const SrdfDocument::Group& group) const;
   void addChain(const SrdfDocument::Chain& chain, const SrdfDocument::Group& group,
                 Members& result) const;
@@ -79,12 +83,21 @@ void GroupResolver::addChain(const SrdfDocument::Chain& chain, const SrdfDocumen
   }
 }
 
-const Members& GroupResolver::members(int index, int line) {
+/// On the way down for the stack's sake; on the way up as well, so that the order of groups does
+/// not matter.
+void GroupResolver::requireShallow(int depth, int line, const SrdfDocument::Group& group) const {
+  if (depth <= kMaxNesting) return;
+  source_.fail(line, "group '" + group.name + "': groups are nested deeper than " +
+                         std::to_string(kMaxNesting));
+}
+
+const Members& GroupResolver::members(int index, int line, int level) {
   const SrdfDocument::Group& group = srdf_.groups[index];
   if (progress_[index] == Progress::Done) return members_[index];
   if (progress_[index] == Progress::Open) {
     source_.fail(line, "group '" + group.name + "' contains itself");
   }
+  requireShallow(level, line, group);
   progress_[index] = Progress::Open;
   Members result;
   for (const auto& chain : group.chains) addChain(chain, group, result);
@@ -105,7 +118,9 @@ const Members& GroupResolver::members(int index, int line) {
     const int subgroup = indexOf(srdf_.groups, name);
     if (subgroup < 0)
       source_.fail(at, "group '" + group.name + "': group '" + name + "' does not exist");
-    const Members& inner = members(subgroup, at);
+    const Members& inner = members(subgroup, at, level + 1);
+    result.depth = std::max(result.depth, inner.depth + 1);
+    requireShallow(result.depth, at, group);
     result.joints.insert(inner.joints.begin(), inner.joints.end());
     result.links.insert(inner.links.begin(), inner.links.end());
   }
@@ -133,7 +148,7 @@ Group makeGroup(const std::string& name, const std::set<int>& joints, int tipLin
 
 Group GroupResolver::resolve(int index) {
   const SrdfDocument::Group& given = srdf_.groups[index];
-  const Members& found = members(index, given.line);
+  const Members& found = members(index, given.line, 1);
   int tip = found.links.empty() ? -1 : *found.links.rbegin();
   if (!given.chains.empty()) tip = indexOf(robot_.links, given.chains.back().tip);
   Group group = makeGroup(given.name, found.joints, tip, robot_);

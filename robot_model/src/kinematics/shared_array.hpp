@@ -20,7 +20,6 @@ class SharedArray {
         size_(owner_->size()) {}
 
   const T& operator[](std::size_t i) const { return data_[i]; }
-  const T& front() const { return data_[0]; }
   const T* data() const { return data_; }
   const T* begin() const { return data_; }
   const T* end() const { return data_ + size_; }

@@ -65,6 +65,7 @@ class Examiner {
     for (std::size_t k = 0; k < values.size(); ++k) q[chain.variables()[k]] = values[k];
     return q;
   }
+  bool canSample(const LinkPairReport& report) const;
   void classifyContact(ContactSearch& search, std::uint64_t seed, LinkPairReport& report) const;
   void prove(const LinkChain& chain, LinkChain::Place& place, ContactSearch& search,
              std::uint64_t seed, LinkPairReport& report) const;
@@ -111,11 +112,18 @@ void Examiner::examine(LinkPairReport& report) const {
   }
 }
 
+/// Values without limits, those of planar and floating joints, cannot be drawn.
+bool Examiner::canSample(const LinkPairReport& report) const {
+  return options_.samples > 0 && std::ranges::all_of(report.variables, [this](int v) {
+           return std::isfinite(robot_.variables()[v].upper - robot_.variables()[v].lower);
+         });
+}
+
 void Examiner::classifyContact(ContactSearch& search, std::uint64_t seed,
                                LinkPairReport& report) const {
   const bool apart = search.findApart(options_.samples, seed).has_value();
   // Without samples nothing speaks for more than the default state, unless there is no other.
-  const bool looked = options_.samples > 0 || report.variables.empty();
+  const bool looked = report.variables.empty() || canSample(report);
   report.status = looked && !apart ? PairStatus::Always : PairStatus::Default;
 }
 

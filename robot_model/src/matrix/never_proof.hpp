@@ -30,7 +30,7 @@ class NeverProof {
   enum class State : std::uint8_t {
     Open,     ///< the budget ran out
     Proven,   ///< never within the margin
-    Contact,  ///< within the margin at witness()
+    Contact,  ///< within the margin at nearest()
     Stuck,    ///< all has been looked at, and some boxes were too small to be halved once more
   };
 
@@ -45,7 +45,6 @@ class NeverProof {
   double share() const { return share_; }  ///< of the box, by volume, that is proven
   /// Values of the chain's variables in the middle of the box in which exact geometry came nearest.
   const std::vector<double>& nearest() const { return nearest_; }
-  const std::vector<double>& witness() const { return nearest_; }
 
  private:
   struct BallPair {
