@@ -3,7 +3,9 @@
 
 #include <ompl/base/ProjectionEvaluator.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace swept::detail {
 
@@ -16,6 +18,9 @@ class GroupSpace : public Space {
   void setProjection(ompl::base::ProjectionEvaluatorPtr projection) {
     projection_ = std::move(projection);
   }
+  /// Of the group, by name.
+  void setVariables(std::vector<std::string> variables) { variables_ = std::move(variables); }
+  const std::vector<std::string>& variables() const { return variables_; }
   void registerProjections() override {
     Space::registerProjections();
     this->registerDefaultProjection(projection_);
@@ -23,6 +28,7 @@ class GroupSpace : public Space {
 
  private:
   ompl::base::ProjectionEvaluatorPtr projection_;
+  std::vector<std::string> variables_;
 };
 
 }  // namespace swept::detail

@@ -115,9 +115,13 @@ PoseGoal::~PoseGoal() {
   stopSampling();
 }
 
+InverseKinematicsOptions PoseGoal::search() const {
+  return {kInside * options_.positionTolerance, kInside * options_.orientationTolerance};
+}
+
 // A search of no steps refuses what sample() must not throw for, which would end the program.
 void PoseGoal::requireTarget() {
-  InverseKinematicsOptions none;
+  InverseKinematicsOptions none = search();
   none.maxIterations = 0;
   drawSeed();
   kinematics_.solve(model_from_tool_, q_, none, workspace_);
@@ -142,13 +146,11 @@ void PoseGoal::drawSeed() {
 
 // The caller, OMPL, keeps the state if it is valid and differs from those before it.
 bool PoseGoal::sample(ob::State* state) {
-  const InverseKinematicsOptions search{kInside * options_.positionTolerance,
-                                        kInside * options_.orientationTolerance};
   while (isSampling() && seeds_ < options_.maxSeeds &&
          getStateCount() < static_cast<std::size_t>(options_.maxSamples)) {
     ++seeds_;
     drawSeed();
-    if (!kinematics_.solve(model_from_tool_, q_, search, workspace_)) continue;
+    if (!kinematics_.solve(model_from_tool_, q_, search(), workspace_)) continue;
     conversion_.toState(q_, state);
     return true;
   }

@@ -39,7 +39,22 @@ bool interpolatesAsCertified(const ob::StateSpace& space) {
                  ob::SE2StateSpace, ob::SE3StateSpace>(space);
 }
 
+/// Those that makeStateSpace built the space for; null: somebody else built it.
+const std::vector<std::string>* variablesOf(const ob::StateSpace& space) {
+  if (const auto* joints = dynamic_cast<const GroupSpace<JointSpace>*>(&space))
+    return &joints->variables();
+  if (const auto* compound = dynamic_cast<const GroupSpace<ob::CompoundStateSpace>*>(&space))
+    return &compound->variables();
+  return nullptr;
+}
+
 }  // namespace
+
+std::vector<std::string> variablesOf(const Robot& robot, const Group& group) {
+  std::vector<std::string> names;
+  for (const int index : group.variables) names.push_back(robot.variables()[index].name);
+  return names;
+}
 
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space) {
   // CForest's paths are of a space that passes everything on to the one that it was given.
@@ -57,6 +72,10 @@ void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space)
   makeStateSpace(checker.robot(), checker.group())->computeSignature(wanted);
   space.computeSignature(given);
   if (given != wanted) throw std::invalid_argument(refused);
+  // A left and a right arm have the same layout. Whoever built a space by hand says whose it is.
+  const std::vector<std::string>* variables = variablesOf(space);
+  if (variables != nullptr && *variables != variablesOf(checker.robot(), checker.group()))
+    throw std::invalid_argument(refused + ": it is of another group's variables");
 }
 
 std::shared_ptr<const Checker> requireChecker(std::shared_ptr<const Checker> checker,

@@ -4,15 +4,21 @@
 #include <ompl/base/StateSpace.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "swept/robot_model/checker.hpp"
 
 namespace swept::detail {
 
+/// Names of a group's variables, in its order.
+std::vector<std::string> variablesOf(const Robot& robot, const Group& group);
+
 /// States are cast to what makeStateSpace lays out, so another space would be read as garbage; and
 /// what is certified is the motion that its spaces interpolate. Throws std::invalid_argument unless
-/// `space` has that layout, and OMPL's own spaces or makeStateSpace's in it: not ones derived from
-/// them, nor Dubins', Reeds and Shepp's, or constrained ones.
+/// `space` has that layout, is of the same variables if makeStateSpace built it, and has OMPL's own
+/// spaces or makeStateSpace's in it: not ones derived from them, nor Dubins', Reeds and Shepp's, or
+/// constrained ones.
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space);
 
 /// The checker itself. Throws std::invalid_argument for null or as above.

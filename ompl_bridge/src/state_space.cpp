@@ -18,6 +18,7 @@
 
 #include "group_space.hpp"
 #include "joint_space.hpp"
+#include "preconditions.hpp"
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 #include "tip_projection.hpp"
@@ -47,8 +48,11 @@ std::pair<double, double> limitsOf(const Variable& variable, const StateSpaceOpt
   const auto narrower = options.limits.find(variable.name);
   if (narrower != options.limits.end()) {
     const auto [low, high] = narrower->second;
-    if (!(low < high) || !std::isfinite(low) || !std::isfinite(high) || low < lower ||
-        high > upper) {
+    if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
+      refuse("limits [" + text(low) + ", " + text(high) + "] of `" + variable.name +
+             "` are not two finite numbers, the lower one first");
+    }
+    if (low < lower || high > upper) {
       refuse("limits [" + text(low) + ", " + text(high) + "] of `" + variable.name +
              "` are not within the robot's [" + text(lower) + ", " + text(upper) + "]");
     }
@@ -159,6 +163,7 @@ template <typename Space>
 ob::StateSpacePtr finished(const std::shared_ptr<Space>& space, const Robot& robot,
                            const Group& group) {
   space->setName(group.name);
+  space->setVariables(detail::variablesOf(robot, group));
   space->setProjection(detail::makeProjection(*space, robot, group));
   return space;
 }

@@ -380,6 +380,10 @@ TEST_F(PoseGoals, SayWhatIsWrong) {
             "state space `all` is not built as makeStateSpace does for group `all`");
   options.positionTolerance = std::nan("");
   EXPECT_EQ(build(arm.checker, "ball"), "PoseGoal: the position tolerance is not positive");
+  // Half of it is what is searched with, in a thread where nothing may be thrown.
+  options.positionTolerance = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(build(arm.checker, "ball"),
+            "InverseKinematics: the position tolerance is not positive");
   options = {};
   options.orientationTolerance = 0.0;
   EXPECT_EQ(build(arm.checker, "ball"), "PoseGoal: the orientation tolerance is not positive");

@@ -117,6 +117,33 @@ TEST(Spaces, OfAnotherLayoutAreRefused) {
   expectRefused(swapped(called<ob::SE2StateSpace>("se2"), called<ob::SO2StateSpace>("so2")), base);
 }
 
+/// A left and a right arm have spaces of the same layout.
+TEST(Spaces, OfTheOtherArmAreRefused) {
+  std::string urdf = "<robot name='r'><link name='base'/>";
+  for (const std::string side : {"left", "right"})
+    urdf += "<link name='" + side + "_hand'><collision><origin xyz='0.5 0 0'/><geometry>" +
+            "<sphere radius='0.1'/></geometry></collision></link><joint name='" + side +
+            "' type='revolute'><parent link='base'/><child link='" + side +
+            "_hand'/><axis xyz='0 0 1'/><limit lower='-2' upper='2' effort='1' velocity='1'/>" +
+            "</joint>";
+  const auto robot = Robot::parse(
+      urdf + "</robot>", "r.urdf",
+      "<robot name='r'><group name='left'><joint name='left'/></group><group name='port'>"
+      "<joint name='left'/></group><group name='right'><joint name='right'/></group></robot>",
+      "r.srdf");
+  const auto checker = [&](const char* group) {
+    return std::make_shared<const Checker>(robot, group, std::make_shared<const World>());
+  };
+  const auto space = makeStateSpace(*robot, *robot->findGroup("left"));
+  for (const std::string& message : messages(space, checker("right")))
+    EXPECT_THAT(message, HasSubstr("for group `right`: it is of another group's variables"));
+  for (const std::string& message : messages(space, checker("port"))) EXPECT_EQ(message, "");
+  const auto setup = makeSimpleSetup(checker("left"));
+  EXPECT_THROW(setStartAndGoal(*setup, *checker("right"), std::vector<double>{0.0},
+                               std::vector<double>{1.0}),
+               std::invalid_argument);
+}
+
 /// Built by hand as makeStateSpace does, they are taken.
 TEST(Spaces, OfTheSameLayoutAreTaken) {
   const std::vector<std::string> taken(3);

@@ -190,10 +190,15 @@ TEST(StateSpace, SaysWhichOptionIsWrong) {
   EXPECT_EQ(messageOf(limits("elbow", -2, 2), group), "taken");
   EXPECT_EQ(messageOf(limits("elbow", -2.5, 1), group),
             "state space: limits [-2.5, 1] of `elbow` are not within the robot's [-2, 2]");
-  EXPECT_EQ(messageOf(limits("elbow", 1, 1), group),
-            "state space: limits [1, 1] of `elbow` are not within the robot's [-2, 2]");
-  EXPECT_EQ(messageOf(limits("elbow", std::nan(""), 1), group),
-            "state space: limits [nan, 1] of `elbow` are not within the robot's [-2, 2]");
+  EXPECT_EQ(
+      messageOf(limits("elbow", 1, 1), group),
+      "state space: limits [1, 1] of `elbow` are not two finite numbers, the lower one first");
+  EXPECT_EQ(
+      messageOf(limits("elbow", std::nan(""), 1), group),
+      "state space: limits [nan, 1] of `elbow` are not two finite numbers, the lower one first");
+  EXPECT_EQ(
+      messageOf(limits("elbow", 1, 0.5), group),
+      "state space: limits [1, 0.5] of `elbow` are not two finite numbers, the lower one first");
   EXPECT_EQ(messageOf(limits("nose", 0, 1), group),
             "state space: group `all` has no variable `nose` to limit");
   EXPECT_EQ(messageOf(limits("turn", 0, 1), *robot->findGroup("limited")),

@@ -185,7 +185,7 @@ TEST_F(Gantry, LastValidWithoutAState) {
   EXPECT_GT(lastValid.second, (0.65 - 2.0 * checker_->options().tolerance) / 1.8);
   set(s2_, -0.9, 0.9, 0.0);
   lastValid.second = -7.0;
-  EXPECT_TRUE(motions_.checkMotion(s1_.get(), s1_.get(), lastValid));
+  EXPECT_TRUE(motions_.checkMotion(s1_.get(), s2_.get(), lastValid));
   EXPECT_EQ(lastValid.second, -7.0);
 }
 

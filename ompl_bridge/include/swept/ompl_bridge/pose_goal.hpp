@@ -73,6 +73,7 @@ class PoseGoal final : public ompl::base::GoalLazySamples {
   bool sample(ompl::base::State* state);
   void drawSeed();
   void requireTarget();
+  InverseKinematicsOptions search() const;
 
   detail::SpaceBounds bounds_;
   InverseKinematics kinematics_;
