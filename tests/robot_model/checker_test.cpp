@@ -248,6 +248,7 @@ TEST(Checker, NoResultDependsOnWhatTheWorkspaceHeldBefore) {
   const Checker checker = makeChecker(kArm, clutter(1));
   Workspace used(checker);
   RandomArm random(2);
+  int free = 0, collision = 0;
   for (int i = 0; i < 300; ++i) {
     const auto from = random.configuration();
     const auto to = random.configuration();
@@ -257,8 +258,18 @@ TEST(Checker, NoResultDependsOnWhatTheWorkspaceHeldBefore) {
     ASSERT_EQ(a.verdict, b.verdict);
     ASSERT_EQ(a.freeUntil, b.freeUntil);
     ASSERT_EQ(a.effort.distances, b.effort.distances);
+    ASSERT_EQ(a.witness.has_value(), b.witness.has_value());
+    if (a.witness) {
+      ASSERT_EQ(a.witness->t, b.witness->t);
+      ASSERT_EQ(a.witness->bodyA, b.witness->bodyA);
+      ASSERT_EQ(a.witness->bodyB, b.witness->bodyB);
+    }
     ASSERT_EQ(checker.clearance(from, used), checker.clearance(from, fresh));
+    free += a.verdict == Verdict::Free ? 1 : 0;
+    collision += a.verdict == Verdict::Collision ? 1 : 0;
   }
+  EXPECT_GT(free, 40);
+  EXPECT_GT(collision, 40);
 }
 
 /// The promises that need no outside oracle: Free means a positive clearance; more clearance than

@@ -2,6 +2,7 @@
 // One checker, asked by many threads while others make new versions of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <barrier>
 #include <thread>
@@ -61,6 +62,8 @@ TEST(CheckerThreads, NewVersionsDisturbNobody) {
   std::vector<Answer> alone;
   Workspace first(checker);
   for (int i = 0; i < kMotions; ++i) alone.push_back(ask(checker, motions, i, first));
+  for (const Verdict verdict : {Verdict::Free, Verdict::Collision})
+    EXPECT_GT(std::ranges::count(alone, verdict, &Answer::motion), kMotions / 10);
 
   std::atomic<int> different{0};
   std::atomic<int> building{kBuilding};

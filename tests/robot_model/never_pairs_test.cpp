@@ -62,6 +62,7 @@ TEST(NeverPairs, AreCheckedBeyondTheLimits) {
   // The hand, at 0.6 to 0.85 m, is turned into the wall.
   const std::vector<double> beyond{1.45, 0.6, 0.4};
   EXPECT_FALSE(checker.withinLimits(beyond));
+  EXPECT_EQ(checker.checkState(beyond, workspace), Verdict::Collision);
   std::mt19937 random(2);
   int contacts = 0;
   for (int i = 0; i < 2000; ++i) {
