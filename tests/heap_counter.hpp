@@ -3,50 +3,81 @@
 
 #include <malloc.h>
 
-#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstddef>
 #include <cstdlib>
-#include <new>
 
-/// Counts what the program takes from the heap: replaces its operators new and delete. For one
-/// source of a program.
+/// Counts what the program takes from the heap, whether with new or, as Eigen does, with malloc:
+/// replaces the C library's functions, which operator new calls. For one source of a program.
 namespace swept::test {
 
 inline std::atomic<long> allocations{0};
 inline std::atomic<long> heldBytes{0};  ///< by whoever has not given it back
 
-inline void* counted(std::size_t size, std::size_t alignment) {
-  void* memory = nullptr;
-  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), std::max<std::size_t>(size, 1)))
-    throw std::bad_alloc();
+inline void* taken(void* memory) {
+  if (memory == nullptr) return memory;
   ++allocations;
   heldBytes += static_cast<long>(malloc_usable_size(memory));
   return memory;
 }
 
-inline void release(void* memory) {
+inline void givenBack(void* memory) {
   heldBytes -= static_cast<long>(malloc_usable_size(memory));
-  std::free(memory);
 }
 
 }  // namespace swept::test
 
-void* operator new(std::size_t size) {
-  return swept::test::counted(size, alignof(std::max_align_t));
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SWEPT_TEST_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SWEPT_TEST_SANITIZED
+#endif
+
+#ifdef SWEPT_TEST_SANITIZED
+// A sanitizer has replaced them already, and tells.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
+                                                                  std::size_t),
+                                                         void (*)(const volatile void*));
+namespace swept::test {
+inline const int hooks = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void* memory, std::size_t) { taken(const_cast<void*>(memory)); },
+    [](const volatile void* memory) { givenBack(const_cast<void*>(memory)); });
+}  // namespace swept::test
+#else
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* memory);
+
+void* malloc(std::size_t size) noexcept {
+  return swept::test::taken(__libc_malloc(size));
 }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return swept::test::counted(size, static_cast<std::size_t>(alignment));
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  return swept::test::taken(__libc_calloc(count, size));
 }
-void operator delete(void* memory) noexcept {
-  swept::test::release(memory);
+void* realloc(void* memory, std::size_t size) noexcept {
+  swept::test::givenBack(memory);
+  return swept::test::taken(__libc_realloc(memory, size));
 }
-void operator delete(void* memory, std::size_t) noexcept {
-  swept::test::release(memory);
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  return swept::test::taken(__libc_memalign(alignment, size));
 }
-void operator delete(void* memory, std::align_val_t) noexcept {
-  swept::test::release(memory);
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+  return swept::test::taken(__libc_memalign(alignment, size));
 }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  swept::test::release(memory);
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+  *memory = swept::test::taken(__libc_memalign(alignment, size));
+  return *memory == nullptr ? ENOMEM : 0;
 }
+void free(void* memory) noexcept {
+  swept::test::givenBack(memory);
+  __libc_free(memory);
+}
+}
+#endif

@@ -30,12 +30,18 @@ Shape randomShape(std::mt19937& random, double size) {
       const double x = length(), y = length();
       return makeBox({x, y, length()});
     }
-    case 2:
-      return makeCylinder(length(), size * uniform(random, 0.1, 1.0));
-    case 3:
-      return makeCapsule(length(), size * uniform(random, 0.1, 1.0));
-    case 4:
-      return makeCone(length(), size * uniform(random, 0.1, 1.0));
+    case 2: {
+      const double radius = length();
+      return makeCylinder(radius, length());
+    }
+    case 3: {
+      const double radius = length();
+      return makeCapsule(radius, length());
+    }
+    case 4: {
+      const double radius = length();
+      return makeCone(radius, length());
+    }
     case 5: {
       const double x = length(), y = length();
       return makeEllipsoid({x, y, length()});

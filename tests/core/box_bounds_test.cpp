@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 
+#include "lane_targets.hpp"
 #include "reference_distance.hpp"
 
 namespace swept::detail {
@@ -70,11 +70,10 @@ WideNode emptyNode(const Vector3d& origin) {
   return node;
 }
 
-/// Every instruction set that this machine has, one after the other.
+/// Every instruction set that is compiled and that this machine has, one after the other.
 class BoxBounds : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
-  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+ private:
+  lane_test::OnTarget on_{GetParam()};
 };
 
 TEST_P(BoxBounds, AreNeverAboveTheDistanceAndSeldomFarBelow) {
@@ -376,18 +375,10 @@ TEST_P(BoxBounds, ARayOfNoNumbersHits) {
   EXPECT_EQ(boxesHit(node, Vector3d::Ones(), nowhere), 7u);
 }
 
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> found;
-  const std::int64_t all = hwy::SupportedTargets();
-  for (std::int64_t bit = 1; bit > 0 && bit <= all; bit <<= 1) {
-    if ((all & bit) != 0) found.push_back(bit);
-  }
-  return found;
-}
-
-INSTANTIATE_TEST_SUITE_P(Targets, BoxBounds, testing::ValuesIn(targets()), [](const auto& target) {
-  return std::string(hwy::TargetName(target.param));
-});
+INSTANTIATE_TEST_SUITE_P(Targets, BoxBounds, testing::ValuesIn(lane_test::laneTargets()),
+                         [](const auto& target) {
+                           return std::string(hwy::TargetName(target.param));
+                         });
 
 TEST(BoxFrames, AreNotUsableWhereSinglePrecisionCannotTell) {
   Isometry3d pose = Isometry3d::Identity();

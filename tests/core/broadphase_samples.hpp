@@ -78,11 +78,13 @@ inline Aabb randomBox(std::mt19937& random, World world, double reach) {
   switch (world) {
     case World::Sizes: {
       const double size = std::pow(10.0, uniform(random, -6.0, chance(random, 0.1) ? 6.0 : 0.0));
-      return around(uniformPoint(random, reach), size * uniformPoint(random, 0.5).cwiseAbs());
+      const Vector3d center = uniformPoint(random, reach);
+      return around(center, size * uniformPoint(random, 0.5).cwiseAbs());
     }
     case World::Grid: {
       std::uniform_int_distribution<int> cell(0, static_cast<int>(std::ceil(reach)) + 1);
-      const Vector3d lower(cell(random), cell(random), cell(random));
+      Vector3d lower;
+      for (int k = 0; k < 3; ++k) lower[k] = cell(random);
       Vector3d size = Vector3d::Zero();
       for (int k = 0; k < 3; ++k) size[k] = chance(random, 0.5) ? 0.0 : 1.0;
       return {lower, lower + size};
@@ -93,7 +95,8 @@ inline Aabb randomBox(std::mt19937& random, World world, double reach) {
     }
     case World::Far: {
       const double scale = chance(random, 0.3) ? 1e6 : 1.0;
-      return around(scale * uniformPoint(random, reach), uniformPoint(random, 0.5).cwiseAbs());
+      const Vector3d center = scale * uniformPoint(random, reach);
+      return around(center, uniformPoint(random, 0.5).cwiseAbs());
     }
     case World::Hostile:
       return hostileBox(random, reach);

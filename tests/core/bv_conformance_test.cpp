@@ -22,8 +22,8 @@ using Points = std::vector<Vector3d>;
 
 /// Points of a box of random proportions, turned and moved.
 Points randomPoints(std::mt19937& random, std::size_t count, double size = 1.0) {
-  const Vector3d half(test::uniform(random, 0.05, 1.0), test::uniform(random, 0.05, 1.0),
-                      test::uniform(random, 0.05, 1.0));
+  const Vector3d half{test::uniform(random, 0.05, 1.0), test::uniform(random, 0.05, 1.0),
+                      test::uniform(random, 0.05, 1.0)};
   const Isometry3d pose = test::randomPose(random, 1.0);
   Points points;
   for (std::size_t i = 0; i < count; ++i) {

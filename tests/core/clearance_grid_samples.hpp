@@ -3,10 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -29,14 +27,11 @@ struct ClearanceScene {
   /// m
   double distance(const Eigen::Vector3d& p) const {
     double least = std::numeric_limits<double>::infinity();
-    double angle = 0.0;
-    for (const auto& triangle : triangles) {
-      least = std::min(least, reference::pointTriangle(p, triangle));
-      if (solid) angle += solidAngle(p, triangle);
-    }
+    for (const auto& t : triangles) least = std::min(least, reference::pointTriangle(p, t));
     for (std::size_t i = 0; i < centers.size(); ++i)
       least = std::min(least, std::max((p - centers[i]).norm() - radii[i], 0.0));
-    return std::abs(angle) > 2.0 * std::numbers::pi ? 0.0 : least;
+    const bool inside = solid && std::abs(reference::windingNumber(triangles, p)) > 0.5;
+    return inside ? 0.0 : least;
   }
 
   /// On a triangle, or in a ball.
@@ -46,18 +41,6 @@ struct ClearanceScene {
     const double s = uniform(random, 0.0, 1.0);
     return (1.0 - s) * a + s * (b + uniform(random, 0.0, 1.0) * (c - b));
   }
-
- private:
-  /// Of a triangle as seen from p (Van Oosterom, Strackee 1983): 4 pi in all around the inside.
-  static double solidAngle(const Eigen::Vector3d& p,
-                           const std::array<Eigen::Vector3d, 3>& triangle) {
-    const Eigen::Vector3d a = triangle[0] - p;
-    const Eigen::Vector3d b = triangle[1] - p;
-    const Eigen::Vector3d c = triangle[2] - p;
-    const double below = a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
-                         b.dot(c) * a.norm() + c.dot(a) * b.norm();
-    return 2.0 * std::atan2(a.dot(b.cross(c)), below);
-  }
 };
 
 inline ClearanceScene meshScene(const char* name, const Soup& soup, MeshInterior interior) {
@@ -65,8 +48,7 @@ inline ClearanceScene meshScene(const char* name, const Soup& soup, MeshInterior
                        TriangleMesh::build(soup.vertices, soup.triangles, interior),
                        {},
                        interior == MeshInterior::Solid};
-  for (const Eigen::Vector3i& t : soup.triangles)
-    scene.triangles.push_back({soup.vertices[t[0]], soup.vertices[t[1]], soup.vertices[t[2]]});
+  scene.triangles = reference::trianglesOf(soup.vertices, soup.triangles);
   return scene;
 }
 
@@ -91,7 +73,8 @@ inline Soup looseTriangles(int count, double thickness) {
   for (int i = 0; i < count; ++i) {
     const int first = static_cast<int>(soup.vertices.size());
     const Eigen::Vector3d from = uniformPoint(random, 0.5);
-    const Eigen::Vector3d along = uniform(random, 0.1, 1.0) * unitVector(random);
+    const double length = uniform(random, 0.1, 1.0);
+    const Eigen::Vector3d along = length * unitVector(random);
     const Eigen::Vector3d apex = from + 0.5 * along + thickness * unitVector(random);
     soup.vertices.insert(soup.vertices.end(), {from, from + along, apex});
     soup.triangles.emplace_back(first, first + 1, first + 2);
@@ -143,8 +126,10 @@ inline Eigen::Vector3d clearanceSample(const ClearanceScene& scene, const Cleara
       }
       return p;
     case 1:
-    case 2:
-      return scene.point(random) + uniformPoint(random, 6.0 * grid.voxel());
+    case 2: {
+      const Eigen::Vector3d near = scene.point(random);
+      return near + uniformPoint(random, 6.0 * grid.voxel());
+    }
     case 3:
       return box.center() + 1.5 * (p - box.center());
     default:

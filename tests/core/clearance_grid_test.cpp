@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <stdexcept>
 
 #include "clearance_grid_samples.hpp"
 #include "heap_counter.hpp"
+#include "lane_targets.hpp"
 #include "swept/core/clearance_field.hpp"
 
 namespace swept {
@@ -145,8 +145,8 @@ TEST(ClearanceGrid, CountsRoundingsOfLargeCoordinates) {
     const Vector3d center = test::uniformPoint(random, reach);
     const ClearanceGrid grid = ClearanceGrid::build(
         PointCloud::build(std::vector<Vector3d>{center}, 0.0), {.cells = 1000});
-    const Vector3d p =
-        center + std::pow(10.0, uniform(random, -15.0, 5.0)) * test::uniformPoint(random, reach);
+    const double away = std::pow(10.0, uniform(random, -15.0, 5.0));
+    const Vector3d p = center + away * test::uniformPoint(random, reach);
     const Eigen::Matrix<long double, 3, 1> way = p.cast<long double>() - center.cast<long double>();
     ASSERT_LE(static_cast<long double>(grid.clearance(p)), way.norm()) << i;
     positive += grid.clearance(p) > 0.0;
@@ -312,12 +312,15 @@ TEST(ClearanceGrid, ManyAtOnceAreTheSameBitForBit) {
         if (i % 5 == 0) points.back() = grid.box().center() + 1e6 * test::unitVector(random);
         if (i % 50 == 0) points.back().y() = i % 100 == 0 ? 1e200 : std::nan("");
       }
-      std::vector<double> bounds(points.size(), -1.0);
-      grid.clearances(points, bounds);
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        ASSERT_EQ(bounds[i], grid.clearance(points[i])) << points[i].transpose();
-        positive += bounds[i] > 0.0;
-        ++asked;
+      for (const std::int64_t target : lane_test::laneTargets()) {
+        const lane_test::OnTarget on(target);
+        std::vector<double> bounds(points.size(), -1.0);
+        grid.clearances(points, bounds);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          ASSERT_EQ(bounds[i], grid.clearance(points[i])) << points[i].transpose();
+          positive += bounds[i] > 0.0;
+          ++asked;
+        }
       }
     }
   }

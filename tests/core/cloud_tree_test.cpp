@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <set>
 
 #include "mesh_samples.hpp"
 #include "point_cloud/cloud_hull.hpp"

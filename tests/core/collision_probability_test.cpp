@@ -27,7 +27,7 @@ NoisyPointCloud onePoint(const Vector3d& point, double radius, const Matrix3d& c
 }
 
 Matrix3d randomFactor(std::mt19937& random, double s) {
-  const Vector3d sizes(s, uniform(random, 0.2, 1.0) * s, uniform(random, 0.05, 1.0) * s);
+  const Vector3d sizes{s, uniform(random, 0.2, 1.0) * s, uniform(random, 0.05, 1.0) * s};
   return test::randomPose(random, 0.0).linear() * sizes.asDiagonal();
 }
 

@@ -29,17 +29,9 @@ UniformMotion flight(const Vector3d& from, const Vector3d& to) {
   return UniformMotion::translation(Isometry3d(Translation3d(from)), to - from);
 }
 
-/// Closed, of two triangles a face.
 Shape boxMesh(const Vector3d& full) {
-  std::vector<Vector3d> corners;
-  for (int i = 0; i < 8; ++i) {
-    corners.push_back(0.5 *
-                      full.cwiseProduct(Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  }
-  const std::vector<TriangleMesh::Triangle> faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                                     {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                                     {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return TriangleMesh::build(corners, faces);
+  const test::Soup soup = test::boxSoup(-0.5 * full, 0.5 * full);
+  return TriangleMesh::build(soup.vertices, soup.triangles);
 }
 
 void expectFirstContact(const ContinuousResult& result, double t, double within) {
@@ -337,11 +329,11 @@ TEST(ContinuousCollide, WhatIsThroughWithinTheTimeToleranceIsFound) {
   constexpr double kRadius = 2e-4, kSpeed = 400.0;
   for (int i = 0; i < 200; ++i) {
     std::vector<Vector3d> motes;
-    for (int j = 0; j < 5; ++j) motes.emplace_back(2e-3 * unit(random), 0, 4e-3 * unit(random));
+    for (int j = 0; j < 5; ++j) motes.push_back({2e-3 * unit(random), 0.0, 4e-3 * unit(random)});
     double lowest = kInfinity;
     for (const Vector3d& mote : motes) lowest = std::min(lowest, mote.z());
     const Shape dust = PointCloud::build(motes, kRadius);
-    const Vector3d from(0.2 * unit(random), 0.2 * unit(random), 200.0 + 100.0 * unit(random));
+    const Vector3d from{0.2 * unit(random), 0.2 * unit(random), 200.0 + 100.0 * unit(random)};
     const double first = (from.z() + lowest - kRadius - 0.01) / kSpeed;
     ContinuousOptions options = to(1e-5);
     options.timeTolerance = 2e-5;

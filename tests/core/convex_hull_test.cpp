@@ -107,7 +107,8 @@ TEST(ConvexHull, BoundsRandomPoints) {
   const std::vector<std::function<Vector3d()>> clouds = {
       [&] { return test::uniformPoint(random, 1.0); },
       [&]() -> Vector3d {
-        return std::cbrt(test::uniform(random, 0, 1)) * test::unitVector(random);
+        const double reach = std::cbrt(test::uniform(random, 0, 1));
+        return reach * test::unitVector(random);
       },
       [&]() -> Vector3d {
         return test::unitVector(random).cwiseProduct(Vector3d(1.0, 0.1, 0.01)) +

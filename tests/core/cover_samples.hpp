@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh_samples.hpp"
+#include "reference_distance.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/sphere_cover.hpp"
 
@@ -18,45 +19,11 @@
 /// judging covers.
 namespace swept::test {
 
-inline double distanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                                const Eigen::Vector3d& b) {
-  const Eigen::Vector3d ab = b - a;
-  const double length = ab.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((p - a).dot(ab) / length, 0.0, 1.0) : 0.0;
-  return (p - a - t * ab).norm();
-}
-
-inline double distanceToTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                                 const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  double nearest = std::min(
-      {distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
-  const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const double length = normal.norm();
-  if (length == 0.0) return nearest;
-  const bool isOver = normal.dot((b - a).cross(p - a)) >= 0.0 &&
-                      normal.dot((c - b).cross(p - b)) >= 0.0 &&
-                      normal.dot((a - c).cross(p - c)) >= 0.0;
-  return isOver ? std::min(nearest, std::abs(normal.dot(p - a)) / length) : nearest;
-}
-
-/// Winding number (Van Oosterom and Strackee 1983) of all triangles together.
-inline double windingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double sum = 0.0;
-  for (const Eigen::Vector3i& t : mesh.triangles()) {
-    const Eigen::Vector3d a = mesh.vertices()[t[0]] - point;
-    const Eigen::Vector3d b = mesh.vertices()[t[1]] - point;
-    const Eigen::Vector3d c = mesh.vertices()[t[2]] - point;
-    const double across = a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
-                          b.dot(c) * a.norm() + c.dot(a) * b.norm();
-    sum += 2.0 * std::atan2(a.dot(b.cross(c)), across);
-  }
-  return sum / (4.0 * std::numbers::pi);
-}
-
 /// Whether a mesh whose components are all oriented the same way contains a point.
 inline bool isInside(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
   return mesh.isClosed() && mesh.interior() == MeshInterior::Solid &&
-         std::abs(windingNumber(mesh, point)) > 0.5;
+         std::abs(reference::windingNumber(
+             reference::trianglesOf(mesh.vertices(), mesh.triangles()), point)) > 0.5;
 }
 
 /// Distance of a point from a flat region, by its profile: (radial, axial) >= 0 from the corner.
@@ -77,26 +44,23 @@ struct DistanceOf {
   }
   double operator()(const Capsule& s) const {
     const Eigen::Vector3d end(0.0, 0.0, s.halfLength);
-    return std::max(0.0, distanceToSegment(p, -end, end) - s.radius);
+    return std::max(0.0, reference::pointSegment(p, -end, end) - s.radius);
   }
   double operator()(const Cone& s) const {
     const double radial = p.head<2>().norm();
     const double height = 2.0 * s.halfLength;
     const double above = p.z() + s.halfLength;
     if (above >= 0.0 && radial * height <= s.radius * (height - above)) return 0.0;
-    return distanceToTriangle({radial, 0.0, p.z()}, {0.0, 0.0, -s.halfLength},
-                              {s.radius, 0.0, -s.halfLength}, {0.0, 0.0, s.halfLength});
+    const Eigen::Vector3d end(0.0, 0.0, s.halfLength);
+    return reference::pointTriangle({radial, 0.0, p.z()},
+                                    {-end, Eigen::Vector3d(s.radius, 0.0, -s.halfLength), end});
   }
-  double operator()(const Triangle& s) const {
-    return distanceToTriangle(p, s.corners[0], s.corners[1], s.corners[2]);
-  }
+  double operator()(const Triangle& s) const { return reference::pointTriangle(p, s.corners); }
   double operator()(const TriangleMesh& s) const {
     if (isInside(s, p)) return 0.0;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3i& t : s.triangles()) {
-      nearest = std::min(nearest, distanceToTriangle(p, s.vertices()[t[0]], s.vertices()[t[1]],
-                                                     s.vertices()[t[2]]));
-    }
+    for (const auto& t : reference::trianglesOf(s.vertices(), s.triangles()))
+      nearest = std::min(nearest, reference::pointTriangle(p, t));
     return nearest;
   }
   double operator()(const PointCloud& s) const {
@@ -128,8 +92,8 @@ class SampleOf {
   }
   Points operator()(const Box& s) const {
     return repeat([&] {
-      return Eigen::Vector3d(
-          s.halfExtents.cwiseProduct(Eigen::Vector3d(oftenAtEnd(), oftenAtEnd(), oftenAtEnd())));
+      const Eigen::Vector3d at{oftenAtEnd(), oftenAtEnd(), oftenAtEnd()};
+      return Eigen::Vector3d(s.halfExtents.cwiseProduct(at));
     });
   }
   Points operator()(const Cylinder& s) const {
@@ -147,8 +111,8 @@ class SampleOf {
   }
   Points operator()(const Capsule& s) const {
     return repeat([&] {
-      return Eigen::Vector3d(s.radius * inBall() +
-                             s.halfLength * oftenAtEnd() * Eigen::Vector3d::UnitZ());
+      const Eigen::Vector3d inTip = s.radius * inBall();
+      return Eigen::Vector3d(inTip + s.halfLength * oftenAtEnd() * Eigen::Vector3d::UnitZ());
     });
   }
   Points operator()(const Triangle& s) const {
@@ -161,8 +125,10 @@ class SampleOf {
           0, s.vertices().size() - 1)(random_)];
     };
     while (static_cast<int>(points.size()) < count_) {
-      const Eigen::Vector3d onFace = onTriangle(vertex(), vertex(), vertex());
-      points.push_back(onFace + uniform(random_, 0.0, 1.0) * (vertex() - onFace));
+      const Eigen::Vector3d a = vertex(), b = vertex(), c = vertex();
+      const Eigen::Vector3d onFace = onTriangle(a, b, c);
+      const double inwards = uniform(random_, 0.0, 1.0);
+      points.push_back(onFace + inwards * (vertex() - onFace));
     }
     return points;
   }
@@ -181,8 +147,8 @@ class SampleOf {
           std::uniform_int_distribution<std::size_t>(0, s.triangles().size() - 1)(random_);
       const Eigen::Vector3i& t = s.triangles()[index];
       points.push_back(onTriangle(s.vertices()[t[0]], s.vertices()[t[1]], s.vertices()[t[2]]));
-      const Eigen::Vector3d unit(uniform(random_, 0.0, 1.0), uniform(random_, 0.0, 1.0),
-                                 uniform(random_, 0.0, 1.0));
+      const Eigen::Vector3d unit{uniform(random_, 0.0, 1.0), uniform(random_, 0.0, 1.0),
+                                 uniform(random_, 0.0, 1.0)};
       const Eigen::Vector3d p = box.lower + unit.cwiseProduct(box.upper - box.lower);
       if (i % 4 == 0 && isInside(s, p)) points.push_back(p);
     }
@@ -204,7 +170,8 @@ class SampleOf {
     return std::clamp(value, -1.0, 1.0);
   }
   Eigen::Vector3d inBall() const {
-    return std::min(1.0, uniform(random_, 0.2, 1.6)) * unitVector(random_);
+    const double reach = std::min(1.0, uniform(random_, 0.2, 1.6));
+    return reach * unitVector(random_);
   }
   Eigen::Vector2d inDisc() const {
     const double angle = uniform(random_, 0.0, 2.0 * std::numbers::pi);

@@ -2,11 +2,11 @@
 #include "swept/core/continuous/deforming_mesh.hpp"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <numeric>
 
 #include "deforming_samples.hpp"
+#include "lane_targets.hpp"
 
 namespace swept {
 namespace {
@@ -207,9 +207,8 @@ TEST(DeformingMesh, CopiesAreTheirOwn) {
 }
 
 class DeformingMeshTargets : public testing::TestWithParam<std::int64_t> {
- public:
-  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
-  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+ private:
+  lane_test::OnTarget on_{GetParam()};
 };
 
 TEST_P(DeformingMeshTargets, FindTheSame) {
@@ -228,16 +227,7 @@ TEST_P(DeformingMeshTargets, FindTheSame) {
   EXPECT_GT(later, 40U);
 }
 
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> found;
-  const std::int64_t all = hwy::SupportedTargets();
-  for (std::int64_t bit = 1; bit > 0 && bit <= all; bit <<= 1) {
-    if ((all & bit) != 0) found.push_back(bit);
-  }
-  return found;
-}
-
-INSTANTIATE_TEST_SUITE_P(Targets, DeformingMeshTargets, testing::ValuesIn(targets()),
+INSTANTIATE_TEST_SUITE_P(Targets, DeformingMeshTargets, testing::ValuesIn(lane_test::laneTargets()),
                          [](const auto& target) {
                            return std::string(hwy::TargetName(target.param));
                          });

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "mesh_samples.hpp"
 #include "reference_distance.hpp"
@@ -146,23 +145,8 @@ TEST(Distance, CylindersAgreeWithAlternatingProjections) {
 }
 
 swept::TriangleMesh ringMesh(double major, double minor, int around, int tube) {
-  std::vector<Vector3d> vertices;
-  std::vector<Eigen::Vector3i> triangles;
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < tube; ++j) {
-      const double u = 2 * std::numbers::pi * i / around;
-      const double v = 2 * std::numbers::pi * j / tube;
-      const double r = major + minor * std::cos(v);
-      vertices.emplace_back(r * std::cos(u), r * std::sin(u), minor * std::sin(v));
-      const int a = i * tube + j;
-      const int b = ((i + 1) % around) * tube + j;
-      const int c = ((i + 1) % around) * tube + (j + 1) % tube;
-      const int d = i * tube + (j + 1) % tube;
-      triangles.emplace_back(a, b, c);
-      triangles.emplace_back(a, c, d);
-    }
-  }
-  return swept::TriangleMesh::build(vertices, triangles);
+  const swept::test::Soup soup = swept::test::torusSoup(around, tube, major, minor);
+  return swept::TriangleMesh::build(soup.vertices, soup.triangles);
 }
 
 reference::Triangles trianglesOf(const swept::TriangleMesh& mesh, const Isometry3d& pose) {

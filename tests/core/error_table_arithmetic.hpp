@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "split_mix.hpp"
 #include "triangle_oracle.hpp"
 
 /// Measures how far the answers about two shapes are from the truth.
@@ -62,50 +63,12 @@ class ExactTurn {
   Real determinant_;
 };
 
-/// The same numbers on every platform, if no expression draws two (SplitMix64; Steele, Lea, Flood
-/// 2014).
-class Random {
+class Random : public swept::test::SplitMix {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(next() >> 11), -53);
-  }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  int below(std::size_t n) { return static_cast<int>(next() % n); }
-  double sign() { return chance(0.5) ? 1.0 : -1.0; }
-  /// 10 to a uniform power.
-  double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
-
-  Vector3d inBall() {
-    Vector3d v;
-    do {
-      for (int i = 0; i < 3; ++i) v[i] = uniform(-1.0, 1.0);
-    } while (v.squaredNorm() > 1.0 || v.squaredNorm() < 1e-4);
-    return v;
-  }
-  Vector3d direction() { return inBall().normalized(); }
+  using SplitMix::SplitMix;
   Vector3d across(const Vector3d& axis) {
     return (axis.cross(direction()) + 1e-3 * axis.unitOrthogonal()).normalized();
   }
-  /// Axes onto axes.
-  Matrix3d permutation() {
-    Matrix3d r = Matrix3d::Zero();
-    const int first = below(3);
-    const int step = below(2) + 1;
-    for (int i = 0; i < 3; ++i) r((first + step * i) % 3, i) = sign();
-    if (r.determinant() < 0.0) r.col(below(3)) *= -1.0;
-    return r;
-  }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t state_;
 };
 
 }  // namespace error_table

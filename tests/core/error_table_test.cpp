@@ -8,6 +8,7 @@
 
 #include "error_table_row.hpp"
 #include "models_dir.hpp"
+#include "rounded_up.hpp"
 
 /// How far off distances, depths and witness points of each pair of shapes are, against truths in
 /// 50 digits, and that no interval misses its truth. The table in core/README.md states the errors;
@@ -15,23 +16,11 @@
 namespace {
 
 using namespace error_table;
+using swept::test::roundedUp;
 
 constexpr int kApart = 800;
 constexpr int kOverlapping = 240;
 const std::string kReadme = modelsDir() + "/../core/README.md";
-
-/// One digit of 1, 2, 5, rounded up from a little more: another instruction set may order sums in
-/// another way.
-std::string roundedUp(double measured) {
-  if (!(measured > 0.0)) return "0";
-  const double x = 1.2 * measured;
-  const int power = static_cast<int>(std::floor(std::log10(x)));
-  for (const auto& [digit, raise] : {std::pair{"1", 0}, {"2", 0}, {"5", 0}, {"1", 1}}) {
-    const std::string text = digit + ("e" + std::to_string(power + raise));
-    if (std::strtod(text.c_str(), nullptr) >= x) return text;
-  }
-  return "inf";
-}
 
 double quantile(std::vector<double> errors, double share) {
   const auto index = static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1));

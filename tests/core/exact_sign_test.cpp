@@ -111,7 +111,8 @@ TEST(ExactSign, DecidesPointsPutOnAPlaneUpToRounding) {
     const Vector3d a = random.point(scale);
     const Vector3d b = a + random.point(scale * std::pow(10.0, random.within(4.0)));
     const Vector3d c = a + random.point(scale * std::pow(10.0, random.within(4.0)));
-    const Vector3d p = a + random.within(1.0) * (b - a) + random.within(1.0) * (c - a);
+    const double s = random.within(1.0), t = random.within(1.0);
+    const Vector3d p = a + s * (b - a) + t * (c - a);
     tally.expectRightSide(a, b, c, p);
   }
   EXPECT_GT(tally.notFiltered, tally.all / 2);
@@ -122,16 +123,18 @@ TEST(ExactSign, DecidesExactlyCoplanarPoints) {
   Tally tally;
   for (int trial = 0; trial < 4000; ++trial) {
     // On a lattice that doubles hold, but whose height terms do not vanish one by one.
-    const Vector3d u(random.integer(1000), random.integer(1000), random.integer(1000));
-    const Vector3d v(random.integer(1000), random.integer(1000), random.integer(1000));
-    const Vector3d origin(random.integer(1 << 30), random.integer(1 << 30), 0x1p-20);
-    const auto at = [&](int s, int t) -> Vector3d {
+    const auto step = [&](int reach) -> double { return random.integer(reach); };
+    const Vector3d u{step(1000), step(1000), step(1000)};
+    const Vector3d v{step(1000), step(1000), step(1000)};
+    const Vector3d origin{step(1 << 30), step(1 << 30), 0x1p-20};
+    const auto somewhere = [&]() -> Vector3d {
+      const int s = random.integer(9), t = random.integer(9);
       return std::ldexp(1.0, trial % 200 - 100) * (origin + s * u + t * v);
     };
-    const Vector3d a = at(random.integer(9), random.integer(9));
-    const Vector3d b = at(random.integer(9), random.integer(9));
-    const Vector3d c = at(random.integer(9), random.integer(9));
-    Vector3d p = at(random.integer(9), random.integer(9));
+    const Vector3d a = somewhere();
+    const Vector3d b = somewhere();
+    const Vector3d c = somewhere();
+    Vector3d p = somewhere();
     if (trial % 2 == 0) p.x() = std::nextafter(p.x(), 1e30);
     tally.expectRightSide(a, b, c, p);
   }
@@ -152,7 +155,7 @@ TEST(ExactSign, HoldsUpToTheEndsOfItsRange) {
                                                          ? magnitude / (1.0 + std::abs(share - 1.0))
                                                          : magnitude * share * 1.01);
     };
-    const auto point = [&] { return Vector3d(coordinate(), coordinate(), coordinate()); };
+    const auto point = [&] { return Vector3d{coordinate(), coordinate(), coordinate()}; };
     const Vector3d a = point();
     const Vector3d b = point();
     const Vector3d c = point();

@@ -5,7 +5,6 @@
 #include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "mesh_samples.hpp"
+#include "reference_distance.hpp"
 
 namespace swept::detail {
 namespace {
@@ -56,10 +57,6 @@ Vector3d halfSizes(std::mt19937& random) {
   return Vector3d::Constant(0.3) + test::uniformPoint(random, 0.2);
 }
 
-double distanceToBox(const Vector3d& p, const Vector3d& half) {
-  return (p.cwiseAbs() - half).cwiseMax(0.0).norm();
-}
-
 TriangleMesh boxMesh(const Vector3d& half) {
   const test::Soup soup = test::boxSoup(-half, half);
   return TriangleMesh::build(soup.vertices, soup.triangles);
@@ -81,7 +78,7 @@ TEST(LibccdDistance, SphereBox) {
     const double r = uniform(random, 0.1, 0.4);
     const Isometry3d pose = test::randomPose(random, 1.0);
     return Case{makeBox(2.0 * half), makeSphere(r), pose,
-                std::max(0.0, distanceToBox(pose.translation(), half) - r)};
+                std::max(0.0, reference::pointBox(pose.translation(), half) - r)};
   });
 }
 
@@ -91,51 +88,35 @@ TEST(LibccdDistance, AlignedBoxes) {
     const Vector3d other = halfSizes(random);
     const Vector3d offset = test::uniformPoint(random, 1.2);
     return Case{makeBox(2.0 * half), makeBox(2.0 * other), shifted(offset),
-                distanceToBox(offset, half + other)};
+                reference::pointBox(offset, half + other)};
   });
-}
-
-double pointSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).norm();
-}
-
-double segmentSegment(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  double nearest = std::min(
-      {pointSegment(a, c, d), pointSegment(b, c, d), pointSegment(c, a, b), pointSegment(d, a, b)});
-  const Vector3d u = b - a;
-  const Vector3d v = d - c;
-  const double det = u.dot(u) * v.dot(v) - u.dot(v) * u.dot(v);
-  const double s = (u.dot(v) * v.dot(a - c) - v.dot(v) * u.dot(a - c)) / det;
-  const double t = (u.dot(u) * v.dot(a - c) - u.dot(v) * u.dot(a - c)) / det;
-  if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) {
-    nearest = std::min(nearest, (a + s * u - c - t * v).norm());
-  }
-  return nearest;
 }
 
 TEST(LibccdDistance, CapsuleCapsule) {
   expectDistances([](std::mt19937& random) {
-    const Capsule a = makeCapsule(uniform(random, 0.1, 0.3), uniform(random, 0.2, 1.0));
-    const Capsule b = makeCapsule(uniform(random, 0.1, 0.3), uniform(random, 0.2, 1.0));
+    const auto capsule = [&] {
+      const double r = uniform(random, 0.1, 0.3);
+      return makeCapsule(r, uniform(random, 0.2, 1.0));
+    };
+    const Capsule a = capsule();
+    const Capsule b = capsule();
     const Isometry3d pose = test::randomPose(random, 0.8);
     const Vector3d endA = a.halfLength * Vector3d::UnitZ();
     const Vector3d endB = b.halfLength * Vector3d::UnitZ();
-    const double axes = segmentSegment(-endA, endA, pose * Vector3d(-endB), pose * endB);
+    const double axes = reference::segmentSegment(-endA, endA, pose * Vector3d(-endB), pose * endB);
     return Case{a, b, pose, std::max(0.0, axes - a.radius - b.radius)};
   });
 }
 
 TEST(LibccdDistance, CylinderSphere) {
   expectDistances([](std::mt19937& random) {
-    const Cylinder cylinder = makeCylinder(uniform(random, 0.1, 0.5), uniform(random, 0.2, 1.0));
+    const double radius = uniform(random, 0.1, 0.5);
+    const Cylinder cylinder = makeCylinder(radius, uniform(random, 0.2, 1.0));
     const double r = uniform(random, 0.1, 0.4);
     const Isometry3d pose = test::randomPose(random, 1.0);
     const Vector3d p = pose.translation();
-    const double radial = std::max(0.0, std::hypot(p.x(), p.y()) - cylinder.radius);
-    const double axial = std::max(0.0, std::abs(p.z()) - cylinder.halfLength);
-    return Case{cylinder, makeSphere(r), pose, std::max(0.0, std::hypot(radial, axial) - r)};
+    const double fromCenter = reference::pointCylinder(p, cylinder.radius, cylinder.halfLength);
+    return Case{cylinder, makeSphere(r), pose, std::max(0.0, fromCenter - r)};
   });
 }
 
@@ -148,7 +129,8 @@ TEST(LibccdDistance, HullBox) {
     test::Soup soup = test::boxSoup(-half, half);
     for (Vector3d& v : soup.vertices) v += Vector3d(0.5, -2.0, 1.0);
     return Case{makeBox(2.0 * other), ConvexHull::of(soup.vertices),
-                shifted(offset - Vector3d(0.5, -2.0, 1.0)), distanceToBox(offset, half + other)};
+                shifted(offset - Vector3d(0.5, -2.0, 1.0)),
+                reference::pointBox(offset, half + other)};
   });
 }
 
@@ -158,7 +140,7 @@ TEST(LibccdDistance, MeshSphere) {
     const double r = uniform(random, 0.05, 0.4);
     const Isometry3d pose = test::randomPose(random, 0.9);
     return Case{boxMesh(half), makeSphere(r), pose,
-                std::max(0.0, distanceToBox(pose.translation(), half) - r)};
+                std::max(0.0, reference::pointBox(pose.translation(), half) - r)};
   });
 }
 
@@ -169,7 +151,7 @@ TEST(LibccdDistance, MeshMesh) {
         const Vector3d other = 0.5 * halfSizes(random);
         const Vector3d offset = test::uniformPoint(random, 0.9);
         return Case{boxMesh(half), boxMesh(other), shifted(offset),
-                    distanceToBox(offset, half + other)};
+                    reference::pointBox(offset, half + other)};
       },
       150);
 }

@@ -15,7 +15,8 @@ struct Soup {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
 
-  void append(const Soup& other) {
+  /// By value, so that a soup may be appended to itself.
+  void append(Soup other) {
     const auto offset = static_cast<int>(vertices.size());
     vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
     for (const Eigen::Vector3i& t : other.triangles) {
@@ -69,6 +70,20 @@ inline Soup boxSoup(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) 
   }
   soup.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return soup;
+}
+
+/// Triangles by themselves within 1 m of `offset` along each axis, every other one a sliver, of all
+/// widths down to 1e-16 m.
+inline Soup sliverSoup(std::mt19937& random, int count, const Eigen::Vector3d& offset) {
+  Soup soup;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d a = offset + uniformPoint(random, 1.0);
+    const Eigen::Vector3d along = uniformPoint(random, 0.5);
+    const double width = i % 2 == 0 ? 0.5 : std::pow(10.0, -uniform(random, 1.0, 16.0));
+    const Eigen::Vector3d apex = a + 0.4 * along + width * unitVector(random);
+    soup.append({{a, a + along, apex}, {{0, 1, 2}}});
+  }
   return soup;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -48,7 +47,8 @@ constexpr int kKinds = 8;
 
 Sample makeSample(Random& random, int kind) {
   const Isometry3d start = random.pose(1.0);
-  const Vector3d turn = random.uniform(0.01, 3.0) * random.direction();
+  const double angle = random.uniform(0.01, 3.0);
+  const Vector3d turn = angle * random.direction();
   const Vector3d move = random.vector(2.0);
   const Vector3d reference = random.vector(0.5);
   switch (kind) {
@@ -71,7 +71,8 @@ Sample makeSample(Random& random, int kind) {
       return sample("turning", UniformMotion::turning(start, turn, move, reference),
                     motion_oracle::turning(start, turn, move, reference));
     case 5: {
-      const Vector3d far = random.uniform(7.0, 60.0) * random.direction();
+      const double turns = random.uniform(7.0, 60.0);
+      const Vector3d far = turns * random.direction();
       return sample("turns", UniformMotion::turning(start, far, move, reference),
                     motion_oracle::turning(start, far, move, reference));
     }
@@ -360,7 +361,7 @@ TEST(Motions, AlmostRotationsBecomeRotations) {
   Random random(9);
   for (int i = 0; i < 100; ++i) {
     Isometry3d pose = random.pose(1.0);
-    pose.linear() += 1e-7 * Matrix3d::Random();
+    for (int k = 0; k < 3; ++k) pose.linear().col(k) += 1e-7 * random.vector(1.0);
     for (const Isometry3d& at :
          {UniformMotion::still(pose).at(0.3), UniformMotion::interpolation(pose, pose).at(0.3),
           UniformMotion::screw(pose, pose).at(0.3)}) {

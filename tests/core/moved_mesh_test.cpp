@@ -128,9 +128,11 @@ TEST(MovedMesh, IsTheMeshOfTheNewVertices) {
   EXPECT_GT(seen.touching, 200);
 }
 
-/// As in the tree: the points of all triangles below a lane are in its box.
+/// As in the tree: the points of all triangles below a lane are in its box, and each triangle is
+/// below one.
 void expectInside(const TriangleMesh& mesh) {
   const detail::WideBvh& bvh = mesh.bvh();
+  std::vector<int> leaves(mesh.triangles().size(), 0);
   const auto check = [&](const auto& self, std::int32_t child,
                          const std::vector<detail::OrientedBox>& boxes) -> void {
     if (child >= 0) {
@@ -142,6 +144,7 @@ void expectInside(const TriangleMesh& mesh) {
       }
       return;
     }
+    ++leaves.at(static_cast<std::size_t>(~child));
     for (const int corner : mesh.triangles()[static_cast<std::size_t>(~child)]) {
       const Vector3d& p = mesh.vertices()[static_cast<std::size_t>(corner)];
       for (const detail::OrientedBox& box : boxes) {
@@ -153,6 +156,8 @@ void expectInside(const TriangleMesh& mesh) {
     }
   };
   check(check, 0, {});
+  EXPECT_FALSE(leaves.empty());
+  EXPECT_EQ(leaves, std::vector<int>(leaves.size(), 1));
 }
 
 TEST(MovedMesh, BoxesHoldTheirTriangles) {

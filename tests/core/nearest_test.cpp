@@ -13,26 +13,13 @@ using Eigen::Vector3d;
 
 double bruteForce(const TriangleMesh& mesh, const Vector3d& p) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3i& t : mesh.triangles()) {
-    nearest =
-        std::min(nearest, test::distanceToTriangle(p, mesh.vertices()[t[0]], mesh.vertices()[t[1]],
-                                                   mesh.vertices()[t[2]]));
-  }
+  for (const auto& t : reference::trianglesOf(mesh.vertices(), mesh.triangles()))
+    nearest = std::min(nearest, reference::pointTriangle(p, t));
   return nearest;
 }
 
-/// Random triangles, a part of them slivers of all widths.
 TriangleMesh soup(std::mt19937& random, const Vector3d& offset) {
-  test::Soup soup;
-  for (int i = 0; i < 200; ++i) {
-    const Vector3d a = offset + test::uniformPoint(random, 1.0);
-    const Vector3d along = test::uniformPoint(random, 0.5);
-    const double width = i % 2 == 0 ? 0.5 : std::pow(10.0, -test::uniform(random, 1.0, 16.0));
-    const auto first = static_cast<int>(soup.vertices.size());
-    soup.vertices.insert(soup.vertices.end(),
-                         {a, a + along, a + 0.4 * along + width * test::unitVector(random)});
-    soup.triangles.emplace_back(first, first + 1, first + 2);
-  }
+  const test::Soup soup = test::sliverSoup(random, 200, offset);
   return TriangleMesh::build(soup.vertices, soup.triangles);
 }
 

@@ -62,9 +62,29 @@ void expectNoWiderSlab(const Pair& p, double upper, const Vector3d& normal, doub
   for (int k = 0; k < 24; ++k) {
     Vector3d n = sampler.random.direction();
     if (k % 3 == 0) n = (normal + std::pow(10.0, -k) * n).normalized();
-    if (k % 3 == 1) n = (k % 2 ? -1.0 : 1.0) * Vector3d::Unit(k % 3);
+    if (k % 3 == 1) n = (k % 2 ? -1.0 : 1.0) * Vector3d::Unit(k / 3 % 3);
     ASSERT_LE(oracle::slab(p.a, p.b, p.a_from_b, n), upper + allowance);
   }
+}
+
+/// The oracle itself can tell: a flat hull has no faces, and a mesh is asked nothing.
+TEST(ShapeOracle, MeasuresFlatHullsAndMeshes) {
+  const std::vector<Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.4, 0.5, 0}};
+  const ConvexHull flat = ConvexHull::of(square);
+  ASSERT_TRUE(flat.faces().empty());
+  EXPECT_EQ(oracle::outside(flat, {0.3, 0.6, 0.0}), 0.0);
+  EXPECT_NEAR(oracle::outside(flat, {0.3, 0.6, -0.2}), 0.2, 1e-15);
+  EXPECT_NEAR(oracle::outside(flat, {2.0, 0.5, 0.0}), 1.0, 1e-15);
+  const test::Soup ring = test::torusSoup(16, 8, 0.5, 0.2);
+  const auto solid = TriangleMesh::build(ring.vertices, ring.triangles);
+  const auto surface = TriangleMesh::build(ring.vertices, ring.triangles, MeshInterior::Surface);
+  const Vector3d within(0.5, 0.01, 0.02);
+  EXPECT_EQ(oracle::outside(solid, within), 0.0);
+  EXPECT_GT(oracle::outside(surface, within), 0.1);
+  EXPECT_GT(oracle::outside(solid, Vector3d::Zero()), 0.29);
+  const auto open =
+      TriangleMesh::build(ring.vertices, {ring.triangles.begin() + 1, ring.triangles.end()});
+  EXPECT_GT(oracle::outside(open, within), 0.1);
 }
 
 TEST_P(EveryPair, DistancesAreProvenAndWitnessed) {
@@ -128,7 +148,8 @@ TEST_P(EveryPair, SignedDistancesAreProvenAndWitnessed) {
     if (!hasPieces()) {
       EXPECT_NEAR(r.normal.norm(), 1.0, 1e-14);
       EXPECT_TRUE(areFlat() ||
-                  oracle::slab(p.a, p.b, p.a_from_b, r.normal) >= r.lower - kOracle * size);
+                  oracle::slab(p.a, p.b, p.a_from_b, r.normal) >= r.lower - kOracle * size)
+          << "normal " << r.normal.transpose() << ", " << r.lower << " to " << r.upper;
     }
     expectNoWiderSlab(p, r.upper, r.normal, kWitness * size, sampler);
     EXPECT_LE(oracle::outside(p.a, r.pointA), kWitness * size);

@@ -70,7 +70,7 @@ class Sampler {
   }
 
   swept::Shape shape(std::size_t kind, Form form) {
-    Vector3d size(random.uniform(0.05, 0.5), random.uniform(0.05, 0.5), random.uniform(0.05, 0.5));
+    Vector3d size{random.uniform(0.05, 0.5), random.uniform(0.05, 0.5), random.uniform(0.05, 0.5)};
     if (form == Form::Small) size *= 1e-5;
     if (form == Form::Flat || form == Form::Slender) {
       const int many = random.uniform(0.0, 1.0) < 0.7 ? 1 : 2;
@@ -158,8 +158,8 @@ class Sampler {
   }
   /// A torus: closed and not convex.
   swept::Shape hollow() {
-    const swept::test::Soup soup =
-        swept::test::torusSoup(8, 6, random.uniform(0.25, 0.35), random.uniform(0.05, 0.2));
+    const double major = random.uniform(0.25, 0.35);
+    const swept::test::Soup soup = swept::test::torusSoup(8, 6, major, random.uniform(0.05, 0.2));
     return swept::TriangleMesh::build(soup.vertices, soup.triangles);
   }
 };

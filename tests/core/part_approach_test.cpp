@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh_samples.hpp"
+#include "screwing_samples.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/separation.hpp"
 
@@ -15,50 +16,13 @@ namespace {
 using namespace swept;
 using namespace swept::detail;
 using Eigen::Isometry3d;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using swept::test::approachOf;
 using swept::test::randomPose;
+using swept::test::Screwing;
 using swept::test::uniform;
 using swept::test::uniformPoint;
 using swept::test::unitVector;
-
-/// A body that turns about its frame's origin while this moves along a line, for s in [-1, 1].
-struct Screwing {
-  Isometry3d middle;
-  Vector3d velocity;
-  Vector3d spin;
-
-  Isometry3d at(double s) const {
-    Isometry3d pose = middle;
-    pose.translation() += s * velocity;
-    const double rate = spin.norm();
-    if (rate > 0.0) pose.linear() = Eigen::AngleAxisd(s * rate, spin / rate) * middle.linear();
-    return pose;
-  }
-  Vector3d velocityOf(const Vector3d& local) const {
-    return velocity + spin.cross(Vector3d(middle.linear() * local));
-  }
-};
-
-ApproachBound approachOf(const Shape& a, const Screwing& moveA, const Shape& b,
-                         const Screwing& moveB) {
-  const BoundingSphere ballA = boundingSphere(a);
-  const BoundingSphere ballB = boundingSphere(b);
-  const Matrix3d a_from_world = moveA.middle.linear().transpose();
-  const double armA = ballA.center.norm() + ballA.radius;
-  const double armB = ballB.center.norm() + ballB.radius;
-  ApproachBound bound;
-  bound.linear = a_from_world * (moveB.velocityOf(ballB.center) - moveA.velocityOf(ballA.center));
-  bound.spinA = a_from_world * moveA.spin;
-  bound.spinB = a_from_world * moveB.spin;
-  bound.ballA = ballA;
-  bound.ballB = {moveA.middle.inverse() * (moveB.middle * ballB.center), ballB.radius};
-  bound.curvature = 0.5 * (armA * moveA.spin.squaredNorm() + armB * moveB.spin.squaredNorm());
-  bound.travel = moveA.velocity.norm() + moveB.velocity.norm() + armA * moveA.spin.norm() +
-                 armB * moveB.spin.norm();
-  bound.required = 1e-12;
-  return bound;
-}
 
 OrientedBox randomBox(std::mt19937& random, double far) {
   OrientedBox box;
@@ -77,10 +41,11 @@ TEST(PartApproach, IsTheFastestApproachOfTheCorners) {
   std::mt19937 random(3);
   int oneWay = 0;
   for (int i = 0; i < 3000; ++i) {
+    const double rateA = uniform(random, 0.0, 0.5), rateB = uniform(random, 0.0, 0.5);
     const Screwing moveA{randomPose(random, 2.0), uniformPoint(random, 0.1),
-                         uniform(random, 0.0, 0.5) * unitVector(random)};
+                         rateA * unitVector(random)};
     const Screwing moveB{randomPose(random, 2.0), uniformPoint(random, 0.1),
-                         uniform(random, 0.0, 0.5) * unitVector(random)};
+                         rateB * unitVector(random)};
     ApproachBound whole = approachOf(Sphere{1.0}, moveA, Sphere{2.0}, moveB);
     whole.travel = std::numeric_limits<double>::infinity();
     const Isometry3d a_from_b = moveA.middle.inverse() * moveB.middle;
@@ -153,9 +118,10 @@ Shape randomBody(std::mt19937& random, int kind) {
     return soup;
   };
   switch (kind % 5) {
-    case 0:
-      return meshOf(
-          test::torusSoup(20, 8, uniform(random, 0.2, 0.4), 0.05).moved(randomPose(random, 0.3)));
+    case 0: {
+      const test::Soup ring = test::torusSoup(20, 8, uniform(random, 0.2, 0.4), 0.05);
+      return meshOf(ring.moved(randomPose(random, 0.3)));
+    }
     case 1:
       return Cylinder{uniform(random, 0.03, 0.2), uniform(random, 0.05, 0.4)};
     case 2:

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -86,6 +87,32 @@ inline double surfaces(const Triangles& a, const Triangles& b) {
   return best;
 }
 
+/// Of a triangle as seen from p (Van Oosterom, Strackee 1983); of a closed surface, 4 pi in all for
+/// each time that it winds around p.
+inline double solidAngle(const Vector3d& p, const std::array<Vector3d, 3>& t) {
+  const Vector3d a = t[0] - p;
+  const Vector3d b = t[1] - p;
+  const Vector3d c = t[2] - p;
+  const double across = a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() + b.dot(c) * a.norm() +
+                        c.dot(a) * b.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), across);
+}
+
+inline double windingNumber(const Triangles& triangles, const Vector3d& p) {
+  double angle = 0.0;
+  for (const auto& t : triangles) angle += solidAngle(p, t);
+  return angle / (4.0 * std::numbers::pi);
+}
+
+/// Corners of the triangles of anything indexed.
+template <typename Indices>
+Triangles trianglesOf(const std::vector<Vector3d>& vertices, const Indices& indices) {
+  Triangles triangles;
+  for (const auto& t : indices)
+    triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+  return triangles;
+}
+
 inline Triangles boxTriangles(const Vector3d& half, const Isometry3d& pose) {
   Triangles triangles;
   for (int axis = 0; axis < 3; ++axis) {
@@ -114,6 +141,8 @@ inline double pointCylinder(const Vector3d& p, double radius, double halfLength)
                     std::max(0.0, std::abs(p.z()) - halfLength));
 }
 
+/// Draws within braces, which have an order: arguments of a call have none, and each compiler would
+/// test other samples.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -125,13 +154,13 @@ class Random {
   }
   Vector3d direction() {
     std::normal_distribution<double> normal;
-    return Vector3d(normal(engine_), normal(engine_), normal(engine_)).normalized();
+    return Vector3d{normal(engine_), normal(engine_), normal(engine_)}.normalized();
   }
   Isometry3d pose(double size) {
     Isometry3d result = Isometry3d::Identity();
     std::normal_distribution<double> normal;
     result.linear() =
-        Eigen::Quaterniond(normal(engine_), normal(engine_), normal(engine_), normal(engine_))
+        Eigen::Quaterniond{normal(engine_), normal(engine_), normal(engine_), normal(engine_)}
             .normalized()
             .toRotationMatrix();
     result.translation() = vector(size);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cover_samples.hpp"
+#include "lane_targets.hpp"
 
 namespace swept {
 namespace {
@@ -31,11 +32,9 @@ double leastOn(const Function& function) {
 
 double bruteForce(const TriangleMesh& mesh, const LineSegment& segment) {
   double nearest = kInfinity;
-  for (const TriangleMesh::Triangle& t : mesh.triangles()) {
+  for (const auto& t : reference::trianglesOf(mesh.vertices(), mesh.triangles())) {
     nearest = std::min(nearest, leastOn([&](double s) {
-                         return test::distanceToTriangle(
-                             segment.center + s * segment.half, mesh.vertices()[t[0]],
-                             mesh.vertices()[t[1]], mesh.vertices()[t[2]]);
+                         return reference::pointTriangle(segment.center + s * segment.half, t);
                        }));
   }
   return nearest;
@@ -52,18 +51,8 @@ double bruteForce(const PointCloud& cloud, const LineSegment& segment) {
   return std::max(nearest, 0.0);
 }
 
-/// Random triangles, a part of them slivers of all widths.
 TriangleMesh triangles(std::mt19937& random, const Vector3d& offset) {
-  test::Soup soup;
-  for (int i = 0; i < 60; ++i) {
-    const Vector3d a = offset + test::uniformPoint(random, 1.0);
-    const Vector3d along = test::uniformPoint(random, 0.5);
-    const double width = i % 2 == 0 ? 0.5 : std::pow(10.0, -uniform(random, 1.0, 16.0));
-    const auto first = static_cast<int>(soup.vertices.size());
-    soup.vertices.insert(soup.vertices.end(),
-                         {a, a + along, a + 0.4 * along + width * test::unitVector(random)});
-    soup.triangles.emplace_back(first, first + 1, first + 2);
-  }
+  const test::Soup soup = test::sliverSoup(random, 60, offset);
   return TriangleMesh::build(soup.vertices, soup.triangles);
 }
 
@@ -88,41 +77,62 @@ struct Counts {
   int touching = 0;
 };
 
+/// The answers about one segment. `far`: m, of the set from the origin.
+template <typename Set>
+void judge(const Set& set, const LineSegment& segment, double truth, double atCenter, double far,
+           Counts& counts) {
+  if (truth == 0.0) ++counts.touching;
+  for (const double radius : {0.0, 0.5 * truth, truth - kMargin, truth - 1e-9, truth, truth + 1e-9,
+                              truth + kMargin, 2.0 * truth}) {
+    if (!(radius >= 0.0)) continue;
+    const bool farther = isFarther(set, segment, radius);
+    // The oracle's own rounding.
+    if (farther) {
+      ASSERT_GT(truth + 1e-14, radius);
+    }
+    farther ? ++counts.proven : ++counts.refuted;
+    if (radius <= truth - kMargin) counts.missed += !farther;
+  }
+  for (const double radius : {0.5 * atCenter, atCenter - kMargin, atCenter + kMargin, 1.0}) {
+    if (!(radius >= 0.0)) continue;
+    const auto found = pointWithin(set, segment.center, radius);
+    ASSERT_EQ(found.has_value(), radius >= atCenter) << radius << " " << atCenter;
+    if (!found) continue;
+    ASSERT_LE((*found - segment.center).norm(), radius + 1e-14);
+    // It is one of the set.
+    ASSERT_LE(bruteForce(set, {*found}), 1e-14 * (1.0 + far));
+  }
+}
+
+/// On every instruction set.
 template <typename Set>
 void check(const Set& set, const Vector3d& offset, std::mt19937& random, Counts& counts) {
   for (int i = 0; i < 150; ++i) {
     LineSegment segment{offset + test::uniformPoint(random, 1.5)};
-    if (i % 3 != 0)
-      segment.half = std::pow(10.0, -uniform(random, 0.0, 4.0)) * test::unitVector(random);
+    if (i % 3 != 0) {
+      const double length = std::pow(10.0, -uniform(random, 0.0, 4.0));
+      segment.half = length * test::unitVector(random);
+    }
     if constexpr (std::is_same_v<Set, PointCloud>) {
       if (i % 5 == 0)
         segment.center = set.points()[random() % set.points().size()] + 1.3 * segment.half;
     }
     const double truth = bruteForce(set, segment);
-    if (truth == 0.0) ++counts.touching;
-    for (const double radius : {0.0, 0.5 * truth, truth - kMargin, truth - 1e-9, truth,
-                                truth + 1e-9, truth + kMargin, 2.0 * truth}) {
-      if (!(radius >= 0.0)) continue;
-      const bool farther = isFarther(set, segment, radius);
-      // The oracle's own rounding.
-      if (farther) {
-        ASSERT_GT(truth + 1e-14, radius);
-      }
-      farther ? ++counts.proven : ++counts.refuted;
-      if (radius <= truth - kMargin) counts.missed += !farther;
-    }
     const double atCenter = bruteForce(set, {segment.center});
-    for (const double radius : {0.5 * atCenter, atCenter - kMargin, atCenter + kMargin, 1.0}) {
-      if (!(radius >= 0.0)) continue;
-      const auto found = pointWithin(set, segment.center, radius);
-      ASSERT_EQ(found.has_value(), radius >= atCenter) << radius << " " << atCenter;
-      if (!found) continue;
-      ASSERT_LE((*found - segment.center).norm(), radius + 1e-14);
-      // It is one of the set.
-      ASSERT_LE(bruteForce(set, {*found}), 1e-14 * (1.0 + offset.norm()));
+    for (const std::int64_t target : lane_test::laneTargets()) {
+      const lane_test::OnTarget on(target);
+      judge(set, segment, truth, atCenter, offset.norm(), counts);
+      if (testing::Test::HasFatalFailure()) return;
     }
   }
 }
+
+/// On every instruction set that is compiled and that this machine has.
+class Clearance : public testing::TestWithParam<std::int64_t> {
+ private:
+  lane_test::OnTarget on_{GetParam()};
+};
+class SegmentQueryOnTarget : public Clearance {};
 
 double signedBruteForce(const PointCloud& cloud, const Vector3d& p) {
   double nearest = kInfinity;
@@ -131,7 +141,7 @@ double signedBruteForce(const PointCloud& cloud, const Vector3d& p) {
   return nearest;
 }
 
-TEST(Clearance, IsThatOfTheNearestBall) {
+TEST_P(Clearance, IsThatOfTheNearestBall) {
   std::mt19937 random(24);
   int inside = 0, outside = 0;
   for (const double offset : {0.0, 1e3, 1e6}) {
@@ -160,7 +170,7 @@ TEST(Clearance, IsThatOfTheNearestBall) {
   EXPECT_GT(outside, 3000);
 }
 
-TEST(Clearance, OfManyPointsIsThatOfTheNearestBall) {
+TEST_P(Clearance, OfManyPointsIsThatOfTheNearestBall) {
   std::mt19937 random(25);
   std::vector<Vector3d> many;
   for (int i = 0; i < 5000; ++i) many.push_back(test::unitVector(random));
@@ -171,7 +181,7 @@ TEST(Clearance, OfManyPointsIsThatOfTheNearestBall) {
   }
 }
 
-TEST(Clearance, OfWhatIsNotFiniteIsNone) {
+TEST_P(Clearance, OfWhatIsNotFiniteIsNone) {
   const PointCloud cloud = PointCloud::build(std::vector<Vector3d>{Vector3d::Zero()}, 0.1);
   EXPECT_EQ(clearance(cloud, {NAN, 0.0, 0.0}), -kInfinity);
   EXPECT_EQ(clearance(cloud, {0.0, kInfinity, 0.0}), -kInfinity);
@@ -180,7 +190,7 @@ TEST(Clearance, OfWhatIsNotFiniteIsNone) {
 }
 
 /// Where the squares of distances are no floats, and where those of coordinates are no doubles.
-TEST(Clearance, OfFarPointsIsNotInfinite) {
+TEST_P(Clearance, OfFarPointsIsNotInfinite) {
   std::mt19937 random(26);
   std::vector<Vector3d> many;
   for (int i = 0; i < 1000; ++i) many.push_back(test::unitVector(random));
@@ -199,8 +209,9 @@ TEST(SegmentQuery, ProvesWhatIsTrueAboutTriangles) {
     const Vector3d offset = Vector3d::Constant(i % 3 == 0 ? 10.0 : 0.0);
     check(triangles(random, offset), offset, random, counts);
   }
-  EXPECT_GT(counts.proven, 3000);
-  EXPECT_GT(counts.refuted, 3000);
+  const auto targets = static_cast<int>(lane_test::laneTargets().size());
+  EXPECT_GT(counts.proven, 3000 * targets);
+  EXPECT_GT(counts.refuted, 3000 * targets);
   EXPECT_EQ(counts.missed, 0);
 }
 
@@ -211,14 +222,15 @@ TEST(SegmentQuery, ProvesWhatIsTrueAboutPoints) {
     const Vector3d offset = Vector3d::Constant(i % 3 == 0 ? 10.0 : 0.0);
     check(points(random, offset, i % 2 == 0 ? 0.05 : 0.0), offset, random, counts);
   }
-  EXPECT_GT(counts.proven, 3000);
-  EXPECT_GT(counts.refuted, 3000);
-  EXPECT_GT(counts.touching, 50);
+  const auto targets = static_cast<int>(lane_test::laneTargets().size());
+  EXPECT_GT(counts.proven, 3000 * targets);
+  EXPECT_GT(counts.refuted, 3000 * targets);
+  EXPECT_GT(counts.touching, 50 * targets);
   EXPECT_EQ(counts.missed, 0);
 }
 
 /// Segments that pass through triangles, and what a mesh encloses.
-TEST(SegmentQuery, CountsSurfacesOnly) {
+TEST_P(SegmentQueryOnTarget, CountsSurfacesOnly) {
   std::mt19937 random(23);
   const test::Soup soup = test::boxSoup(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
   const TriangleMesh mesh = TriangleMesh::build(soup.vertices, soup.triangles);
@@ -233,7 +245,7 @@ TEST(SegmentQuery, CountsSurfacesOnly) {
   }
 }
 
-TEST(SegmentQuery, NoNumberProvesNothing) {
+TEST_P(SegmentQueryOnTarget, NoNumberProvesNothing) {
   std::mt19937 random(24);
   const TriangleMesh mesh = triangles(random, Vector3d::Zero());
   const PointCloud cloud = points(random, Vector3d::Zero(), 0.1);
@@ -254,6 +266,13 @@ TEST(SegmentQuery, NoNumberProvesNothing) {
     }
   }
 }
+
+std::string nameOf(const testing::TestParamInfo<std::int64_t>& target) {
+  return hwy::TargetName(target.param);
+}
+INSTANTIATE_TEST_SUITE_P(Targets, Clearance, testing::ValuesIn(lane_test::laneTargets()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Targets, SegmentQueryOnTarget, testing::ValuesIn(lane_test::laneTargets()),
+                         nameOf);
 
 }  // namespace
 }  // namespace swept

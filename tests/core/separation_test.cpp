@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reference_distance.hpp"
+#include "screwing_samples.hpp"
 #include "swept/core/distance.hpp"
 
 namespace {
@@ -14,22 +15,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using reference::Random;
 using swept::Separation;
-
-/// A rigid body that turns about a fixed axis through its frame's origin while the origin moves
-/// along a line: the pose at s in [-1, 1] is [exp(s spin) R | p + s velocity].
-struct Screwing {
-  Isometry3d middle;
-  Vector3d velocity;
-  Vector3d spin;
-
-  Isometry3d at(double s) const {
-    Isometry3d pose = middle;
-    pose.translation() += s * velocity;
-    const double angle = s * spin.norm();
-    pose.linear() = Eigen::AngleAxisd(angle, spin.normalized()) * middle.linear();
-    return pose;
-  }
-};
+using swept::test::approachOf;
+using swept::test::Screwing;
 
 swept::Shape randomShape(Random& random, int kind) {
   const Vector3d size = random.vector(0.25).cwiseAbs() + Vector3d::Constant(0.02);
@@ -50,32 +37,8 @@ swept::Shape randomShape(Random& random, int kind) {
   return swept::ConvexHull::of(points);
 }
 
-/// The bound of ApproachBound for two screwing bodies over s in [-1, 1], in a's frame at s = 0.
-swept::ApproachBound approachOf(const swept::Shape& a, const Screwing& moveA, const swept::Shape& b,
-                                const Screwing& moveB) {
-  const swept::BoundingSphere ballA = swept::boundingSphere(a);
-  const swept::BoundingSphere ballB = swept::boundingSphere(b);
-  const auto velocity = [](const Screwing& move, const Vector3d& center) -> Vector3d {
-    return move.velocity + move.spin.cross(Vector3d(move.middle.linear() * center));
-  };
-  const Eigen::Matrix3d a_from_world = moveA.middle.linear().transpose();
-  swept::ApproachBound bound;
-  bound.linear = a_from_world * (velocity(moveB, ballB.center) - velocity(moveA, ballA.center));
-  bound.spinA = a_from_world * moveA.spin;
-  bound.spinB = a_from_world * moveB.spin;
-  bound.ballA = ballA;
-  bound.ballB = {moveA.middle.inverse() * (moveB.middle * ballB.center), ballB.radius};
-  const double armA = ballA.center.norm() + ballA.radius;
-  const double armB = ballB.center.norm() + ballB.radius;
-  bound.curvature = 0.5 * (armA * moveA.spin.squaredNorm() + armB * moveB.spin.squaredNorm());
-  bound.travel = moveA.velocity.norm() + moveB.velocity.norm() + armA * moveA.spin.norm() +
-                 armB * moveB.spin.norm();
-  bound.required = 1e-12;
-  return bound;
-}
-
 /// What is called separated never comes within the margin at any sampled time; what is called
-/// contact touches at the middle. Half of the motions are scaled to be nearly too fast to prove.
+/// contact touches at the middle. Paces go from easy to prove to too fast.
 TEST(Separation, ProofsSurviveSampling) {
   Random random(11);
   int separated = 0;

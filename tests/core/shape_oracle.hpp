@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -111,6 +114,7 @@ struct Outside {
     return std::max(flat, level > 1.0 ? (level - 1.0) / gradient.norm() : 0.0);
   }
   double operator()(const swept::ConvexHull& s) const {
+    if (s.faces().empty()) return fromFlat(s.vertices());
     double most = 0.0;
     for (const Eigen::Vector3i& f : s.faces()) {
       const auto& v = s.vertices();
@@ -127,12 +131,13 @@ struct Outside {
     return std::max(0.0, s.normal.dot(p) - s.offset);
   }
   double operator()(const swept::TriangleMesh& s) const {
-    if (s.encloses(p)) return 0.0;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3i& t : s.triangles()) {
-      const auto& v = s.vertices();
-      least = std::min(least, reference::pointTriangle(p, {v[t[0]], v[t[1]], v[t[2]]}));
+    const auto triangles = reference::trianglesOf(s.vertices(), s.triangles());
+    if (s.interior() == swept::MeshInterior::Solid && isClosed(s.triangles()) &&
+        std::abs(reference::windingNumber(triangles, p)) > 0.5) {
+      return 0.0;
     }
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& t : triangles) least = std::min(least, reference::pointTriangle(p, t));
     return least;
   }
   double operator()(const swept::PointCloud& s) const {
@@ -140,6 +145,31 @@ struct Outside {
     for (std::size_t i = 0; i < s.points().size(); ++i)
       least = std::min(least, (p - s.points()[i]).norm() - s.radius(i));
     return std::max(0.0, least);
+  }
+
+ private:
+  /// From the hull of points in one plane, on a line or in one place: the triangles of the first
+  /// with any two cover it.
+  double fromFlat(const std::vector<Vector3d>& points) const {
+    constexpr std::size_t kMost = 64;  // pairs of them are looked at
+    if (points.size() > kMost) throw std::length_error("oracle: a flat hull of too many points");
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t k = i; k < points.size(); ++k)
+        least = std::min(least, reference::pointTriangle(p, {points[0], points[i], points[k]}));
+    }
+    return least;
+  }
+  /// Each edge is passed through as often one way as the other.
+  static bool isClosed(const std::vector<Eigen::Vector3i>& triangles) {
+    std::map<std::pair<int, int>, int> ways;
+    for (const Eigen::Vector3i& t : triangles) {
+      for (int i = 0; i < 3; ++i) {
+        const int from = t[i], to = t[(i + 1) % 3];
+        ways[std::minmax(from, to)] += from < to ? 1 : -1;
+      }
+    }
+    return std::all_of(ways.begin(), ways.end(), [](const auto& way) { return way.second == 0; });
   }
 };
 

@@ -124,8 +124,8 @@ TEST(BoundingVolumes, SphereOfPointsIsNearlySmallest) {
       points.push_back(pose * Vector3d(std::cos(angle), std::sin(angle), 0.0));
     }
     for (int i = 0; i < 200; ++i) {
-      points.push_back(pose *
-                       (std::cbrt(test::uniform(random, 0, 0.8)) * test::unitVector(random)));
+      const double reach = std::cbrt(test::uniform(random, 0, 0.8));
+      points.push_back(pose * Vector3d(reach * test::unitVector(random)));
     }
     const BoundingSphere ball = boundingSphere(ConvexHull::of(points));
     EXPECT_GE(ball.radius, 1.0);

@@ -121,7 +121,7 @@ TEST(SignedDistance, CylinderDepthsAreBoundedOnBothSides) {
     EXPECT_LE(result.lower, result.upper);
     if (result.upper > 0.0) continue;
     ++overlapping;
-    EXPECT_LE(result.upper - result.lower, 1e-3);
+    EXPECT_LE(result.upper - result.lower, 1.1e-9);
     Isometry3d out = pose;
     out.translation() += (-result.lower + 1e-7) * result.normal;
     EXPECT_EQ(swept::collide(a, b, out), swept::Contact::Separate);

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesh_samples.hpp"
+
 namespace swept {
 namespace {
 
@@ -20,18 +22,12 @@ constexpr double kHalf[3] = {0.3, 0.2, 0.5};
 /// mesh's tree.
 constexpr double kOfSize = 4e-6;
 
-/// Two triangles a side, or the same with every side turned inside out.
+/// Perhaps with every side turned inside out.
 TriangleMesh boxMesh(bool flipped, MeshInterior interior) {
-  std::vector<Vector3d> vertices;
-  for (int i = 0; i < 8; ++i)
-    vertices.emplace_back(i & 1 ? kHalf[0] : -kHalf[0], i & 2 ? kHalf[1] : -kHalf[1],
-                          i & 4 ? kHalf[2] : -kHalf[2]);
-  std::vector<Eigen::Vector3i> triangles{{1, 3, 7}, {1, 7, 5}, {0, 4, 6}, {0, 6, 2},
-                                         {2, 6, 7}, {2, 7, 3}, {0, 1, 5}, {0, 5, 4},
-                                         {4, 5, 7}, {4, 7, 6}, {0, 3, 1}, {0, 2, 3}};
-  if (flipped)
-    for (Eigen::Vector3i& triangle : triangles) std::swap(triangle[0], triangle[1]);
-  return TriangleMesh::build(vertices, triangles, interior);
+  const Vector3d half(kHalf[0], kHalf[1], kHalf[2]);
+  const test::Soup soup = test::boxSoup(-half, half);
+  const test::Soup& turned = flipped ? soup.inverted() : soup;
+  return TriangleMesh::build(turned.vertices, turned.triangles, interior);
 }
 
 double depthInBox(const Vector3d& p) {
@@ -50,7 +46,7 @@ TEST(SolidDepth, IsTheDistanceFromTheSurfaceAndNeverMore) {
   const double size = 2.0 * (kHalf[0] + kHalf[1] + kHalf[2]);
   int inside = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Vector3d p(coordinate(engine), coordinate(engine), coordinate(engine));
+    const Vector3d p{coordinate(engine), coordinate(engine), coordinate(engine)};
     const double expected = depthInBox(p);
     inside += expected > 0.0 ? 1 : 0;
     for (const Shape* shape : {&box, &mesh, &flipped}) {

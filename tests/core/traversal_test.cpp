@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "mesh_samples.hpp"
@@ -51,6 +52,7 @@ TriangleCorners corners(const Soup& soup, int t) {
 struct Truth {
   Pairs touching;
   double distance = std::numeric_limits<double>::infinity();
+  Vector3d pointA, pointB;  ///< nearest ones
 };
 
 Truth bruteForce(const Soup& a, const Soup& b, const Isometry3d& a_from_b) {
@@ -61,8 +63,11 @@ Truth bruteForce(const Soup& a, const Soup& b, const Isometry3d& a_from_b) {
       const TriangleCorners first = corners(a, t);
       const TriangleCorners second = corners(there, u);
       if (trianglesTouch(first, second)) truth.touching.push_back({t, u});
-      truth.distance =
-          std::min(truth.distance, triangleDistance(first, second, truth.distance).upper);
+      const TriangleDistance d = triangleDistance(first, second, truth.distance);
+      if (d.upper >= truth.distance) continue;
+      truth.distance = d.upper;
+      truth.pointA = d.pointA;
+      truth.pointB = d.pointB;
     }
   }
   return truth;
@@ -105,8 +110,22 @@ Soup sheet(std::mt19937& random, int n) {
   return soup;
 }
 
-/// Random pairs of all kinds of meshes; for a third of the poses b is moved back to touch or nearly
-/// so.
+/// Such that b keeps `gap` from a or, below zero, goes so deep into it: from where they are apart,
+/// on the way between nearest points.
+Isometry3d nearlyTouching(const Soup& a, const Soup& b, double gap, std::mt19937& random) {
+  for (int tries = 0; tries < 100; ++tries) {
+    Isometry3d pose = test::randomPose(random, 3.0);
+    const Truth there = bruteForce(a, b, pose);
+    if (!there.touching.empty()) continue;
+    const Vector3d way = there.pointB - there.pointA;
+    pose.translation() -= (1.0 - gap / way.norm()) * way;
+    return pose;
+  }
+  throw std::runtime_error("no pose keeps the meshes apart");
+}
+
+/// Random pairs of all kinds of meshes; in three of nine poses they touch or nearly so, or b lies
+/// almost where a is.
 std::vector<Case> makeCases() {
   std::mt19937 random(41);
   const Soup blob = test::blobSoup(random, 8, 16);
@@ -123,7 +142,9 @@ std::vector<Case> makeCases() {
   for (const auto& [name, a, b, reach] : kinds) {
     for (int i = 0; i < 9; ++i) {
       Case c{name, a, b, test::randomPose(random, reach), {}};
-      if (i == 8) c.a_from_b = Isometry3d(Eigen::Translation3d(0.0, 0.0, 1e-7 * i));
+      if (i == 2) c.a_from_b = nearlyTouching(a, b, 1e-9, random);
+      if (i == 5) c.a_from_b = nearlyTouching(a, b, -1e-9, random);
+      if (i == 8) c.a_from_b = Isometry3d(Eigen::Translation3d(0.0, 0.0, 8e-7));
       c.truth = bruteForce(c.a, c.b, c.a_from_b);
       cases.push_back(c);
     }
@@ -136,9 +157,28 @@ const std::vector<Case>& allCases() {
   return cases;
 }
 
+TEST(Soup, AppendedToItselfIsThereTwice) {
+  std::mt19937 random(40);
+  const Soup once = test::blobSoup(random, 6, 10);
+  Soup twice = once;
+  twice.append(twice);
+  ASSERT_EQ(twice.triangles.size(), 2 * once.triangles.size());
+  for (std::size_t i = 0; i < once.triangles.size(); ++i) {
+    const auto t = static_cast<int>(i);
+    EXPECT_EQ(corners(twice, t), corners(once, t));
+    EXPECT_EQ(corners(twice, t + static_cast<int>(once.triangles.size())), corners(once, t));
+  }
+}
+
 TEST(TraversalCases, AreRepresentative) {
-  std::size_t touching = 0;
-  for (const Case& c : allCases()) touching += !c.truth.touching.empty();
+  std::size_t touching = 0, near = 0, shallow = 0;
+  for (const Case& c : allCases()) {
+    touching += !c.truth.touching.empty();
+    near += c.truth.distance > 0.0 && c.truth.distance < 2e-9;
+    shallow += !c.truth.touching.empty() && c.truth.touching.size() <= 32;
+  }
+  EXPECT_GE(near, 5U);
+  EXPECT_GE(shallow, 5U);
   EXPECT_GT(touching, 0.3 * static_cast<double>(allCases().size()));
   EXPECT_LT(touching, 0.7 * static_cast<double>(allCases().size()));
 }

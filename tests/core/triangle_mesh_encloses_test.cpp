@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesh_samples.hpp"
+#include "reference_distance.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace swept {
@@ -20,19 +21,8 @@ TriangleMesh build(const Soup& soup, MeshInterior interior = MeshInterior::Solid
   return TriangleMesh::build(soup.vertices, soup.triangles, interior);
 }
 
-/// Winding number of an oriented mesh about a point: the solid angles of the triangles (Van
-/// Oosterom and Strackee 1983) over 4 pi.
 double windingNumber(const Soup& soup, const Vector3d& point) {
-  double sum = 0.0;
-  for (const Vector3i& t : soup.triangles) {
-    const Vector3d a = soup.vertices[t[0]] - point;
-    const Vector3d b = soup.vertices[t[1]] - point;
-    const Vector3d c = soup.vertices[t[2]] - point;
-    const double across = a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
-                          b.dot(c) * a.norm() + c.dot(a) * b.norm();
-    sum += 2.0 * std::atan2(a.dot(b.cross(c)), across);
-  }
-  return sum / (4.0 * std::numbers::pi);
+  return reference::windingNumber(reference::trianglesOf(soup.vertices, soup.triangles), point);
 }
 
 bool inside(const std::vector<Soup>& shells, const Vector3d& point) {
@@ -42,8 +32,9 @@ bool inside(const std::vector<Soup>& shells, const Vector3d& point) {
   return false;
 }
 
-double distanceToTriangles(const Soup& soup, const Vector3d& point) {
-  // Sampled, which is enough to leave out points where the solid angle itself is uncertain.
+/// From the planes of the triangles, no farther than from the triangles: leaves out every point
+/// where the solid angle itself is uncertain, and few others.
+double distanceToPlanes(const Soup& soup, const Vector3d& point) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Vector3i& t : soup.triangles) {
     const Vector3d a = soup.vertices[t[0]];
@@ -62,7 +53,7 @@ void expectSameInside(const TriangleMesh& mesh, const std::vector<Soup>& shells,
     const Vector3d point = test::uniformPoint(random, reach);
     bool uncertain = false;
     for (const Soup& shell : shells) {
-      if (distanceToTriangles(shell, point) < 1e-9) uncertain = true;
+      if (distanceToPlanes(shell, point) < 1e-9) uncertain = true;
     }
     if (uncertain) continue;
     const bool expected = inside(shells, point);
@@ -130,7 +121,7 @@ TEST(TriangleMeshEncloses, CountsWhereASolidOverlapsItself) {
   for (int i = 0; i < 4000; ++i) {
     Vector3d p = test::uniformPoint(random, 1.5);
     p.z() *= 0.25;
-    if (distanceToTriangles(coil, p) < 1e-9) continue;
+    if (distanceToPlanes(coil, p) < 1e-9) continue;
     const double winding = std::abs(windingNumber(coil, p));
     twice += winding > 1.5 ? 1 : 0;
     ASSERT_EQ(mesh.encloses(p), winding > 0.5) << p.transpose();

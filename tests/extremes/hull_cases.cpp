@@ -14,7 +14,8 @@ std::vector<Vector3d> spread(Random& random, int count) {
     const double s = random.uniform(0.5, 1.0);
     return {{s, s, s}, {-s, -s, s}, {-s, s, -s}, {s, -s, -s}};
   }
-  const Vector3d axes(1.0, random.uniform(0.3, 1.0), random.uniform(0.3, 1.0));
+  const double high = random.uniform(0.3, 1.0);
+  const Vector3d axes(1.0, random.uniform(0.3, 1.0), high);
   std::vector<Vector3d> points;
   for (int i = 0; i < count; ++i) points.push_back(axes.cwiseProduct(random.direction()));
   return points;
@@ -46,7 +47,10 @@ std::vector<Vector3d> collinear(Random& random) {
 /// In one plane to the last bit.
 std::vector<Vector3d> flat(Random& random) {
   std::vector<Vector3d> points;
-  for (int i = 0; i < 30; ++i) points.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), 0);
+  for (int i = 0; i < 30; ++i) {
+    const double y = random.uniform(-1, 1);
+    points.emplace_back(random.uniform(-1, 1), y, 0);
+  }
   return points;
 }
 
@@ -55,22 +59,20 @@ template <class Draw>
 PairCase hulls(const std::string& name, double workLimit, const Draw& draw) {
   return {name, "ordinary hulls", workLimit, [draw](Random& random, int i) {
             const bool apart = i % 2 == 0;
-            for (;;) {
-              Wanted wanted;
-              wanted.shapes = {Form::Sphere, Form::Capsule, Form::HalfSpace};
-              Solid a = hullOf(draw(random));
-              Solid b =
-                  apart && random.chance(0.5) ? hullOf(draw(random)) : drawOne(random, wanted, 1.0);
-              if (random.chance(0.5)) std::swap(a, b);
-              const Touch touch = drawTouch(a.body, b.body, random);
-              const Real gap = random.decades(-9.0, 0.0);
-              if (apart) return apartAt(std::move(a), std::move(b), touch, gap);
-              if (a.body.isFlat() || b.body.isFlat()) {
-                return apartAt(std::move(a), std::move(b), touch, -gap);
-              }
-              const double rolling = 0.95 * (a.body.rolling + b.body.rolling);
-              return overlapAt(std::move(a), std::move(b), touch, gap * rolling);
+            Wanted wanted;
+            wanted.shapes = {Form::Sphere, Form::Capsule, Form::HalfSpace};
+            Solid a = hullOf(draw(random));
+            Solid b =
+                apart && random.chance(0.5) ? hullOf(draw(random)) : drawOne(random, wanted, 1.0);
+            if (random.chance(0.5)) std::swap(a, b);
+            const Touch touch = drawTouch(a.body, b.body, random);
+            const Real gap = random.decades(-9.0, 0.0);
+            if (apart) return apartAt(std::move(a), std::move(b), touch, gap);
+            if (a.body.isFlat() || b.body.isFlat()) {
+              return apartAt(std::move(a), std::move(b), touch, -gap);
             }
+            const double rolling = 0.95 * (a.body.rolling + b.body.rolling);
+            return overlapAt(std::move(a), std::move(b), touch, gap * rolling);
           }};
 }
 

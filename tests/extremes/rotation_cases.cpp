@@ -47,7 +47,8 @@ PairCase turned(const std::string& name, double workLimit,
 Matrix3d multiplied(const Matrix3d& linear, Random& random) {
   Matrix3d product = linear;
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::AngleAxisd step(random.uniform(-1.0, 1.0), random.direction());
+    const Vector3d axis = random.direction();
+    const Eigen::AngleAxisd step(random.uniform(-1.0, 1.0), axis);
     product = product * step.toRotationMatrix();
   }
   return product;

@@ -46,6 +46,9 @@ struct Row {
   std::string failure;  ///< the text of the first answer that is not as it should be
   double workRatio = 0.0, timeRatio = 0.0;
 
+  /// Others state their work as a multiple of this one's.
+  bool isOrdinary() const { return name == baseline; }
+
   void add(const Answer& answer) {
     ++n;
     apart += answer.apart;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
-
 #include "sample.hpp"
 
 namespace extremes {

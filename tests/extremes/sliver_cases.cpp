@@ -126,15 +126,13 @@ Solid crowded(const Vector3d& half) {
   Body body = boxBody(half);
   std::vector<Eigen::Vector3i> faces(body.faces.begin() + 4, body.faces.end());
   std::vector<Vector3d> points = body.points;
-  // Of the faces z = -h and z = h; (0, 1, 3, 2) and (4, 6, 7, 5) go around them as seen from
-  // outside.
+  // Of the faces z = -h and z = h; counterclockwise around them as seen from outside.
   for (const auto& [around, z] : {std::pair(Eigen::Vector4i(0, 2, 3, 1), -half.z()),
                                   std::pair(Eigen::Vector4i(4, 5, 7, 6), half.z())}) {
     const int hub = static_cast<int>(points.size());
     points.emplace_back(half.x() * (1.0 - kThin), half.y() * (1.0 - 3.0 * kThin), z);
     for (int k = 0; k < 4; ++k) faces.emplace_back(around[k], around[(k + 1) % 4], hub);
   }
-  faces.erase(faces.begin() + 2, faces.begin() + 2);
   Solid solid = boxMeshOf(half);
   solid.shape = swept::TriangleMesh::build(points, faces);
   return solid;

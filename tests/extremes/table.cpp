@@ -7,27 +7,18 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/rounded_up.hpp"
+
 namespace extremes {
 
 namespace {
 
-constexpr std::size_t kColumns = 13;
-constexpr std::array<const char*, kColumns> kHeads = {
-    "query",         "case",  "n",      "apart", "right",        "undecided", "wrong",
-    "largest error", "bound", "honest", "work",  "work at most", "time"};
+using swept::test::roundedUp;
 
-/// One digit of 1, 2, 5, rounded up from a little more: another instruction set may order sums in
-/// another way.
-std::string roundedUp(double measured) {
-  if (!(measured > 0.0)) return "0";
-  const double x = 1.2 * measured;
-  const int power = static_cast<int>(std::floor(std::log10(x)));
-  for (const auto& [digit, raise] : {std::pair{"1", 0}, {"2", 0}, {"5", 0}, {"1", 1}}) {
-    const std::string text = std::string(digit) + "e" + std::to_string(power + raise);
-    if (std::strtod(text.c_str(), nullptr) >= x) return text;
-  }
-  return "inf";
-}
+constexpr std::size_t kColumns = 14;
+constexpr std::array<const char*, kColumns> kHeads = {
+    "query",         "case",  "n",      "apart",   "right", "undecided",    "wrong",
+    "largest error", "bound", "honest", "counted", "work",  "work at most", "time"};
 
 std::string decimal(double x) {
   char text[32];
@@ -47,6 +38,7 @@ std::array<std::string, kColumns> cellsOf(const Row& row) {
           row.hasBound ? roundedUp(row.error) : none,
           row.hasBound ? roundedUp(row.bound) : none,
           row.honest ? "yes" : "no",
+          row.countsWork && row.isOrdinary() ? std::to_string(row.work) : none,
           row.countsWork ? decimal(row.workRatio) : none,
           row.countsWork ? decimal(row.workLimit) : none,
           decimal(row.timeRatio)};

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
+#include <string>
 
 #include "models_dir.hpp"
 #include "table.hpp"
@@ -42,6 +44,19 @@ TEST(Extremes, WorkIsLimited) {
   }
 }
 
+/// Multiples say nothing where all the work grows: each query has a case that counts.
+TEST(Extremes, OrdinaryWorkIsCounted) {
+  std::set<std::string> counted, queries;
+  for (const Row& row : rows()) {
+    if (!row.countsWork) continue;
+    queries.insert(row.query);
+    if (!row.isOrdinary()) continue;
+    EXPECT_GT(row.work, 0) << nameOf(row);
+    counted.insert(row.query);
+  }
+  EXPECT_EQ(counted, queries);
+}
+
 TEST(Extremes, SamplesAreOfBothKinds) {
   for (const Row& row : rows()) {
     EXPECT_GE(row.n, 20) << nameOf(row);
@@ -58,6 +73,10 @@ void compare(const Row& row, const Cells& now, const Cells& stated) {
   }
   EXPECT_NEAR(row.undecided, std::atoi(stated.at("undecided").c_str()), 2 + row.n / 20)
       << nameOf(row);
+  if (row.countsWork && row.isOrdinary()) {
+    EXPECT_LE(static_cast<double>(row.work), 0.5 + 1.5 * std::atof(stated.at("counted").c_str()))
+        << nameOf(row);
+  }
   if (row.countsWork) {
     EXPECT_LE(row.workRatio, 0.5 + 1.5 * std::atof(stated.at("work").c_str())) << nameOf(row);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <stdexcept>
 
 using swept::MotionCertificate;
 using swept::Verdict;
@@ -100,7 +101,13 @@ bool Judge::refuted(double t) {
 void Judge::provenPrefix(double end, bool whole) {
   if (!(end > 0)) return;
   const double length = judge_.arm().largestChange(*from_, *to_) * end;
-  const int n = 1 + static_cast<int>(length / options_.step);
+  const double steps = length / options_.step;
+  if (!(steps >= 0.0 && steps < 1e9)) {
+    std::ostringstream out;
+    out << "a way of " << length << " rad or m has " << steps << " steps; allowed: 0 to 1e9";
+    throw std::invalid_argument(out.str());
+  }
+  const int n = 1 + static_cast<int>(steps);
   for (int i = 0; i <= n - (whole ? 0 : 1); ++i)
     if (refuted(end * i / n)) return;
   const double least = narrowest(end, n);

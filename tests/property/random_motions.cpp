@@ -41,14 +41,14 @@ RandomMotions::State RandomMotions::anywhere() {
 }
 
 Eigen::Vector3d RandomMotions::nearSomething() {
-  const Eigen::Vector3d offset(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  const Eigen::Vector3d offset{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
   const auto& world = scenario_.oracle->world();
   if (world.empty()) return kRoom * offset;
   const auto& pieces =
       world[static_cast<size_t>(uniform(0, static_cast<double>(world.size()) - 1e-9))].pieces;
   const auto& piece =
       pieces[static_cast<size_t>(uniform(0, static_cast<double>(pieces.size()) - 1e-9))];
-  const Eigen::Vector3d in(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  const Eigen::Vector3d in{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
   return piece.body_from_piece * (piece.boxCenter + in.cwiseProduct(piece.boxHalf)) + 0.3 * offset;
 }
 

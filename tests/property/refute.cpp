@@ -2,6 +2,7 @@
 // refute: tries to prove the checker wrong on random motions. Exit code 1 when it did.
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <optional>
 
 #include "oracle/scene.hpp"
 #include "refuter.hpp"
@@ -13,7 +14,7 @@ struct Arguments {
   RefuterOptions refuter;
   swept::CheckerOptions checker;
   std::vector<double> from, to;
-  std::uint64_t clutter = 0;
+  std::optional<std::uint64_t> clutter;
   bool everyIndex = false;
 };
 
@@ -29,7 +30,7 @@ bool run(const Scenario& scenario, const Arguments& arguments) {
 }
 
 bool runAll(Arguments& a) {
-  if (a.clutter) return run(clutterScenario(a.files, a.clutter, a.checker), a);
+  if (a.clutter) return run(clutterScenario(a.files, *a.clutter, a.checker), a);
   if (!a.everyIndex) return run(loadScenario(a.files, a.checker), a);
   bool good = true;
   for (const int index : oracle::problemIndices(a.files.problems, a.files.set)) {
@@ -47,18 +48,24 @@ int main(int argc, char** argv) {
   app.add_option("--robot", a.files.robot, "URDF")->required();
   app.add_option("--srdf", a.files.srdf, "SRDF");
   app.add_option("--group", a.files.group, "group that moves")->required();
-  app.add_option("--scene", a.files.scene, "planning-scene YAML");
-  app.add_option("--problems", a.files.problems, "MotionBenchMaker JSON");
-  app.add_option("--set", a.files.set, "problem set");
-  app.add_option("--index", a.files.index, "problem");
-  app.add_flag("--all", a.everyIndex, "every problem of the set");
-  app.add_option("--clutter", a.clutter, "random world of this seed");
-  app.add_option("--motions", a.refuter.motions, "how many (of each world)");
-  app.add_option("--seed", a.refuter.seed);
+  // What would do nothing is refused.
+  auto* scene = app.add_option("--scene", a.files.scene, "planning-scene YAML");
+  auto* problems = app.add_option("--problems", a.files.problems, "MotionBenchMaker JSON");
+  auto* set = app.add_option("--set", a.files.set, "problem set")->needs(problems);
+  auto* index = app.add_option("--index", a.files.index, "problem")->needs(set);
+  app.add_flag("--all", a.everyIndex, "every problem of the set")->needs(set)->excludes(index);
+  app.add_option("--clutter", a.clutter, "random world of this seed")
+      ->excludes(scene)
+      ->excludes(problems);
+  scene->excludes(problems);
+  auto* motions = app.add_option("--motions", a.refuter.motions, "how many (of each world)");
+  auto* seed = app.add_option("--seed", a.refuter.seed);
   app.add_option("--step", a.refuter.step, "rad or m between samples");
-  app.add_option("--skew", a.refuter.skew, "larger: more short motions");
+  auto* skew = app.add_option("--skew", a.refuter.skew, "larger: more short motions");
   auto* to = app.add_option("--to", a.to, "end of a single motion")->delimiter(',');
-  app.add_option("--from", a.from, "its start")->delimiter(',')->needs(to);
+  auto* from = app.add_option("--from", a.from, "its start")->delimiter(',')->needs(to);
+  to->needs(from);
+  for (auto* ofMany : {motions, seed, skew}) from->excludes(ofMany);
   app.add_option("--margin", a.checker.margin, "m");
   app.add_option("--tolerance", a.checker.tolerance, "m");
   CLI11_PARSE(app, argc, argv);

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <stdexcept>
 
 #include "judge.hpp"
 #include "random_motions.hpp"
@@ -18,6 +20,20 @@ using State = std::vector<double>;
 double seconds() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double>(now).count();
+}
+
+void refuseBad(const RefuterOptions& options) {
+  std::ostringstream out;
+  if (!(options.step > 0.0 && std::isfinite(options.step))) {
+    out << "step is " << options.step << " rad or m; allowed: finite and above zero";
+  } else if (!(options.skew >= 1.0 && std::isfinite(options.skew))) {
+    out << "skew is " << options.skew << "; allowed: finite, 1 or more";
+  } else if (options.motions < 1) {
+    out << options.motions << " motions; allowed: 1 or more";
+  } else {
+    return;
+  }
+  throw std::invalid_argument(out.str());
 }
 
 }  // namespace
@@ -39,6 +55,7 @@ void RefuterReport::add(const RefuterReport& other) {
 }
 
 RefuterReport refute(const Scenario& scenario, const RefuterOptions& options) {
+  refuseBad(options);
   RefuterReport report;
   RandomMotions motions(scenario, options.seed, options.skew);
   Judge judge(scenario, options, report);
@@ -63,6 +80,7 @@ RefuterReport refute(const Scenario& scenario, const RefuterOptions& options) {
 
 RefuterReport refuteMotion(const Scenario& scenario, const RefuterOptions& options,
                            const State& from, const State& to) {
+  refuseBad(options);
   RefuterReport report;
   swept::Workspace workspace(*scenario.checker);
   const State a = scenario.full(from), b = scenario.full(to);
@@ -75,7 +93,7 @@ std::string summary(const RefuterReport& r) {
   std::ostringstream out;
   out << r.motions << " motions: " << r.free << " free, " << r.collision << " collision, "
       << r.undecided << " undecided (" << r.undecidedAnywhere << " of the plain ones); "
-      << r.grazing << " grazing; " << r.states << " states judged; least free clearance "
+      << r.grazing << " grazing; " << r.states << " states judged; least room of a free motion "
       << r.leastFreeClearance << " m; widest stop " << r.widestStop << " m; checker "
       << std::setprecision(3) << r.checkerSeconds << " s, oracle " << r.oracleSeconds << " s; "
       << r.failures.size() << " failures";

@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <set>
+#include <stdexcept>
 
 #include "models_under_test.hpp"
 
@@ -118,6 +120,33 @@ TEST(RefutedOnce, ProvenPrefixesEndBeforeTheContact) {
     EXPECT_EQ(report.collision, 1);
     for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
   }
+}
+
+std::string refusal(const Scenario& scenario, const RefuterOptions& options,
+                    const std::vector<double>& from) {
+  try {
+    refuteMotion(scenario, options, from, std::vector<double>(from.size(), 0.1));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+TEST(RefuterOptions, ThatMakeNoSenseAreRefused) {
+  const Scenario scenario = loadScenario(filesOf({"rook7", "arm"}));
+  const std::vector<double> home(7, 0.0);
+  EXPECT_EQ(refusal(scenario, {}, home), "nothing was refused");
+  EXPECT_EQ(refusal(scenario, {}, {0.1}), "a configuration of group 'arm' has 7 values, not 1");
+  EXPECT_EQ(refusal(scenario, {}, std::vector<double>(8, 0.0)),
+            "a configuration of group 'arm' has 7 values, not 8");
+  for (const double step : {0.0, -1e-3, std::nan(""), HUGE_VAL}) {
+    const std::string said = refusal(scenario, {.step = step}, home);
+    EXPECT_NE(said.find("rad or m; allowed: finite and above zero"), std::string::npos) << said;
+  }
+  const std::string fine = refusal(scenario, {.step = 1e-300}, home);
+  EXPECT_NE(fine.find("steps; allowed: 0 to 1e9"), std::string::npos) << fine;
+  EXPECT_EQ(refusal(scenario, {.skew = 0.5}, home), "skew is 0.5; allowed: finite, 1 or more");
+  EXPECT_EQ(refusal(scenario, {.motions = 0}, home), "0 motions; allowed: 1 or more");
 }
 
 TEST(RefuterOnData, FindsNothingToRefuteOnThePanda) {

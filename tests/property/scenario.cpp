@@ -3,6 +3,7 @@
 
 #include <random>
 #include <stdexcept>
+#include <string>
 
 #include "oracle/scene.hpp"
 #include "swept/robot_model/problems.hpp"
@@ -37,7 +38,7 @@ Scenario assemble(const ScenarioFiles& files, std::shared_ptr<const swept::World
 Eigen::Isometry3d randomPose(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random))
+  pose.linear() = Eigen::Quaterniond{unit(random), unit(random), unit(random), unit(random)}
                       .normalized()
                       .toRotationMatrix();
   // A ring around the base, so that most of the reach stays open and the base itself is not inside.
@@ -50,6 +51,11 @@ Eigen::Isometry3d randomPose(std::mt19937_64& random) {
 }  // namespace
 
 std::vector<double> Scenario::full(const std::vector<double>& groupValues) const {
+  if (groupValues.size() != place.size()) {
+    throw std::invalid_argument("a configuration of group '" + group + "' has " +
+                                std::to_string(place.size()) + " values, not " +
+                                std::to_string(groupValues.size()));
+  }
   std::vector<double> q = oracle->arm().home();
   for (size_t i = 0; i < place.size(); ++i) q[place[i]] = groupValues[i];
   return q;

@@ -21,7 +21,8 @@ struct Scenario {
   /// For each value of a group's configuration, its place among the oracle's variables.
   std::vector<int> place;
 
-  /// All of the oracle's variables, those outside the group at home.
+  /// All of the oracle's variables, those outside the group at home. std::invalid_argument unless
+  /// there is a value for each of the group's.
   std::vector<double> full(const std::vector<double>& groupValues) const;
   std::vector<double> groupOf(const std::vector<double>& full) const;
 };

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
+#include <string>
 
 #include "sweeps/campaign.hpp"
 
@@ -41,7 +43,7 @@ TEST(SweepRefuter, FindsNothingToRefute) {
 }
 
 Sweep firstWith(Scene scene, Verdict verdict, ContinuousResult& result) {
-  for (std::uint64_t i = 0;; ++i) {
+  for (std::uint64_t i = 0; i < 10'000; ++i) {
     Sweep sweep = makeSweep(5, i);
     if (sweep.scene != scene || sweep.t < 0.1 || sweep.a.flat() || sweep.b.flat()) continue;
     const auto a = sweep.pathA.motion(), b = sweep.pathB.motion();
@@ -50,6 +52,7 @@ Sweep firstWith(Scene scene, Verdict verdict, ContinuousResult& result) {
     const bool known = Judge(sweep).judge(result, random).contact;
     if (known && result.verdict == verdict && result.freeUntil > 0.05) return sweep;
   }
+  throw std::runtime_error("none of 10 000 sweeps is " + std::string(toString(verdict)));
 }
 
 bool finds(const Sweep& sweep, const ContinuousResult& result, const std::string& what) {
@@ -82,6 +85,10 @@ TEST(SweepJudge, NoticesWrongAnswers) {
   wrong = right;
   wrong.pointB.x() = INFINITY;
   EXPECT_TRUE(finds(sweep, wrong, "not finite"));
+  // A proof that ends at the start, where there is still room.
+  wrong = right;
+  wrong.freeUntil = 0.0;
+  EXPECT_TRUE(finds(sweep, wrong, "tolerances beyond the margin"));
 }
 
 /// The descent finds contacts that nobody constructed.

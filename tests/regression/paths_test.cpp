@@ -15,6 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "first_hit.hpp"
 #include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 
@@ -239,24 +240,6 @@ TEST(StoredPaths, NameTheSegmentThatChanged) {
                                       "is collision, free until 0.240");
 }
 
-/// First of the samples every kStep rad or m (of the value that changes most) that is in collision;
-/// 2 if none is.
-double firstHit(const Checker& checker, const std::vector<double>& from,
-                const std::vector<double>& to, Workspace& workspace) {
-  constexpr double kStep = 1e-3;
-  double longest = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i)
-    longest = std::max(longest, std::abs(to[i] - from[i]));
-  const int steps = static_cast<int>(std::ceil(longest / kStep)) + 1;
-  for (int k = 0; k <= steps; ++k) {
-    const double t = static_cast<double>(k) / steps;
-    const Eigen::VectorXd q = checker.interpolate(from, to, t);
-    const std::span<const double> values(q.data(), static_cast<std::size_t>(q.size()));
-    if (checker.checkState(values, workspace) == Verdict::Collision) return t;
-  }
-  return 2.0;
-}
-
 /// The stored verdicts against states alone: no state of a free segment collides, and those of a
 /// colliding one do from the stored place on, where there is hardly any room left.
 TEST(StoredPaths, AreWhatTheirStatesAre) {
@@ -267,7 +250,7 @@ TEST(StoredPaths, AreWhatTheirStatesAre) {
     for (std::size_t i = 0; i < path.segments.size(); ++i) {
       SCOPED_TRACE(path.file + ": segment " + std::to_string(i));
       const Expected& segment = path.segments[i];
-      const double t = firstHit(checker, path.states[i], path.states[i + 1], workspace);
+      const double t = firstHit(checker, path.states[i], path.states[i + 1], 1e-3, workspace);
       if (segment.verdict != Verdict::Collision) {
         EXPECT_EQ(t, 2.0);
         continue;

@@ -27,6 +27,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
 #include "plan/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
@@ -148,9 +149,15 @@ class Recorder {
     out << "file,segment,verdict,free_until\n";
     for (const auto& [file, lines] : verdicts_)
       for (const std::string& each : lines) out << each << '\n';
+    close(out, folder_ / "verdicts.csv");
   }
 
  private:
+  static void close(std::ofstream& out, const std::filesystem::path& file) {
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + " cannot be written");
+  }
+
   std::shared_ptr<const Checker> checkerOf(const Place& place) {
     auto& robot = robots_[place.robot];
     const auto stem = models_ / "robots" / place.robot / place.robot;
@@ -248,6 +255,7 @@ class Recorder {
     out << '\n';
     for (const Configuration& q : path)
       for (std::size_t i = 0; i < q.size(); ++i) out << q[i] << (i + 1 < q.size() ? "," : "\n");
+    close(out, folder_ / file);
     for (std::size_t i = 0; i < certificates.size(); ++i) {
       char until[16];
       std::snprintf(until, sizeof until, "%.3f", certificates[i].freeUntil);
@@ -270,9 +278,14 @@ int main(int argc, char** argv) {
     return 3;
   }
   ompl::msg::noOutputHandler();
-  Recorder recorder(argv[1], argv[2]);
-  std::uint32_t seed = 0;
-  for (const Problem& problem : problems(argv[1])) recorder.record(problem, ++seed);
-  recorder.writeVerdicts();
-  return 0;
+  try {
+    Recorder recorder(argv[1], argv[2]);
+    std::uint32_t seed = 0;
+    for (const Problem& problem : problems(argv[1])) recorder.record(problem, ++seed);
+    recorder.writeVerdicts();
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 3;
+  }
 }

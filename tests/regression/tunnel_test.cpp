@@ -16,6 +16,7 @@
 #include <map>
 #include <sstream>
 
+#include "first_hit.hpp"
 #include "models_dir.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
@@ -58,21 +59,8 @@ class Arm {
     return discrete.checkMotion(from.get(), to.get());
   }
 
-  /// First colliding sample when no joint moves more than 1e-4 rad (or m) between samples; 2 if
-  /// none.
   double firstHit(const Motion& motion) {
-    double longest = 0.0;
-    for (std::size_t i = 0; i < motion.from.size(); ++i) {
-      longest = std::max(longest, std::abs(motion.to[i] - motion.from[i]));
-    }
-    const int steps = static_cast<int>(std::ceil(longest / 1e-4));
-    for (int k = 0; k <= steps; ++k) {
-      const double t = static_cast<double>(k) / steps;
-      const Eigen::VectorXd q = checker_->interpolate(motion.from, motion.to, t);
-      const std::span<const double> values(q.data(), static_cast<std::size_t>(q.size()));
-      if (checker_->checkState(values, *workspace_) == Verdict::Collision) return t;
-    }
-    return 2.0;
+    return ::firstHit(*checker_, motion.from, motion.to, 1e-4, *workspace_);
   }
 
   swept::MotionCertificate certify(const Motion& motion) {

@@ -194,16 +194,8 @@ Isometry3d relative(const Path& a, const Path& b, Real t) {
   return pose;
 }
 
-/// By the solid angles of the triangles (van Oosterom and Strackee 1983).
 bool windsAround(const std::vector<std::array<Vector3d, 3>>& shell, const Vector3d& p) {
-  double angle = 0.0;
-  for (const auto& t : shell) {
-    const Vector3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2.0 * std::atan2(a.dot(b.cross(c)),
-                              la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return std::abs(angle) > 2.0 * std::numbers::pi;
+  return std::abs(reference::windingNumber(shell, p)) > 0.5;
 }
 
 double outside(const Body& body, const Vector3d& p) {

@@ -58,7 +58,7 @@ Judgement Judge::judge(const ContinuousResult& result, Random& random) {
   if (result.verdict == Verdict::Collision) checkWitness(result);
   if (result.verdict == Verdict::Undecided) checkUndecided(result, random);
   if (result.verdict != Verdict::Free && decidable(result)) {
-    found_.stop = (gapAt(result.freeUntil) - sweep_.options.margin) / sweep_.options.tolerance;
+    checkStop(result);
   }
   return found_;
 }
@@ -173,6 +173,17 @@ void Judge::refute(double until, Random& random) {
     lookAt(until * (1.0 - back));
   }
   if (sweep_.t < until && found_.faults.empty()) lookAt(sweep_.t);
+}
+
+/// A proof may end only where the tolerance is nearly used up: a contact, or what cannot be told
+/// from one, is at most so much relative motion away.
+void Judge::checkStop(const ContinuousResult& r) {
+  const swept::ContinuousOptions& o = sweep_.options;
+  found_.stop = (gapAt(r.freeUntil) - o.margin) / o.tolerance;
+  if (found_.stop > kWidth + 100.0 * allowance_ / o.tolerance) {
+    fault(text("the proof ended at ", r.freeUntil, ", ", found_.stop,
+               " tolerances beyond the margin"));
+  }
 }
 
 /// What keeps more than margin + tolerance has to be Free.

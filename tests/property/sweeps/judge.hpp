@@ -42,6 +42,7 @@ class Judge {
   void checkNumbers(const swept::ContinuousResult& result);
   void checkKnown(const swept::ContinuousResult& result);
   void checkWitness(const swept::ContinuousResult& result);
+  void checkStop(const swept::ContinuousResult& result);
   void checkUndecided(const swept::ContinuousResult& result, Random& random);
   void refute(double until, Random& random);
   void lookAt(double t);

@@ -30,7 +30,7 @@ class ShapePairClass : public testing::Test {
     const double w = normal(random_), x = normal(random_), y = normal(random_);
     Isometry3d motion = Isometry3d::Identity();
     motion.linear() = Eigen::Quaterniond(w, x, y, normal(random_)).normalized().toRotationMatrix();
-    motion.translation() = reach * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    motion.translation() = reach * Vector3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
     return motion;
   }
 
@@ -166,8 +166,8 @@ TEST_F(ShapePairClass, CapsulesEndingAtAFace) {
     const double gap = uniform(-0.9, 2.0) * radius;
     // The axis rises from its lower end, which is nearest the face.
     const Vector3d axis =
-        Vector3d(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(0.2, 1.0)).normalized();
-    const Vector3d end(uniform(-0.5, 0.5) * half, uniform(-0.5, 0.5) * half, half + radius + gap);
+        Vector3d{uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(0.2, 1.0)}.normalized();
+    const Vector3d end{uniform(-0.5, 0.5) * half, uniform(-0.5, 0.5) * half, half + radius + gap};
     Isometry3d pose = Isometry3d::Identity();
     pose.linear() =
         Eigen::Quaterniond::FromTwoVectors(sign() * Vector3d::UnitZ(), axis).toRotationMatrix();
@@ -201,8 +201,8 @@ TEST_F(ShapePairClass, BlocksTurnedOntoAnEdge) {
     Isometry3d pose = Isometry3d::Identity();
     pose.linear() =
         Eigen::AngleAxisd(0.25 * std::numbers::pi, Vector3d::UnitZ()).toRotationMatrix();
-    pose.translation() = Vector3d(half + std::numbers::sqrt2 * other + gap,
-                                  uniform(-0.3, 0.3) * half, uniform(-0.3, 0.3) * half);
+    pose.translation() = Vector3d{half + std::numbers::sqrt2 * other + gap,
+                                  uniform(-0.3, 0.3) * half, uniform(-0.3, 0.3) * half};
     expectEverywhere(block(Vector3d::Constant(2.0 * half)), block(Vector3d::Constant(2.0 * other)),
                      pose, gap, 1e-9 * half);
   }
@@ -212,7 +212,7 @@ TEST_F(ShapePairClass, BlocksTurnedOntoAnEdge) {
 TEST_F(ShapePairClass, SpheresAtTerrainAndVoxels) {
   for (int i = 0; i < kEach; ++i) {
     const double radius = size(0.05, 0.5), depth = uniform(-1.0, 0.9) * radius;
-    const Vector3d over(uniform(-1.0, 1.0), uniform(-1.0, 1.0), 0.5 + radius - depth);
+    const Vector3d over{uniform(-1.0, 1.0), uniform(-1.0, 1.0), 0.5 + radius - depth};
     expectEverywhere({"flat_terrain", {4.0, 4.0, 5.0, 7.0, 0.5, -3.0}}, {"sphere", {radius}},
                      shift(over), -depth, 1e-9);
     const double gap = size(0.01, 10.0);
