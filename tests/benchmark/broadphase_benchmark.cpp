@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "broadphase_fcl.hpp"
 #include "broadphase_robots.hpp"
 #include "broadphase_worlds.hpp"
+#include "number_argument.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
 #include "timing.hpp"
 
@@ -205,6 +208,7 @@ class Table {
       }
     }
     const Run& ours = runs.front();
+    if (ours.pairs.empty()) throw std::runtime_error("swept: " + mishaps.front());
     ours_.push_back({setting, ours.mean()});
     std::vector<std::string> cells{std::to_string(setting.count),
                                    number(100.0 * setting.movingShare) + " %",
@@ -264,14 +268,30 @@ bool measure(const std::string& only, const std::string& name, const char* title
 
 int main(int argc, char** argv) {
   using swept::benchmark::BoxMotion;
+  using swept::benchmark::countOf;
   using swept::benchmark::measure;
-  const std::size_t most = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100'000;
+  using swept::benchmark::positiveNumber;
+  const auto most = argc > 1 ? countOf(argv[1], 10'000'000) : 100'000;
   const std::string only = argc > 2 ? argv[2] : "";
+  const bool known =
+      only.empty() || only == "coherent" || only == "teleporting" || only == "robots";
+  const auto share = argc > 3 ? positiveNumber(argv[3]) : std::nullopt;
+  if (!most || *most < 1000 || !known || argc > 4 || (argc > 3 && !(share && *share <= 100.0))) {
+    std::fputs(
+        "usage: broadphase_benchmark [N [coherent|teleporting|robots [%]]], N from 1000 to 1e7\n",
+        stderr);
+    return 2;
+  }
   std::vector<double> shares{0.01, 0.1, 1.0};
-  if (argc > 3) shares = {0.01 * std::strtod(argv[3], nullptr)};
-  bool agree = measure(only, "coherent", "Coherent, up to 10 mm along each axis",
-                       BoxMotion::Coherent, most, shares);
-  agree &= measure(only, "teleporting", "Teleporting", BoxMotion::Teleporting, most, shares);
-  agree &= measure(only, "robots", "Robots that fold", BoxMotion::Folding, most, {0.5});
-  return agree ? EXIT_SUCCESS : EXIT_FAILURE;
+  if (share) shares = {0.01 * *share};
+  try {
+    bool agree = measure(only, "coherent", "Coherent, up to 10 mm along each axis",
+                         BoxMotion::Coherent, *most, shares);
+    agree &= measure(only, "teleporting", "Teleporting", BoxMotion::Teleporting, *most, shares);
+    agree &= measure(only, "robots", "Robots that fold", BoxMotion::Folding, *most, {0.5});
+    return agree ? EXIT_SUCCESS : EXIT_FAILURE;
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "broadphase_benchmark: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
 }

@@ -94,7 +94,7 @@ inline std::string mishapOf(const std::function<void()>& work, unsigned patience
   }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) != child) return "not tried";
-  if (WIFEXITED(status)) return "";
+  if (WIFEXITED(status)) return WEXITSTATUS(status) == 0 ? "" : "crash";
   return WTERMSIG(status) == SIGALRM ? "no end in " + std::to_string(patience) + " s" : "crash";
 }
 

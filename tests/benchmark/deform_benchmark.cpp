@@ -6,11 +6,13 @@
 // mesh.
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
+#include <optional>
+#include <string>
 
 #include "deform_fcl.hpp"
 #include "deform_judge.hpp"
 #include "deform_scenes.hpp"
+#include "number_argument.hpp"
 #include "timing.hpp"
 
 namespace swept::benchmark {
@@ -285,9 +287,19 @@ void sizes() {
 
 int main(int argc, char** argv) {
   using namespace swept::benchmark;
-  const auto chosen = [&](const char* name) { return argc < 2 || std::strcmp(argv[1], name) == 0; };
-  const auto stride = [&](int usual) { return argc > 2 ? std::max(1, std::atoi(argv[2])) : usual; };
-  if (argc > 1 && std::strcmp(argv[1], "sizes") == 0) {
+  const std::string scene = argc > 1 ? argv[1] : "";
+  const bool known = scene.empty() || scene == "balls" || scene == "shatter" || scene == "large" ||
+                     (scene == "sizes" && argc == 2);
+  // Of two frames the one in the middle is measured.
+  const auto given = argc > 2 ? countOf(argv[2], 50) : std::nullopt;
+  if (!known || argc > 3 || (argc > 2 && !given)) {
+    std::fputs("usage: deform_benchmark [balls|shatter|large [N] | sizes], N from 1 to 50\n",
+               stderr);
+    return 2;
+  }
+  const auto chosen = [&](const char* name) { return scene.empty() || scene == name; };
+  const auto stride = [&](int usual) { return given ? static_cast<int>(*given) : usual; };
+  if (scene == "sizes") {
     sizes();
     return 0;
   }

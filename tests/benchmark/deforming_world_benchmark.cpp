@@ -114,5 +114,10 @@ void report(std::size_t most) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  swept::benchmark::report(argc > 1 ? static_cast<std::size_t>(std::atoll(argv[1])) : SIZE_MAX);
+  const auto most = argc > 1 ? swept::benchmark::countOf(argv[1], SIZE_MAX) : SIZE_MAX;
+  if (!most || *most < 2048 || argc > 2) {
+    std::fputs("usage: deforming_world_benchmark [N], triangles, N from 2048\n", stderr);
+    return 2;
+  }
+  swept::benchmark::report(*most);
 }

@@ -212,9 +212,13 @@ class Growth {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const int most = argc > 1 ? std::atoi(argv[1]) : 1'100'000;
+  const auto most = argc > 1 ? swept::benchmark::countOf(argv[1], 100'000'000) : 1'100'000;
+  if (!most || *most < 1000 || argc > 2) {
+    std::fputs("usage: scaling_benchmark [N], triangles, N from 1000 to 1e8\n", stderr);
+    return 2;
+  }
   swept::benchmark::Growth growth;
-  for (int count = 1000; count <= most; count *= 4) growth.measure(count);
+  for (int count = 1000; count <= static_cast<int>(*most); count *= 4) growth.measure(count);
   growth.printAll();
   return EXIT_SUCCESS;
 }

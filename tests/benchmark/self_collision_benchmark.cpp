@@ -104,13 +104,16 @@ class SelfBenchmark {
   /// False when an answer differs from FCL's and nothing explains it.
   bool run() {
     const auto data = dataFolder();
+    bool any = false;
     for (const SelfCase& which : selfCases(data.value_or(""))) {
       if (!options_.only.empty() && !which.name.starts_with(options_.only)) continue;
+      any = true;
       if (which.needsData && !data)
         std::printf("\n## %s\n\nskipped: SWEPT_DATA is not set\n", which.name.c_str());
       else
         robot(which);
     }
+    if (!any) throw std::runtime_error("--only: no robot's name begins with " + options_.only);
     return unexplained_ == 0;
   }
 

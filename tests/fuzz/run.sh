@@ -9,9 +9,10 @@ build="$root/build/fuzz"
 source "$root/.ci/setup.sh"
 
 usage() {
-  echo "usage: tests/fuzz/run.sh [--seconds N] [TARGET ...]"
+  echo "usage: tests/fuzz/run.sh [--seconds N] [--record] [TARGET ...]"
   echo "Targets: $(targets | tr '\n' ' ')"
   echo "Without targets: all of them. Seconds: of each target, 60 without."
+  echo "--record adds what was run to tests/fuzz/results.md."
 }
 
 targets() {
@@ -23,11 +24,13 @@ fuzz_one() {
   local target="$1" log="$build/logs/$1.log"
   local found="$build/found/$target" finds="$build/finds/$target"
   mkdir -p "$build/logs" "$found" "$finds"
+  local before
+  before="$(find "$finds" -type f | wc -l)"
   # Reading a mesh waits for a process: up to its limit of wall time.
   "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 \
     -print_final_stats=1 -artifact_prefix="$finds/" "$found" "$root/tests/fuzz/corpus/$target" \
     >"$log" 2>&1 || true
-  awk -v target="$target" -v finds="$(find "$finds" -type f | wc -l)" '
+  awk -v target="$target" -v finds="$(($(find "$finds" -type f | wc -l) - before))" '
     / cov: / { for (i = 1; i < NF; i++) if ($i == "cov:") cover = $(i + 1) }
     /^stat::number_of_executed_units/ { runs = $2 }
     /^stat::new_units_added/ { kept = $2 }
@@ -37,7 +40,28 @@ fuzz_one() {
     }' "$log"
 }
 
+# Adds the runs in build/fuzz/summary.txt to the table, in which each target has a row.
+record() {
+  local table="$root/tests/fuzz/results.md"
+  touch "$table"
+  {
+    echo "# Results"
+    echo
+    echo "Written by \`run.sh --record\`: of all runs together, but for edges, of which there are the most of one run."
+    echo
+    echo "| target | s | inputs | edges | finds |"
+    echo "|---|---|---|---|---|"
+    awk -v seconds="$seconds" '
+      /^\| `/ { gsub("`", "", $2); s[$2] = $4; runs[$2] = $6; edges[$2] = $8; finds[$2] = $10; next }
+      / inputs, / { s[$1] += seconds; runs[$1] += $2; finds[$1] += $8; if ($4 + 0 > edges[$1] + 0) edges[$1] = $4 }
+      END { for (t in s) printf "| `%s` | %d | %d | %d | %d |\n", t, s[t], runs[t], edges[t], finds[t] }
+    ' "$table" "$build/summary.txt" | sort
+  } >"$build/results.md"
+  cp "$build/results.md" "$table"
+}
+
 seconds=60
+recorded=
 wanted=()
 while (($# > 0)); do
   case "$1" in
@@ -48,6 +72,10 @@ while (($# > 0)); do
         exit 2
       fi
       shift 2
+      ;;
+    --record)
+      recorded=yes
+      shift
       ;;
     -h | --help) usage && exit 0 ;;
     *)
@@ -70,7 +98,11 @@ export -f fuzz_one
 export root build seconds
 printf '%s\n' "${wanted[@]}" | xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'fuzz_one {}' |
   tee "$build/summary.txt"
+if [[ -n "$recorded" ]]; then record; fi
 if grep -qv ' 0 finds$' "$build/summary.txt"; then
+  for target in $(grep -v ' 0 finds$' "$build/summary.txt" | sed 's/[ :].*//'); do
+    tail -n 40 "$build/logs/$target.log"
+  done
   echo "error: finds are in $build/finds, what was printed in $build/logs" >&2
   exit 1
 fi

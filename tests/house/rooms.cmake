@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The folders at the top are the components, models and tests: cmake -DROOT=TREE -P rooms.cmake. Those that begin with
 # `build`, and hidden ones, are not looked at.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 set(rooms core robot_model ompl_bridge planners_demo models tests)
 file(GLOB entries RELATIVE ${ROOT} ${ROOT}/*)
 foreach(entry IN LISTS entries)

@@ -11,7 +11,7 @@ namespace {
 constexpr int kBadInput = 3;
 
 void addAmounts(CLI::App& app, Options& o) {
-  const auto most = std::int64_t{1'000'000'000'000};
+  const auto most = std::int64_t{100'000'000'000};
   app.add_option("--states", o.states, "states to check, all ways together")
       ->check(CLI::Range(std::int64_t{0}, most))
       ->capture_default_str();

@@ -92,10 +92,10 @@ struct BadInput {
 
 TEST(SoakProgram, BadInputIsNamed) {
   const BadInput all[] = {
-      {{"--states", "-1"}, "--states: Value -1 not in range 0 to 1000000000000"},
+      {{"--states", "-1"}, "--states: Value -1 not in range 0 to 100000000000"},
       {{"--states", "0", "--motions", "0"}, "0 and 0: there is nothing to check"},
       {{"--threads", "0"}, "--threads: Value 0 not in range 1 to 1024"},
-      {{"--updates", "x"}, "--updates: Value x not in range 0 to 1000000000000"},
+      {{"--updates", "x"}, "--updates: Value x not in range 0 to 100000000000"},
       {{"--growth", "-2"}, "--growth: Value -2 not in range 0.000000 to 1000000.000000"},
       {{"--robot", "none.urdf", "--group", "arm"}, "--robot: File does not exist: none.urdf"},
       {{"--robot", kRobot}, "--robot requires --group"},
