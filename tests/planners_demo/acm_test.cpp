@@ -194,12 +194,5 @@ TEST(Acm, RefusesWhatCannotBeUsed) {
   }
 }
 
-TEST(Acm, TheProgramHelps) {
-  const Outcome help = runSwept({"acm", "--help"});
-  EXPECT_EQ(help.exitCode, 0);
-  EXPECT_THAT(help.out, HasSubstr("swept acm models/robots/rook7/rook7.urdf -o rook7.srdf"));
-  EXPECT_THAT(help.out, HasSubstr("--budget"));
-}
-
 }  // namespace
 }  // namespace swept::test

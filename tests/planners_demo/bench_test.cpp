@@ -361,17 +361,6 @@ TEST(BenchEdges, BadUseIsToldInOneLine) {
       error + "bench has no subcommand 'nodes'; there are edges, planners, summary (try --help)\n");
 }
 
-TEST(BenchEdges, TheExampleOfTheHelpRuns) {
-  const Outcome help = runSwept({"bench", "edges", "--help"});
-  EXPECT_EQ(help.exitCode, 0);
-  const std::string command =
-      "swept bench edges models/robots/rook7/rook7.urdf --group arm --problems "
-      "models/problems.json --edges models/edges.csv";
-  EXPECT_THAT(help.out, HasSubstr("\nExample:\n  " + command + "\n"));
-  EXPECT_EQ(runShell(command).exitCode, 0);
-  EXPECT_THAT(runSwept({"--help"}).out, HasSubstr("\n  bench "));
-}
-
 /// Empty where this build cannot.
 std::string whyWithoutFcl(const Outcome& run) {
   return run.err.find("this build has no FCL") == std::string::npos ? "" : run.err;

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
-#include <sstream>
 
 #include "models_dir.hpp"
 #include "page_data.hpp"
+#include "printed_text.hpp"
 #include "program.hpp"
 
 /// What commands print is what the files in golden/ hold: the command in the first line, its exit
@@ -24,21 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(modelsDir()).parent_path() / "tests/planners_demo/golden";
-constexpr double kTolerance = 1e-3;
-constexpr double kAbsolute = 1e-9;
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-std::string fileText(const fs::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// What the command of a file says now, in the form of the file.
 std::string textNow(const std::string& firstLine) {
@@ -47,41 +30,6 @@ std::string textNow(const std::string& firstLine) {
   const std::string text = firstLine + "\nexit code " + std::to_string(run.exitCode) +
                            "\n--- stdout\n" + run.out + "--- stderr\n" + run.err;
   return replaced(text, folder.path(), "DIR");
-}
-
-/// Times differ from run to run.
-std::string withoutTimes(const std::string& text) {
-  static const std::regex kSeconds("[0-9.]+(e-?[0-9]+)? (s|ms|us|ns)\\b");
-  static const std::regex kFields("(\"(seconds|[a-z_]*time)\": )[0-9][-+.0-9e]*");
-  return std::regex_replace(std::regex_replace(text, kSeconds, "# s"), kFields, "$1#");
-}
-
-/// Numbers and what is between them; runs of blanks, which align columns, are one.
-struct Pieces {
-  std::vector<std::string> between, numbers;
-
-  explicit Pieces(const std::string& text) {
-    static const std::regex kNumber("#|-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?");
-    static const std::regex kBlanks(" +");
-    const auto add = [&](const std::string& piece) {
-      between.push_back(std::regex_replace(piece, kBlanks, " "));
-    };
-    std::size_t done = 0;
-    for (std::sregex_iterator it(text.begin(), text.end(), kNumber), end; it != end; ++it) {
-      const auto at = static_cast<std::size_t>(it->position());
-      add(text.substr(done, at - done));
-      numbers.push_back(it->str());
-      done = at + static_cast<std::size_t>(it->length());
-    }
-    add(text.substr(done));
-  }
-};
-
-bool agree(const std::string& wanted, const std::string& found) {
-  if (wanted == "#" || wanted == found) return true;
-  if (found == "#") return false;
-  const double a = std::stod(wanted), b = std::stod(found);
-  return std::abs(a - b) <= kAbsolute + kTolerance * std::max(std::abs(a), std::abs(b));
 }
 
 std::vector<std::string> names() {
@@ -106,13 +54,7 @@ TEST_P(Golden, CommandPrintsWhatItDid) {
     std::ofstream(file) << now;
     return;
   }
-  const Pieces expected(wanted), found(now);
-  EXPECT_EQ(expected.between, found.between) << now;
-  ASSERT_EQ(expected.numbers.size(), found.numbers.size());
-  for (std::size_t i = 0; i < found.numbers.size(); ++i)
-    EXPECT_TRUE(agree(expected.numbers[i], found.numbers[i]))
-        << expected.numbers[i] << " before, now " << found.numbers[i] << " in\n"
-        << now;
+  expectPrinted(now, wanted);
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, Golden, testing::ValuesIn(names()),

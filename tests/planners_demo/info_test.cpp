@@ -127,7 +127,7 @@ TEST(Info, TellsWhatMeshesAre) {
 
 TEST(Info, NamesStandingContacts) {
   const Gantry gantry;
-  // The slider group does not move the lift's joint alone; the wall stands in the fixed base.
+  // The foot stands still: what it touches, it touches whatever the group does.
   const TemporaryFolder folder;
   const std::string urdf = folder.write(
       "base.urdf",

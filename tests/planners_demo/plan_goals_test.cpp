@@ -97,8 +97,8 @@ TEST(PlanGoals, AnyOfSeveralGoalsWillDo) {
 TEST(PlanGoals, ThreadsFindAProvenPath) {
   const Gantry gantry;
   for (const std::string planner : {"RRTConnect", "pRRT", "CForest"}) {
-    const auto json = jsonOf(gantry.run("plan", {"left", "right", "--threads", "3", "--planner",
-                                                 planner, "--time", "0.3", "--json"}));
+    const auto json =
+        jsonOf(gantry.plan({"left", "right", "--threads", "3", "--planner", planner, "--json"}));
     EXPECT_EQ(json["proven"], true) << planner << ": " << json["failure"];
   }
 }

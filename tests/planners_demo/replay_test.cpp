@@ -349,18 +349,9 @@ TEST(Replay, BrokenFilesAreNamedWithTheirLine) {
   EXPECT_EQ(runSwept({"replay"}).err, "swept: error: cases is required (try --help)\n");
 }
 
-TEST(Replay, TheExampleOfTheHelpRuns) {
-  const Outcome help = runSwept({"replay", "--help"});
-  EXPECT_EQ(help.exitCode, 0);
-  EXPECT_THAT(help.out, HasSubstr("\nExample:\n  swept replay models/cases.json\n"));
-  EXPECT_THAT(help.out, HasSubstr("1 a case failed"));
-  EXPECT_EQ(runShell("swept replay models/cases.json").exitCode, 0);
-  EXPECT_THAT(runSwept({"--help"}).out, HasSubstr("\n  replay "));
-}
-
 TEST(Replay, CasesFromOutsidePass) {
   const char* data = std::getenv("SWEPT_DATA");
-  if (data == nullptr) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
+  if (data == nullptr || *data == '\0') GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
   const Outcome run = runSwept({"replay", std::string(data) + "/regressions/cases.json"});
   EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
   EXPECT_THAT(lastLine(run.out), HasSubstr(" 0 failed, "));

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "batch.hpp"
+#include "folder_watch.hpp"
 #include "gantry.hpp"
 
 /// What `swept report` refuses, and what a signal leaves behind.
@@ -91,17 +95,56 @@ bool catchesInterrupt(pid_t process) {
   return false;
 }
 
+/// As soon as it may be asked to stop, and among its motions: it writes no file before the last.
 TEST(ReportInput, ASignalLeavesNothingBehind) {
   const TemporaryFolder folder;
   for (const int signal : {SIGINT, SIGTERM}) {
-    RunningProgram program({"report", "models/robots/rook7/rook7.urdf", "--group", "arm", "--scene",
-                            "models/scenes/shelf.yaml", "--motions", "1000000", "--csv",
-                            folder.path("r.csv"), "--svg", folder.path("r"), "--html",
-                            folder.path("r.html"), "-o", folder.path("m.csv")});
-    ASSERT_TRUE(waitFor([&] { return catchesInterrupt(program.pid()); }));
-    kill(program.pid(), signal);
-    EXPECT_EQ(program.wait(), 130);
-    EXPECT_THAT(folder.names(), testing::IsEmpty());
+    for (const auto delay : {std::chrono::milliseconds(0), std::chrono::milliseconds(400)}) {
+      RunningProgram program({"report", "models/robots/rook7/rook7.urdf", "--group", "arm",
+                              "--scene", "models/scenes/shelf.yaml", "--motions", "1000000",
+                              "--csv", folder.path("r.csv"), "--svg", folder.path("r"), "--html",
+                              folder.path("r.html"), "-o", folder.path("m.csv")});
+      ASSERT_TRUE(waitFor([&] { return catchesInterrupt(program.pid()); }));
+      std::this_thread::sleep_for(delay);
+      kill(program.pid(), signal);
+      EXPECT_EQ(program.wait(), 130);
+      EXPECT_THAT(folder.names(), testing::IsEmpty());
+    }
+  }
+}
+
+/// The work is done by then, and some of the files are there: it writes the others too.
+TEST(ReportInput, ASignalAmongTheFilesLeavesAllOfThem) {
+  const Gantry gantry;
+  const auto report = [&](const TemporaryFolder& folder) {
+    return gantry.arguments(
+        "report", {"--motions", "4", "--passes", "1", "--resolutions", "0.1", "--tolerances",
+                   "0.01", "--csv", folder.path("r.csv"), "--svg", folder.path("r"), "--html",
+                   folder.path("r.html"), "-o", folder.path("m.csv")});
+  };
+  const TemporaryFolder whole;
+  ASSERT_EQ(runSwept(report(whole)).exitCode, 0);
+  ASSERT_THAT(whole.names(), testing::IsSupersetOf({"m.csv", "r.csv", "r.html"}));
+  constexpr int kMany = 100;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    int met = 0;
+    for (int i = 0; i < kMany && met < 2; ++i) {
+      const TemporaryFolder folder;
+      FolderWatch watch(folder.path());
+      RunningProgram program(report(folder));
+      ASSERT_TRUE(watch.waitFor(program, [&] { return !folder.names().empty(); }));
+      // The page is the last.
+      const bool early = !std::filesystem::exists(folder.path("r.html"));
+      kill(program.pid(), signal);
+      const int code = program.wait();
+      // Who comes after the last file ends the program in the usual way.
+      EXPECT_THAT(code, testing::AnyOf(0, -signal));
+      met += early && code == 0 ? 1 : 0;
+      EXPECT_EQ(folder.names(), whole.names());
+      for (const std::string& name : folder.names()) EXPECT_NE(folder.read(name), "") << name;
+      EXPECT_THAT(folder.read("r.html"), testing::EndsWith("</html>\n"));
+    }
+    EXPECT_EQ(met, 2);
   }
 }
 
