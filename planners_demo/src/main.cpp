@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <exception>
 #include <iostream>
 #include <new>
@@ -12,6 +15,15 @@
 
 namespace {
 
+/// What is opened next gets the number of a standard stream that is closed, and what is meant for
+/// the stream. So each of the three is open before anything else is. For reading only: what is
+/// written to one that was closed is lost, and has to be an error.
+void openStandardStreams() {
+  int descriptor = STDIN_FILENO;
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDONLY);
+  if (descriptor >= 0) close(descriptor);
+}
+
 int guardedMain(int argc, char** argv) {
   const swept::ParsedArguments parsed = swept::parseArguments(argc, argv);
   const int code =
@@ -24,6 +36,7 @@ int guardedMain(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  openStandardStreams();
   swept::installLastResort();
   try {
     return guardedMain(argc, argv);

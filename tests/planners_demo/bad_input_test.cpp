@@ -104,7 +104,7 @@ const Case kOptions[] = {
      kError + "--margin: must be between 0 and 10 m, not thick (try --help)"},
     {"MarginNan", both("check", {"left", "--margin", "nan"}),
      kError + "--margin: must be between 0 and 10 m, not nan (try --help)"},
-    {"ToleranceZero", both("check", {"left", "--tolerance", "0"}),
+    {"ToleranceZero", both("motion", {"left", "right", "--tolerance", "0"}),
      kError + "--tolerance: must be between 1e-6 and 1 m, not 0 (try --help)"},
     {"TimeZero", both("plan", {"left", "right", "--time", "0"}),
      kError + "--time: must be between 0.001 and 1e6 s, not 0 (try --help)"},

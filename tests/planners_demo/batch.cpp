@@ -89,6 +89,12 @@ int RunningProgram::threads() const {
   return count;
 }
 
+bool RunningProgram::ended() const {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid != 0;
+}
+
 int RunningProgram::wait() {
   int status = 0;
   waitpid(pid_, &status, 0);

@@ -40,6 +40,8 @@ class RunningProgram {
   /// Processes that it has forked and that live.
   std::vector<pid_t> workers() const;
   int threads() const;
+  /// It is over, and wait() returns at once.
+  bool ended() const;
   /// Its exit code, or minus the signal that ended it.
   int wait();
 

@@ -100,6 +100,17 @@ Outcome Gantry::run(const std::string& command, const std::vector<std::string>& 
   return runSwept(arguments(command, more));
 }
 
+Outcome Gantry::plan(const std::vector<std::string>& more) const {
+  Outcome last;
+  for (const std::string limit : {"0.2", "2", "20"}) {
+    std::vector<std::string> all = more;
+    all.insert(all.end(), {"--time", limit});
+    last = run("plan", all);
+    if (last.exitCode != 1) break;
+  }
+  return last;
+}
+
 double Gantry::distance(double slide, double lift) {
   const double x = std::max(0.0, std::abs(slide - 1.0) - 0.2);
   const double z = std::max(0.0, std::abs(lift) - 0.2);

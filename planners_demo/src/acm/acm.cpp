@@ -5,6 +5,7 @@
 #include "acm/acm_output.hpp"
 #include "command_line/commands.hpp"
 #include "output/progress.hpp"
+#include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -58,7 +59,7 @@ ExitCode runAcm(const Arguments& args) {
   }
   const std::vector<AcmDisagreement> differences = compareWithSrdf(result);
   if (args.json) {
-    std::cout << acmJson(result, differences).dump(2) << '\n';
+    std::cout << dumped(acmJson(result, differences)) << '\n';
   } else {
     std::cout << acmText(result, differences);
   }

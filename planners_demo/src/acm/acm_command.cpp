@@ -6,16 +6,9 @@ namespace swept {
 namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
-  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
-  app.add_option("--srdf", args.srdf,
-                 "SRDF file to compare with, and to keep all but the disabled pairs of; without: a "
-                 ".srdf beside the URDF with the same stem, if there is one; 'none': no SRDF")
-      ->type_name("FILE");
+  addRobotOptions(app, args, " to compare with, and to keep all but the disabled pairs of");
   app.add_option("-o,--output", args.output, "SRDF to write; may be the one that was read")
       ->type_name("FILE");
-  app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
-      ->type_name("NAME=DIR")
-      ->allow_extra_args(false);
   app.add_option("--margin", args.margin, "m; contact means: at most this apart (default 0)")
       ->type_name("M")
       ->check(within(0.0, 10.0, "between 0 and 10 m"));

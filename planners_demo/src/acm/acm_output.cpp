@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <map>
 
+#include "command_line/shell_word.hpp"
+
 namespace swept {
 namespace {
 
@@ -34,9 +36,10 @@ std::string checkCommand(const AcmResult& result, const LinkPairReport& pair) {
     if (!values.empty()) values += ",";
     values += exactNumber((*pair.witness)[static_cast<Eigen::Index>(v)]);
   }
-  std::string command = "swept check " + result.args.robot + " --srdf none " + values;
+  std::string command = "swept check " + shellWord(result.args.robot) + " --srdf none " + values;
   if (result.args.margin > 0.0) command += " --margin " + exactNumber(result.args.margin);
-  for (const std::string& package : result.args.packages) command += " --package " + package;
+  for (const std::string& package : result.args.packages)
+    command += " --package " + shellWord(package);
   return command;
 }
 

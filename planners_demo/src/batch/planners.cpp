@@ -137,7 +137,7 @@ ExitCode runBenchPlanners(const Arguments& args) {
   BatchRun batch(args, rank);
   if (args.batch.list) {
     if (rank > 0) return ExitCode::Free;
-    for (const RunKey& key : batch.keys()) std::cout << keyJson(key).dump() << '\n';
+    for (const RunKey& key : batch.keys()) std::cout << lineOf(keyJson(key)) << '\n';
     return ExitCode::Free;
   }
   const ExitCode code = batch.run();

@@ -4,7 +4,6 @@
 #include "batch/results_options.hpp"
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
-#include "plan/planners.hpp"
 #include "replay/query_dump.hpp"
 
 namespace swept {

@@ -8,8 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "batch/results_header.hpp"
@@ -26,6 +24,10 @@ constexpr std::string_view kHeaderBegin = R"({"format":"swept bench planners")";
 /// A header that was not written to its end, and nothing else.
 bool isTornHeader(std::string_view text) {
   return text.starts_with(kHeaderBegin) || kHeaderBegin.starts_with(text);
+}
+
+[[noreturn]] void refuseToRead(const std::string& file) {
+  throw InputError(file, 0, std::string("file cannot be read: ") + std::strerror(errno));
 }
 
 std::string tornText(const std::string& file, std::size_t bytes) {
@@ -47,16 +49,31 @@ void addRun(Results& results, std::map<RunKey, std::string>& known, const std::s
   }
 }
 
-std::string allOf(int descriptor) {
+/// Also of pipes, and of more than a text file may have.
+std::string allOf(int descriptor, const std::string& file) {
   std::string text;
   std::array<char, 65536> buffer{};
   for (ssize_t count; (count = read(descriptor, buffer.data(), buffer.size())) != 0;) {
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw UsageError(std::strerror(errno));
+    if (count < 0) refuseToRead(file);
     text.append(buffer.data(), static_cast<std::size_t>(count));
   }
   return text;
 }
+
+class Input {
+ public:
+  explicit Input(const std::string& file) : descriptor_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) refuseToRead(file);
+  }
+  ~Input() { close(descriptor_); }
+  Input(const Input&) = delete;
+  Input& operator=(const Input&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace
 
@@ -83,10 +100,8 @@ Results parseResults(const std::string& text, const std::string& file) {
 
 Results readResults(const std::string& file, Warnings& warnings) {
   if (!std::filesystem::exists(file)) throw InputError(file, 0, "file not found");
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw InputError(file, 0, "file cannot be read");
-  Results results = parseResults(text, file);
+  const Input input(file);
+  Results results = parseResults(allOf(input.descriptor(), file), file);
   if (results.tornBytes > 0) warnings(tornText(file, results.tornBytes));
   return results;
 }
@@ -98,7 +113,7 @@ ResultsFile::ResultsFile(const std::string& file, const Json& header, Warnings& 
     return;
   }
   openForWriting(0);
-  results_ = parseResults(allOf(descriptor_), file);
+  results_ = parseResults(allOf(descriptor_, file), file);
   if (!results_.header.is_null())
     requireSameHeader(results_.header, file, header, "on the command line");
   if (results_.tornBytes > 0) {

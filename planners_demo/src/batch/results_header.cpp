@@ -7,6 +7,7 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 
 #include "swept/robot_model/input.hpp"
 #include "verify/encoding.hpp"
@@ -29,9 +30,57 @@ constexpr int kVersion = 1;
 constexpr double kHardLimitBase = 30.0;  // s
 constexpr double kHardLimitFactor = 5.0;
 
-constexpr std::array kFields{"format", "version",    "swept",      "robot",     "urdf",     "srdf",
-                             "group",  "problems",   "margin",     "tolerance", "pad",      "scale",
-                             "allow",  "time_limit", "hard_limit", "simplify",  "clearance"};
+void requireText(const JsonValue& place) {
+  place.text();
+}
+
+void requireTextOrNull(const JsonValue& place) {
+  if (!place.isNull()) place.text();
+}
+
+void requireTexts(const JsonValue& place) {
+  for (const JsonValue& item : place.elements()) item.text();
+}
+
+void requireNumber(const JsonValue& place) {
+  place.notNegative();
+}
+
+void requireTruth(const JsonValue& place) {
+  place.boolean();
+}
+
+/// What headers have to have in common: all that resultsHeader() writes but `time`.
+struct Field {
+  const char* name;
+  void (*require)(const JsonValue&);
+};
+constexpr std::array kFields{Field{"format", requireText},       Field{"version", requireNumber},
+                             Field{"swept", requireText},        Field{"robot", requireText},
+                             Field{"urdf", requireText},         Field{"srdf", requireTextOrNull},
+                             Field{"group", requireText},        Field{"problems", requireText},
+                             Field{"margin", requireNumber},     Field{"tolerance", requireNumber},
+                             Field{"pad", requireTexts},         Field{"scale", requireTexts},
+                             Field{"allow", requireTexts},       Field{"attach", requireTexts},
+                             Field{"time_limit", requireNumber}, Field{"hard_limit", requireNumber},
+                             Field{"simplify", requireTruth},    Field{"clearance", requireTruth}};
+
+/// Files of the time before there was --attach do not have it.
+Json valueOf(const Json& header, std::string_view field) {
+  return field == "attach" && !header.contains(field) ? Json::array() : header.at(field);
+}
+
+void requireTypes(const Json& header, const std::string& source) {
+  const nlohmann::json unordered(header);
+  const JsonValue whole(unordered, "", source);
+  for (const Field& field : kFields)
+    if (whole.has(field.name)) field.require(whole.at(field.name));
+  if (!whole.has("time")) return;
+  const JsonValue time = whole.at("time");
+  if (!time.isObject()) time.fail("must be an object");
+  for (const char* note : {"host", "started"})
+    if (time.has(note)) requireText(time.at(note));
+}
 
 Json startJson() {
   std::array<char, 256> host{};
@@ -72,7 +121,8 @@ Json resultsHeader(const Batch& batch) {
                  {"simplify", !args.noSimplify},
                  {"clearance", !args.batch.noClearance}};
   if (!args.batch.noTimes) header["time"] = startJson();
-  return header;
+  // As it will be read back, with the names in it mended.
+  return Json::parse(lineOf(header));
 }
 
 void requireHeader(const Json& header, const std::string& source) {
@@ -81,22 +131,29 @@ void requireHeader(const Json& header, const std::string& source) {
                      std::string("not a results file: the first line must be a header with the "
                                  "format \"") +
                          kFormat + "\"");
-  for (const char* field : kFields)
-    if (!header.contains(field))
-      throw InputError(source, 1, std::string("the header has no ") + field);
+  for (const Field& field : kFields)
+    if (!header.contains(field.name) && field.name != std::string_view("attach"))
+      throw InputError(source, 1, std::string("the header has no ") + field.name);
   if (header["version"] != kVersion)
     throw InputError(source, 1,
-                     "version is " + header["version"].dump() + "; this program reads " +
+                     "version is " + lineOf(header["version"]) + "; this program reads " +
                          std::to_string(kVersion));
+  try {
+    requireTypes(header, source);
+  } catch (const InputError& error) {
+    throw InputError(source, 1, error.message());
+  }
 }
 
 void requireSameHeader(const Json& header, const std::string& source, const Json& expected,
                        const std::string& where) {
-  for (const char* field : kFields)
-    if (header.at(field) != expected.at(field))
+  for (const Field& field : kFields) {
+    const Json own = valueOf(header, field.name), other = valueOf(expected, field.name);
+    if (own != other)
       throw InputError(source, 1,
-                       std::string(field) + " is " + header.at(field).dump() + "; it is " +
-                           expected.at(field).dump() + " " + where);
+                       std::string(field.name) + " is " + lineOf(own) + "; it is " + lineOf(other) +
+                           " " + where);
+  }
 }
 
 }  // namespace swept

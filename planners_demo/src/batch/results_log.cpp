@@ -122,7 +122,7 @@ std::string preamble(const Json& header, const std::string& name, std::span<cons
                      encoded(noteOf(header, "host")) + "\nStarting at " +
                      noteOf(header, "started") + "\n<<<|\n";
   for (const auto& [field, value] : header.items())
-    if (field != "time") text += field + " = " + value.dump() + "\n";
+    if (field != "time") text += field + " = " + lineOf(value) + "\n";
   return text + "|>>>\n" + std::to_string(runs.front().key.seed) + " is the random seed\n" +
          exactNumber(header["time_limit"].get<double>()) + " seconds per run\n0 MB per run\n";
 }

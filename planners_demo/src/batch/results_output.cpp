@@ -31,7 +31,7 @@ void printResults(const Arguments& args, const Json& header, std::vector<RunResu
     return;
   }
   Json json = {{"header", header}, {"runs", results.size()}, {"rows", tableJson(rows)}};
-  std::cout << json.dump(2) << '\n';
+  std::cout << dumped(json) << '\n';
 }
 
 void writeOutputs(const Arguments& args, const Json& header, std::vector<RunResult> results) {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "batch/validator.hpp"
 #include "command_line/exit_code.hpp"
+#include "input/problem_choice.hpp"
 #include "plan/planners.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -24,22 +26,6 @@ std::vector<std::string> namesOf(const std::vector<std::string>& texts, const Re
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   return names;
-}
-
-/// The problems asked for: set and index, in the order of the file.
-std::vector<std::pair<std::string, int>> chosenProblems(const ProblemFile& problems,
-                                                        const Arguments& args) {
-  std::vector<std::pair<std::string, int>> chosen;
-  for (const std::string& set : problems.sets()) {
-    if (!args.set.empty() && set != args.set) continue;
-    for (const int index : problems.indices(set)) chosen.emplace_back(set, index);
-  }
-  // The file's own message names the sets it has.
-  if (chosen.empty() && !args.set.empty()) problems.problem(args.set, 0);
-  if (chosen.empty()) throw UsageError("'" + args.problems + "' has no problems");
-  if (args.limit && chosen.size() > static_cast<std::size_t>(*args.limit))
-    chosen.resize(static_cast<std::size_t>(*args.limit));
-  return chosen;
 }
 
 /// Throws UsageError or InputError unless all that the key names is there, by the name it has.

@@ -4,7 +4,6 @@
 #include <compare>
 #include <cstdint>
 #include <istream>
-#include <set>
 #include <string>
 #include <vector>
 

@@ -82,10 +82,6 @@ Json resultJson(const RunResult& result) {
   return json;
 }
 
-std::string lineOf(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 RunResult resultOf(const JsonValue& json) {
   RunResult result;
   result.key = keyOf(json);

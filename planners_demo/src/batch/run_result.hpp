@@ -55,8 +55,6 @@ struct RunResult {
 RunResult stoppedRun(const RunKey& key, const std::string& failure);
 
 Json resultJson(const RunResult& result);
-/// On one line. Text that is no UTF-8 is mended.
-std::string lineOf(const Json& json);
 /// Throws InputError naming the field.
 RunResult resultOf(const JsonValue& json);
 /// Of a line that a worker wrote.

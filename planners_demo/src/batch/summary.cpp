@@ -20,7 +20,7 @@ ExitCode runBenchSummary(const Arguments& args) {
     if (all.header.is_null()) all.header = some.header;
     requireSameHeader(some.header, file, all.header, "in '" + args.batch.files.front() + "'");
     for (const RunResult& run : some.runs) {
-      const std::string line = resultJson(run).dump();
+      const std::string line = lineOf(resultJson(run));
       const auto [place, isNew] = known.try_emplace(run.key, file, line);
       if (!isNew && place->second.second != line)
         throw InputError(

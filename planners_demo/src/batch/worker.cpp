@@ -50,7 +50,9 @@ Worker::Worker(const Batch& batch, Warnings::Taker warnings)
       warnings_(std::move(warnings)),
       dump_(*batch.args),
       like_(makeChecker(*batch.args, batch.model, group_, std::make_shared<const World>(),
-                        warnings_)) {}
+                        warnings_)) {
+  dump_.requireNames(*like_);
+}
 
 const std::shared_ptr<const Checker>& Worker::checkerOf(const PlanningProblem& problem) {
   if (!checker_ || set_ != problem.set || index_ != problem.index) {

@@ -30,9 +30,12 @@ bool sendAll(int socket, const char* bytes, std::size_t size) {
   return true;
 }
 
+/// The three are open since main() began, so that neither the socket nor what is opened here is one
+/// of them.
 void silence() {
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
+  close(nowhere);
 }
 
 /// The life of a worker. It does not return, so that nothing of the parent is done twice.
@@ -62,7 +65,7 @@ void WorkerLink::say(WorkerMessage::Kind kind, const std::string& text) const {
   std::string line(1, static_cast<char>(kind));
   // A text for the user may have line breaks; a message may not.
   const bool forUser = kind == WorkerMessage::Kind::Warning || kind == WorkerMessage::Kind::Error;
-  line.append(forUser ? Json(text).dump(-1, ' ', false, Json::error_handler_t::replace) : text);
+  line.append(forUser ? lineOf(text) : text);
   line.append("\n");
   if (!sendAll(socket_, line.data(), line.size())) _exit(1);
 }

@@ -13,6 +13,7 @@
 #include "input/states.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
+#include "output/text_output.hpp"
 #include "replay/query_dump.hpp"
 
 namespace swept {
@@ -185,7 +186,7 @@ ExitCode runBenchEdges(const Arguments& args) {
   requirePeer(args);
   const EdgeBench bench = EdgeRun(args).run();
   if (args.json)
-    std::cout << benchJson(bench).dump(2) << '\n';
+    std::cout << dumped(benchJson(bench)) << '\n';
   else
     std::cout << benchText(bench);
   return ExitCode::Free;

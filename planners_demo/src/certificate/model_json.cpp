@@ -6,15 +6,17 @@
 
 #include "certificate/shape_json.hpp"
 #include "command_line/exit_code.hpp"
-#include "info/info.hpp"
+#include "output/robot_json.hpp"
 
 namespace swept {
 namespace {
 
 using Eigen::Isometry3d;
 
-/// Behind the name of a body that is also a link's.
-const std::string kOfWorld = " (world)";
+/// What a proof calls a body of the world, which may have the name of a link.
+std::string proofNameInWorld(const Checker& checker, const std::string& name) {
+  return checker.robot().findLink(name) ? name + " (world)" : name;
+}
 
 Json poseJson(const Isometry3d& pose) {
   Json numbers = Json::array();
@@ -23,13 +25,6 @@ Json poseJson(const Isometry3d& pose) {
       numbers.push_back(pose.linear()(row, column));
   for (Eigen::Index row = 0; row < 3; ++row) numbers.push_back(pose.translation()[row]);
   return numbers;
-}
-
-Json variableJson(const Variable& variable) {
-  return {{"name", variable.name},
-          {"lower", finiteOrNull(variable.lower)},
-          {"upper", finiteOrNull(variable.upper)},
-          {"cyclic", variable.cyclic}};
 }
 
 std::size_t valuesOf(JointType type) {
@@ -83,7 +78,7 @@ Json jointJson(const Checker& checker, const Joint& joint) {
 }
 
 Json bodyJson(const Checker& checker, const CertifiedBody& body) {
-  Json json = {{"name", body.name}};
+  Json json = {{"name", body.proofName}};
   json["link"] = body.link < 0 ? Json(nullptr) : Json(checker.robot().links()[body.link].name);
   json["shapes"] = Json::array();
   for (const CertifiedBody::Part& part : body.parts) {
@@ -104,8 +99,9 @@ Json allowedJson(const Checker& checker) {
   Json allowed = Json::array();
   for (const Checker::Pair& pair : checker.skippedPairs()) {
     if (!isAllowed(pair)) continue;
-    const bool taken = !pair.selfPair && checker.robot().findLink(pair.bodyB).has_value();
-    allowed.push_back({pair.bodyA, taken ? pair.bodyB + kOfWorld : pair.bodyB, pair.reason});
+    allowed.push_back({pair.bodyA,
+                       pair.selfPair ? pair.bodyB : proofNameInWorld(checker, pair.bodyB),
+                       pair.reason});
   }
   return allowed;
 }
@@ -117,8 +113,10 @@ std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
   std::vector<CertifiedBody> bodies;
   const auto add = [&](const std::string& name, int link, const auto& parts, auto&& poseOf) {
     if (parts.empty()) return;
-    CertifiedBody body{.name = name, .link = link, .parts = {}};
-    if (link < 0 && checker.robot().findLink(name)) body.name += kOfWorld;
+    CertifiedBody body{.name = name,
+                       .proofName = link < 0 ? proofNameInWorld(checker, name) : name,
+                       .link = link,
+                       .parts = {}};
     for (const auto& part : parts) {
       const double factor = rules.scale(name);
       body.parts.push_back({factor == 1.0 ? part.shape : scaled(part.shape, factor), poseOf(part)});
@@ -153,7 +151,7 @@ Json modelJson(const Checker& checker) {
   for (const CertifiedBody& body : certifiedBodies(checker)) {
     json["bodies"].push_back(bodyJson(checker, body));
     const double padding = checker.options().rules.padding(body.name);
-    if (padding != 0.0) json["paddings"][body.name] = padding;
+    if (padding != 0.0) json["paddings"][body.proofName] = padding;
   }
   json["allowed"] = allowedJson(checker);
   return json;

@@ -12,8 +12,9 @@ namespace swept {
 
 /// A link, an attached body or a body of the world as it is checked.
 struct CertifiedBody {
-  std::string name;
-  int link = -1;  ///< that it moves with; -1: the world
+  std::string name;       ///< the robot's or the world's: what rules are about
+  std::string proofName;  ///< of this body alone
+  int link = -1;          ///< that it moves with; -1: the world
   struct Part {
     Shape shape;
     Eigen::Isometry3d body_from_shape;
@@ -21,8 +22,8 @@ struct CertifiedBody {
   std::vector<Part> parts;
 };
 
-/// Those with geometry, the robot's first: in the order of modelJson()'s bodies. A body of the
-/// world that has the name of a link gets ` (world)` behind its own.
+/// Those with geometry, the robot's first: in the order of modelJson()'s bodies. In a proof, a body
+/// of the world that has the name of a link has ` (world)` behind its own.
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 
 /// What a proof is about, in the form that planners_demo/verify reads: kinematics, geometry bit for

@@ -105,7 +105,7 @@ ExitCode runVerify(const Arguments& args) {
     outcome = examine(path, files ? &*files : nullptr);
   }
   if (args.json)
-    std::cout << outcomeJson(outcome).dump(2) << '\n';
+    std::cout << dumped(outcomeJson(outcome)) << '\n';
   else
     std::cout << (outcome.holds() ? summaryText(outcome.summary)
                                   : "refused: " + outcome.refusal + "\n");

@@ -69,7 +69,7 @@ ExitCode runCheck(const Arguments& args) {
                        {"group", task.checker->group().name},
                        {"margin", args.margin},
                        {"states", std::move(states)}};
-    std::cout << json.dump(2) << '\n';
+    std::cout << dumped(json) << '\n';
   } else {
     std::cout << text;
   }

@@ -9,8 +9,9 @@ namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
-  addCheckerOptions(app, args);
+  addRuleOptions(app, args);
   addSceneOptions(app, args);
+  addSelfFilterOption(app, args);
   app.add_option("states", args.states, "states to check")->type_name("STATE");
   addProblemOptions(app, args, "checks start and goals in its world");
   addDumpOption(app, args);

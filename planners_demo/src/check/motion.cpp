@@ -91,8 +91,7 @@ ExitCode runMotion(const Arguments& args) {
   {
     Progress progress("certifying", args.quiet);
     for (std::size_t i = 1; i < task.states.size(); ++i) {
-      // Goals of a problem are alternatives; states of the command line follow each other.
-      const LabelledState& from = task.states[args.problems.empty() ? i - 1 : 0];
+      const LabelledState& from = task.beginOfMotionTo(i);
       const Segment segment = examine(from, task.states[i], *task.checker, workspace);
       text += segmentText(segment);
       segments.push_back(segmentJson(segment));
@@ -107,7 +106,7 @@ ExitCode runMotion(const Arguments& args) {
                        {"margin", args.margin},
                        {"tolerance", args.tolerance},
                        {"segments", std::move(segments)}};
-    std::cout << json.dump(2) << '\n';
+    std::cout << dumped(json) << '\n';
   } else {
     std::cout << text;
   }

@@ -11,6 +11,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
+  addSelfFilterOption(app, args);
   app.add_option("states", args.states, "two states or more")->type_name("STATE");
   addProblemOptions(app, args, "the motion from start to goal in its world");
   addDumpOption(app, args);

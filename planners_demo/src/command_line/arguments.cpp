@@ -9,6 +9,7 @@
 
 #include "command_line/command.hpp"
 #include "command_line/program_options.hpp"
+#include "command_line/shell_word.hpp"
 
 namespace swept {
 namespace {
@@ -34,23 +35,10 @@ std::vector<std::string> reversedArguments(int argc, const char* const* argv) {
   return reversed;
 }
 
-/// The command line with what a shell would not leave alone in quotes.
+/// The command line as it could be pasted into a shell.
 std::string typedAgain(int argc, const char* const* argv) {
   std::string line = "swept";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto isPlain = [](unsigned char c) {
-      return std::isalnum(c) || std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
-    };
-    line += ' ';
-    if (!word.empty() && std::ranges::all_of(word, isPlain)) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
+  for (int i = 1; i < argc; ++i) line += " " + shellWord(argv[i]);
   return line;
 }
 

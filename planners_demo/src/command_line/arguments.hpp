@@ -76,11 +76,11 @@ struct Arguments {
   bool noSimplify = false;
   std::optional<double> simplifyTime;  ///< s; none: as much as the planner's
   int threads = 1;
-  std::string request;                 ///< YAML file
-  std::string goalPose;                ///< model_from_link: x,y,z,qx,qy,qz,qw
-  std::string goalLink;                ///< empty: the group's tip
-  double positionTolerance = 1e-3;     ///< m, of goalPose
-  double orientationTolerance = 1e-2;  ///< rad, of goalPose
+  std::string request;                         ///< YAML file
+  std::string goalPose;                        ///< model_from_link: x,y,z,qx,qy,qz,qw
+  std::string goalLink;                        ///< empty: the group's tip
+  std::optional<double> positionTolerance;     ///< m, of goalPose
+  std::optional<double> orientationTolerance;  ///< rad, of goalPose
   int jobs = 1;
 
   bool embed = false;  ///< robot and world go into the path file

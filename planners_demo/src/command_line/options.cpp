@@ -15,11 +15,12 @@ CLI::Validator within(double low, double high, const std::string& what) {
       "");
 }
 
-void addRobotOptions(CLI::App& app, Arguments& args) {
+void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use) {
   app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
   app.add_option("--srdf", args.srdf,
-                 "SRDF file; without: a .srdf beside the URDF with the same stem, if there is one; "
-                 "'none': no SRDF")
+                 "SRDF file" + use +
+                     "; without: a .srdf beside the URDF with the same stem, if there is one; "
+                     "'none': no SRDF")
       ->type_name("FILE");
   app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
       ->type_name("NAME=DIR")
@@ -83,6 +84,9 @@ void addSceneOptions(CLI::App& app, Arguments& args) {
                  "up to so far from it; needs a radius above zero")
       ->type_name("RANGE")
       ->check(within(1e-3, 1e3, "between 0.001 and 1000 m"));
+}
+
+void addSelfFilterOption(CLI::App& app, Arguments& args) {
   app.add_option("--self-filter", args.selfFilter,
                  "m; points this near to the robot in the first state are the robot itself")
       ->type_name("M")

@@ -11,12 +11,16 @@ namespace swept {
 
 CLI::Validator within(double low, double high, const std::string& what);
 
-void addRobotOptions(CLI::App& app, Arguments& args);
+/// `use` says what the subcommand does with the SRDF besides reading it.
+void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use = {});
 /// --group, --margin and the rules.
 void addRuleOptions(CLI::App& app, Arguments& args);
 /// The same and --tolerance.
 void addCheckerOptions(CLI::App& app, Arguments& args);
+/// --scene and --cloud with what says how to read it.
 void addSceneOptions(CLI::App& app, Arguments& args);
+/// For subcommands that take states: the first tells where the robot is.
+void addSelfFilterOption(CLI::App& app, Arguments& args);
 /// `what` says what the subcommand does with a problem.
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
 /// `what` says what is done with the peer.

@@ -84,6 +84,13 @@ std::string bashScript(const std::vector<Entry>& entries) {
          "complete -o default -F _swept swept\n";
 }
 
+/// Between single quotes, as fish reads them.
+std::string fishText(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted.append(c == '\'' || c == '\\' ? "\\" : "").append(1, c);
+  return quoted + "'";
+}
+
 std::string fishScript(const std::vector<Entry>& entries) {
   std::string text;
   for (const Entry& entry : entries) {
@@ -95,7 +102,7 @@ std::string fishScript(const std::vector<Entry>& entries) {
     const std::string first = entry.name.substr(0, entry.name.find(' '));
     text += "complete -c swept -n '" +
             (seen.empty() ? std::string("__fish_use_subcommand") : seen.substr(6)) + "' -a " +
-            rest + " -d '" + entry.summary + "'\n";
+            rest + " -d " + fishText(entry.summary) + "\n";
     if (!seen.empty()) text += "complete -c swept -n __fish_use_subcommand -a " + first + "\n";
     for (const std::string& option : entry.options) {
       const bool isLong = option.starts_with("--");

@@ -3,31 +3,15 @@
 
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "command_line/commands.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
+#include "output/text_output.hpp"
 #include "page/pages.hpp"
 
 namespace swept {
-
-std::string_view toString(JointType type) {
-  switch (type) {
-    case JointType::Fixed:
-      return "fixed";
-    case JointType::Revolute:
-      return "revolute";
-    case JointType::Continuous:
-      return "continuous";
-    case JointType::Prismatic:
-      return "prismatic";
-    case JointType::Planar:
-      return "planar";
-    case JointType::Floating:
-      return "floating";
-  }
-  return "unknown";
-}
 
 std::vector<std::string> explanations(const Arguments& args, const Checker& checker) {
   std::vector<std::string> sentences;
@@ -42,18 +26,31 @@ std::vector<std::string> explanations(const Arguments& args, const Checker& chec
   return sentences;
 }
 
+namespace {
+
+/// Those that would be of no account without a group.
+void refuseRules(const Arguments& args) {
+  for (const auto& [option, given] : {std::pair{"--explain", !args.explained.empty()},
+                                      {"--pad", !args.pads.empty()},
+                                      {"--scale", !args.scales.empty()},
+                                      {"--allow", !args.allowed.empty()},
+                                      {"--attach", !args.attached.empty()},
+                                      {"--margin", args.margin > 0.0}})
+    if (given)
+      throw UsageError(std::string(option) +
+                       " needs --group: which pairs are checked depends on what moves");
+}
+
+}  // namespace
+
 ExitCode runInfo(const Arguments& args) {
   requirePageFile(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
-  std::shared_ptr<const Checker> checker;
-  if (!args.group.empty())
-    checker =
-        makeChecker(args, model, chooseGroup(*model.robot, args.group), model.world, warnings);
-  if (!args.explained.empty() && checker == nullptr)
-    throw UsageError("--explain needs --group: which pairs are checked depends on what moves");
+  const std::shared_ptr<const Checker> checker = makeCheckerOfGroup(args, model, warnings);
+  if (checker == nullptr) refuseRules(args);
   if (args.json) {
-    std::cout << infoJson(args, model, checker.get()).dump(2) << '\n';
+    std::cout << dumped(infoJson(args, model, checker.get())) << '\n';
   } else {
     std::cout << infoText(args, model, checker.get());
   }

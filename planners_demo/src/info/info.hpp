@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "input/task.hpp"
@@ -10,12 +9,10 @@
 
 namespace swept {
 
-std::string_view toString(JointType type);
-
 /// One sentence for each --explain. Throws UsageError for a name that is not there.
 std::vector<std::string> explanations(const Arguments& args, const Checker& checker);
 
-/// What `info` says. `checker` is null when no group was asked for.
+/// What `info` says. `checker` is null without a group, as makeCheckerOfGroup() has it.
 std::string infoText(const Arguments& args, const Model& model, const Checker* checker);
 Json infoJson(const Arguments& args, const Model& model, const Checker* checker);
 

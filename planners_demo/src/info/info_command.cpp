@@ -8,11 +8,11 @@ namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
-  addCheckerOptions(app, args);
+  addRuleOptions(app, args);
   addSceneOptions(app, args);
   app.add_option("--explain", args.explained,
                  "why two links, or a link and a body of the world, are checked or not "
-                 "(repeatable; needs --group)")
+                 "(repeatable)")
       ->type_name("A,B")
       ->allow_extra_args(false);
   addHtmlOption(app, args);

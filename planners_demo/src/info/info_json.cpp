@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "info/info.hpp"
+#include "input/states.hpp"
+#include "output/robot_json.hpp"
 #include "output/shape_summary.hpp"
 
 namespace swept {
@@ -43,13 +45,6 @@ Json linksJson(const Robot& robot) {
   return links;
 }
 
-Json variableJson(const Variable& variable) {
-  return {{"name", variable.name},
-          {"lower", finiteOrNull(variable.lower)},
-          {"upper", finiteOrNull(variable.upper)},
-          {"cyclic", variable.cyclic}};
-}
-
 Json jointsJson(const Robot& robot) {
   Json joints = Json::array();
   for (std::size_t j = 0; j < robot.joints().size(); ++j) {
@@ -74,8 +69,6 @@ Json jointsJson(const Robot& robot) {
 Json groupsJson(const Robot& robot) {
   Json groups = Json::array();
   for (const Group& group : robot.groups()) {
-    Json variables = Json::array();
-    for (const int v : group.variables) variables.push_back(robot.variables()[v].name);
     Json states = Json::object();
     for (const NamedState& state : robot.namedStates()) {
       if (state.group != group.name) continue;
@@ -87,7 +80,7 @@ Json groupsJson(const Robot& robot) {
     groups.push_back(
         {{"name", group.name},
          {"tip", group.tipLink < 0 ? Json(nullptr) : Json(robot.links()[group.tipLink].name)},
-         {"variables", std::move(variables)},
+         {"variables", variableNames(robot, group)},
          {"named_states", std::move(states)}});
   }
   return groups;

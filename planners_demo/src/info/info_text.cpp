@@ -7,6 +7,7 @@
 
 #include "info/info.hpp"
 #include "input/states.hpp"
+#include "output/robot_json.hpp"
 #include "output/shape_summary.hpp"
 
 namespace swept {
@@ -87,13 +88,11 @@ std::string jointTable(const Robot& robot) {
 std::string groupTable(const Robot& robot) {
   TextTable table({{"group"}, {"tip"}, {"named states"}, {"variables"}});
   for (const Group& group : robot.groups()) {
-    std::vector<std::string> variables;
     std::vector<std::string> states;
-    for (const int v : group.variables) variables.push_back(robot.variables()[v].name);
     for (const NamedState& state : robot.namedStates())
       if (state.group == group.name) states.push_back(state.name);
     table.add({group.name, group.tipLink < 0 ? "" : robot.links()[group.tipLink].name,
-               joined(states), joined(variables, ",")});
+               joined(states), joined(variableNames(robot, group), ",")});
   }
   return table.text();
 }

@@ -2,7 +2,6 @@
 #include "input/attach.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
 #include "input/states.hpp"
+#include "output/markup_text.hpp"
 #include "output/text_output.hpp"
 
 namespace swept {
@@ -55,27 +55,12 @@ std::optional<Shape> primitive(const std::string& text, const std::string& label
   return std::nullopt;
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 /// Read as a link's mesh would be.
 Shape meshOf(const std::string& file, const LoadOptions& options) {
   if (!std::filesystem::exists(file)) throw InputError(file, 0, "file not found");
   const std::string urdf =
       "<robot name=\"attached\"><link name=\"body\"><collision><geometry><mesh filename=\"" +
-      escaped(std::filesystem::absolute(file).string()) +
+      markupText(std::filesystem::absolute(file).string()) +
       "\"/></geometry></collision></link></robot>";
   return Robot::parse(urdf, file, {}, {}, options)->links().front().collision.front().shape;
 }

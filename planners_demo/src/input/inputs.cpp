@@ -25,7 +25,8 @@ bool isFile(const std::string& attached) {
 /// Reads or writes the fields of Arguments that count, one after the other.
 class Writer {
  public:
-  explicit Writer(const fs::path& file) : folder_(fs::absolute(file).parent_path()) {}
+  explicit Writer(const fs::path& file)
+      : folder_(fs::weakly_canonical(fs::absolute(file).parent_path())) {}
 
   void file(const char* key, const std::string& name) {
     if (!name.empty()) json_[key] = relative(name);
@@ -58,8 +59,14 @@ class Writer {
   Json json() const { return json_; }
 
  private:
+  /// Folders as they are without symbolic links, behind which `..` is another folder than it looks
+  /// like. A file keeps its own name: what it names is looked for beside it.
   std::string relative(const std::string& name) const {
-    return fs::absolute(name).lexically_normal().lexically_proximate(folder_).string();
+    const fs::path path = fs::absolute(name);
+    return (fs::weakly_canonical(path.parent_path()) / path.filename())
+        .lexically_normal()
+        .lexically_proximate(folder_)
+        .string();
   }
   fs::path folder_;
   Json json_ = Json::object();
@@ -109,8 +116,13 @@ class Reader {
   }
 
  private:
+  /// The short form only where symbolic links let it be the same place.
   std::string absolute(const std::string& name) const {
-    return (folder_ / name).lexically_normal().string();
+    const fs::path path = folder_ / name;
+    const fs::path shorter = path.lexically_normal();
+    const bool same =
+        fs::weakly_canonical(path.parent_path()) == fs::weakly_canonical(shorter.parent_path());
+    return (same ? shorter : path).string();
   }
   const JsonValue& json_;
   fs::path folder_;

@@ -12,15 +12,20 @@
 
 namespace swept {
 
+Eigen::Vector4d unitQuaternion(const Eigen::Vector4d& typed, const std::string& what) {
+  constexpr double kRounding = 1e-2;  // of the norm
+  const double norm = typed.norm();
+  if (!(std::abs(norm - 1.0) <= kRounding))
+    throw UsageError(what + " has norm " + shortNumber(norm) + ", allowed is 1");
+  return typed / norm;
+}
+
 Eigen::Isometry3d readPose(const std::string& text, const std::string& label) {
-  constexpr double kQuaternionNorm = 1e-2;  // how far from 1 one typed with a few digits may be
   const std::array<std::string, 7> names{"x", "y", "z", "qx", "qy", "qz", "qw"};
   const std::vector<double> v = readValues(text, names, label);
-  const Eigen::Quaterniond turn(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(turn.norm() - 1.0) <= kQuaternionNorm))
-    throw UsageError(label + ": the quaternion has norm " + shortNumber(turn.norm()) +
-                     ", allowed is 1");
-  return Eigen::Translation3d(v[0], v[1], v[2]) * turn.normalized();
+  const Eigen::Quaterniond turn(
+      unitQuaternion({v[3], v[4], v[5], v[6]}, label + ": the quaternion"));
+  return Eigen::Translation3d(v[0], v[1], v[2]) * turn;
 }
 
 Eigen::Isometry3d readPlace(const std::string& text, const std::string& label) {

@@ -6,6 +6,10 @@
 
 namespace swept {
 
+/// qx, qy, qz, qw of norm 1, from numbers typed with a few digits. Throws UsageError, which starts
+/// with `what`, where their norm is another.
+Eigen::Vector4d unitQuaternion(const Eigen::Vector4d& typed, const std::string& what);
+
 /// `x,y,z,qx,qy,qz,qw` (m). Throws UsageError, which starts with `label`.
 Eigen::Isometry3d readPose(const std::string& text, const std::string& label);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/rules.hpp"
 
-#include <cerrno>
 #include <cstdlib>
 #include <stdexcept>
 

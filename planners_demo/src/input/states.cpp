@@ -8,20 +8,12 @@
 #include <numbers>
 
 #include "command_line/exit_code.hpp"
+#include "input/poses.hpp"
 #include "output/text_output.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
 namespace {
-
-// How far from 1 the norm of a quaternion typed with a few digits may be.
-constexpr double kQuaternionNorm = 1e-2;
-
-std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
-  std::vector<std::string> names;
-  for (const int v : group.variables) names.push_back(robot.variables()[v].name);
-  return names;
-}
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
@@ -60,11 +52,7 @@ void normaliseOrientation(const Robot& robot, const Group& group, std::vector<do
     if (joint.type != JointType::Floating || group.variables[i] != joint.firstVariable + 3)
       continue;
     Eigen::Map<Eigen::Vector4d> orientation(q.data() + i);
-    const double norm = orientation.norm();
-    if (!(std::abs(norm - 1.0) <= kQuaternionNorm))
-      throw UsageError(label + ": the quaternion of joint " + joint.name + " has norm " +
-                       shortNumber(norm) + ", allowed is 1");
-    orientation /= norm;
+    orientation = unitQuaternion(orientation, label + ": the quaternion of joint " + joint.name);
   }
 }
 
@@ -128,6 +116,12 @@ std::string labelOf(const PlanningProblem& problem) {
 }
 
 }  // namespace
+
+std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
+  std::vector<std::string> names;
+  for (const int v : group.variables) names.push_back(robot.variables()[v].name);
+  return names;
+}
 
 std::string unitOf(const Robot& robot, const Variable& variable) {
   const Joint& joint = robot.joints()[variable.joint];

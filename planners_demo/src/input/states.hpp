@@ -11,6 +11,9 @@
 
 namespace swept {
 
+/// Those that the group moves, in the order of its values.
+std::vector<std::string> variableNames(const Robot& robot, const Group& group);
+
 /// `rad` or `m`; empty for the components of a quaternion.
 std::string unitOf(const Robot& robot, const Variable& variable);
 

@@ -10,6 +10,7 @@
 #include "command_line/commands.hpp"
 #include "input/attach.hpp"
 #include "input/clouds.hpp"
+#include "input/problem_choice.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
 #include "output/text_output.hpp"
@@ -41,23 +42,14 @@ std::string standingContactText(const Checker& checker) {
          "' does, and left out of the verdicts: " + joined(pairs);
 }
 
-/// Exactly one source of states: the command line or one problem.
+/// States of the command line, one problem or a request.
 void checkStateSource(const Arguments& args) {
-  if (!args.request.empty()) {
-    if (!args.states.empty() || !args.problems.empty())
-      throw UsageError("--request cannot be combined with states or --problems: it has its own");
-    return;
-  }
+  requireOneSource(args);
+  if (!args.request.empty()) return;
   if (args.problems.empty()) {
     if (args.states.empty()) throw UsageError(std::string(args.command->name) + ": no state given");
     return;
   }
-  if (!args.states.empty())
-    throw UsageError("states and --problems cannot be combined: the problem has its own");
-  if (!args.scene.empty())
-    throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
-  if (!args.clouds.empty())
-    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
   if (args.set.empty() || !args.index)
     throw UsageError(std::string(args.command->name) + ": --problems needs --set and --index");
 }
@@ -67,6 +59,7 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
   const PlanningProblem problem = ProblemFile::load(args.problems).problem(args.set, *args.index);
   const ProblemStates states = problemStates(*model.robot, group, problem);
   Task task;
+  task.alternatives = true;
   task.checker = makeChecker(args, model, group, std::make_shared<World>(problem.world), warnings);
   task.states.push_back({.label = "start", .q = states.start});
   for (std::size_t i = 0; i < states.goals.size(); ++i) {
@@ -112,6 +105,7 @@ Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) 
   if (request.goals.size() + request.poseGoals.size() > 1 && !request.poseGoals.empty())
     throw UsageError(args.request + ": a goal pose has to be its only goal");
   Task task;
+  task.alternatives = true;
   task.checker = makeChecker(args, model, group, model.world, warnings,
                              referenceOf(robot, request, args.request));
   task.states.push_back(
@@ -205,6 +199,14 @@ std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<
   auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
   if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
   return checker;
+}
+
+std::shared_ptr<const Checker> makeCheckerOfGroup(const Arguments& args, const Model& model,
+                                                  Warnings& warnings) {
+  if (args.group.empty() && model.robot->groups().size() > 1) return nullptr;
+  const Group& group = chooseGroup(*model.robot, args.group);
+  if (args.group.empty() && group.variables.empty()) return nullptr;
+  return makeChecker(args, model, group, model.world, warnings);
 }
 
 double clearanceAccuracy(const Checker& checker) {

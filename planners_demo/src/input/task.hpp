@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -61,6 +62,10 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
 /// The same in another world.
 std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
                                            Warnings& warnings);
+/// For the group asked for, or the only one, in the world of --scene and --cloud. Null without a
+/// group to choose: where there are several, or the only one has nothing to move.
+std::shared_ptr<const Checker> makeCheckerOfGroup(const Arguments& args, const Model& model,
+                                                  Warnings& warnings);
 
 /// m. How narrow the interval around a least clearance is: a tenth of the tolerance that decides,
 /// but no less than 1e-5: where two bodies stay equally far apart all the way, the work grows with
@@ -79,6 +84,12 @@ struct Task {
   std::shared_ptr<const Checker> checker;
   std::vector<LabelledState> states;
   std::optional<PlanningRequest::PoseGoal> poseGoal = {};  ///< of a request
+  bool alternatives = false;  ///< states but the first are goals, any of which will do
+
+  /// Where the motion to `states[i]` begins, i > 0: at the state before, or at the start.
+  const LabelledState& beginOfMotionTo(std::size_t i) const {
+    return states[alternatives ? 0 : i - 1];
+  }
 };
 Task loadTask(const Arguments& args, const Model& model, Warnings& warnings);
 

@@ -7,7 +7,19 @@
 #include <cmath>
 #include <cstdio>
 
+#include "command_line/exit_code.hpp"
+
 namespace swept {
+namespace {
+
+bool isUtf8(const std::string& text) {
+  const auto with = [&](Json::error_handler_t handler) {
+    return Json(text).dump(-1, ' ', false, handler);
+  };
+  return with(Json::error_handler_t::ignore) == with(Json::error_handler_t::replace);
+}
+
+}  // namespace
 
 std::string shortNumber(double value) {
   std::array<char, 40> buffer{};
@@ -76,6 +88,28 @@ Json toJson(const Witness& witness) {
           {"point_a", toJson(witness.pointA)},
           {"point_b", toJson(witness.pointB)},
           {"distance", finiteOrNull(witness.distance)}};
+}
+
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string lineOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void requireUtf8(const Json& json, const std::string& where) {
+  const auto require = [&](const std::string& text) {
+    if (!isUtf8(text))
+      throw UsageError(where + ": the name '" + text +
+                       "' is not UTF-8, which all text in the file has to be");
+  };
+  if (json.is_string()) require(json.get_ref<const std::string&>());
+  if (!json.is_structured()) return;
+  for (const auto& [key, value] : json.items()) {
+    require(key);
+    requireUtf8(value, where);
+  }
 }
 
 std::string TextTable::text() const {

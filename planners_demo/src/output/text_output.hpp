@@ -37,6 +37,14 @@ Json toJson(const Witness& witness);
 /// Infinite and undefined numbers are null: JSON has none.
 Json finiteOrNull(double value);
 
+/// JSON over several lines. Bytes of names that are not UTF-8, which JSON has to be, become U+FFFD.
+std::string dumped(const Json& json);
+/// The same on one line.
+std::string lineOf(const Json& json);
+/// Throws UsageError, beginning with `where`, for the first key or text in it that is not UTF-8:
+/// for files whose names have to be the ones that were read.
+void requireUtf8(const Json& json, const std::string& where);
+
 /// Rows of text in aligned columns, two blanks apart. Columns of numbers are set flush right.
 class TextTable {
  public:

@@ -15,12 +15,40 @@
 namespace swept {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, int error) {
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  // in a row, as Linux has it
+
+[[noreturn]] void refuse(const fs::path& file, int error) {
   throw UsageError("cannot write '" + file.string() + "': " + std::strerror(error));
 }
 
-std::filesystem::path folderOf(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+fs::file_type typeOf(const fs::path& file) {
+  std::error_code error;  // what cannot be looked at cannot be opened either, which says why
+  return fs::status(file, error).type();
+}
+
+/// A pipe, a device: there are no bytes there to be kept, and a file in its place is no pipe.
+bool takesBytesOnly(fs::file_type type) {
+  return type == fs::file_type::fifo || type == fs::file_type::character ||
+         type == fs::file_type::block;
+}
+
+/// Where links from `file` lead: a new file is to be put there, not in the place of a link.
+fs::path endOfLinks(const fs::path& file) {
+  fs::path end = file;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(end, error)); ++links) {
+    if (links == kMostLinks) refuse(file, ELOOP);
+    const fs::path next = fs::read_symlink(end, error);
+    if (error) refuse(file, error.value());
+    end = folderOf(end) / next;
+  }
+  return end;
 }
 
 /// Returns errno, or 0.
@@ -31,33 +59,59 @@ int writeAll(int descriptor, const std::string& text) {
     if (written < 0) return errno;
     done += static_cast<std::size_t>(written);
   }
-  return fsync(descriptor) == 0 ? 0 : errno;
+  // Of pipes and devices there is nothing to bring to a disk.
+  return fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+}
+
+/// Of the file that is there, or as any program's new file.
+mode_t modeOf(const fs::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) == 0) return status.st_mode & 07777;
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+int writeBytes(const fs::path& file, const std::string& text) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (descriptor < 0) return errno;
+  const int error = writeAll(descriptor, text);
+  return close(descriptor) != 0 && error == 0 ? errno : error;
+}
+
+int replaceFile(const fs::path& file, const std::string& text) {
+  // Under a name of its own first.
+  std::string temporary = (folderOf(file) / ("." + file.filename().string() + ".XXXXXX")).string();
+  const int descriptor = mkstemp(temporary.data());
+  if (descriptor < 0) return errno;
+  fchmod(descriptor, modeOf(file));
+  int error = writeAll(descriptor, text);
+  if (close(descriptor) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
+  if (error != 0) unlink(temporary.c_str());
+  return error;
 }
 
 }  // namespace
 
-void requireWritable(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) refuse(file, EISDIR);
-  const std::filesystem::path folder = folderOf(file);
-  if (!std::filesystem::is_directory(folder))
-    refuse(file, std::filesystem::exists(folder) ? ENOTDIR : ENOENT);
+void requireWritable(const fs::path& file) {
+  const fs::file_type type = typeOf(file);
+  if (type == fs::file_type::directory) refuse(file, EISDIR);
+  if (type == fs::file_type::socket) refuse(file, ENXIO);
+  if (takesBytesOnly(type)) {
+    if (access(file.c_str(), W_OK) != 0) refuse(file, errno);
+    return;
+  }
+  const fs::path folder = folderOf(endOfLinks(file));
+  if (access(folder.c_str(), F_OK) != 0) refuse(file, errno);
+  if (typeOf(folder) != fs::file_type::directory) refuse(file, ENOTDIR);
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(file, errno);
 }
 
-void writeWholeFile(const std::filesystem::path& file, const std::string& text) {
-  // Under a name of its own first.
-  std::string temporary = (folderOf(file) / ("." + file.filename().string() + ".XXXXXX")).string();
-  const int descriptor = mkstemp(temporary.data());
-  if (descriptor < 0) refuse(file, errno);
-  const mode_t mask = umask(0);
-  umask(mask);
-  fchmod(descriptor, 0666 & ~mask);
-  int error = writeAll(descriptor, text);
-  if (close(descriptor) != 0 && error == 0) error = errno;
-  if (error == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  unlink(temporary.c_str());
-  refuse(file, error);
+void writeWholeFile(const fs::path& file, const std::string& text) {
+  const int error =
+      takesBytesOnly(typeOf(file)) ? writeBytes(file, text) : replaceFile(endOfLinks(file), text);
+  if (error != 0) refuse(file, error);
 }
 
 }  // namespace swept

@@ -10,7 +10,9 @@ namespace swept {
 /// Throws UsageError when the file could not be written: better before the work than after it.
 void requireWritable(const std::filesystem::path& file);
 
-/// Whoever reads the file sees the old one or the whole new one. Throws UsageError.
+/// Whoever reads the file sees the old one or the whole new one, which has the old one's mode. A
+/// link stays, and what it leads to is written; a pipe or a device just takes the bytes. Throws
+/// UsageError.
 void writeWholeFile(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace swept

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 
 #include "command_line/options.hpp"
 #include "input/json_value.hpp"
+#include "output/clearance_text.hpp"
 #include "output/progress.hpp"
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
@@ -17,10 +17,6 @@
 
 namespace swept {
 namespace {
-
-std::string clearanceText(double clearance) {
-  return std::isinf(clearance) ? "no pair to check" : shortNumber(clearance) + " m";
-}
 
 /// `3 motions: 1 free, 2 in collision`.
 std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts) {
@@ -146,8 +142,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   PageContent content;
   std::vector<Verdict> verdicts;
   for (std::size_t i = 1; i < task.states.size(); ++i) {
-    // Goals of a problem are alternatives; states of the command line follow each other.
-    const LabelledState& from = task.states[args.problems.empty() ? i - 1 : 0];
+    const LabelledState& from = task.beginOfMotionTo(i);
     const LabelledState& to = task.states[i];
     content.motions.push_back({.label = from.label + " to " + to.label,
                                .from = from.q,

@@ -44,15 +44,6 @@ bool showsStates(const Arguments& args) {
   return !args.states.empty() || !args.problems.empty();
 }
 
-/// Null without a group, and for one that cannot move: without states there is nothing to judge.
-std::shared_ptr<const Checker> checkerOf(const Arguments& args, const Model& model,
-                                         Warnings& warnings) {
-  if (args.group.empty() && model.robot->groups().size() > 1) return nullptr;
-  const Group& group = chooseGroup(*model.robot, args.group);
-  if (args.group.empty() && group.variables.empty()) return nullptr;
-  return makeChecker(args, model, group, model.world, warnings);
-}
-
 }  // namespace
 
 ExitCode runView(const Arguments& given) {
@@ -61,7 +52,7 @@ ExitCode runView(const Arguments& given) {
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = showsStates(args) ? loadTask(args, model, warnings) : Task{};
-  const auto checker = showsStates(args) ? task.checker : checkerOf(args, model, warnings);
+  const auto checker = showsStates(args) ? task.checker : makeCheckerOfGroup(args, model, warnings);
   if (given.page.file.empty()) args.page.file = temporaryPage();
   if (showsStates(args))
     writeCheckPage(args, model, task);

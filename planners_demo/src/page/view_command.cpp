@@ -7,8 +7,9 @@ namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
-  addCheckerOptions(app, args);
+  addRuleOptions(app, args);
   addSceneOptions(app, args);
+  addSelfFilterOption(app, args);
   app.add_option("states", args.states, "states to show; without: the default state")
       ->type_name("STATE");
   addProblemOptions(app, args, "shows start and goals in its world");

@@ -10,11 +10,14 @@
 namespace swept {
 namespace {
 
-std::vector<std::string> variableNames(const Checker& checker) {
+std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
   std::vector<std::string> names;
-  for (const int v : checker.group().variables)
-    names.push_back(checker.robot().variables()[v].name);
+  for (const int v : group.variables) names.push_back(robot.variables()[v].name);
   return names;
+}
+
+std::string optionText(const std::filesystem::path& file) {
+  return "-o '" + file.string() + "'";
 }
 
 /// A line for each of what the first two levels hold, and for each pair of a proof: short enough to
@@ -45,7 +48,8 @@ std::string linesOf(const Json& json) {
 }
 
 std::string jsonText(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
-                     const Json& inputs, const Certificate& certificate, bool embed) {
+                     const Json& inputs, const Certificate& certificate, bool embed,
+                     const std::string& where) {
   Json json = {{"robot", checker.robot().name()},
                {"group", checker.group().name},
                {"planner", request.planner},
@@ -53,7 +57,7 @@ std::string jsonText(const Checker& checker, const PlanRequest& request, const P
                {"margin", checker.options().margin},
                {"tolerance", checker.options().tolerance},
                {"clouds", cloudsJson(checker.world())},
-               {"joint_names", variableNames(checker)}};
+               {"joint_names", variableNames(checker.robot(), checker.group())}};
   json["states"] = Json::array();
   for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
   json["segments"] = Json::array();
@@ -61,6 +65,7 @@ std::string jsonText(const Checker& checker, const PlanRequest& request, const P
     json["segments"].push_back({{"verdict", toString(segment.certificate.verdict)},
                                 {"clearance", finiteOrNull(segment.clearance)}});
   json["inputs"] = inputs;
+  requireUtf8(json, where);
   if (embed) json["model"] = certificate.model;
   json["proof"] = certificate.proof;
   if (!certificate.proof.is_null()) json["proof"]["digests"]["claims"] = verify::claimDigests(json);
@@ -68,7 +73,10 @@ std::string jsonText(const Checker& checker, const PlanRequest& request, const P
 }
 
 std::string csvText(const Checker& checker, const PlanOutcome& outcome) {
-  std::string text = joined(variableNames(checker), ",") + "\n";
+  std::string text;
+  for (const std::string& name : variableNames(checker.robot(), checker.group()))
+    text.append(text.empty() ? "" : ",").append(csvCell(name));
+  text += "\n";
   for (const std::vector<double>& q : outcome.states) {
     for (std::size_t i = 0; i < q.size(); ++i)
       text.append(i == 0 ? "" : ",").append(exactNumber(q[i]));
@@ -85,7 +93,8 @@ std::string quoted(const std::string& name) {
 /// moveit_msgs/RobotTrajectory. A path has no times, so the points have none either.
 std::string yamlText(const Checker& checker, const PlanOutcome& outcome) {
   std::string text = "joint_trajectory:\n  joint_names:\n";
-  for (const std::string& name : variableNames(checker)) text += "    - " + quoted(name) + "\n";
+  for (const std::string& name : variableNames(checker.robot(), checker.group()))
+    text += "    - " + quoted(name) + "\n";
   text += "  points:\n";
   for (const std::vector<double>& q : outcome.states) {
     text += "    - positions: [";
@@ -119,6 +128,10 @@ PathFile::PathFile(const std::string& file, const Robot& robot, const Group& gro
     throw UsageError("'" + file + "': a path file ends in .json, .csv or .yaml");
   requireWritable(file_);
   if (isYaml(file_)) requireOneValuePerJoint(file_, robot, group);
+  if (ending != ".csv") requireUtf8(variableNames(robot, group), optionText(file_));
+  if (!holdsProof()) return;
+  requireUtf8({robot.name(), group.name}, optionText(file_));
+  for (const Link& link : robot.links()) requireUtf8(link.name, optionText(file_));
 }
 
 bool PathFile::holdsProof() const {
@@ -128,7 +141,8 @@ bool PathFile::holdsProof() const {
 void PathFile::write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
                      const Json& inputs, const Certificate& certificate, bool embed) const {
   if (holdsProof())
-    writeWholeFile(file_, jsonText(checker, request, outcome, inputs, certificate, embed));
+    writeWholeFile(
+        file_, jsonText(checker, request, outcome, inputs, certificate, embed, optionText(file_)));
   else if (file_.extension() == ".csv")
     writeWholeFile(file_, csvText(checker, outcome));
   else

@@ -14,13 +14,14 @@ namespace swept {
 class PathFile {
  public:
   /// Throws UsageError for an unknown ending, a folder that is missing or not writable, a name that
-  /// is a folder, and for a group that the format cannot hold.
+  /// is a folder, for a group that the format cannot hold, and for names of the robot that
+  /// are not UTF-8, where the format has to be.
   PathFile(const std::string& file, const Robot& robot, const Group& group);
 
   /// Whether it holds a proof: the format has a place for one.
   bool holdsProof() const;
   /// The file appears whole or not at all. `inputs` and `certificate` are for what holds a proof.
-  /// Throws UsageError naming file and reason.
+  /// Throws UsageError naming file and reason: also for other names that are not UTF-8.
   void write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
              const Json& inputs, const Certificate& certificate, bool embed) const;
 

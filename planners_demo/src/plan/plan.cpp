@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 
@@ -9,11 +7,13 @@
 #include "input/clouds.hpp"
 #include "input/inputs.hpp"
 #include "input/poses.hpp"
+#include "output/clearance_text.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "plan/path_files.hpp"
 #include "plan/plan_dump.hpp"
+#include "plan/plan_options.hpp"
 #include "plan/plan_sets.hpp"
 #include "plan/planners.hpp"
 #include "plan/planning.hpp"
@@ -21,9 +21,9 @@
 namespace swept {
 namespace {
 
-std::string clearanceText(double clearance) {
-  return std::isinf(clearance) ? "no pair to check" : shortNumber(clearance) + " m";
-}
+// How near to a goal pose is enough.
+constexpr double kPositionTolerance = 1e-3;     // m
+constexpr double kOrientationTolerance = 1e-2;  // rad
 
 std::string planTable(const PlanRequest& request, const PlanOutcome& outcome) {
   TextTable table({{"planner"},
@@ -78,6 +78,13 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
   return json;
 }
 
+/// A path file is JSON: names that cannot be in it are told before the work.
+void requireNames(const Arguments& args, const Checker& checker) {
+  const std::string where = "-o '" + args.output + "'";
+  requireUtf8(inputsJson(args, args.output), where);
+  for (const WorldBody& body : checker.world().bodies()) requireUtf8(body.name, where);
+}
+
 void writePath(const Arguments& args, const PathFile& file, const Checker& checker,
                const PlanRequest& request, const PlanOutcome& outcome, Warnings& warnings) {
   Certificate certificate;
@@ -93,26 +100,6 @@ void writePath(const Arguments& args, const PathFile& file, const Checker& check
   file.write(checker, request, outcome, inputsJson(args, args.output), certificate, args.embed);
 }
 
-void requireEnds(const Arguments& args) {
-  if (!args.request.empty()) {
-    if (!args.goalPose.empty())
-      throw UsageError(
-          "--goal-pose and --request cannot be combined: the request has its own goals");
-    return;
-  }
-  if (args.goalPose.empty() && !args.goalLink.empty()) throw UsageError("--link needs --goal-pose");
-  if (!args.problems.empty()) {
-    if (!args.goalPose.empty())
-      throw UsageError(
-          "--goal-pose and --problems cannot be combined: the problem has its own goals");
-    return;
-  }
-  if (!args.goalPose.empty() && args.states.size() != 1)
-    throw UsageError("plan: with --goal-pose a start is needed, and no other state");
-  if (args.goalPose.empty() && args.states.size() < 2)
-    throw UsageError("plan: a start and a goal are needed");
-}
-
 std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Task& task) {
   const Robot& robot = task.checker->robot();
   const Group& group = task.checker->group();
@@ -122,10 +109,11 @@ std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Task& task) {
                       .positionTolerance = task.poseGoal->positionTolerance,
                       .orientationTolerance = task.poseGoal->orientationTolerance};
   if (args.goalPose.empty()) return std::nullopt;
-  PoseTarget target{.link = args.goalLink,
-                    .model_from_link = readPose(args.goalPose, "--goal-pose"),
-                    .positionTolerance = args.positionTolerance,
-                    .orientationTolerance = args.orientationTolerance};
+  PoseTarget target{
+      .link = args.goalLink,
+      .model_from_link = readPose(args.goalPose, "--goal-pose"),
+      .positionTolerance = args.positionTolerance.value_or(kPositionTolerance),
+      .orientationTolerance = args.orientationTolerance.value_or(kOrientationTolerance)};
   if (target.link.empty()) {
     if (group.tipLink < 0)
       throw UsageError("--goal-pose: group '" + group.name + "' has no tip; choose a --link");
@@ -134,13 +122,10 @@ std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Task& task) {
   return target;
 }
 
-bool manyProblems(const Arguments& args) {
-  return !args.problems.empty() && (args.set.empty() || !args.index);
-}
-
 }  // namespace
 
 ExitCode runPlan(const Arguments& args) {
+  requirePlanOptions(args);
   routePlannerMessages(args.verbose);
   PlanRequest request{.planner = plannerName(args.planner),
                       .time = args.time,
@@ -149,11 +134,8 @@ ExitCode runPlan(const Arguments& args) {
                       .simplifyTime = args.simplifyTime.value_or(args.time),
                       .threads = args.threads,
                       .goalPose = {},
-                      .clearance = !manyProblems(args)};
-  if (manyProblems(args) && !args.page.file.empty())
-    throw UsageError("--html shows one problem: it needs --set and --index");
-  if (manyProblems(args)) return runPlanSets(args, request);
-  requireEnds(args);
+                      .clearance = !plansSeveral(args)};
+  if (plansSeveral(args)) return runPlanSets(args, request);
 
   requirePageFile(args);
   QueryDump dump(args);
@@ -163,6 +145,7 @@ ExitCode runPlan(const Arguments& args) {
   request.goalPose = goalPoseOf(args, task);
   std::optional<PathFile> file;
   if (!args.output.empty()) file.emplace(args.output, *model.robot, task.checker->group());
+  if (file && file->holdsProof()) requireNames(args, *task.checker);
   PlanOutcome outcome;
   {
     Progress progress(
@@ -173,7 +156,7 @@ ExitCode runPlan(const Arguments& args) {
   dumpFailures(dump, *task.checker, outcome);
   if (file && outcome.proven()) writePath(args, *file, *task.checker, request, outcome, warnings);
   if (args.json) {
-    std::cout << planJson(args, *task.checker, request, outcome).dump(2) << '\n';
+    std::cout << dumped(planJson(args, *task.checker, request, outcome)) << '\n';
   } else {
     std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
               << resultLine(outcome);

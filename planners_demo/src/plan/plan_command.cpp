@@ -12,6 +12,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
+  addSelfFilterOption(app, args);
   app.add_option("states", args.states,
                  "start and goal, or several goals, one of which is to be reached")
       ->type_name("START GOAL...");

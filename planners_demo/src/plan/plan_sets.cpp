@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "input/problem_choice.hpp"
 #include "input/states.hpp"
 #include "output/progress.hpp"
 #include "output/quantile.hpp"
@@ -22,19 +23,6 @@ struct Entry {
   int index = 0;
   PlanOutcome outcome;
 };
-
-std::vector<Entry> listProblems(const ProblemFile& file, const Arguments& args) {
-  std::vector<Entry> entries;
-  for (const std::string& set : file.sets()) {
-    if (!args.set.empty() && set != args.set) continue;
-    for (const int index : file.indices(set))
-      entries.push_back({.set = set, .index = index, .outcome = {}});
-  }
-  // The file's own message names the sets it has.
-  if (entries.empty() && !args.set.empty()) file.problem(args.set, 0);
-  if (entries.empty()) throw UsageError("'" + args.problems + "' has no problems");
-  return entries;
-}
 
 PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Model& model,
                          const Group& group, const Checker& like, const PlanRequest& request,
@@ -127,26 +115,34 @@ std::string setsText(const std::vector<Entry>& entries) {
                    {"median", true},
                    {"mean", true},
                    {"p95", true}});
-  for (const Summary& summary : summaries(entries))
+  for (const Summary& summary : summaries(entries)) {
+    const auto seconds = [&](double time) {
+      return summary.times.empty() ? "-" : secondsText(time);
+    };
     table.add({summary.name,
                std::to_string(summary.solved) + "/" + std::to_string(summary.problems),
                std::to_string(summary.proven) + "/" + std::to_string(summary.solved),
-               secondsText(quantile(summary.times, 0.5)), secondsText(mean(summary.times)),
-               secondsText(quantile(summary.times, 0.95))});
+               seconds(quantile(summary.times, 0.5)), seconds(mean(summary.times)),
+               seconds(quantile(summary.times, 0.95))});
+  }
   return text + table.text();
 }
 
 Json setsJson(const std::vector<Entry>& entries, const PlanRequest& request) {
   Json json = {{"planner", request.planner}, {"seed", request.seed}, {"time", request.time}};
   json["sets"] = Json::array();
-  for (const Summary& summary : summaries(entries))
+  for (const Summary& summary : summaries(entries)) {
+    const auto orNull = [&](double time) {
+      return summary.times.empty() ? Json(nullptr) : Json(time);
+    };
     json["sets"].push_back({{"set", summary.name},
                             {"problems", summary.problems},
                             {"solved", summary.solved},
                             {"proven", summary.proven},
-                            {"median", quantile(summary.times, 0.5)},
-                            {"mean", mean(summary.times)},
-                            {"p95", quantile(summary.times, 0.95)}});
+                            {"median", orNull(quantile(summary.times, 0.5))},
+                            {"mean", orNull(mean(summary.times))},
+                            {"p95", orNull(quantile(summary.times, 0.95))}});
+  }
   json["problems"] = Json::array();
   for (const Entry& entry : entries)
     json["problems"].push_back(
@@ -164,28 +160,17 @@ Json setsJson(const std::vector<Entry>& entries, const PlanRequest& request) {
   return json;
 }
 
-void checkOptions(const Arguments& args) {
-  if (!args.states.empty())
-    throw UsageError("states and --problems cannot be combined: the problem has its own");
-  if (!args.scene.empty())
-    throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
-  if (!args.clouds.empty())
-    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
-  if (args.index) throw UsageError("--index needs --set");
-  if (!args.output.empty())
-    throw UsageError("-o writes one path; choose one problem with --set and --index");
-}
-
 }  // namespace
 
 ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
-  checkOptions(args);
   QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Group& group = chooseGroup(*model.robot, args.group);
   const ProblemFile file = ProblemFile::load(args.problems);
-  std::vector<Entry> entries = listProblems(file, args);
+  std::vector<Entry> entries;
+  for (const ProblemChoice& chosen : chosenProblems(file, args))
+    entries.push_back({.set = chosen.set, .index = chosen.index, .outcome = {}});
   const auto like = makeChecker(args, model, group, std::make_shared<const World>(), warnings);
   {
     Progress progress("planning " + std::to_string(entries.size()) + " problems", args.quiet);
@@ -196,11 +181,13 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   ExitCode code = ExitCode::Free;
   for (const Entry& entry : entries) {
     code = worse(code, entry.outcome.code);
+    if (entry.outcome.code == ExitCode::BadInput)
+      std::cerr << "swept: error: " << entry.outcome.failure << '\n';
     dump.setProblem(entry.set, entry.index);
     dumpFailures(dump, *like, entry.outcome);
   }
   if (args.json)
-    std::cout << setsJson(entries, request).dump(2) << '\n';
+    std::cout << dumped(setsJson(entries, request)) << '\n';
   else
     std::cout << setsText(entries);
   dump.announce();

@@ -6,7 +6,8 @@
 
 namespace swept {
 
-/// `plan` over all problems of a file, or of one set of it.
+/// `plan` over all problems of a file, or of one set of it. Options as requirePlanOptions() lets
+/// them through.
 ExitCode runPlanSets(const Arguments& args, const PlanRequest& request);
 
 }  // namespace swept

@@ -128,6 +128,9 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometric& path,
              bool clearance) {
   outcome.states = configurationsOf(path, checker);
+  // Of a start that is the goal, some planners make a path of one state. What is to be proven of
+  // it, and can be verified, is the motion that stays there.
+  if (outcome.states.size() == 1) outcome.states.push_back(outcome.states.front());
   outcome.code = ExitCode::Free;
   Workspace workspace(checker);
   for (std::size_t i = 0; i + 1 < outcome.states.size(); ++i) {

@@ -59,6 +59,10 @@ std::string whyNotReached(const std::shared_ptr<const Checker>& owner, const Pos
     ++found;
     EndReport report =
         reportEnd(checker, {.label = "the best of them", .q = std::move(q)}, workspace);
+    // The search for goals does not use up the tolerances, so that rounding cannot exceed them.
+    if (report.verdict == Verdict::Free)
+      return "the search for goals missed a free configuration that puts " + target.link +
+             " at the goal pose: try larger tolerances or another --seed";
     if (!best || deepest(report) < deepest(*best)) best = std::move(report);
   }
   const std::string searches = std::to_string(kSearches) + " searches";

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "input/task.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept {
@@ -19,8 +18,9 @@ struct PoseTarget {
   double orientationTolerance;  ///< rad
 };
 
-/// Why no free configuration is known that has a link there: `link hand cannot be put there, ...`,
-/// or what is in contact when it is, with the least depth seen.
+/// Why the search for goals found no free configuration that has a link there: none that has was
+/// found at all, or what is in contact in the one with the least depth, or there is a free one that
+/// the search missed.
 std::string whyNotReached(const std::shared_ptr<const Checker>& checker, const PoseTarget& target,
                           std::uint32_t seed);
 

@@ -8,6 +8,9 @@
 #include <system_error>
 
 #include "command_line/exit_code.hpp"
+#include "input/inputs.hpp"
+#include "input/states.hpp"
+#include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "replay/robot_cases.hpp"
 #include "verify/encoding.hpp"
@@ -35,12 +38,23 @@ void addDumpOption(CLI::App& app, Arguments& args) {
       ->type_name("DIR");
 }
 
-QueryDump::QueryDump(const Arguments& args) : args_(args), folder_(folderOf(args)) {
+QueryDump::QueryDump(const Arguments& args)
+    : args_(args),
+      folder_(folderOf(args)),
+      where_((args.dump.empty() ? "SWEPT_DUMP_DIR '" : "--dump '") + folder_ + "'") {
   if (folder_.empty()) return;
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw UsageError("cannot make the folder '" + folder_ + "': " + error.message());
   requireWritable(fs::path(folder_) / "case.json");
+  requireUtf8(inputsJson(args_, fs::path(folder_) / "case.json"), where_);
+}
+
+void QueryDump::requireNames(const Checker& checker) const {
+  if (folder_.empty()) return;
+  requireUtf8(checker.group().name, where_);
+  for (const int v : checker.group().variables)
+    requireUtf8(checker.robot().variables()[v].name, where_);
 }
 
 void QueryDump::state(const Checker& checker, const std::string& label,
@@ -65,13 +79,13 @@ void QueryDump::write(const Checker& checker, const std::string& label,
                       const std::vector<std::vector<double>>& states,
                       const MotionCertificate& found) {
   if (folder_.empty() || found.verdict == Verdict::Free) return;
+  requireNames(checker);
   RobotQuestion question;
   question.inputs = args_;
   question.states = states;
   question.expected = found.verdict;
   question.inputs.group = checker.group().name;
-  for (const int v : checker.group().variables)
-    question.jointNames.push_back(checker.robot().variables()[v].name);
+  question.jointNames = variableNames(checker.robot(), checker.group());
   if (found.witness) {
     question.contactAfter = found.freeUntil;
     question.contactBy = found.witness->t;

@@ -22,8 +22,11 @@ void addDumpOption(CLI::App& app, Arguments& args);
 class QueryDump {
  public:
   /// Throws UsageError where the folder is not one that can be written to; it is made if there is
-  /// none.
+  /// none. Likewise for names of files, and other options, that are not UTF-8.
   explicit QueryDump(const Arguments& args);
+  /// Throws UsageError for names of the group and its variables that are not UTF-8: better before
+  /// the work than at the first answer that is to be written.
+  void requireNames(const Checker& checker) const;
 
   void state(const Checker& checker, const std::string& label, const std::vector<double>& q,
              Verdict verdict);
@@ -42,6 +45,7 @@ class QueryDump {
 
   Arguments args_;
   std::string folder_;  ///< empty: none
+  std::string where_;   ///< the folder for messages, with the option that names it
   int written_ = 0;
 };
 

@@ -91,7 +91,7 @@ ExitCode runReplay(const Arguments& args) {
     json["passed"] = passed;
     json["failed"] = failed;
     json["skipped"] = skipped;
-    std::cout << json.dump(2) << '\n';
+    std::cout << dumped(json) << '\n';
   } else {
     std::cout << table.text() << passed << " passed, " << failed << " failed, " << skipped
               << " skipped\n";

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <regex>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
+#include "replay/flat_terrain.hpp"
 #include "swept/core/height_field.hpp"
 
 namespace swept {
@@ -140,28 +140,6 @@ Shape readOctree(const JsonValue& shape) {
                   static_cast<long long>(cell.z())});
   }
   return Cubes(cells, Vector3d::Zero(), Vector3d::Constant(resolution)).mesh();
-}
-
-struct Terrain {
-  Eigen::MatrixXd heights;
-  double base;
-};
-
-/// `flat, all H, RxC samples, base B`
-Terrain readFlatTerrain(const JsonValue& place) {
-  static const std::regex pattern(
-      R"(flat, all ([-+.\deE]+), (\d{1,4})x(\d{1,4}) samples, base ([-+.\deE]+))");
-  const std::string text = place.text();
-  std::smatch found;
-  const std::string wanted = "rows of numbers, or 'flat, all H, RxC samples, base B'";
-  if (!std::regex_match(text, found, pattern)) place.refuse(wanted);
-  try {
-    const double height = std::stod(found[1]);
-    return {Eigen::MatrixXd::Constant(std::stoi(found[2]), std::stoi(found[3]), height),
-            std::stod(found[4])};
-  } catch (const std::exception&) {  // what stod makes nothing of
-    place.refuse(wanted);
-  }
 }
 
 Terrain readTerrain(const JsonValue& shape) {

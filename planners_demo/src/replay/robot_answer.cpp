@@ -32,9 +32,7 @@ std::shared_ptr<const Checker> checkerOf(const RobotQuestion& question) {
 
 void requireJoints(const RobotQuestion& question, const Checker& checker) {
   if (question.jointNames.empty()) return;
-  std::vector<std::string> names;
-  for (const int v : checker.group().variables)
-    names.push_back(checker.robot().variables()[v].name);
+  const std::vector<std::string> names = variableNames(checker.robot(), checker.group());
   if (names != question.jointNames)
     throw UsageError("the values are of joints " + joined(question.jointNames) + "; group '" +
                      checker.group().name + "' has " + joined(names));

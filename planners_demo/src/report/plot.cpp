@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "output/markup_text.hpp"
 #include "output/text_output.hpp"
 #include "report/plot_labels.hpp"
 
@@ -196,29 +197,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string markupText(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string svgText(const Plot& plot) {
   return Drawing(plot).text();

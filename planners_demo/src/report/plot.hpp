@@ -6,9 +6,6 @@
 
 namespace swept {
 
-/// Text for HTML and XML, between tags or in an attribute.
-std::string markupText(const std::string& text);
-
 struct PlotPoint {
   double x = 0.0;     ///< > 0
   double y = 0.0;     ///< >= 0

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "output/markup_text.hpp"
 #include "report/machine.hpp"
 #include "report/report_output.hpp"
 #include "report/report_worlds.hpp"

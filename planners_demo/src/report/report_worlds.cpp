@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "command_line/exit_code.hpp"
+#include "input/problem_choice.hpp"
 
 namespace swept {
 namespace {
@@ -18,30 +18,17 @@ std::string sceneName(const Arguments& args) {
 std::vector<ReportWorld> problemWorlds(const Arguments& args) {
   const ProblemFile file = ProblemFile::load(args.problems);
   std::vector<ReportWorld> worlds;
-  int place = 0;
-  for (const std::string& set : file.sets()) {
-    if (!args.set.empty() && set != args.set) continue;
-    for (const int index : file.indices(set)) {
-      if (place++ % args.report.every != 0) continue;
-      if (args.limit && worlds.size() >= static_cast<std::size_t>(*args.limit)) return worlds;
-      worlds.push_back({.name = set + " " + std::to_string(index),
-                        .world = std::make_shared<const World>(file.problem(set, index).world)});
-    }
-  }
-  // The file's own message names the sets it has.
-  if (worlds.empty() && !args.set.empty()) file.problem(args.set, 0);
-  if (worlds.empty()) throw UsageError("'" + args.problems + "' has no problems");
+  for (const auto& [set, index] : chosenProblems(file, args))
+    worlds.push_back({.name = set + " " + std::to_string(index),
+                      .world = std::make_shared<const World>(file.problem(set, index).world)});
   return worlds;
 }
 
 }  // namespace
 
 std::vector<ReportWorld> reportWorlds(const Arguments& args, const Model& model) {
+  requireOneSource(args);
   if (args.problems.empty()) return {{.name = sceneName(args), .world = model.world}};
-  if (!args.scene.empty())
-    throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
-  if (!args.clouds.empty())
-    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
   return problemWorlds(args);
 }
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/problem_choice.hpp"
+
+#include "command_line/exit_code.hpp"
+
+namespace swept {
+
+std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Arguments& args) {
+  std::vector<ProblemChoice> chosen;
+  int place = 0;
+  for (const std::string& set : file.sets()) {
+    if (!args.set.empty() && set != args.set) continue;
+    for (const int index : file.indices(set))
+      if (place++ % args.report.every == 0) chosen.push_back({.set = set, .index = index});
+  }
+  // The file's own message names the sets it has.
+  if (chosen.empty() && !args.set.empty()) file.problem(args.set, 0);
+  if (chosen.empty()) throw UsageError("'" + args.problems + "' has no problems");
+  if (args.limit && chosen.size() > static_cast<std::size_t>(*args.limit))
+    chosen.resize(static_cast<std::size_t>(*args.limit));
+  return chosen;
+}
+
+void requireOneSource(const Arguments& args) {
+  if (!args.request.empty() && !(args.states.empty() && args.problems.empty()))
+    throw UsageError("--request cannot be combined with states or --problems: it has its own");
+  if (args.problems.empty()) return;
+  if (!args.states.empty())
+    throw UsageError("states and --problems cannot be combined: the problem has its own");
+  if (!args.scene.empty())
+    throw UsageError("--scene and --problems cannot be combined: the problem has its own world");
+  if (!args.clouds.empty())
+    throw UsageError("--cloud and --problems cannot be combined: the problem has its own world");
+}
+
+}  // namespace swept

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_line/arguments.hpp"
+#include "swept/robot_model/problems.hpp"
+
+namespace swept {
+
+/// Which problem of a file.
+struct ProblemChoice {
+  std::string set;
+  int index = 0;
+};
+
+/// Those that --set, --every and --limit leave, in the order of the file: one or more. Throws
+/// UsageError or InputError, naming the sets there are.
+std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Arguments& args);
+
+/// States come from the command line, or from --problems, or from --request, and a problem has its
+/// own world. Throws UsageError.
+void requireOneSource(const Arguments& args);
+
+}  // namespace swept

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "batch.hpp"
+#include "gantry.hpp"
+
+/// Names that are not UTF-8, which JSON has to be, and names that a CSV file has in quotes.
+namespace swept::test {
+namespace {
+
+using nlohmann::json;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+class OddNames : public testing::Test {
+ protected:
+  /// In URDF, SRDF and problems.
+  void rename(const std::string& from, const std::string& to) {
+    for (const std::string name : {"gantry.urdf", "gantry.srdf", "problems.json"})
+      folder().write(name, replaced(folder().read(name), from, to));
+  }
+  const TemporaryFolder& folder() const { return gantry_.folder(); }
+  Outcome plan(const std::string& file, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"left", "right", "-o", folder().path(file)};
+    words.insert(words.end(), more.begin(), more.end());
+    return gantry_.run("plan", words);
+  }
+  void expectRefused(const Outcome& run, const std::string& where, const std::string& what) const {
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_EQ(run.out, "") << "before the work";
+    EXPECT_EQ(run.err, "swept: error: " + where + ": " + what +
+                           " is not UTF-8, which all text in the file has to be\n");
+  }
+
+  Gantry gantry_;
+};
+
+TEST_F(OddNames, OfJointsAreRefusedForPathFilesThatNeedUtf8) {
+  rename("\"slide\"", "\"sl\xffide\"");
+  for (const std::string file : {"path.json", "path.yaml"})
+    expectRefused(plan(file), "-o '" + folder().path(file) + "'", "the name 'sl\xffide'");
+  EXPECT_EQ(plan("path.csv").exitCode, 0);
+  EXPECT_THAT(folder().read("path.csv"), testing::StartsWith("sl\xffide,lift\n"));
+}
+
+TEST_F(OddNames, OfRobotAndLinksAreRefusedForJson) {
+  rename("\"gantry\"", "\"gan\xc3try\"");
+  const std::string where = "-o '" + folder().path("path.json") + "'";
+  expectRefused(plan("path.json"), where, "the name 'gan\xc3try'");
+  EXPECT_EQ(plan("path.yaml").exitCode, 0) << "which does not have it";
+  rename("\"gan\xc3try\"", "\"gantry\"");
+  rename("\"cube\"",
+         "\"cu\xf5"
+         "be\"");
+  expectRefused(plan("path.json"), where,
+                "the name 'cu\xf5"
+                "be'");
+}
+
+TEST_F(OddNames, OfFilesAndOptionsAreRefusedForJson) {
+  const std::string scene = folder().path("p\xffst.yaml");
+  std::filesystem::copy_file(gantry_.scene, scene);
+  const Outcome run = runSwept({"plan", gantry_.urdf, "left", "right", "--group", "both", "--scene",
+                                scene, "-o", folder().path("path.json")});
+  EXPECT_EQ(run.exitCode, 3);
+  EXPECT_EQ(run.err, "swept: error: -o '" + folder().path("path.json") +
+                         "': the name 'p\xffst.yaml'"
+                         " is not UTF-8, which all text in the file has to be\n");
+  EXPECT_FALSE(std::filesystem::exists(folder().path("path.json")));
+}
+
+TEST_F(OddNames, AreRefusedForDumps) {
+  const std::string dumps = folder().path("dumps"), where = "--dump '" + dumps + "'";
+  expectRefused(gantry_.run("motion", {"left", "right", "--pad", "*\xff=0.1", "--dump", dumps}),
+                where, "the name '*\xff=0.1'");
+  EXPECT_EQ(runShell("SWEPT_DUMP_DIR='" + dumps + "' swept check '" + gantry_.urdf +
+                     "' inside --group both --pad '*\xff=0.1'")
+                .err,
+            "swept: error: SWEPT_DUMP_DIR '" + dumps +
+                "': the name '*\xff=0.1' is not UTF-8, which all text in the file has to be\n");
+  rename("\"slide\"", "\"sl\xffide\"");
+  expectRefused(gantry_.run("motion", {"left", "right", "--dump", dumps}), where,
+                "the name 'sl\xffide'");
+  EXPECT_TRUE(std::filesystem::is_empty(dumps));
+  const Outcome free = gantry_.run("motion", {"left", "0.1,0", "--json"});
+  EXPECT_EQ(free.exitCode, 0) << "without --dump it is no matter";
+}
+
+TEST_F(OddNames, AreRefusedForTheDumpsOfABatchBeforeItsRuns) {
+  rename("name=\"both\"", "name=\"bo\xffth\"");
+  rename("group=\"both\"", "group=\"bo\xffth\"");
+  const Words batch{"bench",    "planners",   gantry_.urdf,      "--group",
+                    "bo\xffth", "--problems", gantry_.problems,  "--set",
+                    "over",     "-o",         folder().path("r")};
+  Words dumping = batch;
+  dumping.insert(dumping.end(), {"--dump", folder().path("dumps")});
+  const Outcome refused = runSwept(dumping);
+  EXPECT_EQ(refused.exitCode, 3);
+  EXPECT_THAT(refused.err, HasSubstr("--dump '" + folder().path("dumps") + "': the name 'bo"));
+  EXPECT_FALSE(std::filesystem::exists(folder().path("r")));
+  const Outcome run = runSwept(batch);
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+}
+
+/// Replay prints what it asked, and batches print their header.
+TEST_F(OddNames, ArePrintedWithAReplacementInJson) {
+  rename("\"gantry\"", "\"gan\xfftry\"");
+  const json batch = jsonOf(runSwept({"bench", "planners", gantry_.urdf, "--group", "both",
+                                      "--problems", gantry_.problems, "--set", "over", "--json"}));
+  EXPECT_EQ(batch["header"]["robot"], "gan\xef\xbf\xbdtry");
+}
+
+TEST_F(OddNames, WithCommasAndQuotesAreQuotedInCsv) {
+  rename("\"slide\"", "'sl,id\"e'");
+  const Outcome run = plan("path.csv");
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(folder().read("path.csv"), testing::StartsWith("\"sl,id\"\"e\",lift\n0,0\n"));
+}
+
+}  // namespace
+}  // namespace swept::test
