@@ -7,6 +7,7 @@
 
 #include "fcl_peer.hpp"
 #include "models_dir.hpp"
+#include "number_argument.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "timing.hpp"
 

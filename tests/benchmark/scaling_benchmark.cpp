@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "fcl_peer.hpp"
+#include "number_argument.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/distance.hpp"
 #include "timing.hpp"
