@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "../core/mesh_samples.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/link_motion.hpp"
 
 namespace swept {
 namespace {
@@ -41,22 +43,8 @@ Checker checkerIn(const std::shared_ptr<const Robot>& robot, World world) {
 }
 
 TriangleMesh slab(double low, double high) {
-  std::vector<Vector3d> vertices;
-  for (int i = 0; i < 8; ++i)
-    vertices.emplace_back((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0,
-                          (i & 4) != 0 ? high : low);
-  return TriangleMesh::build(vertices, std::vector<Eigen::Vector3i>{{0, 2, 1},
-                                                                    {1, 2, 3},
-                                                                    {4, 5, 6},
-                                                                    {5, 7, 6},
-                                                                    {0, 1, 4},
-                                                                    {1, 5, 4},
-                                                                    {2, 6, 3},
-                                                                    {3, 6, 7},
-                                                                    {0, 4, 2},
-                                                                    {2, 4, 6},
-                                                                    {1, 3, 5},
-                                                                    {3, 7, 5}});
+  const test::Soup soup = test::boxSoup({-1.0, -1.0, low}, {1.0, 1.0, high});
+  return TriangleMesh::build(soup.vertices, soup.triangles);
 }
 
 /// As of a survey: vertices millions of metres from their frame, which is as far the other way.
@@ -116,6 +104,44 @@ TEST(Rounding, OfLargeAngles) {
       EXPECT_EQ(checker.certifyMotion(from, to, workspace).verdict, Verdict::Free) << large;
     }
   }
+}
+
+TEST(Rounding, OfLargeAnglesIsStatedByLinkMotion) {
+  const auto robot = ballOn("continuous", 0.001);
+  for (const double large : {1e3, 1e6, 1e9, 1e12, 1e15}) {
+    const double near = std::atan2(std::sin(large), std::cos(large)) + 0.3;
+    for (const bool there : {true, false}) {
+      const std::vector<double> from{there ? near : large}, to{there ? large : near};
+      const LinkMotion motion(*robot, "all", "ball", from, to);
+      const Vector3d tip = motion.at(there ? 1.0 : 0.0) * Vector3d::UnitX();
+      EXPECT_LE((tip - Vector3d(std::cos(large), std::sin(large), 0.0)).norm(),
+                motion.rounding(1.0))
+          << large;
+    }
+  }
+}
+
+/// A pose from a file with nine digits is taken for a rotation, and its transpose for its inverse.
+TEST(Rounding, OfPosesIsTakenOffWhenTheyComeIn) {
+  Isometry3d pose = at(50.0, 0.0, 0.0);
+  pose.linear() = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  pose.linear().col(0) *= 1.0 + 4e-10;
+  const auto defect = [](const Isometry3d& placed) {
+    const Eigen::Matrix3d r = placed.linear();
+    return (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  };
+  ASSERT_GT(defect(pose), 1e-10);
+  World world;
+  world.add("floor", makeBox({100.0, 100.0, 1.0}), pose);
+  EXPECT_LT(defect(world.find("floor")->parts.front().world_from_shape), 1e-14);
+  world.replace({.name = "floor", .parts = {{makeSphere(1.0), pose}}});
+  EXPECT_LT(defect(world.find("floor")->parts.front().world_from_shape), 1e-14);
+  EXPECT_EQ(world.find("floor")->parts.front().world_from_shape.translation(), pose.translation());
+  MovingObstacle obstacle{.name = "drone", .parts = {{makeSphere(1.0), pose}}};
+  obstacle.waypoints.push_back({0.0, pose});
+  world.add(obstacle);
+  EXPECT_LT(defect(world.findObstacle("drone")->parts.front().body_from_shape), 1e-14);
+  EXPECT_LT(defect(world.findObstacle("drone")->waypoints.front().world_from_body), 1e-14);
 }
 
 MovingObstacle ballThrough(const std::vector<MovingObstacle::Waypoint>& waypoints) {

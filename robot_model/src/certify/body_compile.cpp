@@ -33,7 +33,7 @@ std::vector<GivenPiece> piecesOf(const CheckerModel& model, const Carrier& carri
     case Carrier::Kind::Attached:
       for (const AttachedBody::Part& part :
            std::ranges::find(model.options.attached, carrier.name, &AttachedBody::name)->parts)
-        pieces.push_back({&part.shape, part.link_from_shape, nullptr});
+        pieces.push_back({&part.shape, orthonormalized(part.link_from_shape), nullptr});
       break;
     case Carrier::Kind::Obstacle:
       for (const MovingObstacle::Part& part : model.world->findObstacle(carrier.name)->parts)

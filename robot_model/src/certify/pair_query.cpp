@@ -14,12 +14,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Relative: an angle, its way round to another one and the sum of both round by four parts in
-/// 2^53.
-constexpr double kAngleRounding = 8.0 * 0x1p-53;
-/// rad. The rounding of angles up to this is within kRoundingPerJoint.
-constexpr double kOrdinaryAngle = 10.0;
-
 /// Velocities and travel bounds carry a relative rounding far below this.
 constexpr double kVelocityRounding = 1e-12;
 
@@ -32,11 +26,8 @@ bool PairQuery::start(std::span<const double> from, std::span<const double> to) 
   if (!compileMotion(model_.kinematics, from, to, workspace_.motion)) return false;
   ++workspace_.motionStamp;
   workspace_.wander = 0.0;
-  workspace_.angleError = 0.0;
-  for (const JointMotion& joint : workspace_.motion) {
-    workspace_.wander += joint.wander;
-    workspace_.angleError += kAngleRounding * std::max(0.0, joint.largestAngle - kOrdinaryAngle);
-  }
+  for (const JointMotion& joint : workspace_.motion) workspace_.wander += joint.wander;
+  workspace_.angleError = angleError(workspace_.motion);
   return true;
 }
 

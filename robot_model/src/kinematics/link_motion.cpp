@@ -22,8 +22,9 @@ struct LinkPath {
   Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();  ///< of the last body
   std::size_t length = 0;  ///< joints, with those that stand still
   MotionRates rates;
-  double reach = 0.0;    ///< m, of the link's origin from the model frame's
-  double perUnit = 0.0;  ///< 1 + the sum of the joints' rates, rad and m per unit of t
+  double reach = 0.0;       ///< m, of the link's origin from the model frame's
+  double perUnit = 0.0;     ///< 1 + the sum of the joints' rates, rad and m per unit of t
+  double angleError = 0.0;  ///< rad, see detail::angleError
 
   BodyState at(double t) const {
     BodyState state;
@@ -122,6 +123,7 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
     path->perUnit += joint.speed + joint.spinSpeed;
   }
   path->body_from_link = still.world_from_body * path->body_from_link;
+  path->angleError = detail::angleError(motion);
   path->rates = ratesOf(kinematics, levers, motion);
   path_ = std::move(path);
 }
@@ -146,7 +148,8 @@ MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
 
 double LinkMotion::rounding(double reach) const {
   const double joints = static_cast<double>(path_->length + 2);
-  return tolerance::kRoundingPerJoint * joints * path_->perUnit * (path_->reach + reach);
+  return (tolerance::kRoundingPerJoint * joints * path_->perUnit + path_->angleError) *
+         (path_->reach + reach);
 }
 
 Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,

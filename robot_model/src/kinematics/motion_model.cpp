@@ -270,6 +270,16 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
   return true;
 }
 
+double angleError(std::span<const JointMotion> motion) {
+  // An angle, its way round to another one and the sum of both round by four parts in 2^53.
+  constexpr double kRelative = 8.0 * 0x1p-53;
+  constexpr double kOrdinary = 10.0;  // rad
+  double error = 0.0;
+  for (const JointMotion& joint : motion)
+    error += kRelative * std::max(0.0, joint.largestAngle - kOrdinary);
+  return error;
+}
+
 BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
                  const BodyState& parent) {
   const Isometry3d world_from_joint = parent.world_from_body * body.parent_from_joint;

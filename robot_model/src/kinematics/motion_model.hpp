@@ -65,6 +65,10 @@ struct JointMotion {
   double largestAngle = 0.0;  ///< rad, of what the joint's angle is made of, for its rounding
 };
 
+/// rad. What angles larger than a few turns, and the shorter way between two, round by: of all
+/// joints together, beyond what kRoundingPerJoint allows for.
+double angleError(std::span<const JointMotion> motion);
+
 /// Frame and velocity field of a body at one t: the point p (m, model frame) has velocity
 /// linear + angular x p per unit t.
 struct BodyState {

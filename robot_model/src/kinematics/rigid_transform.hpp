@@ -15,4 +15,17 @@ inline bool isRigid(const Eigen::Isometry3d& pose) {
          r.determinant() > 0.0 && pose.matrix().row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
 }
 
+/// A rigid transform (see isRigid) with a rotation in place of what is up to 1e-9 from one: a
+/// pose's inverse is taken by its transpose, and 1e-9 of coordinates is more than kRoundingPerJoint
+/// allows for. What is as good as a product of rotations is left as it is.
+inline Eigen::Isometry3d orthonormalized(const Eigen::Isometry3d& rigid) {
+  constexpr double kAsGoodAsProducts = 1e-14;
+  const Eigen::Matrix3d r = rigid.linear();
+  const Eigen::Matrix3d defect = r * r.transpose() - Eigen::Matrix3d::Identity();
+  if (defect.cwiseAbs().maxCoeff() <= kAsGoodAsProducts) return rigid;
+  Eigen::Isometry3d rotated = rigid;
+  rotated.linear() = Eigen::Quaterniond(r).normalized().toRotationMatrix();
+  return rotated;
+}
+
 }  // namespace swept::detail

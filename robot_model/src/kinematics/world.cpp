@@ -13,15 +13,17 @@
 namespace swept {
 
 using detail::isRigid;
+using detail::orthonormalized;
 
 namespace {
 
-void requireRigid(const WorldBody& body) {
-  for (const WorldBody::Part& part : body.parts) {
+void makeRigid(WorldBody& body) {
+  for (WorldBody::Part& part : body.parts) {
     if (!isRigid(part.world_from_shape)) {
       throw std::invalid_argument("World: a pose of body '" + body.name +
                                   "' is no finite rigid transform");
     }
+    part.world_from_shape = orthonormalized(part.world_from_shape);
   }
 }
 
@@ -35,7 +37,7 @@ void World::requireFree(const std::string& name) const {
 
 void World::add(WorldBody body) {
   requireFree(body.name);
-  requireRigid(body);
+  makeRigid(body);
   bodies_.push_back(std::move(body));
 }
 
@@ -51,19 +53,21 @@ void World::add(MovingObstacle obstacle) {
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument("World: obstacle '" + obstacle.name + "' " + what);
   };
-  for (const MovingObstacle::Part& part : obstacle.parts) {
+  for (MovingObstacle::Part& part : obstacle.parts) {
     if (!isRigid(part.body_from_shape)) fail("has a part whose pose is no finite rigid transform");
+    part.body_from_shape = orthonormalized(part.body_from_shape);
     if (!detail::isBounded(part.shape)) fail("has a plane or a half-space, which cannot move");
   }
   if (obstacle.waypoints.empty()) fail("has no waypoint");
   for (std::size_t i = 0; i < obstacle.waypoints.size(); ++i) {
-    const MovingObstacle::Waypoint& waypoint = obstacle.waypoints[i];
+    MovingObstacle::Waypoint& waypoint = obstacle.waypoints[i];
     const std::string which = "has a waypoint, number " + std::to_string(i + 1);
     if (!std::isfinite(waypoint.time)) fail(which + ", whose time is not finite");
     if (i > 0 && !(waypoint.time > obstacle.waypoints[i - 1].time))
       fail(which + ", that is not later than the one before");
     if (!isRigid(waypoint.world_from_body))
       fail(which + ", whose pose is no finite rigid transform");
+    waypoint.world_from_body = orthonormalized(waypoint.world_from_body);
   }
   obstacles_.push_back(std::move(obstacle));
 }
@@ -72,7 +76,7 @@ void World::replace(WorldBody body) {
   const auto old = std::ranges::find(bodies_, body.name, &WorldBody::name);
   if (old == bodies_.end())
     throw std::invalid_argument("World: there is no body '" + body.name + "' to replace");
-  requireRigid(body);
+  makeRigid(body);
   *old = std::move(body);
 }
 
