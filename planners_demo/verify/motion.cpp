@@ -75,6 +75,8 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
     if (joint.kind == JointKind::Revolute) {
       motion.angle = start;
       motion.spin = change;
+      motion.largest = std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
+                       std::abs(joint.offset);
     } else {
       motion.translation = start * joint.axis;
       motion.rate = change * joint.axis;
@@ -85,6 +87,7 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
     motion.rate = (to[0] - from[0]) * joint.planarX + (to[1] - from[1]) * y;
     motion.angle = from[2];
     motion.spin = shorterWay(from[2], to[2]);
+    motion.largest = std::max(std::abs(from[2]), std::abs(to[2]));
   } else if (joint.kind == JointKind::Floating) {
     motion.translation = {from[0], from[1], from[2]};
     motion.rate = Vector3d(to[0], to[1], to[2]) - motion.translation;
@@ -144,7 +147,7 @@ Bounds Motion::bounds(int link, int reference, double reach) const {
     speed += spin * arm + motion.rate.norm();
     arm += std::max(motion.translation.norm(), (motion.translation + motion.rate).norm()) +
            model_.joints[static_cast<std::size_t>(index)].parent_from_joint.translation().norm();
-    bounds.turn += std::abs(motion.angle) + 2.0 * spin;
+    bounds.turn += motion.largest + 2.0 * spin;
     ++bounds.joints;
   }
   bounds.extent = arm;

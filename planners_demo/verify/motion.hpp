@@ -45,6 +45,7 @@ class Motion {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitX();               ///< unit
     double angle = 0.0;                                            ///< rad
     double spin = 0.0;                                             ///< rad
+    double largest = 0.0;  ///< rad: the shorter way from a small angle to a large one is small
   };
   JointMotion jointMotion(const Joint& joint, std::span<const double> from,
                           std::span<const double> to) const;

@@ -77,6 +77,23 @@ TEST(VerifyCrafted, IntervalsThatProveNothingAreNotLookedAt) {
   }
 }
 
+/// Half a turn and less from a small angle to one that has no digits behind its point.
+TEST(VerifyCrafted, LargeAnglesRoundAtEitherEnd) {
+  verify::Model model;
+  model.links = {"base", "arm"};
+  model.jointOf = {-1, 0};
+  model.joints = {{.name = "turn",
+                   .kind = verify::JointKind::Revolute,
+                   .parent = 0,
+                   .child = 1,
+                   .variable = 0}};
+  model.variables = {{"turn", -INFINITY, INFINITY, true}};
+  const std::vector<double> small{2.41}, large{1e15};
+  for (const auto& [from, to] : {std::pair(small, large), std::pair(large, small)})
+    EXPECT_GE(verify::Motion(model, from, to).bounds(1, -1, 1.0).turn, 1e15);
+  EXPECT_LT(verify::Motion(model, small, small).bounds(1, -1, 1.0).turn, 3.0);
+}
+
 TEST(VerifyCrafted, AMeshWithoutTrianglesIsRefused) {
   for (const bool solid : {false, true}) {
     const Json mesh = {{"type", "mesh"}, {"vertices", ""}, {"triangles", ""}, {"solid", solid}};
