@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "arm_workload.hpp"
+#include "data_folder.hpp"
 #include "fcl_peer.hpp"
 #include "ode_peer.hpp"
 #include "swept/core/broadphase/body_tree.hpp"

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cloud_pair.hpp"
+#include "data_folder.hpp"
 #include "number_argument.hpp"
 #include "swept/core/clearance_grid.hpp"
 #include "swept/core/point_cloud.hpp"

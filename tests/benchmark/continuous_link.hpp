@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "continuous_truth.hpp"
+#include "data_folder.hpp"
 #include "models_dir.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "workloads.hpp"

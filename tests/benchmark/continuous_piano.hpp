@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "continuous_fcl.hpp"
+#include "data_folder.hpp"
 #include "mesh_files.hpp"
 
 /// The piano in the apartment: Tables II and III of Pan, Chitta, Manocha 2012. Lengths in inches.

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -20,13 +18,6 @@ struct Soup {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
 };
-
-/// The folder that SWEPT_DATA names; none: what needs it is skipped.
-inline std::optional<std::filesystem::path> dataFolder() {
-  const char* folder = std::getenv("SWEPT_DATA");
-  if (folder == nullptr || *folder == '\0') return std::nullopt;
-  return folder;
-}
 
 inline std::ifstream openFile(const std::filesystem::path& file) {
   std::ifstream stream(file);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "box_worlds.hpp"
+#include "data_folder.hpp"
 #include "made_arms.hpp"
 #include "robot_costs.hpp"
 #include "robot_worlds.hpp"

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <optional>
 
+#include "data_folder.hpp"
 #include "number_argument.hpp"
 #include "planning_neighbours.hpp"
 #include "planning_overhead.hpp"
@@ -172,7 +173,7 @@ int main(int argc, char** argv) {
                  "[--overhead|--neighbours]\n";
     return 2;
   }
-  const auto data = swept::benchmark::dataFolder();
+  const auto data = dataFolder();
   if (!data) {
     std::cout << "skipped: SWEPT_DATA names no folder\n";
     return EXIT_SUCCESS;

@@ -3,6 +3,7 @@
 // pairs made on the spot. Exit code 1 if an answer of ours differs from the expected one.
 #include <cstdlib>
 
+#include "data_folder.hpp"
 #include "fcl_peer.hpp"
 #include "mesh_files.hpp"
 #include "swept/core/contacts.hpp"

@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 
+#include "data_folder.hpp"
 #include "number_argument.hpp"
 #include "rigid_planning_motions.hpp"
 #include "rigid_planning_tables.hpp"

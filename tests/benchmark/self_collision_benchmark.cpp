@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "bench/clock.hpp"
+#include "data_folder.hpp"
 #include "self_collision_judge.hpp"
 #include "self_collision_robots.hpp"
 #include "timing.hpp"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
+#include "data_folder.hpp"
 #include "program.hpp"
 
 /// The program on the robots and scenes of `models`.
@@ -57,9 +57,9 @@ TEST(Models, ProblemsPlanAndEverySegmentIsFree) {
 }
 
 TEST(Models, APandaFromOutsidePlans) {
-  const char* data = std::getenv("SWEPT_DATA");
-  if (data == nullptr || *data == '\0') GTEST_SKIP() << "SWEPT_DATA is not set";
-  const std::string folder = data;
+  const auto data = dataFolder();
+  if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
+  const std::string folder = data->string();
   const Outcome run =
       runSwept({"plan", folder + "/robots/panda/panda.urdf", "--group", "panda_arm", "--problems",
                 folder + "/mbm/panda.json", "--set", "table_pick", "--index", "1", "--json"});

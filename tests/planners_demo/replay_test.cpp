@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "data_folder.hpp"
 #include "models_dir.hpp"
 #include "program.hpp"
 
@@ -350,9 +351,9 @@ TEST(Replay, BrokenFilesAreNamedWithTheirLine) {
 }
 
 TEST(Replay, CasesFromOutsidePass) {
-  const char* data = std::getenv("SWEPT_DATA");
-  if (data == nullptr || *data == '\0') GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
-  const Outcome run = runSwept({"replay", std::string(data) + "/regressions/cases.json"});
+  const auto data = dataFolder();
+  if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
+  const Outcome run = runSwept({"replay", *data / "regressions/cases.json"});
   EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
   EXPECT_THAT(lastLine(run.out), HasSubstr(" 0 failed, "));
   EXPECT_THAT(lastLine(run.out), testing::Not(testing::StartsWith("0 passed")));

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "data_folder.hpp"
 #include "oracle/arm.hpp"
 #include "oracle/oracle.hpp"
 #include "oracle/scene.hpp"
@@ -274,9 +275,9 @@ TEST(Oracle, KinematicsByHand) {
 }
 
 TEST(Oracle, KnowsThePublishedPandaStartsAreFree) {
-  const char* data = std::getenv("SWEPT_DATA");
+  const auto data = dataFolder();
   if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
-  const std::filesystem::path root(data);
+  const std::filesystem::path& root = *data;
   const Arm arm(root / "robots/panda/panda.urdf", root / "robots/panda/panda.srdf");
   int free = 0, total = 0;
   for (const int index : {1, 20, 40, 60, 80}) {

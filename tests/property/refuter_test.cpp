@@ -8,11 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <set>
 #include <stdexcept>
 
+#include "data_folder.hpp"
 #include "models_under_test.hpp"
 
 namespace {
@@ -150,9 +150,9 @@ TEST(RefuterOptions, ThatMakeNoSenseAreRefused) {
 }
 
 TEST(RefuterOnData, FindsNothingToRefuteOnThePanda) {
-  const char* data = std::getenv("SWEPT_DATA");
+  const auto data = dataFolder();
   if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
-  const std::filesystem::path root(data);
+  const std::filesystem::path& root = *data;
   ScenarioFiles files;
   files.robot = root / "robots/panda/panda.urdf";
   files.srdf = root / "robots/panda/panda.srdf";

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "data_folder.hpp"
 #include "input_files.hpp"
 #include "matrix_robots.hpp"
 #include "swept/robot_model/checker.hpp"
@@ -401,7 +402,7 @@ class Published : public testing::TestWithParam<const char*> {};
 
 /// Every pair that the file disables is proven apart, in contact where it begins, or has a witness.
 TEST_P(Published, AgreesExceptWhereThereIsAWitness) {
-  const auto data = test::outsideData();
+  const auto data = dataFolder();
   if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
   const std::string name = GetParam();
   const auto files = *data / "robots" / name / name;

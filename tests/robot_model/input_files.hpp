@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,13 +57,6 @@ inline std::string inputError(const std::function<void()>& action) {
     return error.what();
   }
   return {};
-}
-
-/// Outside data, which a test may use when it is there.
-inline std::optional<std::filesystem::path> outsideData() {
-  const char* folder = std::getenv("SWEPT_DATA");
-  if (folder == nullptr || !std::filesystem::is_directory(folder)) return std::nullopt;
-  return folder;
 }
 
 /// A closed unit cube [0, 1]^3 with quadrilateral faces.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "../core/cover_samples.hpp"
+#include "data_folder.hpp"
 #include "input_files.hpp"
 #include "models_dir.hpp"
 #include "swept/core/sphere_cover.hpp"
@@ -77,7 +78,7 @@ TEST(LinkCover, ContainsTheLinksOfOurRobots) {
 }
 
 TEST(LinkCover, ContainsTheLinksOfOutsideRobots) {
-  const auto data = test::outsideData();
+  const auto data = dataFolder();
   if (!data) GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
   const std::filesystem::path robots = *data / "robots";
   const int panda = expectSoundRobot(*Robot::load(robots / "panda/panda.urdf"), 0.02);

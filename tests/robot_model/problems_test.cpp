@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "data_folder.hpp"
 #include "input_files.hpp"
 
 namespace swept {
@@ -60,7 +61,7 @@ TEST(Problems, UnknownSetsAndIndicesNameTheKnown) {
 }
 
 TEST(Problems, MotionBenchMakerFile) {
-  const auto data = test::outsideData();
+  const auto data = dataFolder();
   if (!data || !std::filesystem::exists(*data / "mbm/panda.json")) {
     GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
   }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data_folder.hpp"
 #include "input_files.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -173,7 +174,7 @@ class RealRobots : public ::testing::Test {
   std::filesystem::path robots;
   test::Warnings warnings;
   void SetUp() override {
-    const auto data = test::outsideData();
+    const auto data = dataFolder();
     if (!data || !std::filesystem::is_directory(*data / "robots")) {
       GTEST_SKIP() << "skipped: SWEPT_DATA is not set";
     }
