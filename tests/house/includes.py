@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every header of the tree includes the standard headers of what it names.
+"""Every header of the tree includes the standard headers of what it names, and every public one the public
+headers of the types that it names.
 
 usage: includes.py ROOT
 
@@ -75,6 +76,11 @@ BRINGS = {
 }
 HEADER_OF = {name: header for header, names in NAMES.items() for name in names.split()}
 NAMED = re.compile(r"\bstd::(?:ranges::)?(\w+)")
+DECLARED = re.compile(r"\b(?:class|struct|enum class|union|using|concept)\s+(?:alignas\(\d+\) )?([A-Z]\w*)")
+# At the start of a line: not within a class. Forward declarations end in `;`.
+DEFINED = re.compile(rf"^(?:template <.*>\s+)?{DECLARED.pattern}(?! *;)", re.M)
+# As a type: before a comma may stand an enumerator.
+TYPE = re.compile(r"(?<!::)\b([A-Z]\w*)(?=[&*>{(<]|::| \w)")
 TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 
 
@@ -96,10 +102,26 @@ def missing(path):
                 yield f"{path}:{number}: std::{name} without #include <{header}>"
 
 
+def missing_public(root):
+    folders = [root / folder / "include" for folder in FOLDERS]
+    texts = {str(path.relative_to(folder)): path.read_text(encoding="utf-8")
+             for folder in folders for path in sorted(folder.rglob("*.hpp"))}
+    codes = {header: TEXT.sub("", text) for header, text in texts.items()}
+    homes = {}
+    for header, code in codes.items():
+        for name in DEFINED.findall(code):
+            homes.setdefault(name, set()).add(header)
+    for header, code in codes.items():
+        there = {header, *re.findall(r'^#include "([^"]+)"', texts[header], re.M)}
+        for name in sorted(set(TYPE.findall(code)) - set(DECLARED.findall(code))):
+            if len(homes.get(name, [])) == 1 and not homes[name] <= there:
+                yield f"{header}: {name} without #include \"{min(homes[name])}\""
+
+
 def main():
     root = Path(sys.argv[1])
     files = sorted(path for folder in FOLDERS for path in (root / folder).rglob("*.hpp"))
-    found = [line for path in files for line in missing(path)]
+    found = [line for path in files for line in missing(path)] + list(missing_public(root))
     print("\n".join([*found, f"{len(files)} headers, {len(found)} includes are missing"]))
     sys.exit(1 if found or not files else 0)
 

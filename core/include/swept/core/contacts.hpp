@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "swept/core/distance.hpp"
+#include "swept/core/shapes.hpp"
 
 namespace swept {
 

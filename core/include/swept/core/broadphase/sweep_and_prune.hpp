@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "swept/core/broadphase/broadphase.hpp"
+#include "swept/core/bv/aabb.hpp"
 
 namespace swept {
 

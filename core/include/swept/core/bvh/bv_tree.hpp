@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/bounding_volume.hpp"
 #include "swept/core/bv/kdop.hpp"
 #include "swept/core/bv/obb.hpp"
 #include "swept/core/bv/obb_rss.hpp"

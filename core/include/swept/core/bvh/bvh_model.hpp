@@ -6,7 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/bv/kdop.hpp"
+#include "swept/core/bv/obb.hpp"
+#include "swept/core/bv/obb_rss.hpp"
+#include "swept/core/bv/rss.hpp"
+#include "swept/core/bvh/bv_tree.hpp"
+#include "swept/core/bvh/fit_rules.hpp"
 #include "swept/core/bvh/model_geometry.hpp"
+#include "swept/core/bvh/split_rules.hpp"
 
 namespace swept {
 

@@ -4,8 +4,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/bv/kdop.hpp"
+#include "swept/core/bv/obb.hpp"
+#include "swept/core/bv/obb_rss.hpp"
+#include "swept/core/bv/rss.hpp"
+#include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/traversal/front_list.hpp"
 #include "swept/core/traversal/mesh_pair.hpp"
+#include "swept/core/traversal/traversal.hpp"
 
 namespace swept {
 

@@ -4,8 +4,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/bv/kdop.hpp"
+#include "swept/core/bv/obb.hpp"
+#include "swept/core/bv/obb_rss.hpp"
+#include "swept/core/bv/rss.hpp"
+#include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/tolerances.hpp"
 #include "swept/core/traversal/mesh_pair.hpp"
+#include "swept/core/traversal/traversal.hpp"
+#include "swept/core/triangle_pair.hpp"
 
 namespace swept {
 

@@ -5,8 +5,11 @@
 #include <array>
 #include <string_view>
 
+#include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/bvh/bv_tree.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/traversal/traversal.hpp"
+#include "swept/core/triangle_pair.hpp"
 
 namespace swept {
 

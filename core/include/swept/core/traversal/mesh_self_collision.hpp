@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/bv/kdop.hpp"
+#include "swept/core/bv/obb.hpp"
+#include "swept/core/bv/obb_rss.hpp"
+#include "swept/core/bv/rss.hpp"
+#include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/traversal/mesh_collision.hpp"
+#include "swept/core/traversal/mesh_pair.hpp"
 
 namespace swept {
 

@@ -5,8 +5,19 @@
 #include <concepts>
 #include <string_view>
 
+#include "swept/core/bv/aabb.hpp"
+#include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/bv/kdop.hpp"
+#include "swept/core/bv/obb.hpp"
+#include "swept/core/bv/obb_rss.hpp"
+#include "swept/core/bv/rss.hpp"
+#include "swept/core/bvh/bv_tree.hpp"
+#include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/shapes.hpp"
 #include "swept/core/traversal/mesh_distance.hpp"
+#include "swept/core/traversal/traversal.hpp"
+#include "swept/core/triangle_pair.hpp"
 
 namespace swept {
 
