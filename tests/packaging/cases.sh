@@ -143,6 +143,62 @@ case_program() {
   if ((${#page[@]} > 0)); then grep -q '</html>' "$temporary/page.html" || fail "no page"; fi
 }
 
+# The manual pages: whole, as the program says of itself, and in order.
+case_manual() {
+  if [[ ! -x "$prefix/bin/swept" ]]; then
+    echo "manual: left out (the program was not built)"
+    return
+  fi
+  local page pages=("$prefix/share/man/man1"/*.gz) name
+  for name in swept swept-mpi; do
+    if [[ ! -x "$prefix/bin/$name" ]]; then continue; fi
+    [[ " ${pages[*]} " == *"/$name.1.gz "* ]] || fail "no manual page of $name"
+  done
+  for page in "${pages[@]}"; do
+    gzip -dc "$page" >"$temporary/page.1"
+    if command -v man >/dev/null; then
+      MANROFFSEQ="" man --warnings -l "$temporary/page.1" >/dev/null 2>"$temporary/said"
+      [[ ! -s "$temporary/said" ]] || fail "man says of $page: $(cat "$temporary/said")"
+    fi
+    if command -v mandoc >/dev/null; then
+      mandoc -T lint -W warning "$temporary/page.1" || fail "mandoc is not content with $page"
+    fi
+  done
+  if ! command -v mandoc >/dev/null; then
+    echo "manual: what is on the page left out (needs mandoc)"
+    return
+  fi
+  page_says_what_the_program_says
+}
+
+# Under the heading of each subcommand that completion has: each text of its help, and each of its options.
+page_says_what_the_program_says() {
+  gzip -dc "$prefix/share/man/man1/swept.1.gz" | mandoc -T utf8 -O width=1000 |
+    LC_ALL=C.UTF-8 sed 's/.\x08//g' >"$temporary/page.txt"
+  local commands command options option text
+  mapfile -t commands < <("$prefix/bin/swept" completion bash | sed -n 's/^      "\([a-z ]*\)") words=.*/\1/p')
+  ((${#commands[@]} > 5)) || fail "only these subcommands: ${commands[*]}"
+  for command in "${commands[@]}"; do
+    # Headings are set in by three.
+    awk -v heading="   swept $command" '/^[^ ]/ || /^   [^ ]/ { inside = $0 == heading } inside' \
+      "$temporary/page.txt" | sed 's/^ *//' >"$temporary/part.txt"
+    options="$("$prefix/bin/swept" completion bash | sed -n "s/^      \"$command\") words=\"\(.*\)\" ;;/\1/p")"
+    for option in $options; do
+      grep -qE -e "^(-[a-z], )?$option( |,|\$)" "$temporary/part.txt" || fail "no $option of '$command' on the page"
+    done
+    while read -r text; do
+      grep -qF -e "$text" "$temporary/part.txt" || fail "not on the page, of '$command': $text"
+    done < <(texts_of_help "$command")
+  done
+}
+
+# Without the names of arguments and options, which take 30 columns or a line.
+texts_of_help() {
+  # shellcheck disable=SC2086
+  "$prefix/bin/swept" $1 --help | sed -e 's/^Usage: //' -e 's/ REQUIRED$/ (required)/' -e '/^Positionals:$/,/^$/s/^.\{30\}//' \
+    -e '/^Options:$/,/^$/s/^.\{30\}//' -e '/^\(Positionals\|Options\):$/d' -e '/^$/d'
+}
+
 # swept's sources in another build, by FetchContent: that is configured, and the program compiled. Compiling the core once
 # more takes minutes, so the finished one is put into the command that links the program.
 case_tree() {

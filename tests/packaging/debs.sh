@@ -55,6 +55,8 @@ expect_file libswept-core-dev 'cmake/swept/sweptConfig\.cmake'
 expect_file libswept-core-dev 'pkgconfig/swept-core\.pc'
 expect_file libswept-core-dev 'include/swept/core/shapes\.hpp'
 expect_file swept 'usr/bin/swept$'
+expect_file swept 'share/man/man1/swept\.1\.gz$'
+expect_file swept-mpi 'share/man/man1/swept-mpi\.1\.gz$'
 for deb in "$debs"/*.deb; do
   mkdir "$temporary/one"
   dpkg-deb -x "$deb" "$temporary/one"
