@@ -11,7 +11,8 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_COMPONENTS_ALL)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PACKAGE_CONTACT "the swept authors")  # as in LICENSE
+set(SWEPT_PACKAGER "the swept authors" CACHE STRING "Who hands out the .deb packages: Name <mail address>")
+set(CPACK_PACKAGE_CONTACT "${SWEPT_PACKAGER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # which would come before that of each package
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -37,7 +38,7 @@ states, is free of collision on exact geometry: proven, rounding included.")
   set(CPACK_DEBIAN_${id}_PACKAGE_DEPENDS "${PACKAGE_DEPENDS}")
   set(CPACK_DEBIAN_${id}_PACKAGE_RECOMMENDS "${PACKAGE_RECOMMENDS}")
   set(CPACK_DEBIAN_${id}_PACKAGE_SHLIBDEPS ON)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${PACKAGE_NAME} COMPONENT ${part} EXCLUDE_FROM_ALL)
 endmacro()
 
@@ -56,6 +57,14 @@ endmacro()
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
 file(READ ${PROJECT_SOURCE_DIR}/planners_demo/page/three_licence.txt three_licence)
 configure_file(copyright.in copyright @ONLY)
+set(changelog_packager "${SWEPT_PACKAGER}")
+if(NOT changelog_packager MATCHES "<")
+  string(APPEND changelog_packager " <>")  # without which a changelog cannot be read
+endif()
+string(TIMESTAMP changelog_date "%a, %d %b %Y %H:%M:%S +0000" UTC)  # of $SOURCE_DATE_EPOCH, if that is set
+configure_file(changelog.in changelog @ONLY)
+add_custom_command(OUTPUT changelog.gz COMMAND gzip -9nkf changelog DEPENDS changelog VERBATIM)
+add_custom_target(swept_changelog ALL DEPENDS changelog.gz)
 
 swept_library_packages(core "proven distances and first contacts of shapes" libeigen3-dev)
 if(TARGET swept_robot_model)
