@@ -199,6 +199,17 @@ texts_of_help() {
     -e '/^Options:$/,/^$/s/^.\{30\}//' -e '/^\(Positionals\|Options\):$/d' -e '/^$/d'
 }
 
+# What bare_debian.sh refuses before it does anything.
+case_bare_options() {
+  local bare="$here/bare_debian.sh"
+  refuses 'error: no step '"'tets'"'; there are: debian demo tests' "$bare" "$temporary/bare" --only tets
+  refuses 'error: --only names no step; there are: debian' "$bare" "$temporary/bare" --only --keep
+  refuses "error: no option '--kep'; there are: --keep --only --help" "$bare" "$temporary/bare" --kep
+  refuses "error: a second folder, '/tmp'; one is taken" "$bare" "$temporary/bare" /tmp
+  refuses 'usage: tests/packaging/bare_debian.sh FOLDER' "$bare"
+  [[ ! -e "$temporary/bare" ]] || fail "bare_debian.sh makes a folder for what it refuses"
+}
+
 # swept's sources in another build, by FetchContent: that is configured, and the program compiled. Compiling the core once
 # more takes minutes, so the finished one is put into the command that links the program.
 case_tree() {
