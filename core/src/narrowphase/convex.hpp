@@ -14,6 +14,7 @@ namespace swept::detail {
 /// A convex body as the pair queries see it: a core, grown by a ball. Refers to the shape's data
 /// and must not outlive it.
 struct Convex {
+  /// HalfSpace stays the last: tables of pairs are as large as it says.
   enum class Core : std::uint8_t {
     Point,
     Segment,
@@ -50,11 +51,29 @@ struct Convex {
   static Convex ofPoints(std::span<const Eigen::Vector3d> points);
 
   /// Planes and half-spaces: unbounded, and without a support mapping.
-  bool isFlat() const { return core == Core::Plane || core == Core::HalfSpace; }
+  static constexpr bool isFlat(Core core);
+  bool isFlat() const { return isFlat(core); }
   /// Point of a bounded core farthest along `direction`, of a length in [1e-100, 1e100] or zero. Of
   /// planes and half-spaces: their point nearest to the origin, whatever the direction.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 };
+
+constexpr bool Convex::isFlat(Core core) {
+  switch (core) {
+    case Core::Plane:
+    case Core::HalfSpace:
+      return true;
+    case Core::Point:
+    case Core::Segment:
+    case Core::Box:
+    case Core::Cylinder:
+    case Core::Cone:
+    case Core::Ellipsoid:
+    case Core::Points:
+      return false;
+  }
+  return false;
+}
 
 namespace support {
 

@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kCores = static_cast<std::size_t>(Core::HalfSpace) + 1;  // the last one
 
 template <Core kind>
-constexpr bool kFlat = kind == Core::Plane || kind == Core::HalfSpace;
+constexpr bool kFlat = Convex::isFlat(kind);
 
 /// A core that no one wants without a ball around it.
 template <Core kind>

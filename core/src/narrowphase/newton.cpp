@@ -15,31 +15,45 @@ constexpr int kSteps = 5;
 /// Of the normal with an edge: farther from a right angle, the edge is not what touches.
 constexpr double kAskew = 0.25;
 
-bool isRound(const Convex& body) {
-  return body.core == Convex::Core::Cylinder || body.core == Convex::Core::Cone;
+Vector3d ellipsoidBend(const Convex& body, const Vector3d& n, const Vector3d& t) {
+  const Vector3d squares = body.size.cwiseProduct(body.size);
+  const Vector3d gradient = squares.cwiseProduct(n);
+  const double value = std::sqrt(gradient.dot(n));
+  if (!(value > 0.0)) return Vector3d::Zero();
+  return (squares.cwiseProduct(t) - gradient * (gradient.dot(t) / (value * value))) / value -
+         body.shave * t;
+}
+
+/// On the rim of a cylinder or of a cone's base.
+Vector3d rimBend(const Convex& body, const Vector3d& n, const Vector3d& t) {
+  const double across = support::across(n);
+  if (!(across > 0.0)) return Vector3d::Zero();
+  const double x = -n.y() / across;
+  const double y = n.x() / across;
+  const double along = (x * t.x() + y * t.y()) * body.size.x() / across;
+  return {x * along, y * along, 0.0};
 }
 
 /// Second derivatives of the support function at a unit normal, times t: how the support point
 /// moves when the normal does. Zero at corners.
 Vector3d bend(const Convex& body, const Vector3d& n, const Vector3d& t) {
-  if (body.core == Convex::Core::Ellipsoid) {
-    const Vector3d squares = body.size.cwiseProduct(body.size);
-    const Vector3d gradient = squares.cwiseProduct(n);
-    const double value = std::sqrt(gradient.dot(n));
-    if (!(value > 0.0)) return Vector3d::Zero();
-    return (squares.cwiseProduct(t) - gradient * (gradient.dot(t) / (value * value))) / value -
-           body.shave * t;
+  switch (body.core) {
+    case Convex::Core::Ellipsoid:
+      return ellipsoidBend(body, n, t);
+    case Convex::Core::Cylinder:
+      return rimBend(body, n, t);
+    case Convex::Core::Cone:
+      if (2.0 * body.size.z() * n.z() > body.size.x() * support::across(n)) break;  // the apex
+      return rimBend(body, n, t);
+    case Convex::Core::Point:
+    case Convex::Core::Segment:
+    case Convex::Core::Box:
+    case Convex::Core::Points:
+    case Convex::Core::Plane:
+    case Convex::Core::HalfSpace:
+      break;
   }
-  if (!isRound(body)) return Vector3d::Zero();
-  const double across = support::across(n);
-  if (!(across > 0.0)) return Vector3d::Zero();
-  if (body.core == Convex::Core::Cone && 2.0 * body.size.z() * n.z() > body.size.x() * across) {
-    return Vector3d::Zero();
-  }
-  const double x = -n.y() / across;
-  const double y = n.x() / across;
-  const double along = (x * t.x() + y * t.y()) * body.size.x() / across;
-  return {x * along, y * along, 0.0};
+  return Vector3d::Zero();
 }
 
 /// A body and the other one in its frame; normals point from the first to the other.
@@ -119,28 +133,23 @@ struct Placed {
   Vector3d vector;
 };
 
-bool edgeAt(const Convex& body, const Vector3d& n, const Spots& spots, Edge& edge) {
-  if (body.core == Convex::Core::Cone) {
-    const double slant =
-        std::sqrt(body.size.x() * body.size.x() + 4.0 * body.size.z() * body.size.z());
-    if (!(slant > 0.0)) return false;
-    edge.axis = Vector3d::UnitZ();
-    edge.lean = body.size.x() / slant;
-    edge.radius = body.size.x();
-    return std::abs(n.z() - edge.lean) < kAskew;
-  }
-  if (body.core == Convex::Core::Cylinder || body.core == Convex::Core::Segment) {
-    edge.axis = Vector3d::UnitZ();
-    edge.radius = body.size.x();
-    return std::abs(n.z()) < kAskew;
-  }
-  if (body.core == Convex::Core::Box) {
-    int axis = 0;
-    const double least = n.cwiseAbs().minCoeff(&axis);
-    edge.axis = Vector3d::Unit(axis);
-    return least < kAskew;
-  }
-  if (body.core != Convex::Core::Points || spots.count < 2) return false;
+bool edgeOfCone(const Vector3d& size, const Vector3d& n, Edge& edge) {
+  const double slant = std::sqrt(size.x() * size.x() + 4.0 * size.z() * size.z());
+  if (!(slant > 0.0)) return false;
+  edge.axis = Vector3d::UnitZ();
+  edge.lean = size.x() / slant;
+  edge.radius = size.x();
+  return std::abs(n.z() - edge.lean) < kAskew;
+}
+
+bool edgeOfBox(const Vector3d& n, Edge& edge) {
+  int axis = 0;
+  const double least = n.cwiseAbs().minCoeff(&axis);
+  edge.axis = Vector3d::Unit(axis);
+  return least < kAskew;
+}
+
+bool edgeOfPoints(const Vector3d& n, const Spots& spots, Edge& edge) {
   double least = kAskew;
   for (int i = 1; i < spots.count; ++i) {
     for (int j = 0; j < i; ++j) {
@@ -153,17 +162,53 @@ bool edgeAt(const Convex& body, const Vector3d& n, const Spots& spots, Edge& edg
   return least < kAskew;
 }
 
-Placed place(const Convex& body, const Edge& edge, const Vector3d& u) {
-  if (body.core == Convex::Core::Points) return {edge.start, edge.vector};
-  if (body.core == Convex::Core::Box) {
-    const Vector3d start = support::box(body.size, u - edge.axis);
-    return {start, 2.0 * body.size.cwiseProduct(edge.axis)};
+bool edgeAt(const Convex& body, const Vector3d& n, const Spots& spots, Edge& edge) {
+  switch (body.core) {
+    case Convex::Core::Cone:
+      return edgeOfCone(body.size, n, edge);
+    case Convex::Core::Cylinder:
+    case Convex::Core::Segment:
+      edge.axis = Vector3d::UnitZ();
+      edge.radius = body.size.x();
+      return std::abs(n.z()) < kAskew;
+    case Convex::Core::Box:
+      return edgeOfBox(n, edge);
+    case Convex::Core::Points:
+      return edgeOfPoints(n, spots, edge);
+    case Convex::Core::Point:
+    case Convex::Core::Ellipsoid:
+    case Convex::Core::Plane:
+    case Convex::Core::HalfSpace:
+      break;
   }
-  const Vector3d start = body.size.x() * u - body.size.z() * edge.axis;
-  const Vector3d end = body.core == Convex::Core::Cone
-                           ? Vector3d(body.size.z() * edge.axis)
-                           : Vector3d(body.size.x() * u + body.size.z() * edge.axis);
-  return {start, end - start};
+  return false;
+}
+
+/// Of a body of which edgeAt() has found an edge.
+Placed place(const Convex& body, const Edge& edge, const Vector3d& u) {
+  const Vector3d& size = body.size;
+  switch (body.core) {
+    case Convex::Core::Points:
+      return {edge.start, edge.vector};
+    case Convex::Core::Box:
+      return {support::box(size, u - edge.axis), 2.0 * size.cwiseProduct(edge.axis)};
+    case Convex::Core::Cone: {
+      const Vector3d onRim = size.x() * u - size.z() * edge.axis;
+      return {onRim, size.z() * edge.axis - onRim};
+    }
+    case Convex::Core::Cylinder:
+    case Convex::Core::Segment: {
+      const Vector3d onRim = size.x() * u - size.z() * edge.axis;
+      const Vector3d onOther = size.x() * u + size.z() * edge.axis;
+      return {onRim, onOther - onRim};
+    }
+    case Convex::Core::Point:
+    case Convex::Core::Ellipsoid:
+    case Convex::Core::Plane:
+    case Convex::Core::HalfSpace:
+      break;
+  }
+  return {Vector3d::Zero(), Vector3d::Zero()};
 }
 
 /// An edge of `first` and a smooth spot of the other: the normal turns about the edge's axis.

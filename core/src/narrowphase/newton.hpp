@@ -9,8 +9,20 @@ namespace swept::detail {
 
 /// Whether the core's surface has curvature that its support function knows.
 inline bool isCurved(const Convex& body) {
-  return body.core == Convex::Core::Cylinder || body.core == Convex::Core::Cone ||
-         body.core == Convex::Core::Ellipsoid;
+  switch (body.core) {
+    case Convex::Core::Cylinder:
+    case Convex::Core::Cone:
+    case Convex::Core::Ellipsoid:
+      return true;
+    case Convex::Core::Point:
+    case Convex::Core::Segment:
+    case Convex::Core::Box:
+    case Convex::Core::Points:
+    case Convex::Core::Plane:
+    case Convex::Core::HalfSpace:
+      return false;
+  }
+  return false;
 }
 
 /// The different points of a body, in its own frame, that a simplex holds.

@@ -139,8 +139,8 @@ class PieceDescent {
   /// is near a corner of that box would be looked at triangle by triangle.
   bool settledByBody(const Piece& piece, bool ofA, const Piece& other, const Goal& goal,
                      const Vector3d& guess) {
-    if (piece.isLeaf() || !other.isWhole() || !PiecePair::isRound((ofA ? b_ : a_).convex))
-      return false;
+    const Convex& body = (ofA ? b_ : a_).convex;
+    if (piece.isLeaf() || !other.isWhole() || !PiecePair::hasCoarseBox(body)) return false;
     PiecePair::BoxAndBody pair;
     pieces_.place(piece, ofA, pair);
     const GjkResult found =

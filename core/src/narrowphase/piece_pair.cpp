@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -23,26 +24,43 @@ float roundedDown(double value) {
   return std::nextafter(static_cast<float>(value), -kInfinity);
 }
 
-/// Around the core of a bounded convex body.
-OrientedBox coreBox(const Convex& convex) {
-  Vector3d center = Vector3d::Zero();
-  Vector3d half = convex.size;
-  if (convex.core == Convex::Core::Cylinder || convex.core == Convex::Core::Cone) {
-    half.y() = half.x();
-  } else if (convex.core == Convex::Core::Points) {
-    Vector3d lower = convex.points.front();
-    Vector3d upper = lower;
-    for (const Vector3d& point : convex.points) {
-      lower = lower.cwiseMin(point);
-      upper = upper.cwiseMax(point);
-    }
-    center = 0.5 * lower + 0.5 * upper;
-    half = (upper - center).cwiseMax(center - lower);
-  }
+OrientedBox boxOf(const Vector3d& center, const Vector3d& half) {
   OrientedBox box;
   box.center = center;
   for (int i = 0; i < 3; ++i) box.half[i] = aboveInSingle(half[i]);
   return box;
+}
+
+OrientedBox boxAround(std::span<const Vector3d> points) {
+  Vector3d lower = points.front();
+  Vector3d upper = lower;
+  for (const Vector3d& point : points) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  const Vector3d center = 0.5 * lower + 0.5 * upper;
+  return boxOf(center, (upper - center).cwiseMax(center - lower));
+}
+
+/// Around the core of a convex body. A plane or half-space has no box, and none of it is looked at.
+OrientedBox coreBox(const Convex& convex) {
+  const Vector3d& size = convex.size;
+  switch (convex.core) {
+    case Convex::Core::Point:
+    case Convex::Core::Segment:
+    case Convex::Core::Box:
+    case Convex::Core::Ellipsoid:
+      return boxOf(Vector3d::Zero(), size);
+    case Convex::Core::Cylinder:
+    case Convex::Core::Cone:
+      return boxOf(Vector3d::Zero(), {size.x(), size.x(), size.z()});
+    case Convex::Core::Points:
+      return boxAround(convex.points);
+    case Convex::Core::Plane:
+    case Convex::Core::HalfSpace:
+      break;
+  }
+  return {};
 }
 
 /// m. How far a side reaches from its origin, in the 1-norm.
@@ -103,7 +121,7 @@ PiecePair::PiecePair(const Side& a, const Side& b, const Isometry3d& a_from_b)
 
 Piece PiecePair::rootOf(const Side& side) {
   if (!side.isConvex()) return {0, -1, -1, side.bvh->rootBox()};
-  return {-1, -1, -1, side.convex.isFlat() ? OrientedBox{} : coreBox(side.convex)};
+  return {-1, -1, -1, coreBox(side.convex)};
 }
 
 bool PiecePair::isLarger(const Piece& a, const Piece& b) {
@@ -248,9 +266,21 @@ void PiecePair::place(const Piece& piece, bool ofA, BoxAndBody& pair) const {
                    (box.center.cwiseAbs().sum() + a_from_b_.translation().norm() + size);
 }
 
-bool PiecePair::isRound(const Convex& body) {
-  return body.core == Convex::Core::Cylinder || body.core == Convex::Core::Cone ||
-         body.core == Convex::Core::Ellipsoid || body.core == Convex::Core::Points;
+bool PiecePair::hasCoarseBox(const Convex& body) {
+  switch (body.core) {
+    case Convex::Core::Cylinder:
+    case Convex::Core::Cone:
+    case Convex::Core::Ellipsoid:
+    case Convex::Core::Points:
+      return true;
+    case Convex::Core::Point:
+    case Convex::Core::Segment:
+    case Convex::Core::Box:
+    case Convex::Core::Plane:
+    case Convex::Core::HalfSpace:
+      return false;
+  }
+  return false;
 }
 
 TriangleCorners PiecePair::movedCorners(int triangle) const {

@@ -106,7 +106,7 @@ class PiecePair {
   void place(const Piece& piece, bool ofA, BoxAndBody& pair) const;
 
   /// Whether the box of a convex body says clearly less about distances than the body.
-  static bool isRound(const Convex& body);
+  static bool hasCoarseBox(const Convex& body);
 
   bool areTriangles(const Piece& pieceA, const Piece& pieceB) const {
     return a_.mesh != nullptr && b_.mesh != nullptr && pieceA.primitive >= 0 &&
