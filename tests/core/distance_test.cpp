@@ -7,6 +7,7 @@
 
 #include "mesh_samples.hpp"
 #include "reference_distance.hpp"
+#include "swept/core/tolerances.hpp"
 
 namespace {
 
@@ -242,6 +243,42 @@ TEST(Distance, NonFinitePosesGiveTheWidestInterval) {
   EXPECT_EQ(result.lower, 0.0);
   EXPECT_TRUE(std::isinf(result.upper));
   EXPECT_EQ(swept::collide(Sphere{1.0}, Sphere{1.0}, pose), Contact::Unknown);
+}
+
+/// Half-spaces that face each other, not quite parallel: what is proven of them is so within reach,
+/// in 80-bit floats.
+TEST(Distance, PlanesWithinTheToleranceOfParallelAreApartWithinReach) {
+  constexpr double kParallel = swept::tolerance::kParallel;
+  std::mt19937 random(22);
+  double nearest = 1.0;
+  for (const double angle : {0.0, 1e-14, 1e-13, 0.99e-12}) {
+    for (int i = 0; i < 200; ++i) {
+      const Isometry3d pose = swept::test::randomPose(random, 1.0);
+      const Vector3d normal = swept::test::unitVector(random);
+      const Vector3d across = normal.unitOrthogonal();
+      const Vector3d tilted = normal + angle * across;
+      const swept::HalfSpace a{normal, 0.0};
+      const swept::HalfSpace b{-(pose.linear().transpose() * tilted), 0.0};
+      Isometry3d apart = pose;
+      apart.translation() = (0.5 - swept::test::uniform(random, 0.0, 0.2)) * normal;
+      const swept::DistanceResult found = swept::distance(a, b, apart);
+      ASSERT_GT(found.lower, 0.2) << angle;
+      ASSERT_EQ(swept::collide(a, b, apart), Contact::Separate) << angle;
+      // Where b's surface comes nearest to a's among points so far out.
+      const Eigen::Matrix<long double, 3, 1> m = (apart.linear() * b.normal).cast<long double>(),
+                                             n = normal.cast<long double>(),
+                                             t = apart.translation().cast<long double>();
+      for (const long double reach : {1e3L, 1e8L, 1e11L}) {
+        for (const long double side : {-1.0L, 1.0L}) {
+          const Eigen::Matrix<long double, 3, 1> out = side * reach * across.cast<long double>();
+          const Eigen::Matrix<long double, 3, 1> onB = out - (m.dot(out - t) / m.dot(n)) * n;
+          EXPECT_GE(n.dot(onB), found.lower - 2.0 * kParallel * onB.norm()) << angle;
+          nearest = std::min(nearest, static_cast<double>(n.dot(onB) / found.lower));
+        }
+      }
+    }
+  }
+  EXPECT_LT(nearest, 0.9);  // so far out the tilt counts
 }
 
 /// They cross far away, where a point is known to an ulp of its coordinates.

@@ -18,8 +18,10 @@ struct WeldedMesh {
   int degenerateDropped = 0;  ///< triangles with two equal corners
 };
 
-/// For each point the index of the first point with equal coordinates (tolerance::kWeld is zero;
-/// -0.0 equals 0.0). Open addressing: half the table stays empty, so probes are short.
+/// For each point the index of the first point with equal coordinates (-0.0 equals 0.0). Without a
+/// tolerance: STL files repeat a vertex of several triangles in equal numbers, and one would close
+/// real gaps, so that a surface would be taken for a solid. Open addressing: half the table stays
+/// empty, so probes are short.
 inline std::vector<int> firstEqual(std::span<const Eigen::Vector3d> points) {
   constexpr int kFree = -1;
   const std::size_t size = std::bit_ceil(2 * points.size() + 1);

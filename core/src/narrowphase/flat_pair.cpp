@@ -99,7 +99,7 @@ Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, doub
   gap.pointB = gap.pointA;
   gap.common = gap.pointA;
   gap.normal = a.size;
-  if (a.size.cross(normalB).norm() > kParallel) {
+  if (a.size.cross(normalB).norm() > tolerance::kParallel) {
     gap.endless = true;
     // A point on both boundaries. What is left of nearly parallel normals is mostly rounding, but
     // each step takes away all but that share of the error.

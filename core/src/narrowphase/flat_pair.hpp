@@ -7,9 +7,12 @@
 namespace swept::detail {
 
 /// Pairs of which at least one is a plane or a half-space: closed forms over the other's support
-/// points. Planes and half-spaces whose normals agree or oppose within `kParallel` are taken to be
-/// parallel (a pose's rounding turns them by that much); all others meet.
-inline constexpr double kParallel = 1e-12;  ///< rad
+/// points. Planes and half-spaces whose normals agree or oppose within tolerance::kParallel are
+/// taken for parallel; all others meet.
+///
+/// Lemma: with unit normals n of a and m of b, |n -+ m| <= k = tolerance::kParallel but for the
+/// rounding of both, a point p of b has n . p = +- m . p + (n -+ m) . p. So |p| <= r keeps it
+/// within 2 k r of where it would be if b were parallel to a.
 
 /// As gjk() answers, with `upper` always witnessed.
 GjkResult flatPair(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,

@@ -55,7 +55,9 @@ struct Triangle {
   std::array<Eigen::Vector3d, 3> corners;  ///< m
 };
 
-/// The points x with normal . x = offset: a surface without thickness.
+/// The points x with normal . x = offset: a surface without thickness. Of two planes or half-spaces
+/// all queries take those for parallel that are so within tolerance::kParallel, which says how far
+/// out their answers then hold.
 struct Plane {
   Eigen::Vector3d normal;  ///< unit
   double offset;           ///< m
