@@ -392,8 +392,9 @@ TEST(BvhModel, BadInputIsNamedAndChangesNothing) {
   EXPECT_EQ(model.vertices().size(), 1U);
   EXPECT_TRUE(model.triangles().empty());
   model.addTriangle(vertices[0], vertices[1], vertices[2]);
-  model.addPoint({5, 5, 5}, 0.25);
-  EXPECT_THAT(badInput([&] { model.end(); }), HasSubstr("point 4 has radius 0.25"));
+  model.addPoint({5, 5, 5}, 2.5e-7);
+  EXPECT_THAT(badInput([&] { model.end(); }),
+              HasSubstr("point 4 has radius 2.5e-07 in a model of triangles; allowed: 0"));
   EXPECT_EQ(model.state(), BvhState::Building);
 
   model = modelIn(BvhState::Replacing);

@@ -263,7 +263,7 @@ TEST(PointCloud, BadInputIsNamed) {
             "point cloud radius is -1; allowed: finite and not negative");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(messageOf({Vector3d::Zero(), {0.0, nan, 1.0}}, 0.1),
-              HasSubstr("point 1 of the point cloud is (  0 nan   1)"));
+              HasSubstr("point 1 of the point cloud is (0, nan, 1)"));
 }
 
 TEST(PointCloud, BadRadiiAreNamed) {

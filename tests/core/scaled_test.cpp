@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "mesh_samples.hpp"
 #include "swept/core/distance.hpp"
@@ -79,13 +81,15 @@ TEST(Scaled, WhatHasNoEndStaysAsItIs) {
 }
 
 TEST(Scaled, ImpossibleFactorsAreErrors) {
-  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+  const std::pair<double, std::string> cases[] = {
+      {0.0, "0"}, {-1.0, "-1"}, {-1e-9, "-1e-09"}, {std::nan(""), "nan"}, {HUGE_VAL, "inf"}};
+  for (const auto& [bad, text] : cases) {
     try {
       (void)scaled(makeSphere(1.0), bad);
       ADD_FAILURE() << bad;
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()), "scaled: the factor, " + std::to_string(bad) +
-                                               ", must be a finite number above zero");
+      EXPECT_EQ(std::string(error.what()),
+                "scaled: the factor is " + text + "; allowed: finite and above zero");
     }
   }
 }

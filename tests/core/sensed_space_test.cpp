@@ -121,9 +121,9 @@ TEST(OccludedBalls, RefuseWhatIsNotFinite) {
   EXPECT_EQ(message(0.1, zero, INFINITY),
             "range of the occluded space is inf; allowed: finite and above zero");
   EXPECT_EQ(message(0.1, Vector3d(0.0, INFINITY, 0.0), 2.0),
-            "sensor of the occluded space is (  0 inf   0); allowed: finite coordinates");
+            "sensor of the occluded space is (0, inf, 0); allowed: finite coordinates");
   EXPECT_EQ(message(0.1, zero, 2.0),
-            "point 1 of the occluded space is (  1 nan   0); allowed: finite coordinates");
+            "point 1 of the occluded space is (1, nan, 0); allowed: finite coordinates");
 }
 
 }  // namespace

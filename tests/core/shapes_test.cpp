@@ -49,6 +49,38 @@ TEST(ShapesErrors, NameTheValue) {
   EXPECT_EQ(messageOf([] { makeSphere(0.0); }), "no error");
 }
 
+TEST(ShapesErrors, SayWhichNormalsMakeAPlane) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string numbers = "; allowed: finite numbers, a normal that is not zero";
+  EXPECT_EQ(messageOf([=] {
+              makePlane({0, nan, 1}, 0.5);
+            }),
+            "plane has normal (0, nan, 1) and offset 0.5" + numbers);
+  EXPECT_EQ(messageOf([] {
+              makeHalfSpace({0, 0, 0}, 0.5);
+            }),
+            "half-space has normal (0, 0, 0) and offset 0.5" + numbers);
+  // Not zero, and yet of no use.
+  const std::string range =
+      ", of a length from 2.22507e-308 to 1.79769e+308 by which the offset can be divided";
+  EXPECT_EQ(messageOf([] {
+              makePlane({0, 1e-310, 0}, 0);
+            }),
+            "plane has normal (0, 1e-310, 0) and offset 0" + numbers + range);
+  EXPECT_EQ(messageOf([] {
+              makePlane({1.5e308, 1.5e308, 0}, 0);
+            }),
+            "plane has normal (1.5e+308, 1.5e+308, 0) and offset 0" + numbers + range);
+  EXPECT_EQ(messageOf([] {
+              makePlane({0, 0, 1e-10}, 1e300);
+            }),
+            "plane has normal (0, 0, 1e-10) and offset 1e+300" + numbers + range);
+  EXPECT_EQ(messageOf([=] {
+              makeTriangle({0, 0, 0}, {1, nan, 0}, {0, 1, 0});
+            }),
+            "triangle corner 1 is (1, nan, 0); allowed: finite coordinates");
+}
+
 TEST(Shapes, HalveFullSizes) {
   EXPECT_EQ(makeBox({1, 2, 3}).halfExtents, Vector3d(0.5, 1.0, 1.5));
   EXPECT_EQ(makeCylinder(0.3, 2.0).halfLength, 1.0);

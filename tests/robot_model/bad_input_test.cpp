@@ -422,8 +422,8 @@ std::vector<BadInput> yamlScenes() {
        "@/s.yaml:4: error: object 'crate': planes[0].coef has 3 values; a plane has 4 [a, b, c, "
        "d]"},
       {"PlaneNormal", "s.yaml", boxed("      planes: [{coef: [0, 0, 0, 1]}]\n"),
-       "@/s.yaml:4: error: object 'crate': planes[0].coef cannot be used: plane has normal (0 "
-       "0 0) and offset -1; allowed: finite numbers, a normal that is not zero"},
+       "@/s.yaml:4: error: object 'crate': planes[0].coef cannot be used: plane has normal (0, "
+       "0, 0) and offset -1; allowed: finite numbers, a normal that is not zero"},
       {"Octomap", "s.yaml", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n",
        "@/s.yaml:4: error: world.octomap.octomap.data holds an octomap, which is not supported in "
        "a "
@@ -456,7 +456,7 @@ std::vector<BadInput> textScenes() {
        "@/s.scene:4: error: object 'a': the shape 'prism' is not supported; allowed are box, "
        "sphere, cylinder, cone, plane and mesh"},
       {"ScenePlane", "s.scene", "name\n* a\n1\nplane\n0 0 0 1\n",
-       "@/s.scene:5: error: object 'a': plane has normal (0 0 0) and offset -1; allowed: finite "
+       "@/s.scene:5: error: object 'a': plane has normal (0, 0, 0) and offset -1; allowed: finite "
        "numbers, a "
        "normal that is not zero"},
       {"SceneSize", "s.scene", "name\n* a\n1\nbox\n1 -1 1\n",

@@ -91,8 +91,10 @@ void ModelGeometry::requirePrimitives() const {
   if (vertices_.empty()) refuse("end", "no triangles and no points");
   const auto ball = std::find_if(radii_.begin(), radii_.end(), [](double r) { return r > 0.0; });
   if (triangles_.empty() || ball == radii_.end()) return;
-  refuse("end", "point " + std::to_string(ball - radii_.begin()) + " has radius " +
-                    std::to_string(*ball) + " in a model of triangles; allowed: 0");
+  std::ostringstream message;
+  message << "point " << ball - radii_.begin() << " has radius " << *ball
+          << " in a model of triangles; allowed: 0";
+  refuse("end", message.str());
 }
 
 void ModelGeometry::giveRadii() {

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "geometry/point_text.hpp"
+
 namespace swept::detail {
 
 using Eigen::Isometry3d;
@@ -24,9 +26,7 @@ constexpr double kNotARotation = 1e-6;
 
 void requireFinite(const Vector3d& vector, std::string_view name) {
   if (vector.allFinite()) return;
-  std::ostringstream what;
-  what << "is (" << vector.transpose() << "), which is not finite";
-  refuse(name, what.str());
+  refuse(name, "is " + pointText(vector) + ", which is not finite");
 }
 
 // Newton's iteration for the polar decomposition squares the distance from a rotation each time.

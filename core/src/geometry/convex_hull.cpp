@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "geometry/convex_combination.hpp"
+#include "geometry/point_text.hpp"
 #include "geometry/quickhull.hpp"
 #include "geometry/weld.hpp"
 #include "swept/core/tolerances.hpp"
@@ -249,8 +250,8 @@ void requireUsable(Points points) {
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
-    message << "convex hull point " << i << " is (" << points[i].x() << ", " << points[i].y()
-            << ", " << points[i].z() << "); allowed: finite coordinates";
+    message << "convex hull point " << i << " is " << detail::pointText(points[i])
+            << "; allowed: finite coordinates";
     throw std::invalid_argument(message.str());
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <span>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "swept/core/shapes.hpp"
@@ -56,8 +56,9 @@ struct Scaling {
 
 Shape scaled(const Shape& shape, double factor) {
   if (!(factor > 0.0) || !std::isfinite(factor)) {
-    throw std::invalid_argument("scaled: the factor, " + std::to_string(factor) +
-                                ", must be a finite number above zero");
+    std::ostringstream message;
+    message << "scaled: the factor is " << factor << "; allowed: finite and above zero";
+    throw std::invalid_argument(message.str());
   }
   const Aabb box = boundingBox(shape);
   // Of boxes that span more than half of what a double can, too.

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "geometry/point_text.hpp"
+
 namespace swept {
 namespace {
 
@@ -24,8 +26,12 @@ double requireNormal(std::string_view name, const Eigen::Vector3d& normal, doubl
   const double length = std::hypot(normal.x(), normal.y(), normal.z());
   if (std::isnormal(length) && std::isfinite(offset / length)) return length;
   std::ostringstream message;
-  message << name << " has normal (" << normal.transpose() << ") and offset " << offset
+  message << name << " has normal " << detail::pointText(normal) << " and offset " << offset
           << "; allowed: finite numbers, a normal that is not zero";
+  if (normal.allFinite() && !normal.isZero(0.0)) {
+    message << ", of a length from " << std::numeric_limits<double>::min() << " to "
+            << std::numeric_limits<double>::max() << " by which the offset can be divided";
+  }
   throw std::invalid_argument(message.str());
 }
 
@@ -234,8 +240,8 @@ Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
     const Eigen::Vector3d& corner = triangle.corners[i];
     if (corner.allFinite()) continue;
     std::ostringstream message;
-    message << "triangle corner " << i << " is (" << corner.transpose()
-            << "); allowed: finite coordinates";
+    message << "triangle corner " << i << " is " << detail::pointText(corner)
+            << "; allowed: finite coordinates";
     throw std::invalid_argument(message.str());
   }
   return triangle;

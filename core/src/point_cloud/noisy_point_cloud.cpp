@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/point_text.hpp"
 #include "point_cloud/noisy_cloud_data.hpp"
 #include "swept/core/collision_probability.hpp"
 
@@ -31,8 +32,8 @@ void requireFinite(std::span<const Vector3d> points) {
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
-    message << "point " << i << " of the noisy point cloud is (" << points[i].x() << ", "
-            << points[i].y() << ", " << points[i].z() << "); allowed: finite coordinates";
+    message << "point " << i << " of the noisy point cloud is " << detail::pointText(points[i])
+            << "; allowed: finite coordinates";
     refuse(message);
   }
 }

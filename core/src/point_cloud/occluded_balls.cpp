@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/point_text.hpp"
 #include "swept/core/sensed_space.hpp"
 
 namespace swept {
@@ -25,8 +26,8 @@ void require(double value, const char* what) {
 void requireFinite(const Vector3d& p, const std::string& what) {
   if (p.allFinite()) return;
   std::ostringstream message;
-  message << what << " of the occluded space is (" << p.transpose()
-          << "); allowed: finite coordinates";
+  message << what << " of the occluded space is " << detail::pointText(p)
+          << "; allowed: finite coordinates";
   throw std::invalid_argument(message.str());
 }
 

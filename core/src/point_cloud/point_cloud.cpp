@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bvh/wide_bvh.hpp"
+#include "geometry/point_text.hpp"
 #include "point_cloud/cloud_hull.hpp"
 #include "point_cloud/cloud_tree.hpp"
 #include "point_cloud/curve_order.hpp"
@@ -26,8 +27,8 @@ void requireUsable(std::span<const Eigen::Vector3d> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
     std::ostringstream message;
-    message << "point " << i << " of the point cloud is (" << points[i].transpose()
-            << "); allowed: finite coordinates";
+    message << "point " << i << " of the point cloud is " << detail::pointText(points[i])
+            << "; allowed: finite coordinates";
     throw std::invalid_argument(message.str());
   }
 }
