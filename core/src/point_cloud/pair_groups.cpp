@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "point_cloud/any_of.hpp"
 
@@ -59,15 +60,15 @@ class PairSets {
   }
 
  private:
-  /// The sets that have a point.
+  /// The sets that have a point: all below `least`, and those beyond. So a point with one pair is
+  /// small even where its pair is in the last of many sets.
   struct Used {
-    bool has(std::size_t set) const { return set < sets.size() && sets[set]; }
+    bool has(std::size_t set) const { return set < least || beyond.contains(set); }
     void mark(std::size_t set) {
-      if (set >= sets.size()) sets.resize(set + 1);
-      sets[set] = true;
-      while (has(least)) ++least;
+      beyond.insert(set);
+      while (beyond.erase(least) > 0) ++least;
     }
-    std::vector<bool> sets;
+    std::unordered_set<std::size_t> beyond;
     std::size_t least = 0;  ///< that does not have it
   };
 
