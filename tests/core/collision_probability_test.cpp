@@ -317,6 +317,20 @@ TEST(CollisionProbability, EffortIsLimited) {
   EXPECT_LT(width, 2e-3);
 }
 
+/// A count that the draws at a time do not divide is kept, too: up to the largest int they have to
+/// end without going over it.
+TEST(CollisionProbability, DrawsNoMoreThanAllowed) {
+  const auto noisy = NoisyPointCloud::build({{Vector3d::Zero()}}, 0.0, 0.1);
+  const std::vector<Vector3d> together{{0.15, 0.0, 0.0}, {0.15, 0.0, 0.0}};
+  const auto known = NoisyPointCloud::build(together, 0.1, 0.0);
+  for (const int samples : {0, 1, 63, 64, 65, 1000}) {
+    CollisionProbabilityOptions options = accurateTo(0.0);
+    options.maxSamples = samples;
+    const auto found = collisionProbability(noisy, known, Isometry3d::Identity(), options);
+    EXPECT_EQ(found.effort.samples, samples);
+  }
+}
+
 /// Most of a hundred thousand points are far from a small body, and none of them is looked at.
 TEST(CollisionProbability, FarPointsCostNothing) {
   std::mt19937 random(7);
