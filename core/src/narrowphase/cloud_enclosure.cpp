@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bvh/box_frames.hpp"
 #include "bvh/pending_boxes.hpp"
 #include "simd/box_bounds.hpp"
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "bvh/box_frames.hpp"
 #include "bvh/wide_bvh.hpp"
 #include "narrowphase/convex.hpp"
 #include "simd/box_bounds.hpp"

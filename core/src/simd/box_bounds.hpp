@@ -1,41 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
+#include "bvh/box_frames.hpp"
 #include "bvh/wide_bvh.hpp"
 
 namespace swept::detail {
-
-/// What single precision can add to a gap between two boxes, per metre of their sizes and distance;
-/// the lemma is in box_frames.cpp.
-inline constexpr double kBoxRounding = 96.0 * 0x1p-24;
-
-/// How boxes of one frame relate to boxes of another, and what rounding can do to a gap.
-class BoxFrames {
- public:
-  BoxFrames() = default;  ///< not usable
-  /// `first_from_second` between the frames in which the boxes are given; `reach`: m, the sum of
-  /// the largest 1-norms of the points of both sides' primitives.
-  BoxFrames(const Eigen::Isometry3d& first_from_second, double reach);
-
-  /// False where single precision cannot tell: coordinates outside [1e-12, 1e12] m, or a linear
-  /// part that is not a rotation. No gap is to be relied on then.
-  bool usable() const { return usable_; }
-  BoxFrames inverse() const;
-
-  Eigen::Matrix3d linear;
-  Eigen::Vector3d translation;  ///< m, of the second frame's origin in the first
-  /// m; a computed gap may exceed the true one by this, and by `perMetre` times the sizes of the
-  /// two boxes and their distance.
-  double rounding = 0.0;
-  double perMetre = 0.0;
-
- private:
-  bool usable_ = false;
-};
 
 /// Lower bounds on the distance between each of the node's boxes (in the first frame) and `other`
 /// (in the second): the largest that the fifteen axes of the separating axis test give (Gottschalk,
@@ -58,17 +31,6 @@ struct alignas(32) BoxDirections {
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower,
                     BoxDirections& directions);
-
-/// What a pair of boxes is apart along a direction.
-struct BoxGap {
-  double value = 0.0;  ///< m, proven separation along `direction`; not positive: none found
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, first frame, towards `other`
-};
-/// The best of the same axes for one pair of boxes.
-BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other);
-/// `along`: in the first frame, of any length and either sense.
-BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other,
-              const Eigen::Vector3d& along);
 
 /// Bit i: the ray may hit box i of the node; clear only when it certainly misses. A NaN hits.
 /// `origin`: m, in the frame of the boxes; `direction`: a unit vector.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
+#include "bvh/box_frames.hpp"
 
-#include "simd/box_bounds.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace swept::detail {
 
