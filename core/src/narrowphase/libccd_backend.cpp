@@ -97,15 +97,13 @@ Piece pieceOf(const Shape& shape) {
       shape);
 }
 
-/// A posed piece, as libccd's callbacks see it.
+/// A posed piece.
 struct Body {
   Piece piece;
   Eigen::Isometry3d pose;  ///< in the common frame
   Eigen::Vector3d center;  ///< m, common frame
   double radius;           ///< m, of a ball around `center` that contains the piece
   double growth = 0.0;     ///< m
-  mutable int evaluations = 0;
-  int allowed = 0;  ///< evaluations
 
   Body(const Shape& shape, const Eigen::Isometry3d& where) : piece(pieceOf(shape)), pose(where) {
     // MPR needs a point inside; that of a bounding ball is inside only for a symmetric solid.
@@ -125,13 +123,26 @@ struct Body {
   }
 };
 
+/// How often support points were asked for, and may be. One for each call of libccd, on the stack
+/// of the query: no thread sees another one's.
+struct Supports {
+  int taken = 0;
+  int allowed = 0;
+};
+
+/// A body, as libccd's callbacks see it.
+struct Asked {
+  const Body& body;
+  Supports& supports;
+};
+
 void toCcd(const Eigen::Vector3d& from, ccd_vec3_t* to) {
   ccdVec3Set(to, from.x(), from.y(), from.z());
 }
 
 void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* result) {
-  const Body& body = *static_cast<const Body*>(object);
-  if (++body.evaluations > body.allowed) {
+  const auto& [body, supports] = *static_cast<const Asked*>(object);
+  if (++supports.taken > supports.allowed) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     ccdVec3Set(result, kNone, kNone, kNone);
     return;
@@ -144,7 +155,7 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* result
 }
 
 void center(const void* object, ccd_vec3_t* result) {
-  toCcd(static_cast<const Body*>(object)->center, result);
+  toCcd(static_cast<const Asked*>(object)->body.center, result);
 }
 
 enum class Met : std::uint8_t { No, Yes, Unknown };
@@ -154,8 +165,8 @@ enum class Met : std::uint8_t { No, Yes, Unknown };
 ///
 /// ccdMPRIntersect has no limit of its own, and goes round for ever on some flat shapes. A support
 /// point that is not a number fails each of its comparisons, which ends it.
-Met meet(Body& a, Body& b) {
-  constexpr int kMostSupports = 10'000;  // 200 are many
+Met meet(const Body& a, const Body& b, int& evaluations) {
+  constexpr int kMostSupports = 2 * 10'000;  // of both; 200 of either are many
   constexpr unsigned long kMostIterations = 200;
   constexpr double kPortalTolerance = 1e-3 * tolerance::kLibccdDistance;
   ccd_t ccd;
@@ -166,10 +177,12 @@ Met meet(Body& a, Body& b) {
   ccd.center2 = center;
   ccd.max_iterations = kMostIterations;
   ccd.mpr_tolerance = kPortalTolerance;
-  a.allowed = a.evaluations + kMostSupports;
-  b.allowed = b.evaluations + kMostSupports;
-  const bool met = ccdMPRIntersect(&a, &b, &ccd) != 0;
-  if (a.evaluations > a.allowed) return Met::Unknown;
+  Supports supports{0, kMostSupports};
+  const Asked askedA{a, supports};
+  const Asked askedB{b, supports};
+  const bool met = ccdMPRIntersect(&askedA, &askedB, &ccd) != 0;
+  evaluations += supports.taken;
+  if (supports.taken > supports.allowed) return Met::Unknown;
   return met ? Met::Yes : Met::No;
 }
 
@@ -183,11 +196,10 @@ struct Search {
 
   bool done() const { return upper <= contact; }
 
-  void examine(Body& a, Body& b) {
+  void examine(Body& a, const Body& b) {
     if ((a.center - b.center).norm() - a.radius - b.radius >= upper) return;
-    a.evaluations = b.evaluations = 0;
     a.growth = 0.0;
-    const Met met = meet(a, b);
+    const Met met = meet(a, b, evaluations);
     if (met == Met::Yes) {
       upper = 0.0;
     } else if (met == Met::Unknown) {
@@ -195,24 +207,23 @@ struct Search {
     } else if (upper > tolerance::kLibccdDistance) {
       bisect(a, b);
     }
-    evaluations += a.evaluations + b.evaluations;
   }
 
  private:
-  void bisect(Body& a, Body& b) {
+  void bisect(Body& a, const Body& b) {
     double apart = 0.0;
     // Grown by the distance of the centres they meet, grown by less than `upper` maybe not.
     double together = std::min(upper, (a.center - b.center).norm());
     if (together == upper) {
       a.growth = std::max(0.0, upper - tolerance::kLibccdDistance);
-      if (meet(a, b) != Met::Yes) return;
+      if (meet(a, b, evaluations) != Met::Yes) return;
       together = a.growth;
     }
     while (together - apart > tolerance::kLibccdDistance && together > contact && apart <= enough) {
       a.growth = 0.5 * (apart + together);
       // Far out, doubles are farther apart than the accuracy.
       if (!(a.growth > apart && a.growth < together)) break;
-      const Met met = meet(a, b);
+      const Met met = meet(a, b, evaluations);
       if (met == Met::Unknown) break;
       (met == Met::Yes ? together : apart) = a.growth;
     }
