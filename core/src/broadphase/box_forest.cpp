@@ -27,9 +27,10 @@ void BoxForest::gather(const BoxTree& tree) {
     if (owner != BoxTree::kNobody) gathered_.push_back(owner);
 }
 
-void BoxForest::number(const BoxTree& tree, bool movers) {
+void BoxForest::number(const BoxTree& tree) {
+  const std::uint32_t mover = &tree == &movers_ ? 1 : 0;
   for (std::uint32_t slot = 0; slot < tree.slots(); ++slot)
-    places_[tree.owner(slot)] = {movers ? 1U : 0U, slot & kSlotBits};
+    places_[tree.owner(slot)] = {mover & 1U, slot & kSlotBits};
 }
 
 /// The bounds make the work of building a constant per box that was moved, but for a logarithm, and
@@ -44,7 +45,7 @@ void BoxForest::tidy(std::span<const FloatBox> boxes) {
              movers_.slots() > 64 + 2 * movers_.live()) {
     gather(movers_);
     movers_.build(gathered_, boxes);
-    number(movers_, true);
+    number(movers_);
   }
 }
 
@@ -52,13 +53,13 @@ void BoxForest::build(std::span<const std::uint32_t> owners, std::span<const Flo
   if (places_.size() < boxes.size()) places_.resize(boxes.size());
   movers_.clear();
   settled_.build(owners, boxes);
-  number(settled_, false);
+  number(settled_);
 }
 
 void BoxForest::ownBySlot() {
   settled_.ownBySlot();
   places_.resize(settled_.slots());
-  number(settled_, false);
+  number(settled_);
 }
 
 void BoxForest::findOverlaps(const FloatBox& box, std::vector<std::uint32_t>& owners) const {

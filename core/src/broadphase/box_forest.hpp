@@ -49,7 +49,7 @@ class BoxForest {
   static constexpr std::uint32_t kSlotBits = 0x7FFFFFFF;
   BoxTree& treeOf(std::uint32_t owner) { return places_[owner].mover ? movers_ : settled_; }
   void gather(const BoxTree& tree);
-  void number(const BoxTree& tree, bool movers);
+  void number(const BoxTree& tree);
 
   BoxTree settled_, movers_;
   std::vector<Place> places_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace swept::detail {
@@ -19,19 +20,20 @@ struct Cone {
     return Eigen::Vector3d(point.dot(bc), point.dot(c.cross(a)), point.dot(a.cross(b))) / a.dot(bc);
   }
 
-  /// Distance of `point` from some point of the tetrahedron, or of its base when the apex may not
-  /// be used: an upper bound of the distance from either, up to the rounding of these few
-  /// operations. The weights found are clamped to valid ones before the distance is measured, so it
-  /// holds however inaccurate they are; correcting them by what is left makes up for flat
-  /// tetrahedra.
-  double distanceBound(const Eigen::Vector3d& point, bool useApex) const {
+  enum class Part : std::uint8_t { Base, Tetrahedron };
+
+  /// Distance of `point` from some point of that part: an upper bound of the distance from it, up
+  /// to the rounding of these few operations. The weights found are clamped to valid ones before
+  /// the distance is measured, so it holds however inaccurate they are; correcting them by what is
+  /// left makes up for flat tetrahedra.
+  double distanceBound(const Eigen::Vector3d& point, Part part) const {
     constexpr int kCorrections = 3;
     double bound = std::numeric_limits<double>::infinity();
     Eigen::Vector3d weights = coordinates(point);
     for (int i = 0; i <= kCorrections; ++i) {
       weights = weights.cwiseMax(0.0);
       const double sum = weights.sum();
-      if (!useApex || sum > 1.0) weights /= sum;
+      if (part == Part::Base || sum > 1.0) weights /= sum;
       if (!weights.allFinite()) break;
       const Eigen::Vector3d left = point - (weights[0] * a + weights[1] * b + weights[2] * c);
       bound = std::min(bound, left.norm());

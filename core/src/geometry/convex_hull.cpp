@@ -159,7 +159,7 @@ Selection selectInPlane(Points points, const Spread& spread) {
         [&](int corner) { return turn(flat[polygon[0]], flat[corner], flat[i]) > 0.0; });
     const detail::Cone cone{points[polygon[0]] - apex, points[*(beyond - 1)] - apex,
                             points[*beyond] - apex};
-    selection.consider(i, cone.distanceBound(points[i] - apex, false));
+    selection.consider(i, cone.distanceBound(points[i] - apex, detail::Cone::Part::Base));
   }
   for (int corner : polygon) selection.kept[corner] = true;
   return selection;
@@ -213,7 +213,8 @@ Selection selectInSpace(Points points, const Spread& spread) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (selection.kept[i]) continue;
     const Eigen::Vector3d offset = points[i] - inside;
-    selection.consider(i, walk.towards(offset).distanceBound(offset, true));
+    selection.consider(i,
+                       walk.towards(offset).distanceBound(offset, detail::Cone::Part::Tetrahedron));
   }
   selection.faces = surface.faces;
   return selection;

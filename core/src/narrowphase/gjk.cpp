@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "narrowphase/descent.hpp"
 #include "narrowphase/newton.hpp"
@@ -122,15 +123,17 @@ struct Request {
   GjkMode mode;
 };
 
+enum class Care : std::uint8_t { Quick, Careful };
+
 /// One descent of GJK. A quick one trusts the features that signs choose; a careful one looks at
 /// all of them and measures each by its weighted sum, for pairs so near or so slender that the
 /// signs are noise.
 class Search {
  public:
-  Search(const Pair& pair, const Request& request, bool carefully)
+  Search(const Pair& pair, const Request& request, Care care)
       : pair_(pair),
         request_(request),
-        carefully_(carefully),
+        carefully_(care == Care::Careful),
         radii_(pair.a.radius + pair.b.radius),
         curved_(request.mode == GjkMode::Exact && (isCurved(pair.a) || isCurved(pair.b))) {}
 
@@ -279,11 +282,11 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
               GjkMode mode, Simplex* last) {
   const Pair pair(a, b, a_from_b);
   const Request request{goal, contact, tolerance, mode};
-  Search quick(pair, request, false);
+  Search quick(pair, request, Care::Quick);
   GjkResult result = quick.run(firstDirection(guess, pair.offset));
   if (last != nullptr) *last = quick.nearest();
   if (!quick.stuck()) return result;
-  Search slow(pair, request, true);
+  Search slow(pair, request, Care::Careful);
   const GjkResult& careful = slow.run(firstDirection(result.normal, pair.offset));
   if (last != nullptr) *last = slow.nearest();
   return better(result, careful);

@@ -17,8 +17,16 @@ Isometry3d placedAt(const Vector3d& position) {
   return Isometry3d(Eigen::Translation3d(position));
 }
 
-Certificate ball(bool occurs, const Vector3d& center, double radius) {
-  return {Certificate::Form::Ball, occurs, center, radius};
+// The ball of a point touches the shape wherever the point is in a touching set, and nowhere in a
+// free one.
+Certificate touchingBall(const Vector3d& center, double radius) {
+  return {Certificate::Form::Ball, true, center, radius};
+}
+Certificate freeBall(const Vector3d& center, double radius) {
+  return {Certificate::Form::Ball, false, center, radius};
+}
+Certificate freeHalfSpace(const Vector3d& normal, double offset) {
+  return {Certificate::Form::HalfSpace, false, normal, offset};
 }
 
 Vector3d unitOrZero(const Vector3d& way) {
@@ -30,8 +38,8 @@ Vector3d unitOrZero(const Vector3d& way) {
 Finding outside(const Vector3d& position, double radius, double lower, double upper) {
   Finding finding;
   finding.clearance = (upper < std::numeric_limits<double>::infinity() ? upper : lower) - radius;
-  if (lower > radius) finding.proof = ball(false, position, lower - radius);
-  if (upper < radius) finding.proof = ball(true, position, radius - upper);
+  if (lower > radius) finding.proof = freeBall(position, lower - radius);
+  if (upper < radius) finding.proof = touchingBall(position, radius - upper);
   return finding;
 }
 
@@ -39,7 +47,7 @@ Finding outside(const Vector3d& position, double radius, double lower, double up
 Finding inside(const Vector3d& position, double radius, double depth) {
   Finding finding;
   finding.clearance = -(radius + depth);
-  if (radius + depth > 0.0) finding.proof = ball(true, position, radius + depth);
+  if (radius + depth > 0.0) finding.proof = touchingBall(position, radius + depth);
   return finding;
 }
 
@@ -83,8 +91,8 @@ Finding ShapeLook::atOther(const Vector3d& position, double radius, double toler
     finding.outward = unitOrZero(position - apart.pointA);
     // A plane has the whole shape behind it.
     if (apart.lower > radius && apart.normal.squaredNorm() > 0.0) {
-      finding.proof = {Certificate::Form::HalfSpace, false, apart.normal,
-                       apart.normal.dot(position) - (apart.lower - radius)};
+      finding.proof =
+          freeHalfSpace(apart.normal, apart.normal.dot(position) - (apart.lower - radius));
     }
     return finding;
   }
@@ -103,9 +111,9 @@ Finding lookAtBall(const Vector3d& position, double radius) {
   finding.clearance = apart - radius;
   finding.outward = apart > 0.0 ? Vector3d(position / apart) : Vector3d::UnitX();
   if (apart > radius) {
-    finding.proof = {Certificate::Form::HalfSpace, false, finding.outward, radius};
+    finding.proof = freeHalfSpace(finding.outward, radius);
   } else {
-    finding.proof = ball(true, Vector3d::Zero(), radius);
+    finding.proof = touchingBall(Vector3d::Zero(), radius);
   }
   return finding;
 }
