@@ -321,7 +321,7 @@ TEST(SurfaceFeatures, MarkAllThatHaveOrphans) {
     for (Eigen::Vector3i& t : soup) t = {any(random), any(random), any(random)};
     const detail::SurfaceFeatures surface(static_cast<std::size_t>(vertices), soup);
     const auto share = [&](int t, int u) {
-      return detail::SurfaceFeatures::shareVertex(surface.triangle(t), surface.triangle(u));
+      return shareVertex(surface.triangle(t), surface.triangle(u));
     };
     const auto has = [&](int t, int v) { return (surface.triangle(t).array() == v).any(); };
     const auto count = static_cast<int>(soup.size());

@@ -23,16 +23,9 @@ struct FloatBox {
     }
     return apart == 0;
   }
-  /// Without branches: nearly always true for a box that moved a little.
-  bool contains(const Aabb& box) const {
-    int inside = 1;
-    for (int k = 0; k < 3; ++k) {
-      inside &= static_cast<int>(box.lower[k] >= lower[k]);
-      inside &= static_cast<int>(box.upper[k] <= upper[k]);
-    }
-    return inside != 0;
-  }
-  bool contains(const FloatBox& box) const {
+  /// In either precision. Without branches: nearly always true for a box that moved a little.
+  template <typename Box>
+  bool contains(const Box& box) const {
     int inside = 1;
     for (int k = 0; k < 3; ++k) {
       inside &= static_cast<int>(box.lower[k] >= lower[k]);

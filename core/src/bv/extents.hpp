@@ -9,6 +9,12 @@
 
 namespace swept::detail {
 
+/// m^2, of a box with edges of these lengths (m): what boxes around the same points are compared
+/// by.
+inline double halfSurface(const Eigen::Vector3d& edges) {
+  return edges[0] * edges[1] + edges[1] * edges[2] + edges[2] * edges[0];
+}
+
 /// Box of points along given axes.
 struct Extents {
   Eigen::Vector3d lower;  ///< m, along the axes, from the first point
@@ -16,11 +22,7 @@ struct Extents {
   bool finite = true;     ///< so are all coordinates of the points
 
   Eigen::Vector3d half() const { return 0.5 * (upper - lower); }
-  /// m^2, half the surface: what candidates for the axes are compared by.
-  double area() const {
-    const Eigen::Vector3d size = upper - lower;
-    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
-  }
+  double area() const { return halfSurface(upper - lower); }  ///< m^2
 };
 
 /// `points` is not empty.

@@ -18,15 +18,8 @@ using Eigen::Vector3d;
 /// m. Boxes that single precision cannot hold are unbounded.
 constexpr double kLargest = 1e30;
 
-double area(const Aabb& box) {
-  const Vector3d size = box.upper - box.lower;
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-}
-
-double surface(const OrientedBox& box) {
-  return 4.0 * (static_cast<double>(box.half[0]) * box.half[1] +
-                static_cast<double>(box.half[1]) * box.half[2] +
-                static_cast<double>(box.half[2]) * box.half[0]);
+double halfSurfaceOf(const OrientedBox& box) {
+  return halfSurface(2.0 * Vector3d(box.half[0], box.half[1], box.half[2]));
 }
 
 /// The nearest numbers that single precision holds (Dekker 1971, splitting). Not by conversion to
@@ -96,9 +89,9 @@ OrientedBox fitOrientedBox(const BallsInBox& balls, const Matrix3d& scatter,
   // Principal axes of a patch about as wide as it is long may be those of its diagonals.
   if (points.size() > 3 && box.half[1] > 0.6F * box.half[0]) {
     const OrientedBox diagonal = along(turned(axes), balls, origin, far.sum());
-    if (surface(diagonal) < surface(box)) box = diagonal;
+    if (halfSurfaceOf(diagonal) < halfSurfaceOf(box)) box = diagonal;
   }
-  if (surface(box) > area(balls.bounds)) {
+  if (halfSurfaceOf(box) > halfSurface(balls.bounds.upper - balls.bounds.lower)) {
     box = along(Matrix3d::Identity(), balls, origin, far.sum());
   }
   return box;
@@ -108,7 +101,9 @@ OrientedBox fitBoxAlong(const BallsInBox& balls, const Matrix3d& axes, const Vec
   const Vector3d far = farthest(balls.bounds, origin);
   if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
   const OrientedBox box = along(axes, balls, origin, far.sum());
-  return surface(box) > area(balls.bounds) ? alignedBox(balls.bounds, origin) : box;
+  return halfSurfaceOf(box) > halfSurface(balls.bounds.upper - balls.bounds.lower)
+             ? alignedBox(balls.bounds, origin)
+             : box;
 }
 
 OrientedBox alignedBox(const Aabb& bounds, const Vector3d& origin) {

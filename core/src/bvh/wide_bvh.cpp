@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bv/extents.hpp"
 #include "bvh/box_fit.hpp"
 
 namespace swept::detail {
@@ -14,11 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Node = TreeTopology::Node;
-
-double area(const Aabb& box) {
-  const Vector3d size = box.upper - box.lower;
-  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-}
 
 /// A run of primitives.
 struct Run {
@@ -161,11 +157,14 @@ class Collapse {
 
   /// Replaces the lane of the largest inner node by its two children.
   bool splitLargest(Lanes& lanes) const {
+    const auto area = [&](int lane) {
+      const Aabb& box = bounds_[lanes.of[lane].node];
+      return halfSurface(box.upper - box.lower);
+    };
     int largest = -1;
     for (int i = 0; i < lanes.count; ++i) {
-      const std::size_t node = lanes.of[i].node;
-      if (binary_[node].rightChild < 0) continue;
-      if (largest < 0 || area(bounds_[node]) > area(bounds_[lanes.of[largest].node])) largest = i;
+      if (binary_[lanes.of[i].node].rightChild < 0) continue;
+      if (largest < 0 || area(i) > area(largest)) largest = i;
     }
     if (largest < 0) return false;
     const std::size_t parent = lanes.of[largest].node;
@@ -310,9 +309,8 @@ double WideBvh::spread() const {
   double inner = 0.0, leaves = 0.0;
   for (const WideNode& node : nodes_) {
     for (int i = 0; i < node.count; ++i) {
-      const std::array<double, 3> half = {node.half[0][i], node.half[1][i], node.half[2][i]};
-      const double area = half[0] * half[1] + half[1] * half[2] + half[2] * half[0];
-      (node.child[i] >= 0 ? inner : leaves) += area;
+      const Vector3d half(node.half[0][i], node.half[1][i], node.half[2][i]);
+      (node.child[i] >= 0 ? inner : leaves) += halfSurface(half);
     }
   }
   const double ratio = inner / leaves;

@@ -84,8 +84,7 @@ class ImpactQuery {
 };
 
 bool ImpactQuery::haveCommonVertex(const MovingTriangle& t, const MovingTriangle& u) const {
-  return same_ && detail::SurfaceFeatures::shareVertex(a_.surface.triangle(t.number()),
-                                                       a_.surface.triangle(u.number()));
+  return same_ && shareVertex(a_.surface.triangle(t.number()), a_.surface.triangle(u.number()));
 }
 
 /// Of two triangles with a common vertex: the features that no other pair covers.

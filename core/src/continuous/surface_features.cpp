@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "swept/core/triangle_pair.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -108,13 +110,6 @@ void SurfaceFeatures::numberEdges() {
   }
   besideFirst_.push_back(static_cast<int>(beside_.size()));
   besideFirst_.shrink_to_fit();
-}
-
-bool SurfaceFeatures::shareVertex(const Eigen::Vector3i& t, const Eigen::Vector3i& u) {
-  for (const int v : u) {
-    if (t[0] == v || t[1] == v || t[2] == v) return true;
-  }
-  return false;
 }
 
 bool SurfaceFeatures::isOrphan(int vertex, int face) const {

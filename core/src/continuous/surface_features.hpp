@@ -37,7 +37,6 @@ class SurfaceFeatures {
   /// Triangles with this edge, in ascending order.
   std::span<const int> beside(int edge) const;
 
-  static bool shareVertex(const Eigen::Vector3i& t, const Eigen::Vector3i& u);
   /// For a vertex that is none of the face's.
   bool isOrphan(int vertex, int face) const;
   /// For edges without a common vertex.

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "cover/cover_builder.hpp"
-#include "cover/rounded.hpp"
+#include "geometry/rounded.hpp"
 
 namespace swept {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "narrowphase/piece_pair.hpp"
 
-#include <cmath>
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 #include "bvh/box_fit.hpp"
+#include "geometry/rounded.hpp"
 #include "narrowphase/flat_pair.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -17,12 +16,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-float roundedDown(double value) {
-  return std::nextafter(static_cast<float>(value), -kInfinity);
-}
 
 OrientedBox boxOf(const Vector3d& center, const Vector3d& half) {
   OrientedBox box;

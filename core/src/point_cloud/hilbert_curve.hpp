@@ -36,9 +36,6 @@ class HilbertCurve {
     }
     return found;
   }
-  static std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z, int bits) {
-    return indices<1>({cell(x, y, z)}, bits)[0];
-  }
 
  private:
   struct Step {

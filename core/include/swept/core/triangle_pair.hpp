@@ -20,6 +20,15 @@ using TriangleCorners = std::array<Eigen::Vector3d, 3>;  ///< m
 /// are those of Shewchuk's expansions (1997) behind a floating-point filter.
 bool trianglesTouch(const TriangleCorners& a, const TriangleCorners& b);
 
+/// Whether two triangles of one mesh, given by the indices of their vertices, have one in common:
+/// these touch in any case.
+inline bool shareVertex(const Eigen::Vector3i& t, const Eigen::Vector3i& u) {
+  for (const int v : u) {
+    if (t[0] == v || t[1] == v || t[2] == v) return true;
+  }
+  return false;
+}
+
 /// The distance between two triangles, bounded on both sides.
 struct TriangleDistance {
   double lower;            ///< m; proven, rounding included: no two points are nearer; >= 0

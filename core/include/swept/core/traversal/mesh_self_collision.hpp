@@ -34,7 +34,7 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
   void leafTesting(int i, int j) {
     this->forEachPair(i, j, [&](int t, int u) {
       if (i == j && t >= u) return true;  // within a leaf: each pair once
-      if (shareVertex(t, u)) return true;
+      if (shareVertex(triangle(t), triangle(u))) return true;
       ++out_.effort.leafTests;
       if (trianglesTouch(this->a_.corners(t), this->a_.corners(u))) {
         out_.touching = true;
@@ -47,12 +47,8 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
   ///@}
 
  private:
-  bool shareVertex(int t, int u) const {
-    const Eigen::Vector3i& first = this->a_.triangles()[static_cast<std::size_t>(t)];
-    for (const int vertex : this->a_.triangles()[static_cast<std::size_t>(u)]) {
-      if ((first.array() == vertex).any()) return true;
-    }
-    return false;
+  const Eigen::Vector3i& triangle(int t) const {
+    return this->a_.triangles()[static_cast<std::size_t>(t)];
   }
 
   std::size_t maxPairs_;
