@@ -145,7 +145,7 @@ class Descent {
   /// Lemma: of coordinates up to `magnitude`, an edge's rounds by 2 ulps of it, a cross product's
   /// component is at most 8 m^2 and off by 40 ulps, and so a volume by less than 500 ulps of m^3.
   bool enclosesOrigin(double magnitude) const {
-    constexpr double kVolumeRounding = 1e-13;
+    constexpr double kTetrahedronRounding = 1e-13;
     const Vector3d e0 = p_[0] - p_[3];
     const Vector3d e1 = p_[1] - p_[3];
     const Vector3d e2 = p_[2] - p_[3];
@@ -157,7 +157,7 @@ class Descent {
     const double v20 = -sign * e2.cross(e0).dot(p_[3]);
     const double left = sign * volume - (v01 + v12 + v20);
     return std::min(std::min(v01, v12), std::min(v20, left)) >
-           kVolumeRounding * magnitude * magnitude * magnitude;
+           kTetrahedronRounding * magnitude * magnitude * magnitude;
   }
 
  private:
