@@ -19,7 +19,8 @@ constexpr std::uint32_t kAhead = 8;
 /// Fewer are all in the cache.
 constexpr std::size_t kManyBoxes = 5000;
 
-/// Without branches: whether near boxes overlap is anyone's guess.
+/// As Aabb::overlaps(), of boxes without a NaN, but without branches: whether near boxes overlap is
+/// anyone's guess, where in a tree most boxes are kept apart by the first axis.
 bool overlap(const Aabb& a, const Aabb& b) {
   int meets = 1;
   for (int k = 0; k < 3; ++k) {

@@ -51,7 +51,7 @@ struct Nearness {
 
 /// Corner i is vertex - face[i].
 struct VertexFace {
-  /// Ericson 2005, section 5.1.5. Of little use for slivers.
+  /// Ericson 2005, section 5.1.5, of the origin, for the weights. Of little use for slivers.
   static Nearness nearest(const Corners& corners);
   /// Within some ten roundings of the coordinates, both ways, slivers and points included.
   static Nearness nearestOfAnyShape(const Corners& corners);

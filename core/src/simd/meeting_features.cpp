@@ -149,6 +149,7 @@ class PairFeatures {
   Vector wake_[2][3];  ///< normal of the plane that an edge sweeps, as seen from the other triangle
 };
 
+/// One in each file of kernels: what is compiled once for each instruction set has no header.
 HWY_INLINE std::uint32_t bitsOf(Mask mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(Tag(), mask, bits);

@@ -19,6 +19,7 @@ using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 using IntTag = hn::CappedTag<std::int32_t, kTreeLanes>;
 
+/// One in each file of kernels: what is compiled once for each instruction set has no header.
 HWY_INLINE std::uint32_t bitsOf(Mask mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(Tag(), mask, bits);

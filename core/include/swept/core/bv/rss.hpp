@@ -30,7 +30,8 @@ struct Rss {
   bool overlaps(const Rss& other) const;
   bool overlaps(const Rss& other, const Eigen::Isometry3d& a_from_b) const;
   ///@}
-  /// Within 1e-3 of the distance of the two volumes, and never more than it.
+  /// Never more than the distance of the two volumes, and but for rounding at most a thousandth of
+  /// it less.
   double distanceBound(const Rss& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
   /// As `BoundingVolume` says.
   bool contains(const Eigen::Vector3d& p) const;
