@@ -201,11 +201,11 @@ ProblemFile ProblemFile::load(const std::filesystem::path& json) {
     const Place list{item.value(), "set '" + set + "'", result.file_};
     for (const Place& entry : list.elements()) {
       PlanningProblem problem = readProblem(set, entry);
-      const bool taken = std::any_of(
-          result.problems_.begin(), result.problems_.end(),
-          [&](const auto& known) { return known.set == set && known.index == problem.index; });
-      if (taken) entry.fail("repeats the index " + std::to_string(problem.index));
-      result.problems_.push_back(std::move(problem));
+      const int index = problem.index;
+      Set& known = result.sets_[set];
+      if (!known.problems.emplace(index, std::move(problem)).second)
+        entry.fail("repeats the index " + std::to_string(index));
+      known.indices.push_back(index);
     }
   }
   return result;
@@ -213,31 +213,24 @@ ProblemFile ProblemFile::load(const std::filesystem::path& json) {
 
 std::vector<std::string> ProblemFile::sets() const {
   std::vector<std::string> names;
-  for (const PlanningProblem& problem : problems_) {
-    if (names.empty() || names.back() != problem.set) names.push_back(problem.set);
-  }
+  for (const auto& [name, ignored] : sets_) names.push_back(name);
   return names;
 }
 
 std::vector<int> ProblemFile::indices(const std::string& set) const {
-  std::vector<int> found;
-  for (const PlanningProblem& problem : problems_) {
-    if (problem.set == set) found.push_back(problem.index);
-  }
-  return found;
+  const auto found = sets_.find(set);
+  return found == sets_.end() ? std::vector<int>() : found->second.indices;
 }
 
 PlanningProblem ProblemFile::problem(const std::string& set, int index) const {
-  for (const PlanningProblem& problem : problems_) {
-    if (problem.set == set && problem.index == index) return problem;
-  }
-  const std::vector<int> known = indices(set);
-  if (known.empty()) {
+  const auto known = sets_.find(set);
+  if (known == sets_.end())
     throw InputError(file_, 0, "there is no set '" + set + "'; there are " + listed(sets()));
-  }
-  throw InputError(
-      file_, 0,
-      "set '" + set + "' has no problem " + std::to_string(index) + "; it has " + listed(known));
+  const auto found = known->second.problems.find(index);
+  if (found != known->second.problems.end()) return found->second;
+  throw InputError(file_, 0,
+                   "set '" + set + "' has no problem " + std::to_string(index) + "; it has " +
+                       listed(known->second.indices));
 }
 
 }  // namespace swept

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -27,6 +28,31 @@ void makeRigid(WorldBody& body) {
   }
 }
 
+/// Both or, where memory runs out, neither: a place without a body would be read.
+template <typename Body, typename Places>
+void append(Body body, std::vector<Body>& all, Places& places) {
+  const auto place = places.emplace(body.name, all.size()).first;
+  try {
+    all.push_back(std::move(body));
+  } catch (...) {
+    places.erase(place);
+    throw;
+  }
+}
+
+/// False: none of them has this name.
+template <typename Body, typename Places>
+bool removeNamed(std::string_view name, std::vector<Body>& all, Places& places) {
+  const auto found = places.find(name);
+  if (found == places.end()) return false;
+  const std::size_t gone = found->second;
+  places.erase(found);
+  for (auto& [other, place] : places)
+    if (place > gone) --place;
+  all.erase(all.begin() + static_cast<std::ptrdiff_t>(gone));
+  return true;
+}
+
 }  // namespace
 
 void World::requireFree(const std::string& name) const {
@@ -38,7 +64,7 @@ void World::requireFree(const std::string& name) const {
 void World::add(WorldBody body) {
   requireFree(body.name);
   makeRigid(body);
-  bodies_.push_back(std::move(body));
+  append(std::move(body), bodies_, placeOfBody_);
 }
 
 void World::add(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) {
@@ -69,30 +95,30 @@ void World::add(MovingObstacle obstacle) {
       fail(which + ", whose pose is no finite rigid transform");
     waypoint.world_from_body = orthonormalized(waypoint.world_from_body);
   }
-  obstacles_.push_back(std::move(obstacle));
+  append(std::move(obstacle), obstacles_, placeOfObstacle_);
 }
 
 void World::replace(WorldBody body) {
-  const auto old = std::ranges::find(bodies_, body.name, &WorldBody::name);
-  if (old == bodies_.end())
+  const auto old = placeOfBody_.find(body.name);
+  if (old == placeOfBody_.end())
     throw std::invalid_argument("World: there is no body '" + body.name + "' to replace");
   makeRigid(body);
-  *old = std::move(body);
+  bodies_[old->second] = std::move(body);
 }
 
 bool World::remove(std::string_view name) {
-  const auto named = [name](const auto& body) { return body.name == name; };
-  return std::erase_if(bodies_, named) + std::erase_if(obstacles_, named) > 0;
+  return removeNamed(name, bodies_, placeOfBody_) ||
+         removeNamed(name, obstacles_, placeOfObstacle_);
 }
 
 const WorldBody* World::find(std::string_view name) const {
-  const auto found = std::ranges::find(bodies_, name, &WorldBody::name);
-  return found == bodies_.end() ? nullptr : &*found;
+  const auto found = placeOfBody_.find(name);
+  return found == placeOfBody_.end() ? nullptr : &bodies_[found->second];
 }
 
 const MovingObstacle* World::findObstacle(std::string_view name) const {
-  const auto found = std::ranges::find(obstacles_, name, &MovingObstacle::name);
-  return found == obstacles_.end() ? nullptr : &*found;
+  const auto found = placeOfObstacle_.find(name);
+  return found == placeOfObstacle_.end() ? nullptr : &obstacles_[found->second];
 }
 
 Eigen::Isometry3d MovingObstacle::poseAt(double time) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ class ProblemFile {
   /// Throws InputError.
   static ProblemFile load(const std::filesystem::path& json);
 
-  /// In the order of the file.
+  /// Those that have problems, by name.
   std::vector<std::string> sets() const;
   /// Of the problems of a set, in the order of the file; none for an unknown set.
   std::vector<int> indices(const std::string& set) const;
@@ -36,8 +37,12 @@ class ProblemFile {
   PlanningProblem problem(const std::string& set, int index) const;
 
  private:
+  struct Set {
+    std::vector<int> indices;  ///< in the order of the file
+    std::map<int, PlanningProblem> problems;
+  };
   std::string file_;
-  std::vector<PlanningProblem> problems_;
+  std::map<std::string, Set> sets_;
 };
 
 }  // namespace swept

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,9 +84,11 @@ class World {
   ///@}
 
  private:
+  using Places = std::map<std::string, std::size_t, std::less<>>;
   void requireFree(const std::string& name) const;
   std::vector<WorldBody> bodies_;
   std::vector<MovingObstacle> obstacles_;
+  Places placeOfBody_, placeOfObstacle_;  ///< by name, for scenes of many bodies
 };
 
 }  // namespace swept
