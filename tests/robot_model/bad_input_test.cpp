@@ -603,6 +603,28 @@ TEST(MissingFiles, AreNamed) {
   EXPECT_EQ(test::inputError([&] { Robot::load(urdf, srdf); }), srdf + ": error: file not found");
 }
 
+/// Joints `first` to `last`, a line each, of a chain of links that are there.
+std::string jointsInARow(int first, int last) {
+  std::string text;
+  for (int i = first; i <= last; ++i)
+    text += "\n<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='l" +
+            std::to_string(i - 1) + "'/><child link='l" + std::to_string(i) + "'/></joint>";
+  return text;
+}
+
+TEST(Joints, AreAtMostSoMany) {
+  constexpr int kMost = 5000;
+  std::string links;
+  for (int i = 0; i <= kMost; ++i) links += "<link name='l" + std::to_string(i) + "'/>";
+  const std::string most = "<robot name='r'>" + links + jointsInARow(1, kMost);
+  EXPECT_EQ(Robot::parse(most + "</robot>", "r.urdf")->joints().size(), 5000U);
+  EXPECT_EQ(test::inputError([&] {
+              (void)Robot::parse(most + jointsInARow(kMost + 1, kMost + 1) + "</robot>", "r.urdf");
+            }),
+            "r.urdf:5002: error: the robot has more than 5000 joints, which are the most that are "
+            "read");
+}
+
 TEST(PackageMeshes, SayEveryPlaceThatWasTried) {
   const test::TemporaryFolder folder;
   setenv("ROS_PACKAGE_PATH", "/nowhere/ros", 1);

@@ -19,6 +19,10 @@ UrdfOutline readElements(XmlFile& xml) {
     if (name == "link") {
       outline.links.push_back(UrdfLinkReader(xml).read(*child));
     } else if (name == "joint") {
+      if (outline.joints.size() == kMaxJoints) {
+        xml.fail(*child, "the robot has more than " + std::to_string(kMaxJoints) +
+                             " joints, which are the most that are read");
+      }
       outline.joints.push_back(UrdfJointReader(xml).read(*child));
     } else if (name.starts_with("xacro:")) {
       xml.fail(*child,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "swept/robot_model/robot.hpp"
 
 namespace swept::detail {
+
+/// Robots have tens, a scene in a URDF hundreds. What follows mimicking joints from one to the
+/// next, and what looks at pairs of links, takes time with the square of it.
+inline constexpr std::size_t kMaxJoints = 5000;
 
 /// What the strict pass knows of a URDF and urdfdom does not keep: lines, the order of the file,
 /// capsules.
