@@ -258,7 +258,8 @@ std::vector<BadInput> meshes() {
       {"MeshNotFound", "r.urdf", shaped("<mesh filename='x/../y.stl'/>"),
        "@/r.urdf:4: error: mesh 'x/../y.stl' of link 'a' not found; looked for @/y.stl"},
       {"MeshFolder", "r.urdf", shaped("<mesh filename='file://@'/>"),
-       "@/r.urdf:4: error: mesh 'file://@' of link 'a' not found; looked for @"},
+       "@/r.urdf:4: error: mesh 'file://@' of link 'a' not found; looked for @ (not a regular "
+       "file)"},
       {"MeshFromTheNet", "r.urdf", shaped("<mesh filename='https://host/y.stl'/>"),
        "@/r.urdf:4: error: mesh 'https://host/y.stl' of link 'a': the scheme must be package://, "
        "model:// "

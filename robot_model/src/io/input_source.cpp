@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/input_source.hpp"
 
+#include <system_error>
 #include <utility>
 
 namespace swept::detail {
@@ -9,7 +10,9 @@ InputSource::InputSource(std::string name, const LoadOptions& options)
     : name_(std::move(name)), options_(options) {}
 
 std::filesystem::path InputSource::folder() const {
-  return std::filesystem::absolute(name_).parent_path();
+  std::error_code error;  // of a working folder that is gone
+  const std::filesystem::path whole = std::filesystem::absolute(name_, error);
+  return (error ? std::filesystem::path(name_) : whole).parent_path();
 }
 
 void InputSource::fail(int line, const std::string& message) const {

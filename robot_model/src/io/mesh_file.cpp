@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "io/child_process.hpp"
 #include "io/collada_check.hpp"
@@ -93,6 +94,8 @@ MeshFileContent readMeshFile(const std::filesystem::path& file) {
     said = runInChild([&] { return saidOf(file.filename().string(), bytes); }, limits);
   } catch (const ChildError& error) {
     throw MeshFileError(std::string("cannot be read: assimp ") + error.what());
+  } catch (const std::system_error& error) {
+    throw MeshFileError(std::string("cannot be read: ") + error.what());
   }
   const std::string_view rest = std::string_view(said).substr(1);
   if (said.empty()) refuseContent();

@@ -31,7 +31,7 @@ struct MeshFileError : std::runtime_error {
 ///
 /// No other file is opened, not even one that this file names (materials, textures, buffers).
 /// Throws MeshFileError for a file over 256 MB, one with more than 20 million triangles, one that
-/// assimp cannot read, or one without triangles.
+/// assimp cannot read, or one without triangles, and where no process can be made.
 MeshFileContent readMeshFile(const std::filesystem::path& file);
 
 }  // namespace swept::detail

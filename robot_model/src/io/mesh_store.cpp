@@ -2,9 +2,11 @@
 #include "io/mesh_store.hpp"
 
 #include <stdexcept>
+#include <system_error>
 
 #include "io/mesh_file.hpp"
 #include "io/package_paths.hpp"
+#include "io/regular_file.hpp"
 
 namespace swept::detail {
 
@@ -20,11 +22,20 @@ fs::path locate(const std::string& reference, int line, const std::string& name,
   }
   std::string tried;
   for (const fs::path& candidate : candidates) {
-    std::error_code error;
-    if (fs::is_regular_file(candidate, error)) return candidate;
+    const std::string reason = whyUnreadable(candidate);
+    if (reason.empty()) return candidate;
     tried += (tried.empty() ? "" : ", ") + candidate.string();
+    if (reason != kNoSuchFile) tried += " (" + reason + ")";
   }
   source.fail(line, name + " not found; looked for " + tried);
+}
+
+/// The same for all names of a file; its own where the system tells none, as of an open file that
+/// is in no folder any more.
+fs::path oneName(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::canonical(file, error);
+  return error ? file : whole;
 }
 
 }  // namespace
@@ -33,7 +44,7 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
                              const std::string& owner) {
   const std::string name = "mesh '" + reference + "' of " + owner;
   const fs::path file = locate(reference, line, name, source_);
-  const Key key{fs::canonical(file), {scale.x(), scale.y(), scale.z()}};
+  const Key key{oneName(file), {scale.x(), scale.y(), scale.z()}};
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   try {
     MeshFileContent content = readMeshFile(file);

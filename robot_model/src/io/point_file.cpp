@@ -6,6 +6,8 @@
 #include <fstream>
 #include <utility>
 
+#include "io/regular_file.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -14,10 +16,9 @@ constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kShown = 40;  ///< bytes of a file's text in a message
 
 std::size_t sizeOfFile(const std::filesystem::path& file, const InputSource& source) {
+  const std::string reason = whyUnreadable(file);
+  if (!reason.empty()) source.fail(0, reason);
   std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) source.fail(0, "file not found");
-  if (!std::filesystem::is_regular_file(status)) source.fail(0, "not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) source.fail(0, "file cannot be read");
   if (size == 0) source.fail(0, "the file is empty");

@@ -3,17 +3,14 @@
 
 #include <fstream>
 
+#include "io/regular_file.hpp"
 #include "swept/robot_model/input.hpp"
 
 namespace swept {
 
 std::string readTextFile(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(file.string(), 0, "file not found");
-  if (!std::filesystem::is_regular_file(status)) {
-    throw InputError(file.string(), 0, "not a regular file");
-  }
+  const std::string reason = detail::whyUnreadable(file);
+  if (!reason.empty()) throw InputError(file.string(), 0, reason);
   // Read, not asked for: the file may grow meanwhile.
   std::ifstream stream(file, std::ios::binary);
   std::string text;
