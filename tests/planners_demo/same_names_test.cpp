@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "gantry.hpp"
+#include "page_data.hpp"
 
-/// A body of the world may have the name of a link. Proofs tell the two apart; rules are about the
-/// name, and so about both.
+/// A body of the world may have the name of a link. Proofs and reports tell the two apart; rules
+/// are about the name, and so about both.
 namespace swept::test {
 namespace {
 
@@ -65,6 +66,33 @@ TEST_F(SameNames, ScaleAndAllowedPairsAreInTheProof) {
   ASSERT_EQ(allowed.size(), 1u);
   EXPECT_EQ(allowed[0][0], "cube");
   EXPECT_EQ(allowed[0][1], "cube (world)");
+}
+
+/// The depth was that of the link in itself, 0.2 m.
+TEST_F(SameNames, TheDepthOfABadEndIsThatOfTheBodyInTheWorld) {
+  const Outcome run = runSwept(words("plan", {"inside", "right", "--json"}));
+  EXPECT_EQ(run.exitCode, 1) << run.err;
+  const json contacts = jsonOf(run)["bad_ends"][0]["contacts"];
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0]["a"], "cube");
+  EXPECT_EQ(contacts[0]["b"], "cube");
+  EXPECT_NEAR(contacts[0]["depth"].get<double>(), 0.1, 1e-4);  // at lift 0.1 m, of 0.2 m
+}
+
+/// The post was not found among the bodies of the page: the pair was the link with itself.
+TEST_F(SameNames, ThePageMeasuresTheOneInTheWorld) {
+  if (!programHasPages()) GTEST_SKIP() << "swept was built without three.js";
+  const std::string page = gantry_.folder().path("page.html");
+  const Outcome run = runSwept(words("plan", {"left", "right", "--html", page}));
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const json table = pageData(gantry_.folder().read("page.html"))["clearances"];
+  const std::vector<float> distance = floats(table["distance"]);
+  const std::vector<std::int32_t> partner = integers(table["partner"]);
+  ASSERT_GE(distance.size(), 2U);
+  EXPECT_NEAR(distance[0], 0.8, 1e-4);  // from x = 0 to x = 1 m, less twice 0.1 m
+  EXPECT_NEAR(distance[1], 0.8, 1e-4);
+  EXPECT_EQ(partner[0], 1);
+  EXPECT_EQ(partner[1], 0);
 }
 
 }  // namespace

@@ -22,9 +22,12 @@ struct Pair {
   double bound = 0.0;
 };
 
-std::size_t indexOf(const std::vector<PageBody>& bodies, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::find(bodies, name, &PageBody::name) -
-                                  bodies.begin());
+/// A body of the world may have the name of a link.
+std::size_t indexOf(const std::vector<PageBody>& bodies, const std::string& name, bool ofRobot) {
+  const auto found = std::ranges::find_if(bodies, [&](const PageBody& body) {
+    return body.name == name && (body.kind != PageBody::Kind::World) == ofRobot;
+  });
+  return static_cast<std::size_t>(found - bodies.begin());
 }
 
 /// The part's shape and where it is, with the ball around it.
@@ -123,7 +126,8 @@ PageClearances clearancesOf(const Checker& checker, const std::vector<PageBody>&
                             const PageFrames& frames) {
   std::vector<Pair> pairs;
   for (const Checker::Pair& pair : checker.checkedPairs()) {
-    const std::size_t a = indexOf(bodies, pair.bodyA), b = indexOf(bodies, pair.bodyB);
+    const std::size_t a = indexOf(bodies, pair.bodyA, true);
+    const std::size_t b = indexOf(bodies, pair.bodyB, pair.selfPair);
     if (a < bodies.size() && b < bodies.size()) pairs.push_back({.a = a, .b = b});
   }
   PageClearances table{.stride = 1, .bodies = bodies.size(), .distance = {}, .partner = {}};

@@ -39,6 +39,14 @@ double depthOf(const Checker& checker, const CertifiedBody& a, const CertifiedBo
   return deepest;
 }
 
+/// That of the contact's second body: a body of the world may have the name of a link.
+const CertifiedBody* secondOf(const std::vector<CertifiedBody>& bodies, const Witness& contact) {
+  const auto found = std::ranges::find_if(bodies, [&contact](const CertifiedBody& body) {
+    return body.name == contact.bodyB && (body.link >= 0) == contact.selfPair;
+  });
+  return found == bodies.end() ? nullptr : &*found;
+}
+
 std::string contactText(const EndContact& contact) {
   return contact.bodyA + " - " + contact.bodyB + " (" +
          (contact.depth > 0.0 ? lengthText(contact.depth) + " m deep"
@@ -55,10 +63,10 @@ EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspac
   const std::vector<CertifiedBody> bodies = certifiedBodies(checker);
   for (const Witness& contact : found.contacts) {
     const auto a = std::ranges::find(bodies, contact.bodyA, &CertifiedBody::name);
-    const auto b = std::ranges::find(bodies, contact.bodyB, &CertifiedBody::name);
+    const CertifiedBody* b = secondOf(bodies, contact);
     report.contacts.push_back({.bodyA = contact.bodyA,
                                .bodyB = contact.bodyB,
-                               .depth = a == bodies.end() || b == bodies.end()
+                               .depth = a == bodies.end() || b == nullptr
                                             ? -contact.distance
                                             : depthOf(checker, *a, *b, state.q),
                                .point = 0.5 * (contact.pointA + contact.pointB)});

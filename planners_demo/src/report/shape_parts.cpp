@@ -18,20 +18,25 @@ struct PlacedShape {
   Eigen::Isometry3d model_from_shape;
 };
 
-/// Of a link or a body of the world; none: it is neither.
-std::vector<PlacedShape> shapesOf(const Checker& checker, const std::string& body,
-                                  const std::vector<double>& q) {
+/// None: the robot has no such link.
+std::vector<PlacedShape> shapesOfLink(const Checker& checker, const std::string& name,
+                                      const std::vector<double>& q) {
   std::vector<PlacedShape> shapes;
   const Robot& robot = checker.robot();
-  if (const std::optional<int> link = robot.findLink(body)) {
-    const LinkMotion still(robot, checker.group().name, body, q, q, checker.options().reference);
-    const Eigen::Isometry3d model_from_link = still.at(0.0);
-    for (const CollisionGeometry& geometry : robot.links()[*link].collision)
-      shapes.push_back({&geometry.shape, model_from_link * geometry.link_from_shape});
-  } else if (const WorldBody* found = checker.world().find(body)) {
+  const std::optional<int> link = robot.findLink(name);
+  if (!link) return shapes;
+  const LinkMotion still(robot, checker.group().name, name, q, q, checker.options().reference);
+  const Eigen::Isometry3d model_from_link = still.at(0.0);
+  for (const CollisionGeometry& geometry : robot.links()[*link].collision)
+    shapes.push_back({&geometry.shape, model_from_link * geometry.link_from_shape});
+  return shapes;
+}
+
+std::vector<PlacedShape> shapesInWorld(const Checker& checker, const std::string& name) {
+  std::vector<PlacedShape> shapes;
+  if (const WorldBody* found = checker.world().find(name))
     for (const WorldBody::Part& part : found->parts)
       shapes.push_back({&part.shape, part.world_from_shape});
-  }
   return shapes;
 }
 
@@ -42,12 +47,14 @@ struct ShapeQuery {
   SignedDistanceResult truth;
 };
 
-/// The nearest, or deepest, shapes of two bodies.
+/// The nearest, or deepest, shapes of a link and another, or else a body of the world.
 std::optional<ShapeQuery> nearestShapes(const Checker& checker, const std::string& bodyA,
-                                        const std::string& bodyB, const std::vector<double>& q) {
+                                        const std::string& bodyB, bool selfPair,
+                                        const std::vector<double>& q) {
   std::optional<ShapeQuery> nearest;
-  for (const PlacedShape& a : shapesOf(checker, bodyA, q)) {
-    for (const PlacedShape& b : shapesOf(checker, bodyB, q)) {
+  for (const PlacedShape& a : shapesOfLink(checker, bodyA, q)) {
+    for (const PlacedShape& b :
+         selfPair ? shapesOfLink(checker, bodyB, q) : shapesInWorld(checker, bodyB)) {
       const Eigen::Isometry3d a_from_b = a.model_from_shape.inverse() * b.model_from_shape;
       const SignedDistanceResult truth = signedDistance(*a.shape, *b.shape, a_from_b);
       if (!nearest || truth.lower < nearest->truth.lower)
@@ -98,7 +105,8 @@ void addShapePairs(LengthTally& distances, LengthTally& penetrations, const Chec
     const bool contact = !report.contacts.empty();
     const std::string& bodyA = contact ? report.contacts.front().bodyA : report.nearestA;
     const std::string& bodyB = contact ? report.contacts.front().bodyB : report.nearestB;
-    const std::optional<ShapeQuery> query = nearestShapes(truth, bodyA, bodyB, q);
+    const bool selfPair = contact ? report.contacts.front().selfPair : report.nearestSelfPair;
+    const std::optional<ShapeQuery> query = nearestShapes(truth, bodyA, bodyB, selfPair, q);
     // Finite answers only: a half-space may reach everywhere.
     if (query && std::isfinite(query->truth.lower))
       (query->truth.upper > 0.0 ? apart : deep).push_back(*query);

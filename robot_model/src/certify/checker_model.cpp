@@ -19,6 +19,10 @@ std::string CheckerModel::nameOfB(const GeometryPair& pair) const {
                    : world->bodies()[worldGeometry[pair.b].body].name;
 }
 
+bool CheckerModel::isSelfPair(const GeometryPair& pair) const {
+  return pair.self && carriers[robotGeometry[pair.b].carrier].kind != Carrier::Kind::Obstacle;
+}
+
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,

@@ -140,6 +140,8 @@ struct CheckerModel {
 
   std::string nameOfA(const GeometryPair& pair) const;
   std::string nameOfB(const GeometryPair& pair) const;
+  bool isSelfPair(
+      const GeometryPair& pair) const;  ///< as Witness has it: moving obstacles are none
 };
 
 /// `like`: null, or an earlier version for the same robot, group and reference.

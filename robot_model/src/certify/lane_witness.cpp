@@ -35,6 +35,7 @@ std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t ind
   witness.t = t;
   witness.bodyA = model.nameOfA(pair);
   witness.bodyB = model.nameOfB(pair);
+  witness.selfPair = model.isSelfPair(pair);
   witness.pointA = point;
   witness.pointB = point + found.pointB;
   witness.distance = found.upper;
@@ -50,6 +51,7 @@ std::optional<Witness> laneWitness(const CheckerModel& model, const LaneContact&
   witness.t = t;
   witness.bodyA = model.nameOfA(pair);
   witness.bodyB = model.nameOfB(pair);
+  witness.selfPair = model.isSelfPair(pair);
   witness.pointA = *point;
   witness.pointB = *point;
   return witness;

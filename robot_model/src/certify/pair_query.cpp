@@ -303,6 +303,7 @@ Witness PairQuery::witness(std::uint32_t index, double t, const PairAnswer& answ
   witness.t = t;
   witness.bodyA = model_.nameOfA(pair);
   witness.bodyB = model_.nameOfB(pair);
+  witness.selfPair = model_.isSelfPair(pair);
   witness.pointA = answer.pointA;
   witness.pointB = answer.pointB;
   witness.distance = (answer.pointB - answer.pointA).norm();

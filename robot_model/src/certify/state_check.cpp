@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "certify/lane_witness.hpp"
@@ -141,19 +143,20 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   if (!startAt(query, q)) return report;
   NearPairs(model, query, workspace).collect(0.0, workspace.arena);
   bool proven = true;
-  std::set<std::pair<std::string, std::string>> reported;
+  std::set<std::tuple<std::string, std::string, bool>> reported;
   for (const std::uint32_t i : workspace.arena) {
     const PairAnswer answer = query.prove(i, 0.0);
     proven = proven && answer.status == Separation::Separated;
     if (answer.status != Separation::Contact) continue;
     Witness witness = query.witness(i, 0.0, answer);
-    if (reported.insert({witness.bodyA, witness.bodyB}).second) {
+    if (reported.insert({witness.bodyA, witness.bodyB, witness.selfPair}).second) {
       report.contacts.push_back(std::move(witness));
     }
   }
   report.clearance = leastDistance(model, query, workspace, [&](std::uint32_t i) {
     report.nearestA = model.nameOfA(model.pairs[i]);
     report.nearestB = model.nameOfB(model.pairs[i]);
+    report.nearestSelfPair = model.isSelfPair(model.pairs[i]);
   });
   if (!report.contacts.empty()) {
     report.verdict = Verdict::Collision;

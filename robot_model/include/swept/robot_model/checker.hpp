@@ -47,9 +47,12 @@ struct CheckerOptions {
 
 /// Two points of two bodies at most the margin apart.
 struct Witness {
-  double t = 0.0;                                    ///< in [0, 1]; 0 for a state
-  std::string bodyA;                                 ///< a robot link or an attached body
-  std::string bodyB;                                 ///< a world body or another link
+  double t = 0.0;     ///< in [0, 1]; 0 for a state
+  std::string bodyA;  ///< a robot link or an attached body
+  std::string bodyB;  ///< a world body or another link
+  /// Both are links or attached bodies. A world body may have a link's name: this tells which it is
+  /// of those that bodyB names.
+  bool selfPair = false;
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyA
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyB
   double distance = 0.0;                             ///< m, |pointB - pointA|; 0 in contact
@@ -68,6 +71,7 @@ struct StateReport {
   ///@{
   /// The pair that gave `clearance`; empty without pairs.
   std::string nearestA, nearestB;
+  bool nearestSelfPair = false;  ///< as Witness::selfPair
   ///@}
 };
 
