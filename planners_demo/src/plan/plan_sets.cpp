@@ -65,10 +65,11 @@ void runAll(std::vector<Entry>& entries, int jobs, Progress& progress, const Sol
                         std::to_string(entries[i].index));
     }
   };
-  std::vector<std::thread> threads;
-  for (int j = 1; j < jobs; ++j) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  {
+    std::vector<std::jthread> threads;
+    for (int j = 1; j < jobs; ++j) threads.emplace_back(work);
+    work();
+  }
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -2,11 +2,9 @@
 #include "io/robot_covers.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <thread>
 
+#include "kinematics/for_each_index.hpp"
 #include "kinematics/shape_cover.hpp"
 
 namespace swept::detail {
@@ -17,7 +15,6 @@ struct Task {
   std::vector<CollisionGeometry*> of;
   std::shared_ptr<const SphereCover> cover;
   double seconds = 0.0;
-  std::exception_ptr failure;
 };
 
 std::vector<Task> tasksOf(std::vector<Link>& links) {
@@ -40,11 +37,7 @@ std::vector<Task> tasksOf(std::vector<Link>& links) {
 
 void build(Task& task) {
   const auto start = std::chrono::steady_clock::now();
-  try {
-    task.cover = coverOf(task.of.front()->shape);
-  } catch (...) {
-    task.failure = std::current_exception();
-  }
+  task.cover = coverOf(task.of.front()->shape);
   task.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -62,19 +55,8 @@ void addCovers(std::vector<Link>& links, unsigned threads) {
   for (Task& task : tasks) order.push_back(&task);
   std::stable_sort(order.begin(), order.end(),
                    [](const Task* a, const Task* b) { return sizeOf(*a) > sizeOf(*b); });
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < order.size(); i = next++) build(*order[i]);
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min<std::size_t>(threads, order.size()); ++i) {
-      others.emplace_back(work);
-    }
-    work();
-  }
+  forEachIndex(order.size(), threads, [&](std::size_t i) { build(*order[i]); });
   for (Task& task : tasks) {
-    if (task.failure) std::rethrow_exception(task.failure);
     for (CollisionGeometry* geometry : task.of) {
       geometry->cover = task.cover;
       geometry->coverSeconds = geometry == task.of.front() ? task.seconds : 0.0;

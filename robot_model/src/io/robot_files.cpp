@@ -31,7 +31,7 @@ std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std
   if (!srdfText.empty()) srdf = detail::readSrdf(srdfText, srdfSource);
   detail::RobotParts parts = detail::assembleRobot(outline, srdf, urdfSource, srdfSource);
   detail::applySrdf(srdf, srdfSource, parts);
-  detail::addCovers(parts.links, std::thread::hardware_concurrency());
+  detail::addCovers(parts.links, 0);
   return RobotBuilder::build(std::move(parts));
 }
 

@@ -2,12 +2,10 @@
 #include "lanes/joint_tables.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <set>
-#include <thread>
 #include <utility>
 
+#include "kinematics/for_each_index.hpp"
 #include "lanes/lane_model.hpp"
 #include "lanes/table_builder.hpp"
 
@@ -27,31 +25,7 @@ struct Task {
   std::size_t bodies = 0;  ///< index into LaneModel::bodyPairs
   std::unique_ptr<TableBuilder> builder;
   int work = 0;
-  std::exception_ptr failure;
 };
-
-template <typename Work>
-void forEach(std::vector<Task*>& tasks, const Work& work) {
-  std::atomic<std::size_t> next{0};
-  const auto some = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) {
-      try {
-        work(*tasks[i]);
-      } catch (...) {
-        tasks[i]->failure = std::current_exception();
-      }
-    }
-  };
-  const std::size_t threads =
-      std::min<std::size_t>(std::max(1U, std::thread::hardware_concurrency()), tasks.size());
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(some);
-    some();
-  }
-  for (const Task* task : tasks)
-    if (task->failure) std::rethrow_exception(task->failure);
-}
 
 /// Work in equal shares for those that are not done.
 template <typename Done, typename Work>
@@ -64,7 +38,7 @@ void share(std::vector<Task>& tasks, int most, const Done& done, const Work& wor
     const int each = open.empty() ? 0 : left / static_cast<int>(open.size());
     if (each < kLeastShare) return;
     for (Task* task : open) task->work = each;
-    forEach(open, [&](Task& task) { work(*task.builder, task.work); });
+    forEachIndex(open.size(), 0, [&](std::size_t i) { work(*open[i]->builder, open[i]->work); });
     for (const Task* task : open) left -= each - task->work;
   }
 }

@@ -2,13 +2,11 @@
 #include "swept/robot_model/collision_matrix.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <stdexcept>
-#include <thread>
 
+#include "kinematics/for_each_index.hpp"
 #include "matrix/contact_search.hpp"
 #include "matrix/never_proof.hpp"
 
@@ -192,27 +190,8 @@ std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
   requireUsable(options);
   const Examiner examiner(robot, options);
   std::vector<LinkPairReport> reports = examiner.pairs();
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failures(reports.size());
-  const auto work = [&] {
-    for (std::size_t i = next++; i < reports.size(); i = next++) {
-      try {
-        examiner.examine(reports[i]);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    const unsigned wanted =
-        options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min<std::size_t>(wanted, reports.size()); ++i)
-      others.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  detail::forEachIndex(reports.size(), options.threads,
+                       [&](std::size_t i) { examiner.examine(reports[i]); });
   return reports;
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matrix/never_pairs.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <map>
 
+#include "kinematics/for_each_index.hpp"
 #include "matrix/never_proof.hpp"
 
 namespace swept::detail {
@@ -42,9 +41,8 @@ class Prover {
 
 void proveNever(const Robot& robot, std::span<LinkQuestion> questions, std::int64_t budget) {
   const Prover prover(robot, questions);
-  oneapi::tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
-    questions[i].never = prover.prove(questions[i], budget);
-  });
+  forEachIndex(questions.size(), 0,
+               [&](std::size_t i) { questions[i].never = prover.prove(questions[i], budget); });
 }
 
 }  // namespace swept::detail
