@@ -61,6 +61,25 @@ TEST(AttachedBody, IsNotCheckedAgainstTouchLinks) {
   EXPECT_EQ(attached.explain("base", "tool"), "base - tool: checked, keeps more than 0 m");
 }
 
+TEST(AttachedBody, TouchLinksMayBePatterns) {
+  const auto world = shared({});
+  const auto plain = parseArm(armUrdf({}));
+  AttachedBody named = tool(), pattern = tool();
+  named.touchLinks = {"base", "upper"};
+  pattern.touchLinks = {"b*e", "*pp*", "finger_*"};  // the last is that of no link
+  const Checker byName(plain, "all", world, {.attached = {named}});
+  const Checker byPattern(plain, "all", world, {.attached = {pattern}});
+  const std::string reason = "not checked, touch link of tool";
+  for (const std::string link : {"base", "upper"}) {
+    EXPECT_EQ(byName.explain("tool", link), "tool - " + link + ": " + reason);
+    EXPECT_EQ(byPattern.explain("tool", link), "tool - " + link + ": " + reason);
+  }
+  EXPECT_EQ(byPattern.explain("hand", "tool"), "hand - tool: not checked, attached to hand");
+  EXPECT_EQ(byPattern.checkedPairs().size(), byName.checkedPairs().size());
+  EXPECT_GT(Checker(plain, "all", world, {.attached = {tool()}}).checkedPairs().size(),
+            byName.checkedPairs().size());
+}
+
 TEST(AttachedBody, AVersionWithItIsLikeACheckerMadeWithIt) {
   const auto world = shared(test::clutter(12));
   const auto plain = parseArm(armUrdf({}));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "certify/checker_model.hpp"
+#include "kinematics/name_pattern.hpp"
 #include "kinematics/rigid_transform.hpp"
 #include "kinematics/shape_cover.hpp"
 
@@ -83,7 +84,7 @@ class BodyCompiler {
     const std::optional<int> link = model_.robot->findLink(body.link);
     if (!link) fail(body, "is attached to link '" + body.link + "', which the robot does not have");
     for (const std::string& touch : body.touchLinks)
-      if (!model_.robot->findLink(touch))
+      if (!isPattern(touch) && !model_.robot->findLink(touch))
         fail(body, "has touch link '" + touch + "', which the robot does not have");
     if (body.name.empty() ||
         std::ranges::find(model_.carriers, body.name, &Carrier::name) != model_.carriers.end())

@@ -10,6 +10,7 @@
 
 #include "certify/checker_model.hpp"
 #include "certify/pair_reasons.hpp"
+#include "kinematics/name_pattern.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {
@@ -50,7 +51,7 @@ class PairCompiler {
  private:
   void requireKnown(const std::string& name) const {
     const bool known =
-        name.find('*') != std::string::npos ||
+        isPattern(name) ||
         std::ranges::find(model_.carriers, name, &Carrier::name) != model_.carriers.end() ||
         model_.world->find(name) != nullptr;
     if (!known) {

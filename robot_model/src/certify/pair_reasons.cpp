@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "kinematics/name_pattern.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -28,7 +30,10 @@ std::map<CarrierPair, std::string> disabledReasons(const CheckerModel& model) {
     const auto carrier = static_cast<int>(robot.links().size() + i);
     reasons.emplace(CarrierPair(*robot.findLink(body.link), carrier), "attached to " + body.link);
     for (const std::string& touch : body.touchLinks)
-      reasons.emplace(CarrierPair(*robot.findLink(touch), carrier), "touch link of " + body.name);
+      for (std::size_t link = 0; link < robot.links().size(); ++link)
+        if (matches(touch, robot.links()[link].name))
+          reasons.emplace(CarrierPair(static_cast<int>(link), carrier),
+                          "touch link of " + body.name);
   }
   return reasons;
 }

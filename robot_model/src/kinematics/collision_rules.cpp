@@ -6,10 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kinematics/name_pattern.hpp"
+
 namespace swept {
 
 namespace {
 
+using detail::matches;
 using Rule = CollisionRules::Rule;
 
 void requireNamed(const std::string& name) {
@@ -20,30 +23,6 @@ void requireLength(const std::string& what, double metres) {
   if (metres >= 0.0 && std::isfinite(metres)) return;
   throw std::invalid_argument("CollisionRules: the " + what + ", " + std::to_string(metres) +
                               " m, must be a finite number that is not negative");
-}
-
-/// A `*` in the pattern stands for any characters. Going back to the last `*` is enough: what
-/// earlier ones take could as well be taken by it.
-bool matches(std::string_view pattern, std::string_view name) {
-  std::size_t p = 0;
-  std::size_t n = 0;
-  std::size_t star = std::string_view::npos;
-  std::size_t taken = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      taken = n;
-    } else if (p < pattern.size() && pattern[p] == name[n]) {
-      ++p;
-      ++n;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      n = ++taken;
-    } else {
-      return false;
-    }
-  }
-  return pattern.substr(p).find_first_not_of('*') == std::string_view::npos;
 }
 
 bool isAbout(const Rule& rule, std::string_view a, std::string_view b) {

@@ -18,10 +18,12 @@ struct AttachedBody {
     Shape shape;                        ///< no plane and no half-space
     Eigen::Isometry3d link_from_shape;  ///< pose of the shape in the link's frame
   };
-  std::string name;                          ///< as rules and reports call it
-  std::string link;                          ///< that carries it
-  std::vector<Part> parts = {};              ///< its geometry
-  std::vector<std::string> touchLinks = {};  ///< may be in contact with it: a gripper's fingers
+  std::string name;              ///< as rules and reports call it
+  std::string link;              ///< that carries it
+  std::vector<Part> parts = {};  ///< its geometry
+  /// Links that may be in contact with it: a gripper's fingers. As in CollisionRules, a `*` in a
+  /// name stands for any characters, or none.
+  std::vector<std::string> touchLinks = {};
 };
 
 }  // namespace swept
