@@ -27,7 +27,7 @@ bool isProven(const Checker& checker, WorkspacePool::Scratch& scratch, std::span
 // Planners take the way to the last valid state for valid without asking. As a motion of its own it
 // is looked at at other times than the whole was, and right before a contact that may decide.
 double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, double freeUntil,
-                  Eigen::VectorXd& q) {
+                  std::span<double> q) {
   constexpr double kLeastStep = 1.0 / 1024.0;  // of the way, doubled each time
   double share = 1.0;
   for (double step = kLeastStep; share > 0.0; share = 1.0 - step, step *= 2.0) {
@@ -35,10 +35,9 @@ double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, doubl
     if (!(t > 0.0)) return 0.0;
     // Not the space's interpolate: it takes orientations closer than 1e-4 rad for equal and would
     // leave the certified motion by that much.
-    q = checker.interpolate(scratch.from, scratch.to, t);
+    checker.interpolate(scratch.from, scratch.to, t, q);
     MotionCertificate certificate;
-    const std::span<const double> there(q.data(), static_cast<std::size_t>(q.size()));
-    if (isProven(checker, scratch, there, MotionQuery::VerdictOnly, certificate)) return t;
+    if (isProven(checker, scratch, q, MotionQuery::VerdictOnly, certificate)) return t;
   }
   return 0.0;
 }
@@ -85,10 +84,9 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const om
   if (isProven(*checker_, *scratch, scratch->to, MotionQuery::FirstContact, certificate))
     return count(true);
 
-  Eigen::VectorXd q;
-  lastValid.second = lastProven(*checker_, *scratch, certificate.freeUntil, q);
+  lastValid.second = lastProven(*checker_, *scratch, certificate.freeUntil, scratch->proven);
   if (lastValid.first != nullptr && lastValid.second > 0.0) {
-    conversion_.toState({q.data(), static_cast<std::size_t>(q.size())}, lastValid.first);
+    conversion_.toState(scratch->proven, lastValid.first);
   } else if (lastValid.first != nullptr) {
     si_->copyState(lastValid.first, s1);  // s2 may be NaN, and 0 * NaN would spoil the start
   }

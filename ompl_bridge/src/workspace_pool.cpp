@@ -9,6 +9,7 @@ WorkspacePool::Scratch::Scratch(const Checker& checker)
     : workspace(checker),
       from(checker.dimension()),
       to(checker.dimension()),
+      proven(checker.dimension()),
       gradient(checker.dimension()) {}
 
 WorkspacePool::Lease WorkspacePool::lease() {

@@ -17,7 +17,8 @@ class WorkspacePool {
   struct Scratch {
     explicit Scratch(const Checker& checker);
     Workspace workspace;
-    std::vector<double> from, to, gradient;  ///< of the size of a configuration of the group
+    /// Of the size of a configuration of the group.
+    std::vector<double> from, to, proven, gradient;
   };
   struct Return {
     WorkspacePool* pool;

@@ -242,6 +242,9 @@ TEST(Checker, CyclicJointsGoTheShorterWay) {
   EXPECT_EQ(checker.certifyMotion(zero, other, workspace).verdict, Verdict::Free);
   const Eigen::VectorXd middle = checker.interpolate(from, to, 0.5);
   EXPECT_NEAR(std::abs(middle[0]), std::numbers::pi, 1e-12);
+  std::vector<double> same(3);
+  checker.interpolate(from, to, 0.5, same);
+  EXPECT_THAT(same, testing::ElementsAreArray(middle.data(), 3));
 }
 
 TEST(Checker, NoResultDependsOnWhatTheWorkspaceHeldBefore) {
@@ -385,6 +388,9 @@ TEST(Checker, MisuseIsAnError) {
   const std::vector<double> tooShort{0.0};
   EXPECT_EQ(message([&] { (void)checker.checkState(tooShort, workspace); }),
             "Checker: a configuration of group 'all' has 3 values, not 1");
+  std::vector<double> three(3), two(2);
+  EXPECT_EQ(message([&] { checker.interpolate(three, three, 0.5, two); }),
+            "Checker: a configuration of group 'all' has 3 values, not 2");
 }
 
 /// A plate 0.1 m above the floor that slides, or turns about an axis beside it.

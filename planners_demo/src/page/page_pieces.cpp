@@ -12,11 +12,7 @@ std::vector<PagePiece> piecesOf(const Checker& checker, const PageSpan& span) {
   const int count = span.steps / kFramesPerPiece;
   for (int i = 1; i <= count; ++i) {
     std::vector<double> to = span.to;
-    if (i < count) {
-      const Eigen::VectorXd q =
-          checker.interpolate(span.from, span.to, static_cast<double>(i) / count);
-      to.assign(q.begin(), q.end());
-    }
+    if (i < count) checker.interpolate(span.from, span.to, static_cast<double>(i) / count, to);
     PagePiece piece{.certificate = checker.certifyMotion(from, to, workspace), .clearance = {}};
     if (piece.certificate.verdict != Verdict::Collision)
       piece.clearance = checker.motionClearance(from, to, clearanceAccuracy(checker), workspace);

@@ -11,11 +11,11 @@ namespace {
 /// m. The least clearance of states in steps of a motion, ends included.
 double leastOfStates(AskedMethod& method, const ReportMotion& motion, unsigned steps) {
   double least = std::numeric_limits<double>::infinity();
+  std::vector<double> q(motion.from.size());
   for (unsigned i = 0; i <= steps; ++i) {
-    const Eigen::VectorXd q = method.checker().interpolate(
-        motion.from, motion.to, static_cast<double>(i) / static_cast<double>(steps));
-    const std::span<const double> values(q.data(), static_cast<std::size_t>(q.size()));
-    least = std::min(least, method.checker().clearance(values, method.workspace()));
+    method.checker().interpolate(motion.from, motion.to,
+                                 static_cast<double>(i) / static_cast<double>(steps), q);
+    least = std::min(least, method.checker().clearance(q, method.workspace()));
   }
   return least;
 }

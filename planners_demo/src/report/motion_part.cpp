@@ -20,10 +20,10 @@ constexpr int kDepthStates = 100;  // along a motion, to see how deep it goes
 double depthOf(const Checker& checker, const ReportMotion& motion) {
   Workspace workspace(checker);
   double depth = 0.0;
+  std::vector<double> q(motion.from.size());
   const auto look = [&](double t) {
-    const Eigen::VectorXd q = checker.interpolate(motion.from, motion.to, t);
-    const std::span<const double> values(q.data(), static_cast<std::size_t>(q.size()));
-    depth = std::max(depth, -checker.signedClearance(values, workspace).upper);
+    checker.interpolate(motion.from, motion.to, t, q);
+    depth = std::max(depth, -checker.signedClearance(q, workspace).upper);
   };
   look(motion.truth.witness->t);
   for (int i = 1; i < kDepthStates; ++i) look(static_cast<double>(i) / kDepthStates);

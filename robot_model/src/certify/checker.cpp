@@ -191,4 +191,12 @@ Eigen::VectorXd Checker::interpolate(std::span<const double> from, std::span<con
   return q;
 }
 
+void Checker::interpolate(std::span<const double> from, std::span<const double> to, double t,
+                          std::span<double> q) const {
+  requireSize(from);
+  requireSize(to);
+  requireSize(q);
+  detail::interpolateMotion(model_->kinematics, from, to, t, q);
+}
+
 }  // namespace swept

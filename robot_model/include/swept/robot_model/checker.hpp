@@ -250,6 +250,9 @@ class Checker {
   /// The configuration at t on the motion that certifyMotion checks.
   Eigen::VectorXd interpolate(std::span<const double> from, std::span<const double> to,
                               double t) const;
+  /// The same into `q`, which is neither `from` nor `to`; nothing is allocated.
+  void interpolate(std::span<const double> from, std::span<const double> to, double t,
+                   std::span<double> q) const;
 
   /// One checked pair of bodies, and one that is left out with the reason.
   struct Pair {
