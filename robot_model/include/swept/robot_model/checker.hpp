@@ -215,10 +215,11 @@ class Checker {
   /// The same on so many threads (0: as many as there are processors), whatever their number.
   void checkStates(std::span<const double> states, std::span<Verdict> verdicts,
                    unsigned threads = 0) const;
-  /// Every violating pair and the clearance.
+  /// Every violating pair and the clearance. Measures distances where checkState proves them large
+  /// enough: about a millisecond for an arm, hundreds to thousands of times what that takes.
   StateReport reportState(std::span<const double> q, Workspace& workspace) const;
   /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not
-  /// finite.
+  /// finite. Takes as long as reportState: nothing to ask while planning.
   double clearance(std::span<const double> q, Workspace& workspace) const;
   /// Negative in contact; more work than clearance(). `gradient`, if not empty, receives the
   /// derivatives of the pair's signed distance by the values of the configuration (m per rad, m per
