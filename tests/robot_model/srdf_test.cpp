@@ -53,6 +53,19 @@ TEST(Srdf, WithoutGroupsThereIsOneOfAllJoints) {
   }
 }
 
+TEST(Srdf, TheOneBesideAUrdfHasItsName) {
+  const test::TemporaryFolder folder;
+  const auto urdf = folder.write("twin.v2.urdf", kUrdf);
+  folder.write("twin.srdf", "<robot name='twin'/>");
+  EXPECT_EQ(Robot::srdfBeside(urdf), "");
+  EXPECT_EQ(Robot::load(urdf, Robot::srdfBeside(urdf))->groups()[0].name, "all");
+  const auto srdf = folder.write(
+      "twin.v2.srdf", "<robot name='twin'><group name='g'><joint name='lift'/></group></robot>");
+  EXPECT_EQ(Robot::srdfBeside(urdf), srdf);
+  EXPECT_EQ(Robot::load(urdf, Robot::srdfBeside(urdf))->groups()[0].name, "g");
+  EXPECT_EQ(Robot::srdfBeside(srdf), "") << "no file is beside itself";
+}
+
 TEST(Srdf, ChainsFollowTheTreeEitherWay) {
   const auto robot = load(
       "<group name='down'><chain base_link='torso' tip_link='lf'/></group>\n"

@@ -136,11 +136,8 @@ void Warnings::operator()(const std::string& line) {
 SrdfChoice chooseSrdf(const Arguments& args) {
   if (args.srdf == "none") return {};
   if (!args.srdf.empty()) return {.file = args.srdf, .foundBesideUrdf = false};
-  const std::filesystem::path beside = std::filesystem::path(args.robot).replace_extension(".srdf");
-  std::error_code ignored;  // no such file is a normal answer
-  if (beside != args.robot && std::filesystem::exists(beside, ignored))
-    return {.file = beside.string(), .foundBesideUrdf = true};
-  return {};
+  const std::string beside = Robot::srdfBeside(args.robot).string();
+  return {.file = beside, .foundBesideUrdf = !beside.empty()};
 }
 
 Model loadModel(const Arguments& args, Warnings& warnings) {

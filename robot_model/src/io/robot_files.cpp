@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <thread>
+#include <filesystem>
+#include <system_error>
 
 #include "io/robot_covers.hpp"
 #include "io/srdf.hpp"
@@ -43,6 +44,13 @@ std::shared_ptr<const Robot> Robot::load(const std::filesystem::path& urdf,
   const std::string srdfText = readTextFile(srdf);
   if (srdfText.empty()) throw InputError(srdf.string(), 1, "malformed XML: the document is empty");
   return parse(urdfText, urdf.string(), srdfText, srdf.string(), options);
+}
+
+std::filesystem::path Robot::srdfBeside(const std::filesystem::path& urdf) {
+  const std::filesystem::path beside = std::filesystem::path(urdf).replace_extension(".srdf");
+  std::error_code ignored;  // no such file is a normal answer
+  if (beside == urdf || !std::filesystem::exists(beside, ignored)) return {};
+  return beside;
 }
 
 }  // namespace swept

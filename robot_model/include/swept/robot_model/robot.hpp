@@ -98,12 +98,16 @@ struct DisabledPair {
 /// variable. Lengths in metres, angles in radians.
 class Robot {
  public:
-  /// Reads a URDF and, when given, an SRDF. Throws InputError.
+  /// Reads a URDF and, when given, an SRDF; for the one beside the URDF, see srdfBeside. Throws
+  /// InputError.
   static std::shared_ptr<const Robot> load(const std::filesystem::path& urdf,
                                            const std::filesystem::path& srdf = {},
                                            const LoadOptions& options = {});
-  /// Same from text; `urdfName` is what messages call it, and relative meshes are looked up beside
-  /// it.
+  /// The file of the URDF's name with the ending `.srdf` in place of its own, where there is one;
+  /// else empty. `swept` reads this one unless told otherwise.
+  static std::filesystem::path srdfBeside(const std::filesystem::path& urdf);
+  /// As load, from text; `urdfName` is what messages call it, and relative meshes are looked up
+  /// beside it.
   static std::shared_ptr<const Robot> parse(const std::string& urdfText,
                                             const std::string& urdfName,
                                             const std::string& srdfText = {},
