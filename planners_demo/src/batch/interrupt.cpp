@@ -12,6 +12,7 @@
 #include <exception>
 
 #include "command_line/exit_code.hpp"
+#include "output/whole_file.hpp"
 
 #if defined(__linux__)
 #include <sys/prctl.h>
@@ -28,7 +29,10 @@ int gPipe[2] = {-1, -1};
 std::array<struct sigaction, kSignals.size()> gBefore;
 
 void onSignal(int) {
-  if (gRequests > 0) _exit(static_cast<int>(ExitCode::Interrupted));
+  if (gRequests > 0) {
+    removeUnfinishedFile();
+    _exit(static_cast<int>(ExitCode::Interrupted));
+  }
   gRequests = 1;
   const int before = errno;
   [[maybe_unused]] const ssize_t written = write(gPipe[1], "", 1);

@@ -5,10 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 
 #include "command_line/exit_code.hpp"
 
@@ -18,6 +22,49 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  // in a row, as Linux has it
+constexpr std::array kEnding{SIGINT, SIGTERM, SIGHUP};
+
+// What a signal handler may touch.
+char gUnfinished[PATH_MAX];
+volatile std::sig_atomic_t gIsUnfinished = 0;
+
+void onEnding(int signal) {
+  removeUnfinishedFile();
+  raise(signal);  // once this returns, with its usual effect
+}
+
+/// While it lives, signals that would end the program remove the file first. Of files that threads
+/// write at the same time, it is one.
+class Unfinished {
+ public:
+  explicit Unfinished(const std::string& file) : lock_(mutex_, std::try_to_lock) {
+    if (!lock_ || file.size() >= sizeof gUnfinished) return;
+    std::memcpy(gUnfinished, file.c_str(), file.size() + 1);
+    gIsUnfinished = 1;
+    struct sigaction action = {};
+    action.sa_handler = onEnding;
+    action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+    for (std::size_t i = 0; i < kEnding.size(); ++i) {
+      struct sigaction before = {};
+      sigaction(kEnding[i], nullptr, &before);
+      taken_[i] = before.sa_handler == SIG_DFL;
+      if (taken_[i]) sigaction(kEnding[i], &action, nullptr);
+    }
+  }
+  ~Unfinished() {
+    if (!lock_) return;
+    for (std::size_t i = 0; i < kEnding.size(); ++i)
+      if (taken_[i]) std::signal(kEnding[i], SIG_DFL);
+    gIsUnfinished = 0;
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  std::unique_lock<std::mutex> lock_;
+  std::array<bool, kEnding.size()> taken_{};
+};
 
 [[noreturn]] void refuse(const fs::path& file, int error) {
   throw UsageError("cannot write '" + file.string() + "': " + std::strerror(error));
@@ -84,6 +131,7 @@ int replaceFile(const fs::path& file, const std::string& text) {
   std::string temporary = (folderOf(file) / ("." + file.filename().string() + ".XXXXXX")).string();
   const int descriptor = mkstemp(temporary.data());
   if (descriptor < 0) return errno;
+  const Unfinished unfinished(temporary);
   fchmod(descriptor, modeOf(file));
   int error = writeAll(descriptor, text);
   if (close(descriptor) != 0 && error == 0) error = errno;
@@ -93,6 +141,10 @@ int replaceFile(const fs::path& file, const std::string& text) {
 }
 
 }  // namespace
+
+void removeUnfinishedFile() {
+  if (gIsUnfinished != 0) unlink(gUnfinished);
+}
 
 void requireWritable(const fs::path& file) {
   const fs::file_type type = typeOf(file);

@@ -12,7 +12,12 @@ void requireWritable(const std::filesystem::path& file);
 
 /// Whoever reads the file sees the old one or the whole new one, which has the old one's mode. A
 /// link stays, and what it leads to is written; a pipe or a device just takes the bytes. Throws
-/// UsageError.
+/// UsageError. A signal that ends the program meanwhile (SIGINT, SIGTERM, SIGHUP) leaves the old
+/// file and no other.
 void writeWholeFile(const std::filesystem::path& file, const std::string& text);
+
+/// For handlers of signals that end the program by themselves: the file that is being written, if
+/// any, is gone. Does only what a handler may.
+void removeUnfinishedFile();
 
 }  // namespace swept

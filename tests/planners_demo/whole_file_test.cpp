@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A signal that ended the program while it wrote a file left a hidden one beside it.
+#include "output/whole_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <optional>
+#include <thread>
+
+#include "batch/interrupt.hpp"
+#include "program.hpp"
+
+namespace swept::test {
+namespace {
+
+constexpr const char* kFile = "file";
+constexpr const char* kOld = "old";
+constexpr std::size_t kBytes = std::size_t{32} << 20;  // tens of milliseconds to write
+
+/// The child's life: a file is written, and as soon as there is one beside it, the signal is sent.
+/// Not so soon that there is no handler yet: what a signal meets then is not there for it to find.
+[[noreturn]] void writeAndBeSignalled(const TemporaryFolder& folder, int signal) {
+  const std::thread sender([&] {
+    while (folder.names().size() < 2) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kill(getpid(), signal);
+  });
+  writeWholeFile(folder.path(kFile), std::string(kBytes, 'x'));
+  _exit(0);
+}
+
+/// The status of a child that was signalled as it wrote; 0 if it was done before.
+int statusOfWriter(const TemporaryFolder& folder, int signal, bool asRequest) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::optional<Interrupt> interrupt;
+    if (asRequest) {
+      interrupt.emplace();
+      raise(SIGINT);  // the first is a request to stop
+    }
+    writeAndBeSignalled(folder, signal);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+void expectOldFileAlone(const TemporaryFolder& folder) {
+  EXPECT_EQ(folder.read(kFile), kOld);
+  EXPECT_THAT(folder.names(), testing::ElementsAre(kFile));
+}
+
+/// Calls `judge(status)` for a child that was signalled in time: most are.
+template <typename Judge>
+void signalWriters(int signal, bool asRequest, const Judge& judge) {
+  constexpr int kMet = 5;
+  constexpr int kMany = 100;
+  int met = 0;
+  for (int i = 0; i < kMany && met < kMet; ++i) {
+    const TemporaryFolder folder;
+    folder.write(kFile, kOld);
+    const int status = statusOfWriter(folder, signal, asRequest);
+    if (folder.read(kFile) != kOld) continue;  // too late: it was written
+    judge(status);
+    expectOldFileAlone(folder);
+    ++met;
+  }
+  EXPECT_EQ(met, kMet);
+}
+
+TEST(WholeFile, IsLeftAloneByASignalThatEndsTheProgram) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    signalWriters(signal, false, [signal](int status) {
+      ASSERT_TRUE(WIFSIGNALED(status));
+      EXPECT_EQ(WTERMSIG(status), signal);
+    });
+}
+
+TEST(WholeFile, IsLeftAloneByTheSecondInterrupt) {
+  for (const int signal : {SIGINT, SIGTERM})
+    signalWriters(signal, true, [](int status) {
+      ASSERT_TRUE(WIFEXITED(status));
+      EXPECT_EQ(WEXITSTATUS(status), 130);
+    });
+}
+
+/// Who ignored a signal before goes on ignoring it, and afterwards nothing is as it was not before.
+TEST(WholeFile, LeavesHandlersAsTheyWere) {
+  const TemporaryFolder folder;
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  writeWholeFile(folder.path(kFile), "new");
+  EXPECT_EQ(std::signal(SIGHUP, before), SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction now = {};
+    sigaction(signal, nullptr, &now);
+    EXPECT_EQ(now.sa_handler, SIG_DFL);
+  }
+  EXPECT_EQ(folder.read(kFile), "new");
+  EXPECT_THAT(folder.names(), testing::ElementsAre(kFile));
+}
+
+}  // namespace
+}  // namespace swept::test
