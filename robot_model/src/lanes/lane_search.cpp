@@ -263,37 +263,6 @@ class MotionSearch {
 
 }  // namespace
 
-LaneScratch::LaneScratch(const LaneModel& model) {
-  if (!model.usable) return;
-  motion.resize(model.bodies.size());
-  bounds.resize(model.references.size());
-  for (std::size_t i = 0; i < bounds.size(); ++i)
-    bounds[i].acceleration.resize(model.references[i].rows, Row{});
-  for (auto* perStep : {&together, &turning, &turned, &slid})
-    perStep->resize(model.bodies.size(), 0.0F);
-  block.angle.resize(model.bodies.size(), Row{});
-  block.slide.resize(3 * model.bodies.size(), Row{});
-  block.states.resize(model.bodies.size());
-  block.roots.resize(model.bodies.size());
-  rootsOfEight.resize((model.bodies.size() + kLanes - 1) / kLanes);
-  restBase(model);
-  block.openLanes.resize(model.sources.size());
-  block.finalLanes.resize(model.sources.size());
-  wantedLanes.resize(model.sources.size());
-}
-
-/// The model frame never moves.
-void LaneScratch::restBase(const LaneModel& model) {
-  LaneBodyState& base = block.states[0];
-  base = LaneBodyState{};
-  for (const int diagonal : {0, 4, 8})
-    for (float& value : base.rotation[diagonal].lane) value = 1.0F;
-  if (model.rootOfBody[0] < 0) return;
-  for (int i = 0; i < 3; ++i)
-    for (float& value : block.roots[0].at[i].lane)
-      value = model.nodes[model.rootOfBody[0]].center[i];
-}
-
 LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, LaneGoal goal,
                         LaneScratch& scratch) {
   return MotionSearch(model, judge, goal, scratch).run();
