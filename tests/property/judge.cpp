@@ -112,7 +112,7 @@ void Judge::provenPrefix(double end, bool whole) {
     if (refuted(end * i / n)) return;
   const double least = narrowest(end, n);
   if (least < kNear) ++report_.grazing;
-  if (whole) report_.leastFreeClearance = std::min(report_.leastFreeClearance, least);
+  if (whole) report_.leastRoomOfFree = std::min(report_.leastRoomOfFree, least);
   if (least < -1e-9 || (least <= 0 && margin_ == 0)) {
     std::ostringstream out;
     out << "REFUTED: said to be free, but the room left is " << least << " m";

@@ -45,7 +45,7 @@ void RefuterReport::add(const RefuterReport& other) {
   undecided += other.undecided;
   grazing += other.grazing;
   states += other.states;
-  leastFreeClearance = std::min(leastFreeClearance, other.leastFreeClearance);
+  leastRoomOfFree = std::min(leastRoomOfFree, other.leastRoomOfFree);
   widestStop = std::max(widestStop, other.widestStop);
   roomiestUndecided = std::max(roomiestUndecided, other.roomiestUndecided);
   undecidedAnywhere += other.undecidedAnywhere;
@@ -94,7 +94,7 @@ std::string summary(const RefuterReport& r) {
   out << r.motions << " motions: " << r.free << " free, " << r.collision << " collision, "
       << r.undecided << " undecided (" << r.undecidedAnywhere << " of the plain ones); "
       << r.grazing << " grazing; " << r.states << " states judged; least room of a free motion "
-      << r.leastFreeClearance << " m; widest stop " << r.widestStop << " m; checker "
+      << r.leastRoomOfFree << " m; widest stop " << r.widestStop << " m; checker "
       << std::setprecision(3) << r.checkerSeconds << " s, oracle " << r.oracleSeconds << " s; "
       << r.failures.size() << " failures";
   return out.str();

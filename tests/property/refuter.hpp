@@ -17,15 +17,15 @@ struct RefuterOptions {
 /// What came of judging the checker's answers to random motions.
 struct RefuterReport {
   int motions = 0, free = 0, collision = 0, undecided = 0;
-  /// Free motions and contact-free prefixes whose least sampled clearance was below 5 mm.
+  /// Free motions and contact-free prefixes whose least room was below 5 mm.
   int grazing = 0;
   long long states = 0;  ///< judged by the oracle
-  /// m beyond the margin, the least room of any Free motion: of each at most 61 coarse samples and
-  /// a search about the narrowest are measured, up to 0.02.
-  double leastFreeClearance = 1.0;
+  /// m, least room of any Free motion: what the distance is more than the margin. Of each motion at
+  /// most 61 coarse samples and a search about the narrowest are measured, up to 0.02.
+  double leastRoomOfFree = 1.0;
   /// m, largest clearance seen where the proven prefix of a motion ended.
   double widestStop = 0.0;
-  double roomiestUndecided = 0.0;  ///< m, largest of the least clearances of Undecided motions
+  double roomiestUndecided = 0.0;  ///< m, largest of the least rooms of Undecided motions
   int undecidedAnywhere = 0;       ///< of the motions that were not aimed at obstacles
   double checkerSeconds = 0.0, oracleSeconds = 0.0;
   std::vector<std::string> failures;  ///< each with a command that reproduces it

@@ -73,7 +73,7 @@ TEST_P(Refuter, MarginsAreKeptToo) {
   const RefuterReport report = refute(scenario, refuter);
   std::cout << summary(report) << std::endl;
   for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
-  EXPECT_GE(report.leastFreeClearance, 0);
+  EXPECT_GE(report.leastRoomOfFree, 0);
   EXPECT_GT(report.free, 15);
 }
 

@@ -117,7 +117,7 @@ void Refutation::motion(const Sample& sample) {
   Judge judge(scenario, options, report);
   judge.motion(scenario.full(sample.from), scenario.full(sample.to), sample.answer, sample.query);
   counts_.oracleStates += report.states;
-  counts_.leastFreeClearance = std::min(counts_.leastFreeClearance, report.leastFreeClearance);
+  counts_.leastRoomOfFree = std::min(counts_.leastRoomOfFree, report.leastRoomOfFree);
   // Its second line is a command for a world that has a file.
   for (const std::string& failure : report.failures)
     fail(sample, failure.substr(0, failure.find('\n')));

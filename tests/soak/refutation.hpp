@@ -10,11 +10,11 @@
 namespace soak {
 
 struct RefutationCounts {
-  std::int64_t states = 0;          ///< samples
-  std::int64_t motions = 0;         ///< samples
-  std::int64_t oracleStates = 0;    ///< that the oracle looked at
-  std::int64_t rebuilt = 0;         ///< samples asked again in a checker made from the empty world
-  double leastFreeClearance = 1.0;  ///< m, over all states that the oracle saw of Free motions
+  std::int64_t states = 0;        ///< samples
+  std::int64_t motions = 0;       ///< samples
+  std::int64_t oracleStates = 0;  ///< that the oracle looked at
+  std::int64_t rebuilt = 0;       ///< samples asked again in a checker made from the empty world
+  double leastRoomOfFree = 1.0;   ///< m, see RefuterReport
 };
 
 /// Tries to refute samples: asks again, in this thread and with a fresh workspace, for what has to

@@ -62,7 +62,7 @@ void printWork(std::ostream& out, const Result& result, const StageTally& total)
   const RefutationCounts& j = result.judged;
   out << "judged: " << j.states << " states and " << j.motions << " motions, the oracle looked at "
       << j.oracleStates << " states; " << j.rebuilt << " asked again in a checker made anew; "
-      << "least clearance of a free motion " << number("%.3g", j.leastFreeClearance) << " m\n";
+      << "least room of a free motion " << number("%.3g", j.leastRoomOfFree) << " m\n";
 }
 
 void complain(Result& result, const std::string& what, std::ostream& out) {
