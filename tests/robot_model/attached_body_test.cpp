@@ -17,11 +17,8 @@ using test::at;
 using test::box;
 using test::messageOf;
 using test::parseArm;
+using test::shared;
 using test::sphere;
-
-std::shared_ptr<const World> shared(World world) {
-  return std::make_shared<const World>(std::move(world));
-}
 
 AttachedBody tool(const std::string& name = "tool") {
   AttachedBody body{.name = name, .link = "hand"};

@@ -15,15 +15,12 @@ namespace {
 using test::armUrdf;
 using test::at;
 using test::parseArm;
+using test::shared;
 
 constexpr int kAsking = 8;
 constexpr int kBuilding = 2;
 constexpr int kMotions = 200;
 constexpr int kVersions = 30;
-
-std::shared_ptr<const World> shared(World world) {
-  return std::make_shared<const World>(std::move(world));
-}
 
 struct Motions {
   explicit Motions(const Checker& checker) {

@@ -13,10 +13,7 @@ using test::armUrdf;
 using test::at;
 using test::messageOf;
 using test::parseArm;
-
-std::shared_ptr<const World> shared(World world) {
-  return std::make_shared<const World>(std::move(world));
-}
+using test::shared;
 
 WorldBody ball(const std::string& name, double x, double y, double z, double radius = 0.1) {
   return {.name = name, .parts = {{Sphere{radius}, at(x, y, z)}}};

@@ -15,11 +15,8 @@ using test::armSrdf;
 using test::armUrdf;
 using test::messageOf;
 using test::parseArm;
+using test::shared;
 using test::sphere;
-
-std::shared_ptr<const World> shared(World world) {
-  return std::make_shared<const World>(std::move(world));
-}
 
 TEST(CollisionRules, ThePatternAddedLastCounts) {
   CollisionRules rules;

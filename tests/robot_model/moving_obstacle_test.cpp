@@ -18,12 +18,9 @@ using test::box;
 using test::compare;
 using test::messageOf;
 using test::parseArm;
+using test::shared;
 using test::sphere;
 using testing::HasSubstr;
-
-std::shared_ptr<const World> shared(World world) {
-  return std::make_shared<const World>(std::move(world));
-}
 
 const Eigen::Vector3d kStart{0.5, -0.6, 0.5};
 const Eigen::Vector3d kWay{-0.9, 1.1, 0.2};

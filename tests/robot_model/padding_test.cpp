@@ -14,11 +14,8 @@ using test::armUrdf;
 using test::at;
 using test::box;
 using test::parseArm;
+using test::shared;
 using test::sphere;
-
-std::shared_ptr<const World> shared(World world) {
-  return std::make_shared<const World>(std::move(world));
-}
 
 std::vector<test::UrdfPiece> grown(std::vector<double> radii, std::vector<test::UrdfPiece> pieces,
                                    double by) {

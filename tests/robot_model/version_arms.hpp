@@ -140,6 +140,10 @@ inline Agreement agreementOf(const Checker& a, const Checker& b, int motions, un
   return agreement;
 }
 
+inline std::shared_ptr<const World> shared(World world) {
+  return std::make_shared<const World>(std::move(world));
+}
+
 /// Boxes, balls and rods around the arm.
 inline World clutter(unsigned seed, int bodies = 10) {
   std::mt19937 random(seed);
