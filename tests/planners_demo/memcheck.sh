@@ -11,8 +11,8 @@ if ! command -v valgrind >/dev/null; then
 fi
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
-arm=(tests/ompl_bridge/planar_arm.urdf --group arm)
-task=("${arm[@]}" --scene tests/ompl_bridge/posts.yaml)
+arm=(tests/planners_demo/planar_arm.urdf --group arm)
+task=("${arm[@]}" --scene tests/planners_demo/posts.yaml)
 bad=0
 
 # A build without three.js has no pages.
