@@ -57,7 +57,7 @@ class RigidScene {
       : start_(problem.start), goal_(problem.goal) {
     const test::TemporaryFolder folder;
     const std::filesystem::path mesh = folder.path() / "body.obj";
-    writeObj(problem.body, mesh);
+    test::writeObj(problem.body, mesh);
     auto world = std::make_shared<World>();
     // Walls in the data have open edges and no thickness: what is inside nobody knows.
     world->add("environment",
@@ -66,7 +66,7 @@ class RigidScene {
                Eigen::Isometry3d::Identity());
     CheckerOptions options;
     options.tolerance = tolerance;
-    checker_ = std::make_shared<const Checker>(floatingBody(mesh), "all", world, options);
+    checker_ = std::make_shared<const Checker>(test::floatingBody(mesh), "all", world, options);
     for (const int axis : {0, 1, 2})
       space_.limits["place/trans_" + std::string(1, "xyz"[axis])] = {problem.lower[axis],
                                                                      problem.upper[axis]};

@@ -13,12 +13,15 @@
 #include <string>
 #include <vector>
 
+#include "../ompl_bridge/rigid_bodies.hpp"
 #include "mesh_files.hpp"
-#include "rigid_planning_body.hpp"
 
 /// Planning for one rigid body among others: the problems, as OMPL.app keeps them, and one of our
 /// own.
 namespace swept::benchmark {
+
+using test::BlockGrid;
+using test::blockMesh;
 
 /// All lengths in one unit.
 struct RigidProblem {

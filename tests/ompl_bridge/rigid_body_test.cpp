@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "../benchmark/rigid_planning_body.hpp"
 #include "../core/mesh_samples.hpp"
 #include "../robot_model/input_files.hpp"
+#include "rigid_bodies.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace swept::test {
@@ -129,30 +129,29 @@ std::vector<OrientedBox> wall() {
 }
 
 Soup meshOfL() {
-  return benchmark::blockMesh<Soup>(
+  return blockMesh<Soup>(
       {{{{-kReach, kInner, kReach}, {-kReach, kInner, kReach}, {-kHalfThick, kHalfThick}}},
        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
 }
 
 Soup meshOfWall() {
-  benchmark::BlockGrid grid{
+  BlockGrid grid{
       {{{-kHalfWall, kHalfWall}, {-kFar, -kHole, kHole, kFar}, {-kFar, -kHole, kHole, kFar}}}, {}};
   for (std::size_t y = 0; y < 3; ++y)
     for (std::size_t z = 0; z < 3; ++z)
       if (y != 1 || z != 1) grid.blocks.push_back({0, y, z});
-  return benchmark::blockMesh<Soup>(grid);
+  return blockMesh<Soup>(grid);
 }
 
 std::shared_ptr<const Checker> floatingL() {
   const TemporaryFolder folder;
-  benchmark::writeObj(meshOfL(), folder.path() / "l.obj");
+  writeObj(meshOfL(), folder.path() / "l.obj");
   const Soup soup = meshOfWall();
   const TriangleMesh mesh = TriangleMesh::build(soup.vertices, soup.triangles);
   EXPECT_TRUE(mesh.isClosed());
   auto world = std::make_shared<World>();
   world->add("wall", mesh, Eigen::Isometry3d::Identity());
-  return std::make_shared<const Checker>(benchmark::floatingBody(folder.path() / "l.obj"), "all",
-                                         world);
+  return std::make_shared<const Checker>(floatingBody(folder.path() / "l.obj"), "all", world);
 }
 
 StateSpaceOptions bounds() {

@@ -17,7 +17,7 @@
 
 /// Rigid bodies that float freely, and meshes made of blocks. `Soup` is any type with `vertices`
 /// (Vector3d) and `triangles` (Vector3i).
-namespace swept::benchmark {
+namespace swept::test {
 
 /// Some of the blocks between the planes of a grid.
 struct BlockGrid {
@@ -89,4 +89,4 @@ inline std::shared_ptr<const Robot> floatingBody(const std::filesystem::path& me
   return Robot::parse(urdf, "rigid.urdf", srdf, "rigid.srdf");
 }
 
-}  // namespace swept::benchmark
+}  // namespace swept::test
