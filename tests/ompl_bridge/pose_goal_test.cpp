@@ -2,6 +2,7 @@
 // Goals for the pose of a link: what OMPL samples from them and plans to, judged by LinkMotion and
 // by the checker.
 #include "swept/ompl_bridge/pose_goal.hpp"
+#include "../robot_model/model_robots.hpp"
 #include "models_dir.hpp"
 
 #include <gtest/gtest.h>
@@ -34,11 +35,6 @@ using Configuration = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::shared_ptr<const Robot> modelled(const std::string& name) {
-  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
-  return Robot::load(path + ".urdf", path + ".srdf");
-}
-
 std::shared_ptr<const World> scene(const std::string& name) {
   return std::make_shared<const World>(World::load(modelsDir() + "/scenes/" + name));
 }
@@ -62,7 +58,7 @@ struct Arm {
 };
 
 Arm shelfArm() {
-  return {std::make_shared<const Checker>(modelled("rook7"), "arm", scene("shelf.yaml")), "hand"};
+  return {std::make_shared<const Checker>(modelRobot("rook7"), "arm", scene("shelf.yaml")), "hand"};
 }
 
 const Configuration kReady{0, -0.3, 0, 1.9, 0, 1.54, 0};
@@ -188,7 +184,7 @@ TEST_F(PoseGoals, GiveTheSameSamplesForTheSameSeed) {
 /// corner, and the arm reaches out of it.
 TEST_F(PoseGoals, KeepTheBoundsOfTheSpace) {
   const Arm arm{
-      std::make_shared<const Checker>(modelled("rook6_cart"), "whole_body", scene("empty.yaml")),
+      std::make_shared<const Checker>(modelRobot("rook6_cart"), "whole_body", scene("empty.yaml")),
       "tool"};
   const auto setup = makeSimpleSetup(arm.checker);
   ob::RealVectorBounds corner(2);
@@ -229,7 +225,7 @@ TEST_F(PoseGoals, SampleEveryKindOfJoint) {
 
 /// The rest of the robot stands where the checker has it.
 TEST_F(PoseGoals, UseTheCheckersReference) {
-  const auto robot = modelled("rook6_cart");
+  const auto robot = modelRobot("rook6_cart");
   CheckerOptions moved;
   moved.reference = robot->defaultState();
   (*moved.reference)[*robot->findVariable("floor/x")] = 2.0;

@@ -14,8 +14,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "../robot_model/model_robots.hpp"
 #include "fixtures.hpp"
-#include "models_dir.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 #include "swept/robot_model/link_motion.hpp"
 
@@ -220,8 +220,7 @@ TEST(StateSpace, RefusesAGroupWithoutVariables) {
 }
 
 TEST(NamedStates, AreConfigurationsOfTheirGroup) {
-  const std::string folder = modelsDir() + "/robots/rook6_cart/rook6_cart";
-  const auto robot = Robot::load(folder + ".urdf", folder + ".srdf");
+  const auto robot = modelRobot("rook6_cart");
   ASSERT_GE(robot->namedStates().size(), 2u);
   for (const NamedState& named : robot->namedStates()) {
     const Group& group = *robot->findGroup(named.group);

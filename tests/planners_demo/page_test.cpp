@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "../robot_model/model_robots.hpp"
 #include "models_dir.hpp"
 #include "page_data.hpp"
 #include "swept/core/distance.hpp"
@@ -24,8 +25,7 @@ const std::string kShelf = "models/scenes/shelf.yaml";
 
 /// The same robot and world as the program's, loaded here.
 std::shared_ptr<const Robot> rook() {
-  static const auto robot = Robot::load(modelsDir() + "/robots/rook7/rook7.urdf",
-                                        modelsDir() + "/robots/rook7/rook7.srdf");
+  static const auto robot = modelRobot("rook7");
   return robot;
 }
 

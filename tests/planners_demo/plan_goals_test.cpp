@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "../robot_model/model_robots.hpp"
 #include "gantry.hpp"
-#include "models_dir.hpp"
 #include "swept/robot_model/inverse_kinematics.hpp"
 
 /// Goals other than one state, and what a link carries.
@@ -29,8 +29,7 @@ TEST(PlanGoals, AGoalPoseIsReached) {
   const auto json = jsonOf(
       runSwept(armPlan({"--goal-pose", "0.45,0.2,0.6,1,0,0,0", "--link", "hand", "--json"})));
   ASSERT_EQ(json["proven"], true) << json["failure"];
-  const std::string base = modelsDir() + "/robots/rook7/rook7";
-  const InverseKinematics kinematics(Robot::load(base + ".urdf", base + ".srdf"), "arm", "hand");
+  const InverseKinematics kinematics(modelRobot("rook7"), "arm", "hand");
   const auto q = json["states"].back().get<std::vector<double>>();
   Eigen::Isometry3d wanted = Eigen::Isometry3d::Identity();
   wanted.translation() = Eigen::Vector3d(0.45, 0.2, 0.6);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "heap_counter.hpp"
-#include "models_dir.hpp"
+#include "model_robots.hpp"
 #include "version_arms.hpp"
 
 namespace swept {
@@ -26,8 +26,7 @@ double kilobytesOf(const std::string& what, const Make& make) {
 class CheckerMemory : public testing::Test {
  protected:
   CheckerMemory() : world_(std::make_shared<World>(test::clutter(1, 12))) {
-    const std::string folder = modelsDir() + "/robots/rook6/";
-    robot_ = Robot::load(folder + "rook6.urdf", folder + "rook6.srdf");
+    robot_ = test::modelRobot("rook6");
     base_.emplace(robot_, robot_->groups().front().name, world_);
   }
 

@@ -2,6 +2,7 @@
 // Which pairs of links can collide: pairs that are known by construction, and a refuter that looks
 // for contacts of pairs said never to have any.
 #include "swept/robot_model/collision_matrix.hpp"
+#include "model_robots.hpp"
 #include "models_dir.hpp"
 
 #include <gmock/gmock.h>
@@ -373,8 +374,7 @@ class OwnRobots : public testing::TestWithParam<const char*> {};
 /// The models' generator proved its pairs with other covers and bounds.
 TEST_P(OwnRobots, AgreeWithTheirSrdf) {
   const std::string name = GetParam();
-  const std::string files = modelsDir() + "/robots/" + name + "/" + name;
-  const auto robot = Robot::load(files + ".urdf", files + ".srdf");
+  const auto robot = test::modelRobot(name);
   const auto reports = collisionMatrix(*robot, {.budget = 100'000, .samples = 200});
   std::mt19937 random(4);
   const Tally tally = refuteAll(*robot, reports, 60, random);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "../core/mesh_samples.hpp"
-#include "models_dir.hpp"
+#include "model_robots.hpp"
 #include "swept/robot_model/checker.hpp"
 
 /// What is proven of a mesh or a cloud by its clearance field and its hierarchy has to agree with
@@ -64,8 +64,7 @@ struct Counts {
 
 /// `surfaces`: there is nothing but triangles and balls, so contacts agree, too.
 void compare(const Worlds& worlds, bool surfaces, std::mt19937& random, Counts& counts) {
-  const std::string path = modelsDir() + "/robots/rook7/rook7";
-  const auto robot = Robot::load(path + ".urdf", path + ".srdf");
+  const auto robot = test::modelRobot("rook7");
   const Checker whole(robot, "arm", worlds.whole);
   const Checker pieces = whole.withWorld(worlds.pieces);
   Workspace ofWhole(whole);

@@ -2,7 +2,7 @@
 // Inverse kinematics against the forward kinematics of LinkMotion, which it shares no chain with,
 // and against arms whose answers are known.
 #include "swept/robot_model/inverse_kinematics.hpp"
-#include "models_dir.hpp"
+#include "model_robots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,16 +109,11 @@ Chain telescope() {
                            limited("1 0 0", 0, 1) + "<mimic joint='slide' multiplier='0.5'/>"));
 }
 
-std::shared_ptr<const Robot> modelled(const std::string& name) {
-  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
-  return Robot::load(path + ".urdf", path + ".srdf");
-}
-
 /// All groups of the models, to their tips.
 std::vector<Chain> modelChains() {
   std::vector<Chain> chains;
   for (const char* name : {"rook7", "rook6", "rook6_cart", "drifter"}) {
-    const auto robot = modelled(name);
+    const auto robot = test::modelRobot(name);
     for (const Group& group : robot->groups()) {
       if (group.tipLink >= 0)
         chains.push_back({robot, group.name, robot->links()[group.tipLink].name});
@@ -203,7 +198,7 @@ TEST(InverseKinematics, KnowsWhereTheToolIs) {
 
 /// Joints outside the group stand where the reference has them.
 TEST(InverseKinematics, KeepsTheReferenceOutsideTheGroup) {
-  const Chain chain{modelled("rook6_cart"), "arm", "wrist_3"};
+  const Chain chain{test::modelRobot("rook6_cart"), "arm", "wrist_3"};
   Eigen::VectorXd reference = chain.robot->defaultState();
   reference[*chain.robot->findVariable("floor/x")] = 0.7;
   reference[*chain.robot->findVariable("floor/theta")] = 1.1;
@@ -407,7 +402,7 @@ TEST(InverseKinematics, KeepsNarrowerLimits) {
 }
 
 TEST(InverseKinematics, LeavesOutAnErrorWithoutTolerance) {
-  const Chain chain{modelled("rook7"), "arm", "link7"};
+  const Chain chain{test::modelRobot("rook7"), "arm", "link7"};
   const InverseKinematics kinematics(chain.robot, chain.group, chain.link);
   InverseKinematics::Workspace workspace(kinematics);
   Configurations goals(chain, 11), seeds(chain, 12);
@@ -450,7 +445,7 @@ TEST(InverseKinematics, WrapsCyclicJoints) {
 
 /// The seed is the solution, or not: no steps are taken.
 TEST(InverseKinematics, TakesNoMoreStepsThanAllowed) {
-  const Chain chain{modelled("rook6"), "arm", "wrist_3"};
+  const Chain chain{test::modelRobot("rook6"), "arm", "wrist_3"};
   const InverseKinematics kinematics(chain.robot, chain.group, chain.link);
   InverseKinematics::Workspace workspace(kinematics);
   Configurations random(chain, 13);
@@ -509,7 +504,7 @@ std::string message(const Make& make) {
 }
 
 TEST(InverseKinematics, SaysWhatCannotBeBuilt) {
-  const auto robot = modelled("rook6");
+  const auto robot = test::modelRobot("rook6");
   const auto build = [&](const std::string& group, const std::string& link,
                          const std::optional<Eigen::VectorXd>& reference = {},
                          const Isometry3d& tool = Isometry3d::Identity()) {
@@ -531,7 +526,7 @@ TEST(InverseKinematics, SaysWhatCannotBeBuilt) {
 }
 
 TEST(InverseKinematics, SaysWhichLimitsLeaveNothing) {
-  const InverseKinematics kinematics(modelled("rook6"), "arm", "tool");
+  const InverseKinematics kinematics(test::modelRobot("rook6"), "arm", "tool");
   std::vector<double> lower(6, -1.0), upper(6, 1.0);
   const auto narrow = [&] { return message([&] { kinematics.within(lower, upper); }); };
   EXPECT_EQ(narrow(), "nothing thrown");
@@ -546,7 +541,7 @@ TEST(InverseKinematics, SaysWhichLimitsLeaveNothing) {
 TEST(InverseKinematics, SaysWhatCannotBeSolved) {
   const Chain chain = everyJoint();
   const InverseKinematics kinematics(chain.robot, chain.group, chain.link);
-  const InverseKinematics other(modelled("rook6"), "arm", "tool");
+  const InverseKinematics other(test::modelRobot("rook6"), "arm", "tool");
   InverseKinematics::Workspace workspace(kinematics), wrong(other);
   std::vector<double> q = Configurations(chain, 16).next();
   InverseKinematicsOptions options;

@@ -5,6 +5,7 @@
 #include "certify/state_check.hpp"
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
+#include "model_robots.hpp"
 #include "models_dir.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
@@ -65,8 +66,7 @@ struct Tiers {
 
 Tiers compile(const Case& which) {
   const std::string folder = modelsDir() + "/";
-  const std::string robot = folder + "robots/" + which.robot + "/" + which.robot;
-  const auto loaded = Robot::load(robot + ".urdf", robot + ".srdf");
+  const auto loaded = test::modelRobot(which.robot);
   const auto world = std::make_shared<World>(
       which.scene == nullptr ? sparseWorld() : World::load(folder + "scenes/" + which.scene));
   CheckerOptions options;

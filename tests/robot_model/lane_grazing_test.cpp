@@ -4,7 +4,7 @@
 #include "certify/motion_check.hpp"
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
-#include "models_dir.hpp"
+#include "model_robots.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -86,8 +86,7 @@ std::string ballsRobot() {
 
 std::shared_ptr<const Robot> robotOf(const std::string& name) {
   if (name == "balls") return Robot::parse(ballsRobot(), "balls.urdf");
-  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
-  return Robot::load(path + ".urdf", path + ".srdf");
+  return test::modelRobot(name);
 }
 
 /// One robot, and one obstacle that is put elsewhere for each motion.

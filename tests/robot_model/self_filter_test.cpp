@@ -3,7 +3,7 @@
 // withoutRobot() against the signed distance of every point to every piece of every link, placed by
 // kinematics of the test's own.
 #include "swept/robot_model/self_filter.hpp"
-#include "models_dir.hpp"
+#include "model_robots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,11 +22,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
-
-std::shared_ptr<const Robot> model(const std::string& name) {
-  const std::string path = modelsDir() + "/robots/" + name + "/" + name;
-  return Robot::load(path + ".urdf", path + ".srdf");
-}
 
 /// Of any type, and of what mimics another; planar joints in the plane z = 0.
 Isometry3d jointPose(const Robot& robot, const Joint& joint, const std::vector<double>& state) {
@@ -123,7 +118,7 @@ class SelfFilter : public ::testing::TestWithParam<std::string> {};
 TEST_P(SelfFilter, LeavesOutWhatIsWithinTheMarginOfALink) {
   constexpr std::size_t kPoints = 400;
   constexpr double kEither = 2e-6;  // m
-  const auto robot = model(GetParam());
+  const auto robot = test::modelRobot(GetParam());
   std::mt19937 random(21);
   for (const double margin : {0.0, 0.001, 0.03}) {
     std::size_t left = 0;
@@ -201,7 +196,7 @@ TEST_F(Ball, PointsThatAreNotFiniteAreKept) {
   const double infinity = std::numeric_limits<double>::infinity();
   const Points points{{nan, 0, 0}, {0, 0, 0}, {0, infinity, 0}, {nan, nan, nan}, {0, 0, -infinity}};
   EXPECT_EQ(withoutRobot(points, *robot_, state_, 0.1).size(), 4u);
-  const auto arm = model("rook7");
+  const auto arm = test::modelRobot("rook7");
   const std::vector<double> state(arm->variables().size(), 0.0);
   EXPECT_EQ(withoutRobot(points, *arm, state, 0.1).size(), 4u);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <random>
 
+#include "model_robots.hpp"
 #include "models_dir.hpp"
 #include "swept/robot_model/checker.hpp"
 
@@ -28,8 +29,7 @@ std::string models(const std::string& file) {
 }
 
 std::shared_ptr<const Robot> load(const Case& which) {
-  const std::string stem = models(std::string("robots/") + which.robot + "/" + which.robot);
-  return Robot::load(stem + ".urdf", stem + ".srdf");
+  return test::modelRobot(which.robot);
 }
 
 std::shared_ptr<const World> scene(const std::string& name) {

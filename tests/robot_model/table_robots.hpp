@@ -9,7 +9,7 @@
 
 #include "lane_robots.hpp"
 #include "lanes/joint_table.hpp"
-#include "models_dir.hpp"
+#include "model_robots.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
@@ -134,10 +134,6 @@ inline std::vector<Named> buildRobotsWithTables() {
     all->lanes = detail::compileLanes(*all);
     return std::shared_ptr<const CheckerModel>(all);
   };
-  const std::string folder = modelsDir() + "/robots/";
-  const auto load = [&](const std::string& name) {
-    return Robot::load(folder + name + "/" + name + ".urdf", folder + name + "/" + name + ".srdf");
-  };
   Random random(40);
   const auto wrist = [&] {
     return compile(Robot::parse(randomWrist(random), "wrist.urdf"), "all");
@@ -149,9 +145,9 @@ inline std::vector<Named> buildRobotsWithTables() {
           {"crab", crab()},
           {"second_crab", crab()},
           {"universal", compile(Robot::parse(universalArm(), "universal.urdf"), "all")},
-          {"rook6", compile(load("rook6"), "arm_with_tool")},
-          {"rook7", compile(load("rook7"), "arm_with_gripper")},
-          {"rook6_cart", compile(load("rook6_cart"), "whole_body")}};
+          {"rook6", compile(test::modelRobot("rook6"), "arm_with_tool")},
+          {"rook7", compile(test::modelRobot("rook7"), "arm_with_gripper")},
+          {"rook6_cart", compile(test::modelRobot("rook6_cart"), "whole_body")}};
 }
 
 /// Built once.
