@@ -8,7 +8,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "batch/interrupt.hpp"
@@ -21,12 +25,22 @@ constexpr const char* kFile = "file";
 constexpr const char* kOld = "old";
 constexpr std::size_t kBytes = std::size_t{32} << 20;  // tens of milliseconds to write
 
-/// The child's life: a file is written, and as soon as there is one beside it, the signal is sent.
-/// Not so soon that there is no handler yet: what a signal meets then is not there for it to find.
+/// Bytes in the hidden file beside kFile; 0 without one.
+std::uintmax_t unfinishedBytes(const TemporaryFolder& folder) {
+  std::error_code gone;  // it was written meanwhile
+  for (const std::string& name : folder.names())
+    if (name != kFile) {
+      const std::uintmax_t size = std::filesystem::file_size(folder.path(name), gone);
+      if (!gone) return size;
+    }
+  return 0;
+}
+
+/// The child's life: a file is written, and the signal sent as soon as there are bytes in the one
+/// beside it.
 [[noreturn]] void writeAndBeSignalled(const TemporaryFolder& folder, int signal) {
   const std::thread sender([&] {
-    while (folder.names().size() < 2) std::this_thread::yield();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (unfinishedBytes(folder) == 0) std::this_thread::yield();
     kill(getpid(), signal);
   });
   writeWholeFile(folder.path(kFile), std::string(kBytes, 'x'));
