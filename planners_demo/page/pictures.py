@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the pictures of planners_demo/pictures: pages of `swept`, seen in Chromium, and one that
-`swept report` draws.
+"""Makes the pictures of planners_demo/pictures: pages of `swept`, seen in Chromium.
 
 pictures.py SWEPT [NAME ...], where SWEPT is the program; without names all; run from anywhere.
 """
@@ -23,17 +22,6 @@ PICTURES = {
     "cloud": (["plan", ROBOT, "-0.9,0.4,0,1.9,0,0.8,0", "0.9,0.4,0,1.9,0,0.8,0", "--group", "arm",
                "--cloud", "models/clouds/shelf.bt"], "#t=0.5"),
 }
-REPORT = ["report", ROBOT, "--group", "arm", "--problems", "models/problems.json", "--motions",
-          "2000"]
-
-
-def draw_report(swept):
-    picture = FOLDER / "report.svg"
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([swept, *REPORT, "--svg", f"{folder}/r"], cwd=ROOT, check=True,
-                       stdout=subprocess.DEVNULL)
-        picture.write_bytes((pathlib.Path(folder) / "r-missed.svg").read_bytes())
-    print(f"{picture.relative_to(ROOT)}: {picture.stat().st_size} bytes")
 
 
 def draw(swept, name):
@@ -59,11 +47,8 @@ def draw(swept, name):
 def main():
     swept = pathlib.Path(sys.argv[1]).resolve()
     FOLDER.mkdir(exist_ok=True)
-    for name in sys.argv[2:] or [*PICTURES, "report"]:
-        if name == "report":
-            draw_report(swept)
-        else:
-            draw(swept, name)
+    for name in sys.argv[2:] or PICTURES:
+        draw(swept, name)
 
 
 if __name__ == "__main__":

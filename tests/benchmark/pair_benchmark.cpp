@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -231,7 +233,7 @@ class TableReporter : public benchmark::ConsoleReporter {
     }
   }
   void Finalize() override {
-    std::printf("| pair | query | swept ns | FCL libccd ns | FCL indep ns | FCL / swept |\n");
+    std::printf("| pair | query | swept, ns | FCL libccd, ns | FCL indep, ns | swept / best |\n");
     std::printf("|---|---|---|---|---|---|\n");
     for (const auto& [name, time] : least_) {
       const std::string suffix = "/swept";
@@ -240,8 +242,9 @@ class TableReporter : public benchmark::ConsoleReporter {
       const std::size_t slash = stem.find('/');
       const double ccd = timeOf(stem + "/fcl-libccd");
       const double indep = timeOf(stem + "/fcl-indep");
-      std::printf("| %s | %s | %.0f | %.0f | %.0f | %.2f |\n", stem.substr(slash + 1).c_str(),
-                  stem.substr(0, slash).c_str(), time, ccd, indep, std::min(ccd, indep) / time);
+      std::printf("| %s | %s | %.0f | %s | %s | %s |\n", stem.substr(slash + 1).c_str(),
+                  stem.substr(0, slash).c_str(), time, cell("%.0f", ccd).c_str(),
+                  cell("%.0f", indep).c_str(), cell("%.2g", time / std::min(ccd, indep)).c_str());
     }
   }
 
@@ -249,6 +252,13 @@ class TableReporter : public benchmark::ConsoleReporter {
   double timeOf(const std::string& name) const {
     const auto at = least_.find(name);
     return at == least_.end() ? std::numeric_limits<double>::infinity() : at->second;
+  }
+  /// A library that was not measured has no time, and is no peer.
+  static std::string cell(const char* format, double value) {
+    if (!std::isfinite(value) || value == 0.0) return "-";
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
   }
   std::map<std::string, double> least_;
 };
