@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "model.hpp"
 
@@ -146,7 +147,7 @@ void readRules(const Json& json, Model& model) {
   for (const Json& entry : readList(json, "allowed", "model")) {
     if (!entry.is_array() || entry.size() != 3 || !entry[2].is_string())
       throw Refusal("allowed: not two names and a reason: " + entry.dump());
-    const auto pair =
+    const std::pair<int, int> pair =  // not auto: what std::minmax returns refers to these two
         std::minmax(bodyNamed(model, entry[0], "allowed"), bodyNamed(model, entry[1], "allowed"));
     model.allowed.emplace(pair, entry[2].get<std::string>());
   }

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "swept/core/distance.hpp"
@@ -139,7 +140,7 @@ inline Eigen::VectorXd randomState(const Robot& robot, std::mt19937& random) {
 inline const LinkPairReport& reportOf(const Robot& robot,
                                       const std::vector<LinkPairReport>& reports,
                                       const std::string& a, const std::string& b) {
-  const auto links = std::minmax(*robot.findLink(a), *robot.findLink(b));
+  const std::pair<int, int> links = std::minmax(*robot.findLink(a), *robot.findLink(b));
   for (const LinkPairReport& report : reports)
     if (report.linkA == links.first && report.linkB == links.second) return report;
   throw std::runtime_error("no report for " + a + " - " + b);
