@@ -47,7 +47,10 @@ macro(swept_library_packages component summary others)
   string(REPLACE "_" "-" name libswept-${component})
   swept_package(${component} NAME ${name}${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} SECTION libs
     SUMMARY "${summary}" OF ${ARGN})
-  set(CPACK_DEBIAN_${id}_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/triggers)
+  # The latter two are no files: with their names CPack makes none, which would call ldconfig besides, and be left behind
+  # by `dpkg -r`.
+  set(CPACK_DEBIAN_${id}_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/triggers
+    ${CMAKE_CURRENT_BINARY_DIR}/none/postinst ${CMAKE_CURRENT_BINARY_DIR}/none/postrm)
   set(below ${ARGN})
   list(TRANSFORM below APPEND _dev)
   swept_package(${component}_dev NAME ${name}-dev SECTION libdevel SUMMARY "${summary} - development files"
