@@ -12,7 +12,7 @@ source "$here/bare_steps.sh"
 usage() {
   echo "usage: tests/packaging/bare_debian.sh FOLDER [--keep] [--only STEP ...]"
   echo "Steps: ${steps[*]}"
-  echo "FOLDER is made, and removed at the end unless --keep is given or a step failed; it takes 10 GB."
+  echo "FOLDER is made, and removed at the end unless --keep is given or a step failed; it takes more than 7 GB."
   echo "--only takes the FOLDER that an earlier run with --keep left, and keeps it too; the steps that"
   echo "were done before are in the table with their times."
   echo "Packages come from \$DEBIAN_MIRROR, or else from where this system's own do."
