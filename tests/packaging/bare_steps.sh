@@ -142,7 +142,7 @@ step_remove() {
       return 1
     fi
   done <"$files"
-  if find "$folder/swept_deb" -xdev -name '*swept*' -not -path "$folder/swept_deb/root/*" | grep .; then
+  if find "$folder/swept_deb" -xdev -mindepth 1 -name '*swept*' -not -path "$folder/swept_deb/root/*" | grep .; then
     echo "these are still there"
     return 1
   fi
