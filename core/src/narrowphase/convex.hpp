@@ -110,7 +110,7 @@ inline Eigen::Vector3d ellipsoid(const Eigen::Vector3d& semiAxes, double shave,
   const Eigen::Vector3d stretched = semiAxes.cwiseProduct(d);
   const double squared = stretched.squaredNorm();
   if (squared > 1e-280) {
-    const Eigen::Vector3d onSurface = semiAxes.cwiseProduct(stretched) * (1.0 / std::sqrt(squared));
+    Eigen::Vector3d onSurface = semiAxes.cwiseProduct(stretched) * (1.0 / std::sqrt(squared));
     if (!(shave > 0.0)) return onSurface;
     return onSurface - (shave / std::sqrt(d.squaredNorm())) * d;
   }

@@ -51,7 +51,7 @@ std::optional<Vector3d> enclosedPoint(const Side& a, const Side& b, const Isomet
   if (a.cloud != nullptr && b.mesh != nullptr)
     return enclosedPoint(*b.mesh, *a.cloud, a_from_b.inverse());
   if (a.mesh != nullptr) {
-    if (const auto point = inA(enclosedBy(*a.mesh, b, a_from_b))) return point;
+    if (auto point = inA(enclosedBy(*a.mesh, b, a_from_b))) return point;
   }
   if (b.mesh != nullptr) return enclosedBy(*b.mesh, a, a_from_b.inverse());
   return std::nullopt;

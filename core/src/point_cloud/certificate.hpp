@@ -48,9 +48,9 @@ struct Certificate {
   Interval alongBall(const Eigen::Vector3d& origin, const Eigen::Vector3d& way) const {
     const double length = way.norm();
     if (!(length > 0.0)) return {};
-    const Eigen::Vector3d from_center = origin - vector;
-    const double middle = -(way / length).dot(from_center) / length;
-    const double apart = (from_center + middle * way).norm();
+    const Eigen::Vector3d fromCenter = origin - vector;
+    const double middle = -(way / length).dot(fromCenter) / length;
+    const double apart = (fromCenter + middle * way).norm();
     if (!(apart <= number)) return {};
     const double half = std::sqrt((number - apart) * (number + apart)) / length;
     return {middle - half, middle + half};
