@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Fuzzes each target from its corpus, as many at once as there are processors, and prints a line for
-# each: inputs run, edges covered, inputs kept because they cover more, finds. Exit code 1: there are
-# finds, which are in build/fuzz/finds.
+# each: seconds of processor, inputs run, edges covered, inputs kept because they cover more, finds.
+# Exit code 1: there are finds, which are in build/fuzz/finds.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 build="$root/build/fuzz"
@@ -26,17 +26,20 @@ fuzz_one() {
   mkdir -p "$build/logs" "$found" "$finds"
   local before
   before="$(find "$finds" -type f | wc -l)"
+  local TIMEFORMAT='%U %S' busy
   # Reading a mesh waits for a process: up to its limit of wall time.
-  "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 \
-    -print_final_stats=1 -artifact_prefix="$finds/" "$found" "$root/tests/fuzz/corpus/$target" \
-    >"$log" 2>&1 || true
-  awk -v target="$target" -v finds="$(($(find "$finds" -type f | wc -l) - before))" '
+  busy="$({ time "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=60 \
+    -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$finds/" "$found" \
+    "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 || true; } 2>&1)"
+  awk -v target="$target" -v finds="$(($(find "$finds" -type f | wc -l) - before))" -v busy="$busy" '
     / cov: / { for (i = 1; i < NF; i++) if ($i == "cov:") cover = $(i + 1) }
     /^stat::number_of_executed_units/ { runs = $2 }
     /^stat::new_units_added/ { kept = $2 }
     END {
       if (runs == "") { print target ": did not end as it should, see its log"; exit }
-      printf "%-14s %10d inputs, %5d edges, %5d kept, %d finds\n", target, runs, cover, kept, finds
+      split(busy, second, " ")
+      printf "%-14s %5d s, %10d inputs, %5d edges, %5d kept, %d finds\n", target, second[1] + second[2],
+        runs, cover, kept, finds
     }' "$log"
 }
 
@@ -48,12 +51,13 @@ record() {
     echo "# Results"
     echo
     echo "Written by \`run.sh --record\`: of all runs together, but for edges, of which there are the most of one run."
+    echo "Seconds are of processor."
     echo
     echo "| target | s | inputs | edges | finds |"
     echo "|---|---|---|---|---|"
-    awk -v seconds="$seconds" '
+    awk '
       /^\| `/ { gsub("`", "", $2); s[$2] = $4; runs[$2] = $6; edges[$2] = $8; finds[$2] = $10; next }
-      / inputs, / { s[$1] += seconds; runs[$1] += $2; finds[$1] += $8; if ($4 + 0 > edges[$1] + 0) edges[$1] = $4 }
+      / inputs, / { s[$1] += $2; runs[$1] += $4; finds[$1] += $10; if ($6 + 0 > edges[$1] + 0) edges[$1] = $6 }
       END { for (t in s) printf "| `%s` | %d | %d | %d | %d |\n", t, s[t], runs[t], edges[t], finds[t] }
     ' "$table" "$build/summary.txt" | sort
   } >"$build/results.md"
