@@ -259,7 +259,7 @@ const Broken kBroken[] = {
      "box-through-plane",
      "/shapes/0/normal",
      {0, 0, 0},
-     "case 'box-through-plane': shapes[0] is no shape: plane has normal (0 0 0) and offset 1; "
+     "case 'box-through-plane': shapes[0] is no shape: plane has normal (0, 0, 0) and offset 1; "
      "allowed: finite numbers, a normal that is not zero"},
     {"RaggedTerrain",
      "ball-over-terrain",
