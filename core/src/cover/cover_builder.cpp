@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "cover/rounded.hpp"
 #include "cover/set_cover.hpp"
-#include "geometry/rounded.hpp"
 
 namespace swept::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bvh/pending_boxes.hpp"
-#include "geometry/rounded.hpp"
+#include "cover/rounded.hpp"
 #include "simd/near_boxes.hpp"
 
 namespace swept::detail {

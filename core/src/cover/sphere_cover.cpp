@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "cover/cover_builder.hpp"
-#include "geometry/rounded.hpp"
+#include "cover/rounded.hpp"
 
 namespace swept {
 namespace {

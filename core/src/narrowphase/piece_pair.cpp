@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "narrowphase/piece_pair.hpp"
 
+#include <cmath>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 #include "bvh/box_fit.hpp"
-#include "geometry/rounded.hpp"
 #include "narrowphase/flat_pair.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -16,6 +17,11 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+/// By half a float's last place at least, so that the sum of doubles that the value is may round.
+float wellBelow(double value) {
+  return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+}
 
 OrientedBox boxOf(const Vector3d& center, const Vector3d& half) {
   OrientedBox box;
@@ -156,7 +162,7 @@ void PiecePair::boundChildren(const Split& split, const Piece& other, double eno
   }
   if (!(grown > 0.0)) return;
   for (int i = 0; i < node.count; ++i) {
-    lower[i] = roundedDown(static_cast<double>(lower[i]) - grown);
+    lower[i] = wellBelow(static_cast<double>(lower[i]) - grown);
   }
 }
 
@@ -177,7 +183,7 @@ float PiecePair::boundAgainstFlat(const OrientedBox& box, bool ofA) const {
   const double rounded =
       tolerance::kSupportRounding * (box.center.norm() + a_from_b_.translation().norm()) +
       2.0 * kBoxRounding * body.extent;
-  return roundedDown(apart.lower - rounded);
+  return wellBelow(apart.lower - rounded);
 }
 
 bool PiecePair::hasGaps(bool ofA, const Piece& other) const {
