@@ -38,7 +38,7 @@ TEST(TextFile, TheLargestIsReadAndOneByteMoreIsNot) {
 TEST(TextFile, EveryByteIsThere) {
   const TemporaryFolder folder;
   std::string text;
-  for (int i = 0; i < 200'001; ++i) text += static_cast<char>(i * i % 251);
+  for (unsigned i = 0; i < 200'001; ++i) text += static_cast<char>(i * i % 251);
   EXPECT_EQ(readTextFile(folder.write("a.scene", text)), text);
   EXPECT_EQ(readTextFile(folder.write("empty.scene", "")), "");
 }
