@@ -181,9 +181,6 @@ TEST(Memory, WhatIsTakenIsSeen) {
 /// oneTBB 2021.8 kept 7 KB of each arena that two threads had worked in, and there was one a call:
 /// in its own heap, so that only the resident memory told of it, 140 MiB in the full soak.
 TEST_F(Judged, BatchesOnThreadsGiveTheirMemoryBack) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "a sanitizer keeps what is given back";
-#endif
   const swept::Checker& checker = *line_.current()->checker;
   std::vector<Verdict> verdicts(512);
   std::vector<double> states(verdicts.size() * static_cast<std::size_t>(checker.dimension()));
