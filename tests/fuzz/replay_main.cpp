@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs a fuzz target on files, and on files cut short and with bytes changed, where the compiler
-// has no fuzzer: a regression test of what was found. Arguments: how many changes of each file, and
-// folders. Exit code 2 without a file.
+// has no fuzzer: a regression test of what was found. Arguments: how many changes of each file, or
+// for how long, as in `60s`, and folders. The inputs are the same each time, and so many as fit.
+// Exit code 2 without a file.
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <random>
+#include <span>
+#include <string>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -32,28 +36,45 @@ Bytes changed(Bytes bytes, std::mt19937& random) {
   return bytes;
 }
 
-int runFile(const std::filesystem::path& file, int changes) {
-  std::ifstream stream(file, std::ios::binary);
-  const Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  run(bytes);
-  std::mt19937 random(1);
-  for (int i = 0; i < changes; ++i) run(changed(bytes, random));
-  return 1;
+struct Subject {
+  Bytes bytes;
+  std::mt19937 random{1};
+};
+
+std::vector<Subject> subjectsIn(std::span<char*> folders) {
+  std::vector<std::filesystem::path> files;
+  for (const char* folder : folders)
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::vector<Subject> subjects;
+  for (const auto& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    subjects.push_back(
+        {{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}});
+  }
+  return subjects;
+}
+
+/// Whether there shall be one more input after so many.
+std::function<bool(std::size_t)> untilDone(const std::string& extent, std::size_t files) {
+  if (!extent.ends_with('s'))
+    return [last = files * std::stoul(extent)](std::size_t inputs) { return inputs < last; };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::stoul(extent));
+  return [end](std::size_t) { return std::chrono::steady_clock::now() < end; };
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
-  const int changes = std::atoi(argv[1]);
-  int files = 0;
-  for (int i = 2; i < argc; ++i) {
-    std::vector<std::filesystem::path> found;
-    for (const auto& entry : std::filesystem::directory_iterator(argv[i]))
-      found.push_back(entry.path());
-    std::ranges::sort(found);
-    for (const auto& file : found) files += runFile(file, changes);
+  auto subjects = subjectsIn({argv + 2, argv + argc});
+  if (subjects.empty()) return 2;
+  for (const Subject& subject : subjects) run(subject.bytes);
+  std::size_t changes = 0;
+  for (const auto goesOn = untilDone(argv[1], subjects.size()); goesOn(changes); ++changes) {
+    Subject& subject = subjects[changes % subjects.size()];
+    run(changed(subject.bytes, subject.random));
   }
-  std::printf("%d files, %d inputs\n", files, files * (changes + 1));
-  return files > 0 ? 0 : 2;
+  std::printf("%zu files, %zu inputs\n", subjects.size(), subjects.size() + changes);
 }
