@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
+#include <sstream>
+
 #include "input_files.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -94,6 +98,47 @@ TEST(MeshFiles, OpenSurfacesAreNamedOnce) {
       ElementsAre((folder.path() / "m.urdf").string() +
                   ":2: warning: mesh 't.stl' is an open surface (1 open component): its interior "
                   "is not solid"));
+}
+
+/// Each corner of each triangle written by itself, as STL has them; every third one off by `error`
+/// along x.
+std::string tetrahedronStl(float error) {
+  const std::array<std::array<float, 3>, 4> corners = {
+      {{1, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0, 3}}};
+  std::ostringstream text;
+  text.precision(9);
+  text << "solid t\n";
+  int written = 0;
+  for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+    text << "facet normal 0 0 0\nouter loop\n";
+    for (const int corner : face) {
+      const auto& [x, y, z] = corners[corner];
+      text << "vertex " << x + (written++ % 3 == 1 ? error : 0.0F) << ' ' << y << ' ' << z << '\n';
+    }
+    text << "endloop\nendfacet\n";
+  }
+  return text.str() + "endsolid t\n";
+}
+
+TEST(MeshFiles, CracksOfSinglePrecisionAreNoHoles) {
+  const test::TemporaryFolder folder;
+  const float step = 3.0F * std::numeric_limits<float>::epsilon();
+  folder.write("cracked.stl", tetrahedronStl(step));
+  folder.write("open.stl", tetrahedronStl(4.0F * step));
+  test::Warnings warnings;
+  const auto robot =
+      withMeshes(folder,
+                 {"filename='cracked.stl'", "filename='cracked.stl' scale='-0.001 1 7'",
+                  "filename='open.stl'"},
+                 warnings.options());
+  EXPECT_GT(mesh(*robot, 0).report().cracksFilled, 0);
+  EXPECT_TRUE(mesh(*robot, 0).isClosed());
+  EXPECT_TRUE(mesh(*robot, 0).encloses({1.2, 0.3, 0.3}));
+  // A step along an axis that is scaled down is less than that.
+  EXPECT_TRUE(mesh(*robot, 1).isClosed());
+  EXPECT_FALSE(mesh(*robot, 2).isClosed());
+  ASSERT_EQ(warnings.lines.size(), 1U);
+  EXPECT_THAT(warnings.lines.front(), testing::HasSubstr("mesh 'open.stl' is an open surface"));
 }
 
 TEST(MeshFiles, ColladaUnitCountsAndUpAxisDoesNot) {

@@ -10,6 +10,7 @@
 #include "bvh/wide_bvh.hpp"
 #include "geometry/convex_parts.hpp"
 #include "geometry/mesh_components.hpp"
+#include "geometry/mesh_cracks.hpp"
 #include "geometry/point_text.hpp"
 #include "geometry/weld.hpp"
 #include "swept/core/distance.hpp"
@@ -59,6 +60,13 @@ void requireFinite(std::span<const Eigen::Vector3d> vertices) {
   }
 }
 
+void requireWidth(double crackWidth) {
+  if (crackWidth >= 0.0 && std::isfinite(crackWidth)) return;
+  std::ostringstream message;
+  message << "mesh crack width is " << crackWidth << " m; allowed: from 0";
+  throw std::invalid_argument(message.str());
+}
+
 void requireCorners(std::size_t vertices, std::span<const Eigen::Vector3i> triangles) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (int corner : triangles[i]) {
@@ -106,9 +114,11 @@ void moveKept(std::span<const Eigen::Vector3d> given, std::span<const int> keptA
 }  // namespace
 
 TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
-                                 std::span<const Triangle> triangles, MeshInterior interior) {
+                                 std::span<const Triangle> triangles, MeshInterior interior,
+                                 double crackWidth) {
   requireCounts(vertices.size(), triangles.size());
   requireFinite(vertices);
+  requireWidth(crackWidth);
   requireCorners(vertices.size(), triangles);
   detail::WeldedMesh welded = detail::weld(vertices, triangles);
   if (welded.triangles.empty()) {
@@ -118,6 +128,13 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
     throw std::invalid_argument(message.str());
   }
   detail::MeshComponents parts = detail::ComponentFinder(welded.triangles).result();
+  std::size_t cracksFilled = 0;
+  if (parts.openComponents > 0 && crackWidth > 0.0) {
+    const auto fillings = detail::crackFillings(welded.vertices, parts, crackWidth);
+    cracksFilled = fillings.size();
+    welded.triangles.insert(welded.triangles.end(), fillings.begin(), fillings.end());
+    if (cracksFilled > 0) parts = detail::ComponentFinder(welded.triangles).result();
+  }
 
   Surface surface;
   surface.interior = interior;
@@ -126,6 +143,7 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   surface.report.trianglesGiven = static_cast<int>(triangles.size());
   surface.report.degenerateDropped = welded.degenerateDropped;
   surface.report.duplicatesDropped = parts.duplicatesDropped;
+  surface.report.cracksFilled = static_cast<int>(cracksFilled);
   surface.report.closedComponents = static_cast<int>(parts.oriented.size());
   surface.report.openComponents = parts.openComponents;
   surface.vertices = std::move(welded.vertices);

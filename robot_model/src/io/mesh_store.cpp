@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mesh_store.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 
@@ -38,6 +40,15 @@ fs::path oneName(const fs::path& file) {
   return error ? file : whole;
 }
 
+/// How far apart, in the file's unit, the corners of triangles may be that are one corner to the
+/// program that wrote them: two steps of single precision where coordinates are largest.
+double roundingOf(const MeshFileContent& content) {
+  double largest = 0.0;
+  for (const Eigen::Vector3d& vertex : content.vertices)
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  return 2.0 * largest * std::numeric_limits<float>::epsilon();
+}
+
 }  // namespace
 
 TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
@@ -48,8 +59,10 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   try {
     MeshFileContent content = readMeshFile(file);
+    const double crackWidth = roundingOf(content) * scale.cwiseAbs().minCoeff();
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
-    const TriangleMesh mesh = TriangleMesh::build(content.vertices, content.triangles);
+    const TriangleMesh mesh =
+        TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
     warnIfOpen(mesh, reference, line, source_);
     meshes_.emplace(key, mesh);
     return mesh;

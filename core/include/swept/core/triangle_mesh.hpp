@@ -29,6 +29,7 @@ struct MeshReport {
   int trianglesGiven = 0;     ///< to build()
   int degenerateDropped = 0;  ///< triangles with two equal corners
   int duplicatesDropped = 0;  ///< triangles with the corners of an earlier one, in any order
+  int cracksFilled = 0;       ///< triangles that were added to close cracks
   int closedComponents = 0;   ///< every edge shared by an even number of triangles
   int openComponents = 0;     ///< the others
 };
@@ -49,11 +50,19 @@ class TriangleMesh {
  public:
   using Triangle = Eigen::Vector3i;  ///< indices into vertices()
 
-  /// Throws std::invalid_argument for an index out of range, a non-finite vertex, or when no
-  /// triangle with three distinct corners is left.
+  /// Equal positions become one vertex; others only with a `crackWidth` (m): programs that write
+  /// meshes round the corners of each triangle by themselves, so that the surface of a solid may
+  /// come out of a file with cracks, and would not be closed. Open edges whose ends lie within
+  /// `crackWidth` of each other along each axis are taken for one edge, and the cracks between them
+  /// filled with triangles. No vertex moves; the shape grows by what is enclosed then, and
+  /// otherwise by no more than 2 `crackWidth` from an edge of it. Open edges stay as they are where
+  /// one that hangs together with them has no partner: around a real hole.
+  ///
+  /// Throws std::invalid_argument for an index out of range, a non-finite vertex, when no triangle
+  /// with three distinct corners is left, and for a `crackWidth` that is negative or not finite.
   static TriangleMesh build(std::span<const Eigen::Vector3d> vertices,
                             std::span<const Triangle> triangles,
-                            MeshInterior interior = MeshInterior::Solid);
+                            MeshInterior interior = MeshInterior::Solid, double crackWidth = 0.0);
 
   /// The same triangles with their vertices elsewhere: the next frame of a surface that deforms.
   /// `vertices` (m): as many as build() got, in that order. What is connected stays so and nothing
