@@ -3,7 +3,7 @@
 """Redraws the tables of measurements in the tree's pages from what record.sh wrote to tests/benchmark/results.
 
 tables.py [--check] [TREE]: all `*.md` of TREE (this one), but for results and builds. With --check nothing is written,
-and the exit code is 1 when a page is not what the results give. 2: a mark cannot be followed.
+and the exit code is 1 when a page is not what the results give. 2: a mark cannot be followed, or there is no page.
 
 A table stands between a mark and `<!-- end of results -->`. Of one table of results:
 
@@ -101,6 +101,13 @@ def selected(root, spec):
     return rows, columns
 
 
+def product(cell, factor, column):
+    try:
+        return f"{float(cell) * float(factor):.3g}"
+    except ValueError as error:
+        raise MarkError(f"'{column} * {factor}': cell '{cell}' or the factor is no number") from error
+
+
 def number_in(cell, index):
     found = re.findall(r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?", cell)
     return float(found[index - 1]) if len(found) >= index else None
@@ -123,7 +130,7 @@ def part_of_table(root, spec, _):
         titles.append(title or name)
         for row, line in zip(rows, out):
             cell = value_in(row, name)
-            line.append(f"{float(cell) * float(factor):.3g}" if factor and cell else cell)
+            line.append(product(cell, factor, name) if factor and cell else cell)
     return drawn(titles, out)
 
 
@@ -146,7 +153,7 @@ def ratios(root, spec, page):
 
 def redrawn(root, page, text):
     """The page's text with its tables drawn anew, and the lines of the marks whose tables were others."""
-    parts, changed, at = [], [], 0
+    parts, changed, ends, at = [], [], set(), 0
     for mark in MARK.finditer(text):
         line = text.count("\n", 0, mark.start()) + 1
         end = text.find(END, mark.end())
@@ -160,7 +167,13 @@ def redrawn(root, page, text):
         if text[mark.end():end] != table:
             changed.append(line)
         parts += [text[at:mark.end()], table]
+        ends.add(end)
         at = end
+    # Behind a mark with a slip in it stands a table that nothing compares.
+    for end in re.finditer(re.escape(END), text):
+        if end.start() not in ends:
+            line = text.count("\n", 0, end.start()) + 1
+            raise MarkError(f"{page.relative_to(root)}:{line}: error: no mark before this '{END}'")
     return "".join(parts) + text[at:], changed
 
 
@@ -177,8 +190,10 @@ def main(arguments):
     if len(rest) > 1 or any(argument.startswith("-") for argument in rest):
         raise MarkError("usage: tables.py [--check] [TREE]")
     root = pathlib.Path(rest[0] if rest else pathlib.Path(__file__).parents[2]).resolve()
-    differ = 0
-    for page in pages(root):
+    differ, found = 0, list(pages(root))
+    if not found:
+        raise MarkError(f"no pages in '{root}'")
+    for page in found:
         text = page.read_text(encoding="utf-8")
         new, changed = redrawn(root, page, text)
         differ += len(changed)

@@ -141,6 +141,12 @@ class Tables(unittest.TestCase):
                  "no row of box/things.md table 1 is left"),
                 ("<!-- ratios:\nall: box/things.md table 1 | pair\n-->\n<!-- end of results -->\n",
                  "no number in 'pair'"),
+                (mark.format("box/things.md table 1 | ratio * 2"),
+                 "'ratio * 2': cell '0.5, 0.25' or the factor is no number"),
+                (mark.format("box/things.md table 1 | swept, us * 1,5"),
+                 "'swept, us * 1,5': cell '1.5' or the factor is no number"),
+                ("<!--results: box/things.md table 2 | other --> <!-- end of results -->\n",
+                 "no mark before this '<!-- end of results -->'"),
                 ("<!-- results: box/things.md table 2 | other -->\n",
                  "no '<!-- end of results -->' after this mark")):
             with self.subTest(message):
@@ -148,6 +154,12 @@ class Tables(unittest.TestCase):
                 run = self.run_tables("--check")
                 self.assertEqual((run.returncode, run.stdout, run.stderr),
                                  (2, "", f"core/page.md:2: error: {message}\n"))
+
+    def test_a_tree_without_pages_is_no_tree(self):
+        for file in self.root.rglob("*.md"):
+            file.unlink()
+        run = self.run_tables("--check")
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (2, "", f"no pages in '{self.root.resolve()}'\n"))
 
 
 if __name__ == "__main__":
