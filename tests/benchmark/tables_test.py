@@ -24,59 +24,45 @@ RESULT = """# things
 | --- |
 | 2 |
 """
-PAGE = """# Page
+TEMPLATE = """# Page
 
 <!-- results: box/things.md table 1 | pair | swept, us = us | ratio 2 | where query = hit or none -->
-<!-- end of results -->
+{}<!-- end of results -->
 
 <!-- ratios:
 first of all: box/things.md table 1 | ratio
 their second: box/things.md table 1 | number 2 of ratio
 another: box/things.md table 2 to 3 | other
 -->
-<!-- end of results -->
+{}<!-- end of results -->
 
 <!-- results: box/sizes.csv | name | size [ns] * 1e-3 = size, us -->
-<!-- end of results -->
+{}<!-- end of results -->
 
 The end.
 """
-DRAWN = """# Page
-
-<!-- results: box/things.md table 1 | pair | swept, us = us | ratio 2 | where query = hit or none -->
-
+INSERTED = ("""
 | pair | us | ratio 2 |
 | --- | --- | --- |
 | a | 1.5 | 2 |
 | b | 3 | 4 |
 
-<!-- end of results -->
-
-<!-- ratios:
-first of all: box/things.md table 1 | ratio
-their second: box/things.md table 1 | number 2 of ratio
-another: box/things.md table 2 to 3 | other
--->
-
+""", """
 |  | least | median | most | rows | results |
 | --- | --- | --- | --- | --- | --- |
 | first of all | 0.12 | 0.31 | 0.5 | 2 | [things](../tests/benchmark/results/box/things.md) |
 | their second | 0.25 | 0.25 | 0.25 | 1 | [things](../tests/benchmark/results/box/things.md) |
 | another | 0.001 | 1 | 2 | 2 | [things](../tests/benchmark/results/box/things.md) |
 
-<!-- end of results -->
-
-<!-- results: box/sizes.csv | name | size [ns] * 1e-3 = size, us -->
-
+""", """
 | name | size, us |
 | --- | --- |
 | one, two | 1.23 |
 | three |  |
 
-<!-- end of results -->
-
-The end.
-"""
+""")
+PAGE = TEMPLATE.format("", "", "")
+DRAWN = TEMPLATE.format(*INSERTED)
 
 
 class Tables(unittest.TestCase):
