@@ -39,7 +39,7 @@ done
 known="$(sed -n 's/^\([a-z_0-9]*\): .*/\1/p' "$here/runs.txt")"
 ((${#names[@]})) || mapfile -t names <<<"$known"
 for name in "${names[@]}"; do
-  grep -qx -- "$name" <<<"$known" || fail "unknown name '$name'; in runs.txt: $(paste -sd ' ' <<<"$known")"
+  grep -Fqx -- "$name" <<<"$known" || fail "unknown name '$name'; in runs.txt: $(paste -sd ' ' <<<"$known")"
 done
 grep -q '^SWEPT_BUILD_BENCHMARKS:BOOL=ON$' "$build/CMakeCache.txt" 2>/dev/null ||
   fail "--build '$build': no build with -DSWEPT_BUILD_BENCHMARKS=ON"

@@ -95,6 +95,7 @@ class Record(unittest.TestCase):
     def test_refuses(self):
         for arguments, message in (
                 (["tables"], "unknown name 'tables'; in runs.txt: table text broken"),
+                (["t.*e"], "unknown name 't.*e'; in runs.txt: table text broken"),
                 (["--machines"], "unknown option '--machines'; known: --machine MACHINE, --build FOLDER"),
                 (["table", "--machine"], "--machine needs a value"),
                 (["--machine", "../x"], "--machine '../x': letters, digits, '.', '_' and '-' only"),
