@@ -81,7 +81,8 @@ record() {
   else
     local words
     read -ra words <<<"$command"
-    "${words[@]//DATA/${SWEPT_DATA:-}}" >"$output" || return
+    # In quotes of its own: a `&` would stand for DATA.
+    "${words[@]//DATA/"${SWEPT_DATA:-}"}" >"$output" || return
   fi
   {
     printf '# %s\n\n    %s\n\n' "$name" "$command"

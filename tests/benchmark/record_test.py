@@ -42,7 +42,8 @@ class Record(unittest.TestCase):
         (build / "CMakeCache.txt").write_text("SWEPT_BUILD_BENCHMARKS:BOOL=ON\nCMAKE_BUILD_TYPE:STRING=Release\n"
                                               "CMAKE_CXX_COMPILER:FILEPATH=/bin/echo\n")
         self.program(self.root / "tools/cmake", 'echo "$@" >"$(dirname "$0")/built"')
-        self.data = self.root / "elsewhere"
+        # Of names that shells take apart, and expand.
+        self.data = self.root / "else & where"
         self.data.mkdir()
         (self.data / "robot.urdf").write_text("")
 
