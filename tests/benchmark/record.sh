@@ -63,7 +63,7 @@ head_of() {
   for peer in fcl ode bullet ompl octomap; do
     version="$(pkg-config --modversion "$peer" 2>/dev/null)" && versions+=", $peer $version"
   done
-  git diff --quiet HEAD -- "${measured[@]}" || changed=" and changes not committed"
+  [[ -z "$(git status --porcelain -- "${measured[@]}" || echo unknown)" ]] || changed=" and changes not committed"
   echo "* sources of commit $(git log -1 --format=%h --abbrev=10 -- "${measured[@]}")$changed; $(date -u +%Y-%m-%d)"
   echo "* $processor, $(nproc) cores; load average (1, 5, 15 minutes) before $1, after $(load_average)"
   echo "* $(value_of PRETTY_NAME /etc/os-release), $compiler, $(value_of CMAKE_BUILD_TYPE:STRING "$build/CMakeCache.txt")"

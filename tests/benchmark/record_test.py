@@ -85,6 +85,11 @@ class Record(unittest.TestCase):
         self.assertIn("SWEPT_DATA not set\n", text)
         self.assertTrue(text.endswith("~~~text\nskipped: SWEPT_DATA is not set\n~~~\n"), text)
 
+    def test_a_source_that_git_does_not_know_is_a_change(self):
+        (self.folder / "new.hpp").write_text("")
+        self.assertEqual(self.record("--machine", "box", "table").returncode, 0)
+        self.assertIn(f"{self.commit} and changes not committed; ", self.result("table.md"))
+
     def test_keeps_the_result_of_a_program_that_fails(self):
         (self.folder / "results/box").mkdir(parents=True)
         (self.folder / "results/box/broken.md").write_text("before\n")
