@@ -154,6 +154,19 @@ INSTANTIATE_TEST_SUITE_P(States, BadInput, testing::ValuesIn(kStates), nameOf);
 INSTANTIATE_TEST_SUITE_P(Options, BadInput, testing::ValuesIn(kOptions), nameOf);
 INSTANTIATE_TEST_SUITE_P(Files, BadInput, testing::ValuesIn(kFiles), nameOf);
 
+/// An empty `--scene` was none: the proof was of an empty world.
+TEST(BadOptions, EmptyTextsAreRefused) {
+  const Gantry gantry;
+  for (const std::string option : {"--scene", "--srdf", "--cloud", "--dump", "--problems",
+                                   "--request", "--goal-pose", "--output"}) {
+    const Outcome run =
+        runSwept({"plan", gantry.urdf, "left", "right", "--group", "both", option, ""});
+    EXPECT_EQ(run.exitCode, 3) << option;
+    EXPECT_EQ(run.out, "") << option;
+    EXPECT_EQ(run.err, kError + option + ": must not be empty (try --help)\n");
+  }
+}
+
 TEST(BadFiles, BrokenContentsAreNamedWithTheirFile) {
   const Gantry gantry;
   const std::string urdf = gantry.folder().write("broken.urdf", "<robot name='x'>\n  <link\n");

@@ -97,6 +97,15 @@ std::string messageOf(const CLI::ParseError& error, int argc, const char* const*
                   : family + ": a subcommand is required; there are " + namesIn(family);
 }
 
+/// A shell makes an empty text of a variable that is not set. Taken for no option at all, it would
+/// leave out the scene that something is to be proven in. Throws CLI::ValidationError.
+void refuseEmptyValues(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->nonpositional() && std::ranges::count(option->results(), "") > 0)
+      throw CLI::ValidationError(option->get_name(), "must not be empty");
+  for (const CLI::App* chosen : app.get_subcommands()) refuseEmptyValues(*chosen);
+}
+
 }  // namespace
 
 void describeProgram(CLI::App& program, Arguments& args) {
@@ -122,6 +131,7 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
   describeProgram(program, args);
   try {
     program.parse(reversedArguments(argc, argv));
+    refuseEmptyValues(program);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return {.run = {}, .exitCode = program.exit(error)};
     std::cerr << "swept: error: " << messageOf(error, argc, argv) << " (try --help)\n";
