@@ -183,9 +183,12 @@ TEST(Info, RulesThatMakeNoSenseAreUsageErrors) {
   };
   EXPECT_THAT(error({"--pad", "hand"}), HasSubstr("--pad 'hand': expected NAME=NUMBER"));
   EXPECT_THAT(error({"--pad", "hand=much"}), HasSubstr("--pad 'hand=much': expected NAME=NUMBER"));
-  EXPECT_THAT(error({"--pad", "hand=-1"}),
-              HasSubstr("the padding of 'hand', -1.000000 m, must be"));
-  EXPECT_THAT(error({"--scale", "hand=0"}), HasSubstr("the scale of 'hand', 0.000000, must be"));
+  for (const std::string pad : {"hand=-1", "hand=-1e-9", "hand=inf", "hand=nan"})
+    EXPECT_EQ(error({"--pad", pad}),
+              "swept: error: --pad '" + pad + "': a padding must be 0 m or more, and finite\n");
+  for (const std::string scale : {"hand=0", "hand=-1e-9", "hand=inf", "hand=nan"})
+    EXPECT_EQ(error({"--scale", scale}),
+              "swept: error: --scale '" + scale + "': a factor must be above 0, and finite\n");
   EXPECT_THAT(error({"--allow", "hand"}), HasSubstr("--allow 'hand': expected two names, A,B"));
   EXPECT_THAT(error({"--pad", "paw=1"}), HasSubstr("a rule names 'paw', which is no link"));
   EXPECT_THAT(error({"--explain", "hand,sun"}), HasSubstr("'sun' is no link, attached body"));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/rules.hpp"
 
+#include <cmath>
 #include <cstdlib>
-#include <stdexcept>
 
 #include "command_line/exit_code.hpp"
 
@@ -33,21 +33,21 @@ std::pair<std::string, std::string> namesOfPair(const std::string& option,
 
 CollisionRules rulesOf(const Arguments& args) {
   CollisionRules rules;
-  try {
-    for (const std::string& text : args.pads) {
-      const auto [name, metres] = numberOf("--pad", text);
-      rules.pad(name, metres);
-    }
-    for (const std::string& text : args.scales) {
-      const auto [name, factor] = numberOf("--scale", text);
-      rules.scale(name, factor);
-    }
-    for (const std::string& text : args.allowed) {
-      const auto [a, b] = namesOfPair("--allow", text);
-      rules.allow(a, b, "--allow");
-    }
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
+  for (const std::string& text : args.pads) {
+    const auto [name, metres] = numberOf("--pad", text);
+    if (!(metres >= 0.0) || !std::isfinite(metres))
+      throw UsageError("--pad '" + text + "': a padding must be 0 m or more, and finite");
+    rules.pad(name, metres);
+  }
+  for (const std::string& text : args.scales) {
+    const auto [name, factor] = numberOf("--scale", text);
+    if (!(factor > 0.0) || !std::isfinite(factor))
+      throw UsageError("--scale '" + text + "': a factor must be above 0, and finite");
+    rules.scale(name, factor);
+  }
+  for (const std::string& text : args.allowed) {
+    const auto [a, b] = namesOfPair("--allow", text);
+    rules.allow(a, b, "--allow");
   }
   return rules;
 }
