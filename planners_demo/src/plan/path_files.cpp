@@ -3,18 +3,13 @@
 
 #include "command_line/exit_code.hpp"
 #include "input/clouds.hpp"
+#include "input/states.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "verify/check.hpp"
 
 namespace swept {
 namespace {
-
-std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
-  std::vector<std::string> names;
-  for (const int v : group.variables) names.push_back(robot.variables()[v].name);
-  return names;
-}
 
 std::string optionText(const std::filesystem::path& file) {
   return "-o '" + file.string() + "'";
