@@ -9,6 +9,7 @@
 
 #include "command_line/arguments.hpp"
 #include "command_line/command.hpp"
+#include "command_line/distinct_files.hpp"
 #include "command_line/exit_code.hpp"
 #include "command_line/last_resort.hpp"
 #include "swept/robot_model/input.hpp"
@@ -26,6 +27,7 @@ void openStandardStreams() {
 
 int guardedMain(int argc, char** argv) {
   const swept::ParsedArguments parsed = swept::parseArguments(argc, argv);
+  if (parsed.run) swept::requireDistinctFiles(*parsed.run);
   const int code =
       parsed.run ? static_cast<int>(parsed.run->command->run(*parsed.run)) : parsed.exitCode;
   // A full disk must not look like a result.

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::StartsWith;
+using Words = std::vector<std::string>;
 
 class OutputFiles : public testing::Test {
  protected:
@@ -131,6 +132,41 @@ TEST_F(OutputFiles, AnOldFileKeepsItsMode) {
     EXPECT_EQ(status.st_mode & 07777u, mode);
   }
   EXPECT_THAT(gantry_.folder().read("path.csv"), StartsWith("slide,lift\n"));
+}
+
+/// The results of a batch were replaced by their table, and a robot by its SRDF.
+TEST_F(OutputFiles, WhatIsReadOrWrittenOtherwiseIsNotReplaced) {
+  const std::string urdf = gantry_.urdf, results = path("out/r"), again = path("out/../out/r");
+  const Words bench{"bench",      "planners",       urdf,    "--group", "both", "-q",
+                    "--problems", gantry_.problems, "--set", "over"};
+  const auto expectKept = [&](Words words, const Words& more, const std::string& message) {
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome run = runSwept(words);
+    EXPECT_EQ(run.exitCode, 3) << message;
+    EXPECT_EQ(run.out, "") << message;
+    EXPECT_EQ(run.err, "swept: error: " + message + "\n");
+  };
+  expectKept(bench, {"-o", results, "--csv", again},
+             "--csv '" + again + "' would replace the file of -o '" + results + "'");
+  EXPECT_THAT(names("out"), testing::IsEmpty());
+  fs::create_symlink(urdf, path("out/link"));
+  expectKept({"acm", urdf}, {"-o", path("out/link")},
+             "-o '" + path("out/link") + "' would replace the file of robot '" + urdf + "'");
+  EXPECT_THAT(gantry_.folder().read("gantry.urdf"), testing::HasSubstr("</robot>"));
+  const Words plan{"plan", urdf, "left", "right", "--group", "both"};
+  expectKept(
+      plan, {"--scene", gantry_.scene, "-o", gantry_.scene},
+      "-o '" + gantry_.scene + "' would replace the file of --scene '" + gantry_.scene + "'");
+  expectKept({"report", urdf, "--group", "both"}, {"-o", path("m.csv"), "--csv", path("m.csv")},
+             "--csv '" + path("m.csv") + "' would replace the file of -o '" + path("m.csv") + "'");
+
+  Words whole = bench;
+  whole.insert(whole.end(), {"-o", results, "--csv", "/dev/null"});
+  ASSERT_EQ(runSwept(whole).exitCode, 0);
+  const std::string lines = gantry_.folder().read("out/r");
+  expectKept({"bench", "summary", results}, {"--csv", again},
+             "--csv '" + again + "' would replace the file of results '" + results + "'");
+  EXPECT_EQ(gantry_.folder().read("out/r"), lines);
 }
 
 }  // namespace

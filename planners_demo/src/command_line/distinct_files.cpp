@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/distinct_files.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command_line/exit_code.hpp"
+
+namespace swept {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedFile {
+  std::string option;
+  fs::path file;
+
+  std::string text() const { return option + " '" + file.string() + "'"; }
+};
+
+std::vector<NamedFile> written(const Arguments& args) {
+  return {{"-o", args.output},
+          {"--csv", args.batch.csv},
+          {"--csv", args.report.csv},
+          {"--html", args.report.html}};
+}
+
+std::vector<NamedFile> read(const Arguments& args) {
+  std::vector<NamedFile> files{{"robot", args.robot},
+                               {"--scene", args.scene},
+                               {"--problems", args.problems},
+                               {"--request", args.request}};
+  for (const std::string& cloud : args.clouds) files.push_back({"--cloud", cloud});
+  for (const std::string& results : args.batch.files) files.push_back({"results", results});
+  return files;
+}
+
+/// By whatever name. Pipes and devices take what several write.
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code error;  // what cannot be looked at is refused when it is opened
+  if (fs::equivalent(a, b, error)) return fs::is_regular_file(a, error);
+  const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
+  return !fs::exists(a, error) && !place.empty() &&
+         place == fs::weakly_canonical(fs::absolute(b), error);
+}
+
+}  // namespace
+
+void requireDistinctFiles(const Arguments& args) {
+  std::vector<NamedFile> others = read(args);
+  for (const NamedFile& one : written(args)) {
+    for (const NamedFile& other : others)
+      if (isSameFile(one.file, other.file))
+        throw UsageError(one.text() + " would replace the file of " + other.text());
+    others.push_back(one);
+  }
+}
+
+}  // namespace swept
