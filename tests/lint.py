@@ -24,6 +24,9 @@ TIDY_SETTINGS = ".clang-tidy"  # of the root, and of folders
 CPPCHECK_SETTINGS = "tests/cppcheck_suppressions.txt"
 FINDING = re.compile(r"^(?P<file>[^\s:][^:]*):(?P<line>\d+):\d+: (?:warning|error|fatal error): (?P<message>.*\])$")
 
+# Ends what is said of a source that a tool could not look through, which another run may.
+FAILED = " [lint]"
+
 
 class Source:
     """A source, and how it is compiled."""
@@ -78,8 +81,9 @@ class Linter:
             name = self.relative(Path(source.folder, match["file"]))
             if name:
                 found.append([name, int(match["line"]), match["message"]])
-        if done.returncode and not found:
-            message = f"{command[0]} ends with {done.returncode}: {' '.join(said.split())} [lint]"
+        # By a signal it may end among its findings.
+        if done.returncode < 0 or (done.returncode and not found):
+            message = f"{command[0]} ends with {done.returncode}: {' '.join(said.split())}{FAILED}"
             found.append([self.relative(source.path), 1, message])
         return found
 
@@ -105,10 +109,12 @@ class Linter:
         try:
             files = self.files_of(source)
         except subprocess.CalledProcessError as error:
-            message = f"does not compile: {' '.join(error.stderr.split())} [lint]"
+            message = f"does not compile: {' '.join(error.stderr.split())}{FAILED}"
             return [[self.relative(source.path), 1, message]], False
         state = self.state(source, files)
         findings = self.tidy(source) + self.cppcheck(source)
+        if any(message.endswith(FAILED) for _, _, message in findings):
+            return findings, False
         record.parent.mkdir(parents=True, exist_ok=True)
         # Complete or not there, should the run be stopped.
         partial = record.with_suffix(".partial")

@@ -5,6 +5,7 @@
 usage: lint_test.py ROOT COMPILER
 """
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -28,8 +29,9 @@ def write(path, text):
 
 
 def expect(tree, what, status, *lines, names=()):
+    path = f"{tree / 'tools'}:{os.environ['PATH']}"
     done = subprocess.run([sys.executable, "-B", ROOT / "tests/lint.py", tree, tree / "build", *names],
-                          cwd=tree, text=True, capture_output=True, check=False)
+                          cwd=tree, text=True, capture_output=True, check=False, env=os.environ | {"PATH": path})
     printed = (done.stdout + done.stderr).splitlines()
     if done.returncode != status or len(printed) != len(lines) or any(
             line not in text for line, text in zip(lines, printed)):
@@ -71,6 +73,16 @@ def check(tree):
     yield expect(tree, "one has changed", 1, found, "2 sources, 1 of them as they were, 1 findings")
     write(tree / "tests/cppcheck_suppressions.txt", "nullPointer\n")
     yield expect(tree, "settings", 0, "2 sources, 0 of them as they were, 0 findings")
+
+    # As by someone who interrupts it all.
+    killed = tree / "tools/clang-tidy"
+    write(killed, f'#!/bin/sh\n[ "$1" = --version ] || kill -9 $$\nexec {shutil.which("clang-tidy")} "$@"\n')
+    killed.chmod(0o755)
+    write(one, ONE + "int more() { return 1; }\n")
+    yield expect(tree, "a tool that is killed", 1, "core/one.cpp:1: clang-tidy ends with -9:  [lint]",
+                 "2 sources, 1 of them as they were, 1 findings")
+    killed.unlink()
+    yield expect(tree, "looks again", 0, "2 sources, 1 of them as they were, 0 findings")
 
     write(one, "int one() { return undeclared; }\n")
     yield expect(tree, "an error", 1, "core/one.cpp:1: use of undeclared identifier 'undeclared'",
