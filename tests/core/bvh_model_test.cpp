@@ -12,12 +12,14 @@
 #include <string>
 
 #include "mesh_samples.hpp"
+#include "message_of.hpp"
 
 namespace swept {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
+using test::messageOf;
 using test::Soup;
 using testing::HasSubstr;
 
@@ -349,60 +351,50 @@ TEST(BvhModel, EveryCallInEveryStateDoesOrSays) {
   EXPECT_EQ(refused, 6 * 14 - 17);
 }
 
-template <typename Action>
-std::string badInput(const Action& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no exception";
-}
-
 TEST(BvhModel, BadInputIsNamedAndChangesNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   BvhModel<Aabb> model;
   model.begin();
-  EXPECT_THAT(badInput([&] { model.end(); }),
+  EXPECT_THAT(messageOf([&] { model.end(); }),
               HasSubstr("BvhModel::end: no triangles and no points"));
-  EXPECT_THAT(badInput([&] {
+  EXPECT_THAT(messageOf([&] {
                 model.addVertex({1, nan, 2});
               }),
               HasSubstr("BvhModel::addVertex: vertex 0 is (1, nan, 2); allowed: finite"));
   model.addVertex({0, 0, 0});
-  EXPECT_THAT(badInput([&] {
+  EXPECT_THAT(messageOf([&] {
                 model.addTriangle({0, 0, 1});
               }),
               HasSubstr("triangle 0 has vertex 1; allowed: 0 to 1 exclusive"));
-  EXPECT_THAT(badInput([&] { model.addTriangle({0, 0, -1}); }), HasSubstr("has vertex -1"));
-  EXPECT_THAT(badInput([&] {
+  EXPECT_THAT(messageOf([&] { model.addTriangle({0, 0, -1}); }), HasSubstr("has vertex -1"));
+  EXPECT_THAT(messageOf([&] {
                 model.addPoint({0, 0, 0}, -1.0);
               }),
               HasSubstr("point 1 has radius -1; allowed: finite and not negative"));
-  EXPECT_THAT(badInput([&] { model.addPoint({0, 0, 0}, nan); }), HasSubstr("has radius nan"));
-  EXPECT_THAT(badInput([&] {
+  EXPECT_THAT(messageOf([&] { model.addPoint({0, 0, 0}, nan); }), HasSubstr("has radius nan"));
+  EXPECT_THAT(messageOf([&] {
                 model.addTriangle({0, 0, 0}, {1, 0, 0}, {0, infinity, 0});
               }),
               HasSubstr("BvhModel::addTriangle: vertex 3 is (0, inf, 0)"));
   const std::vector<Vector3d> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<Vector3i> wrong{{0, 1, 2}, {0, 1, 3}};
-  EXPECT_THAT(badInput([&] { model.addMesh(vertices, wrong); }),
+  EXPECT_THAT(messageOf([&] { model.addMesh(vertices, wrong); }),
               HasSubstr("BvhModel::addMesh: triangle 1 has vertex 3; allowed: 0 to 3 exclusive"));
   EXPECT_EQ(model.vertices().size(), 1U);
   EXPECT_TRUE(model.triangles().empty());
   model.addTriangle(vertices[0], vertices[1], vertices[2]);
   model.addPoint({5, 5, 5}, 2.5e-7);
-  EXPECT_THAT(badInput([&] { model.end(); }),
+  EXPECT_THAT(messageOf([&] { model.end(); }),
               HasSubstr("point 4 has radius 2.5e-07 in a model of triangles; allowed: 0"));
   EXPECT_EQ(model.state(), BvhState::Building);
 
   model = modelIn(BvhState::Replacing);
   const std::vector<Vector3d> before = model.vertices();
-  EXPECT_THAT(badInput([&] { model.replaceVertices(1, vertices); }),
+  EXPECT_THAT(messageOf([&] { model.replaceVertices(1, vertices); }),
               HasSubstr("BvhModel::replaceVertices: vertices 1 and 3 on of 3"));
   const std::vector<Vector3d> bad{{0, 0, 9}, {0, 0, nan}};
-  EXPECT_THAT(badInput([&] { model.replaceVertices(1, bad); }),
+  EXPECT_THAT(messageOf([&] { model.replaceVertices(1, bad); }),
               HasSubstr("vertex 2 is (0, 0, nan)"));
   EXPECT_EQ(model.vertices(), before);
 
@@ -410,7 +402,7 @@ TEST(BvhModel, BadInputIsNamedAndChangesNothing) {
   cloud.begin();
   cloud.addPoint({0, 0, 0}, 0.1);
   cloud.end();
-  EXPECT_THAT(badInput([&] { cloud.requireTriangles("meshDistance"); }),
+  EXPECT_THAT(messageOf([&] { cloud.requireTriangles("meshDistance"); }),
               HasSubstr("BvhModel::meshDistance: model is a point cloud; allowed: triangles"));
 }
 

@@ -8,6 +8,7 @@
 #include "clearance_grid_samples.hpp"
 #include "heap_counter.hpp"
 #include "lane_targets.hpp"
+#include "message_of.hpp"
 #include "swept/core/clearance_field.hpp"
 
 namespace swept {
@@ -337,12 +338,7 @@ TEST(ClearanceGrid, ManyAtOnceAreTheSameBitForBit) {
 }
 
 std::string messageOf(const Shape& shape, const ClearanceGridOptions& options) {
-  try {
-    static_cast<void>(ClearanceGrid::build(shape, options));
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return test::messageOf([&] { static_cast<void>(ClearanceGrid::build(shape, options)); });
 }
 
 TEST(ClearanceGrid, RefusesWhatItCannotBuild) {

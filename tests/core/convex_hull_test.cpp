@@ -8,10 +8,10 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 #include "geometry/orientation.hpp"
 #include "mesh_samples.hpp"
+#include "message_of.hpp"
 
 namespace swept {
 namespace {
@@ -320,12 +320,7 @@ TEST(ExactOrientation, SeesOneUlp) {
 }
 
 std::string messageOf(const Points& points) {
-  try {
-    ConvexHull::of(points);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::messageOf([&] { ConvexHull::of(points); });
 }
 
 TEST(ConvexHullErrors, NameTheValue) {

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include "mesh_samples.hpp"
+#include "message_of.hpp"
 
 namespace swept {
 namespace {
@@ -21,15 +20,6 @@ std::vector<Vector3d> randomPoints(std::mt19937& random, int count, double most)
   std::vector<Vector3d> points;
   for (int i = 0; i < count; ++i) points.push_back(test::uniformPoint(random, most));
   return points;
-}
-
-std::string messageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
 }
 
 TEST(NeighborDistances, AreThoseOfBruteForce) {
@@ -57,7 +47,7 @@ TEST(NeighborDistances, AreThoseOfBruteForce) {
 
 TEST(NeighborDistances, RefuseZero) {
   const PointCloud cloud = PointCloud::build(std::vector<Vector3d>(3, Vector3d::Zero()), 0.1);
-  EXPECT_EQ(messageOf([&] { static_cast<void>(neighborDistances(cloud, 0)); }),
+  EXPECT_EQ(test::messageOf([&] { static_cast<void>(neighborDistances(cloud, 0)); }),
             "neighborDistances: k is 0; allowed: at least 1");
 }
 
@@ -113,7 +103,8 @@ TEST(OccludedBalls, AreAsManyAsStated) {
 TEST(OccludedBalls, RefuseWhatIsNotFinite) {
   const std::vector<Vector3d> points{Vector3d(1.0, 0.0, 0.0), Vector3d(1.0, NAN, 0.0)};
   const auto message = [&](double radius, const Vector3d& sensor, double range) {
-    return messageOf([&] { static_cast<void>(occludedBalls(points, radius, sensor, range)); });
+    return test::messageOf(
+        [&] { static_cast<void>(occludedBalls(points, radius, sensor, range)); });
   };
   const Vector3d zero = Vector3d::Zero();
   EXPECT_EQ(message(0.0, zero, 1.0),

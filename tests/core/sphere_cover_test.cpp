@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cover_samples.hpp"
+#include "message_of.hpp"
 #include "swept/core/height_field.hpp"
 
 namespace swept {
@@ -415,14 +416,8 @@ TEST(SphereCover, HugeAndTinyAndFarShapes) {
   expectCovered(Cylinder{1e20, 1e20}, sphereCover(Cylinder{1e20, 1e20}), 500);
 }
 
-/// The message of the std::invalid_argument that covering a shape throws.
 std::string refusal(const Shape& shape, const SphereCoverOptions& options = {}) {
-  try {
-    sphereCover(shape, options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return test::messageOf([&] { sphereCover(shape, options); });
 }
 
 TEST(SphereCover, RefusesUnboundedShapes) {

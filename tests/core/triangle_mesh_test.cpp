@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include "mesh_samples.hpp"
+#include "message_of.hpp"
 
 namespace swept {
 namespace {
@@ -150,12 +150,7 @@ TEST(TriangleMeshReport, CountsComponents) {
 }
 
 std::string messageOf(const Soup& soup) {
-  try {
-    build(soup);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::messageOf([&] { build(soup); });
 }
 
 TEST(TriangleMeshErrors, NameTheValue) {

@@ -7,11 +7,11 @@
 
 #include <memory>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "message_of.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept::test {
@@ -160,16 +160,6 @@ inline World clutter(unsigned seed, int bodies = 10) {
     if (i % 3 == 2) world.add(name, Capsule{0.5 * size(random), 2.0 * size(random)}, pose);
   }
   return world;
-}
-
-template <typename Action>
-std::string messageOf(const Action& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing thrown";
 }
 
 }  // namespace swept::test
