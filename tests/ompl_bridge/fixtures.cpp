@@ -3,22 +3,13 @@
 
 #include <ompl/util/RandomNumbers.h>
 
+#include "urdf_text.hpp"
+
 namespace swept::test {
 namespace {
 
 // OMPL seeds by the clock unless told before its first random number; tests repeat.
 [[maybe_unused]] const bool seeded = (ompl::RNG::setSeed(42), true);
-
-std::string joint(const std::string& name, const std::string& type, const std::string& parent,
-                  const std::string& child, const std::string& rest) {
-  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent +
-         "'/><child link='" + child + "'/>" + rest + "</joint>\n";
-}
-
-std::string limited(const std::string& axis, double lower, double upper) {
-  return "<axis xyz='" + axis + "'/><limit lower='" + std::to_string(lower) + "' upper='" +
-         std::to_string(upper) + "' effort='1' velocity='1'/>";
-}
 
 std::string ballLink(const std::string& name, double radius) {
   return "<link name='" + name + "'><collision><geometry><sphere radius='" +

@@ -16,6 +16,7 @@
 #include "heap_counter.hpp"
 #include "message_of.hpp"
 #include "swept/robot_model/link_motion.hpp"
+#include "urdf_text.hpp"
 
 namespace swept {
 namespace {
@@ -25,6 +26,8 @@ using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
+using test::joint;
+using test::limited;
 using test::messageOf;
 
 constexpr double kPi = std::numbers::pi;
@@ -41,17 +44,6 @@ struct Chain {
     return LinkMotion(*robot, group, link, q, q, reference).at(0.0);
   }
 };
-
-std::string joint(const std::string& name, const std::string& type, const std::string& parent,
-                  const std::string& child, const std::string& rest) {
-  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent +
-         "'/><child link='" + child + "'/>" + rest + "</joint>\n";
-}
-
-std::string limited(const std::string& axis, double lower, double upper) {
-  return "<axis xyz='" + axis + "'/><limit lower='" + std::to_string(lower) + "' upper='" +
-         std::to_string(upper) + "' effort='1' velocity='1'/>";
-}
 
 std::string links(int count) {
   std::string text;
