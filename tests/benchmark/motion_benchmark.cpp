@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "../robot_model/input_files.hpp"
 #include "box_worlds.hpp"
 #include "data_folder.hpp"
 #include "made_arms.hpp"
@@ -91,7 +92,7 @@ class MotionBenchmark {
     const auto world = std::make_shared<const World>(worldOf(twelveBoxes()));
     const SerialArm arm;
     for (const int wanted : {1'000, 10'000, 100'000, 1'000'000}) {
-      const TemporaryFolder folder;
+      const test::TemporaryFolder folder;
       std::size_t triangles = 0;
       for (int link = 1; link <= arm.joints; ++link) {
         const Soup soup = arm.linkMesh(wanted / arm.joints);
