@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "swept/robot_model/checker.hpp"
 
@@ -24,18 +25,24 @@ std::shared_ptr<const Robot> slide(const std::string& limits) {
                       "slide.urdf");
 }
 
+/// The slide within 1 m, and a ball of its size that moves along the same axis.
+Checker slideBesideCart(const std::vector<MovingObstacle::Waypoint>& waypoints) {
+  MovingObstacle cart;
+  cart.name = "cart";
+  cart.parts.push_back({Sphere{0.05}, Eigen::Isometry3d::Identity()});
+  cart.waypoints = waypoints;
+  auto world = std::make_shared<World>();
+  world->add(cart);
+  return {slide(R"(lower="-1" upper="1")"), "all", world};
+}
+
 class Clock : public testing::TestWithParam<double> {};
 
 TEST_P(Clock, RatesByTheTimeDoNotDependOnItsOrigin) {
   const double begin = GetParam();
-  MovingObstacle obstacle;
-  obstacle.name = "cart";
-  obstacle.parts.push_back({Sphere{0.05}, Eigen::Isometry3d::Identity()});
   // Nearer by 1 m/s, then away by 2 m/s.
-  obstacle.waypoints = {{begin, at(11.0)}, {begin + 10.0, at(1.0)}, {begin + 15.0, at(11.0)}};
-  auto world = std::make_shared<World>();
-  world->add(obstacle);
-  const Checker checker(slide(R"(lower="-1" upper="1")"), "all", world);
+  const Checker checker =
+      slideBesideCart({{begin, at(11.0)}, {begin + 10.0, at(1.0)}, {begin + 15.0, at(11.0)}});
   Workspace workspace(checker);
   std::array<double, 2> gradient{};
   checker.signedClearance(std::array{0.0, begin + 5.0}, workspace, gradient);
@@ -54,13 +61,7 @@ INSTANTIATE_TEST_SUITE_P(SignedClearance, Clock,
 /// Obstacles stand where the rounding of the clock lets them: at 2^52 s, on whole seconds.
 TEST(SignedClearanceClock, StepsAreNeverLostToRounding) {
   const double begin = 0x1p52;
-  MovingObstacle obstacle;
-  obstacle.name = "cart";
-  obstacle.parts.push_back({Sphere{0.05}, Eigen::Isometry3d::Identity()});
-  obstacle.waypoints = {{begin, at(1001.0)}, {begin + 1000.0, at(1.0)}};
-  auto world = std::make_shared<World>();
-  world->add(obstacle);
-  const Checker checker(slide(R"(lower="-1" upper="1")"), "all", world);
+  const Checker checker = slideBesideCart({{begin, at(1001.0)}, {begin + 1000.0, at(1.0)}});
   Workspace workspace(checker);
   std::array<double, 2> gradient{};
   checker.signedClearance(std::array{0.0, begin + 500.0}, workspace, gradient);
