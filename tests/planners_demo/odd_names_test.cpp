@@ -7,6 +7,7 @@
 
 #include "batch.hpp"
 #include "gantry.hpp"
+#include "printed_text.hpp"
 
 /// Names that are not UTF-8, which JSON has to be, and names that a CSV file has in quotes.
 namespace swept::test {
@@ -15,12 +16,6 @@ namespace {
 using nlohmann::json;
 using testing::EndsWith;
 using testing::HasSubstr;
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
-}
 
 class OddNames : public testing::Test {
  protected:
