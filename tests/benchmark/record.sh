@@ -71,21 +71,24 @@ head_of() {
 }
 
 record() {
-  local name="$1" result="tests/benchmark/results/$machine/$1" command load output="$scratch/output"
+  local name="$1" result="tests/benchmark/results/$machine/$1" command load
+  local output="$scratch/output" made="$scratch/made/$1"
   command="$(command_of "$name")"
-  command="${command//RESULT/$result}"
   load="$(load_average)"
-  mkdir -p "${result%/*}"
+  mkdir -p "${result%/*}" "${made%/*}"
   if [[ "$command" == *DATA* && -z "${SWEPT_DATA:-}" ]]; then
     echo "skipped: SWEPT_DATA is not set" >"$output"
   else
     local words
     read -ra words <<<"$command"
+    words=("${words[@]//RESULT/"$made"}")
     # In quotes of its own: a `&` would stand for DATA.
     "${words[@]//DATA/"${SWEPT_DATA:-}"}" >"$output" || return
+    # Only now: what a program that fails has written is no result.
+    find "${made%/*}" -type f -exec mv -t "${result%/*}" {} + && sed -i "s|$made|$result|g" "$output" || return
   fi
   {
-    printf '# %s\n\n    %s\n\n' "$name" "$command"
+    printf '# %s\n\n    %s\n\n' "$name" "${command//RESULT/$result}"
     head_of "$load"
     printf '\n## Output\n\n'
     # What is no Markdown: `swept` prints text.
@@ -101,6 +104,7 @@ scratch="$(mktemp -d)"
 trap 'rm -rf "$scratch"' EXIT
 failed=0
 for name in "${names[@]}"; do
+  rm -rf "$scratch/made"
   begin=$SECONDS
   if record "$name"; then
     echo "$name: $((SECONDS - begin)) s"

@@ -12,11 +12,11 @@ HERE = pathlib.Path(__file__).parent
 RUNS = """# A comment: not a run.
 table: made_benchmark 3
 text: swept report DATA/robot.urdf --csv RESULT.csv
-broken: broken_benchmark
+broken: broken_benchmark RESULT.csv
 """
 PROGRAMS = {
     "tests/benchmark/made_benchmark": 'printf "\\n## Part\\n\\n| n |\\n| --- |\\n| $1 |\\n"',
-    "tests/benchmark/broken_benchmark": "echo half; exit 1",
+    "tests/benchmark/broken_benchmark": 'echo new >"$1"; echo half; exit 1',
     "planners_demo/swept": 'test -f "$2" && echo 1,2 >"$4" && echo "written to $4"',
 }
 
@@ -92,10 +92,12 @@ class Record(unittest.TestCase):
 
     def test_keeps_the_result_of_a_program_that_fails(self):
         (self.folder / "results/box").mkdir(parents=True)
-        (self.folder / "results/box/broken.md").write_text("before\n")
+        for name in ("broken.md", "broken.csv"):
+            (self.folder / "results/box" / name).write_text("before\n")
         run = self.record("--machine", "box", "broken", "table")
         self.assertEqual((run.returncode, run.stderr), (1, "broken: FAILED, nothing written\n"))
-        self.assertEqual(self.result("broken.md"), "before\n")
+        for name in ("broken.md", "broken.csv"):
+            self.assertEqual(self.result(name), "before\n")
         self.assertIn("| 3 |", self.result("table.md"))
 
     def test_refuses(self):
