@@ -37,6 +37,20 @@ TEST_F(FolderNames, APathFileBehindASymbolicLinkFindsItsFiles) {
   }
 }
 
+/// Its files were looked for beside the link that it was read, or written, through.
+TEST_F(FolderNames, APathFileThatIsASymbolicLinkFindsItsFiles) {
+  for (const std::string folder : {"store/deep", "links"}) fs::create_directories(path(folder));
+  fs::create_symlink("../store/deep/read.json", path("links/read.json"));
+  fs::create_symlink("../store/deep/written.json", path("links/written.json"));
+  ASSERT_EQ(gantry_.run("plan", {"left", "right", "-o", path("store/deep/read.json")}).exitCode, 0);
+  ASSERT_EQ(gantry_.run("plan", {"left", "right", "-o", path("links/written.json")}).exitCode, 0);
+  for (const std::string file : {"store/deep/read.json", "links/read.json",
+                                 "store/deep/written.json", "links/written.json"}) {
+    const Outcome run = verifiedIn("", file);
+    EXPECT_EQ(run.exitCode, 0) << file << ": " << run.out << run.err;
+  }
+}
+
 TEST_F(FolderNames, ARobotBehindASymbolicLinkIsFound) {
   fs::create_directories(path("far/away"));
   fs::create_directory_symlink(path(""), path("far/away/robots"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/task.hpp"
+#include "output/whole_file.hpp"
 
 namespace swept {
 namespace {
@@ -26,7 +27,7 @@ bool isFile(const std::string& attached) {
 class Writer {
  public:
   explicit Writer(const fs::path& file)
-      : folder_(fs::weakly_canonical(fs::absolute(file).parent_path())) {}
+      : folder_(fs::weakly_canonical(fs::absolute(endOfLinks(file)).parent_path())) {}
 
   void file(const char* key, const std::string& name) {
     if (!name.empty()) json_[key] = relative(name);
@@ -75,7 +76,7 @@ class Writer {
 class Reader {
  public:
   explicit Reader(const JsonValue& json)
-      : json_(json), folder_(fs::path(json.file()).parent_path()) {
+      : json_(json), folder_(endOfLinks(json.file()).parent_path()) {
     if (!json.isObject()) json.refuse("an object");
   }
 

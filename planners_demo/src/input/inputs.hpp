@@ -10,7 +10,8 @@
 namespace swept {
 
 /// What of a command line decides which robot, world, group and rules its answers are for: the
-/// `inputs` of a path file or a case. Names of files are relative to the folder of `file`.
+/// `inputs` of a path file or a case. Names of files are relative to the folder of `file`,
+/// or of the file that it leads to as a link.
 Json inputsJson(const Arguments& args, const std::filesystem::path& file);
 
 /// The other way. Throws InputError, naming the value and what is allowed.

@@ -85,19 +85,6 @@ bool takesBytesOnly(fs::file_type type) {
          type == fs::file_type::block;
 }
 
-/// Where links from `file` lead: a new file is to be put there, not in the place of a link.
-fs::path endOfLinks(const fs::path& file) {
-  fs::path end = file;
-  std::error_code error;
-  for (int links = 0; fs::is_symlink(fs::symlink_status(end, error)); ++links) {
-    if (links == kMostLinks) refuse(file, ELOOP);
-    const fs::path next = fs::read_symlink(end, error);
-    if (error) refuse(file, error.value());
-    end = folderOf(end) / next;
-  }
-  return end;
-}
-
 /// Returns errno, or 0.
 int writeAll(int descriptor, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
@@ -141,6 +128,18 @@ int replaceFile(const fs::path& file, const std::string& text) {
 }
 
 }  // namespace
+
+fs::path endOfLinks(const fs::path& file) {
+  fs::path end = file;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(end, error)); ++links) {
+    if (links == kMostLinks) refuse(file, ELOOP);
+    const fs::path next = fs::read_symlink(end, error);
+    if (error) refuse(file, error.value());
+    end = folderOf(end) / next;
+  }
+  return end;
+}
 
 void removeUnfinishedFile() {
   if (gIsUnfinished != 0) unlink(gUnfinished);

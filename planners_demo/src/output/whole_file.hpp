@@ -16,6 +16,10 @@ void requireWritable(const std::filesystem::path& file);
 /// file and no other.
 void writeWholeFile(const std::filesystem::path& file, const std::string& text);
 
+/// Where links from `file` lead, which is where what is written to it goes; `file` itself without
+/// one. Throws UsageError where they lead in a circle.
+std::filesystem::path endOfLinks(const std::filesystem::path& file);
+
 /// For handlers of signals that end the program by themselves: the file that is being written, if
 /// any, is gone. Does only what a handler may.
 void removeUnfinishedFile();
