@@ -105,7 +105,7 @@ class Reader {
     texts(key, packages);
     for (std::string& package : packages) {
       const std::size_t folder = package.find('=') + 1;
-      package = package.substr(0, folder) + absolute(package.substr(folder));
+      package.replace(folder, std::string::npos, absolute(package.substr(folder)));
     }
   }
   void attached(const char* key, std::vector<std::string>& attached) {

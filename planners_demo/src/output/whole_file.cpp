@@ -28,6 +28,8 @@ constexpr std::array kEnding{SIGINT, SIGTERM, SIGHUP};
 char gUnfinished[PATH_MAX];
 volatile std::sig_atomic_t gIsUnfinished = 0;
 
+std::mutex gUnfinishedMutex;
+
 void onEnding(int signal) {
   removeUnfinishedFile();
   raise(signal);  // once this returns, with its usual effect
@@ -37,7 +39,7 @@ void onEnding(int signal) {
 /// write at the same time, it is one.
 class Unfinished {
  public:
-  explicit Unfinished(const std::string& file) : lock_(mutex_, std::try_to_lock) {
+  explicit Unfinished(const std::string& file) : lock_(gUnfinishedMutex, std::try_to_lock) {
     if (!lock_ || file.size() >= sizeof gUnfinished) return;
     std::memcpy(gUnfinished, file.c_str(), file.size() + 1);
     gIsUnfinished = 1;
@@ -61,7 +63,6 @@ class Unfinished {
   Unfinished& operator=(const Unfinished&) = delete;
 
  private:
-  static inline std::mutex mutex_;
   std::unique_lock<std::mutex> lock_;
   std::array<bool, kEnding.size()> taken_{};
 };
