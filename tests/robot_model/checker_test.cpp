@@ -361,13 +361,13 @@ TEST(Checker, MisuseIsAnError) {
   };
   EXPECT_EQ(message([&] { Checker(robot, "legs", world); }),
             "Checker: robot 'arm' has no group 'legs'; its groups are: all");
-  options.margin = -0.1;
+  options.margin = -1e-9;
   EXPECT_EQ(message([&] { Checker(robot, "all", world, options); }),
-            "Checker: margin -0.100000 m must be a finite number that is not negative");
+            "Checker: margin -1e-09 m must be a finite number that is not negative");
   options.margin = 0.0;
   options.tolerance = 0.0;
   EXPECT_EQ(message([&] { Checker(robot, "all", world, options); }),
-            "Checker: tolerance 0.000000 m must be a finite number greater than zero");
+            "Checker: tolerance 0 m must be a finite number greater than zero");
   options.tolerance = 1e-3;
   options.reference = Eigen::VectorXd::Zero(2);
   EXPECT_EQ(message([&] { Checker(robot, "all", world, options); }),
@@ -386,9 +386,11 @@ TEST(Checker, MisuseIsAnError) {
   const Checker checker(robot, "all", world);
   Workspace workspace(checker);
   const std::vector<double> tooShort{0.0};
+  std::vector<double> three(3), two(2);
+  EXPECT_EQ(message([&] { (void)checker.motionClearance(three, three, -1e-9, workspace); }),
+            "Checker: accuracy -1e-09 m must be greater than zero");
   EXPECT_EQ(message([&] { (void)checker.checkState(tooShort, workspace); }),
             "Checker: a configuration of group 'all' has 3 values, not 1");
-  std::vector<double> three(3), two(2);
   EXPECT_EQ(message([&] { checker.interpolate(three, three, 0.5, two); }),
             "Checker: a configuration of group 'all' has 3 values, not 2");
 }

@@ -15,6 +15,7 @@
 #include "input_files.hpp"
 #include "matrix_robots.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "version_arms.hpp"
 
 namespace swept {
 namespace {
@@ -239,10 +240,15 @@ TEST(CollisionMatrix, WhatCannotBeBoundedIsUnknown) {
 
 TEST(CollisionMatrix, RefusesWhatMeansNothing) {
   const auto robot = orbit(0.1, jointText("turn", "continuous", "base", "arm"));
-  EXPECT_THROW(collisionMatrix(*robot, {.margin = -1.0}), std::invalid_argument);
-  EXPECT_THROW(collisionMatrix(*robot, {.margin = std::nan("")}), std::invalid_argument);
-  EXPECT_THROW(collisionMatrix(*robot, {.budget = -1}), std::invalid_argument);
-  EXPECT_THROW(collisionMatrix(*robot, {.samples = -1}), std::invalid_argument);
+  const auto refusal = [&](const CollisionMatrixOptions& options) {
+    return test::messageOf([&] { collisionMatrix(*robot, options); });
+  };
+  EXPECT_EQ(refusal({.margin = -1e-9}),
+            "collisionMatrix: margin -1e-09 m must be a finite number that is not negative");
+  EXPECT_EQ(refusal({.margin = std::nan("")}),
+            "collisionMatrix: margin nan m must be a finite number that is not negative");
+  EXPECT_EQ(refusal({.budget = -1}), "collisionMatrix: budget -1 must not be negative");
+  EXPECT_EQ(refusal({.samples = -2}), "collisionMatrix: samples -2 must not be negative");
 }
 
 void expectSame(const std::vector<LinkPairReport>& a, const std::vector<LinkPairReport>& b) {

@@ -72,14 +72,14 @@ TEST(CollisionRules, WithoutABodyItsOwnRulesAreGone) {
 
 TEST(CollisionRules, ImpossibleValuesAreErrors) {
   CollisionRules rules;
-  EXPECT_EQ(messageOf([&] { rules.pad("hand", -0.01); }),
-            "CollisionRules: the padding of 'hand', -0.010000 m, must be a finite number that is "
-            "not negative");
+  EXPECT_EQ(messageOf([&] { rules.pad("hand", -1e-9); }),
+            "CollisionRules: the padding of 'hand', -1e-09 m, must be a finite number that is not "
+            "negative");
   EXPECT_EQ(messageOf([&] { rules.margin("a", "b", std::nan("")); }),
             "CollisionRules: the margin of 'a' and 'b', nan m, must be a finite number that is not "
             "negative");
   EXPECT_EQ(messageOf([&] { rules.scale("hand", 0.0); }),
-            "CollisionRules: the scale of 'hand', 0.000000, must be a finite number above zero");
+            "CollisionRules: the scale of 'hand', 0, must be a finite number above zero");
   EXPECT_EQ(messageOf([&] { rules.scale("hand", HUGE_VAL); }),
             "CollisionRules: the scale of 'hand', inf, must be a finite number above zero");
   EXPECT_EQ(messageOf([&] { rules.allow("hand", ""); }),

@@ -10,6 +10,7 @@
 #include "certify/pair_reasons.hpp"
 #include "certify/signed_clearance.hpp"
 #include "certify/state_check.hpp"
+#include "io/numbers.hpp"
 
 namespace swept {
 
@@ -17,11 +18,11 @@ namespace {
 
 void validate(const Robot& robot, const CheckerOptions& options) {
   if (!(options.margin >= 0.0) || !std::isfinite(options.margin)) {
-    throw std::invalid_argument("Checker: margin " + std::to_string(options.margin) +
+    throw std::invalid_argument("Checker: margin " + detail::formatNumber(options.margin) +
                                 " m must be a finite number that is not negative");
   }
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
-    throw std::invalid_argument("Checker: tolerance " + std::to_string(options.tolerance) +
+    throw std::invalid_argument("Checker: tolerance " + detail::formatNumber(options.tolerance) +
                                 " m must be a finite number greater than zero");
   }
   if (options.maxIntervals < 1) {
@@ -164,7 +165,7 @@ MotionClearance Checker::motionClearance(std::span<const double> from, std::span
   requireSize(from);
   requireSize(to);
   if (!(accuracy > 0.0)) {
-    throw std::invalid_argument("Checker: accuracy " + std::to_string(accuracy) +
+    throw std::invalid_argument("Checker: accuracy " + detail::formatNumber(accuracy) +
                                 " m must be greater than zero");
   }
   return detail::motionClearance(*model_, from, to, accuracy, dataOf(workspace));

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/numbers.hpp"
 #include "kinematics/name_pattern.hpp"
 
 namespace swept {
@@ -21,7 +22,7 @@ void requireNamed(const std::string& name) {
 
 void requireLength(const std::string& what, double metres) {
   if (metres >= 0.0 && std::isfinite(metres)) return;
-  throw std::invalid_argument("CollisionRules: the " + what + ", " + std::to_string(metres) +
+  throw std::invalid_argument("CollisionRules: the " + what + ", " + detail::formatNumber(metres) +
                               " m, must be a finite number that is not negative");
 }
 
@@ -67,7 +68,8 @@ CollisionRules& CollisionRules::scale(std::string body, double factor) {
   requireNamed(body);
   if (!(factor > 0.0) || !std::isfinite(factor)) {
     throw std::invalid_argument("CollisionRules: the scale of '" + body + "', " +
-                                std::to_string(factor) + ", must be a finite number above zero");
+                                detail::formatNumber(factor) +
+                                ", must be a finite number above zero");
   }
   rules_.push_back({Kind::Scale, std::move(body), {}, factor, {}});
   return *this;

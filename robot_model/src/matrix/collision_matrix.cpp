@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
+#include <string>
 
+#include "io/numbers.hpp"
 #include "kinematics/for_each_index.hpp"
 #include "matrix/contact_search.hpp"
 #include "matrix/never_proof.hpp"
@@ -158,11 +161,16 @@ void Examiner::prove(const LinkChain& chain, LinkChain::Place& place, ContactSea
 
 void requireUsable(const CollisionMatrixOptions& options) {
   if (!(options.margin >= 0.0) || !std::isfinite(options.margin)) {
-    throw std::invalid_argument("collisionMatrix: margin " + std::to_string(options.margin) +
+    throw std::invalid_argument("collisionMatrix: margin " + detail::formatNumber(options.margin) +
                                 " m must be a finite number that is not negative");
   }
-  if (options.budget < 0 || options.samples < 0)
-    throw std::invalid_argument("collisionMatrix: budget and samples must not be negative");
+  const auto requireCount = [](const std::string& what, std::int64_t count) {
+    if (count >= 0) return;
+    throw std::invalid_argument("collisionMatrix: " + what + " " + std::to_string(count) +
+                                " must not be negative");
+  };
+  requireCount("budget", options.budget);
+  requireCount("samples", options.samples);
 }
 
 }  // namespace
