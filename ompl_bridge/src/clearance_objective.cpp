@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "number_text.hpp"
 #include "preconditions.hpp"
 #include "workspace_pool.hpp"
 
@@ -21,7 +22,7 @@ CertifiedClearanceObjective::CertifiedClearanceObjective(const ompl::base::Space
       pool_(std::make_unique<WorkspacePool>(*checker_)) {
   if (!(accuracy > 0.0) || !std::isfinite(accuracy)) {
     throw std::invalid_argument("CertifiedClearanceObjective: accuracy " +
-                                std::to_string(accuracy) +
+                                detail::numberText(accuracy) +
                                 " m must be a finite number greater than zero");
   }
   description_ = "Proven least clearance of the motions";

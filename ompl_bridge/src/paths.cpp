@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "number_text.hpp"
 #include "preconditions.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 
@@ -39,7 +40,7 @@ std::vector<MotionCertificate> simplifyPath(ompl::geometric::PathGeometric& path
                                             const Checker& checker, double time,
                                             const ompl::base::GoalPtr& goal) {
   if (!(time > 0.0) || !std::isfinite(time)) {
-    throw std::invalid_argument("simplifyPath: time " + std::to_string(time) +
+    throw std::invalid_argument("simplifyPath: time " + detail::numberText(time) +
                                 " s must be a finite number greater than zero");
   }
   std::vector<MotionCertificate> before = certifyPath(path, checker);

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 
 #include "group_space.hpp"
 #include "joint_space.hpp"
+#include "number_text.hpp"
 #include "preconditions.hpp"
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
@@ -28,6 +28,7 @@ namespace ob = ompl::base;
 using detail::GroupSpace;
 using detail::JointRun;
 using detail::JointSpace;
+using detail::numberText;
 using detail::SubspaceKind;
 namespace {
 
@@ -37,24 +38,18 @@ constexpr double kUnboundedTranslation = 10.0;  // m
   throw std::invalid_argument("state space: " + what);
 }
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 std::pair<double, double> limitsOf(const Variable& variable, const StateSpaceOptions& options) {
   double lower = variable.lower, upper = variable.upper;
   const auto narrower = options.limits.find(variable.name);
   if (narrower != options.limits.end()) {
     const auto [low, high] = narrower->second;
     if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
-      refuse("limits [" + text(low) + ", " + text(high) + "] of `" + variable.name +
+      refuse("limits [" + numberText(low) + ", " + numberText(high) + "] of `" + variable.name +
              "` are not two finite numbers, the lower one first");
     }
     if (low < lower || high > upper) {
-      refuse("limits [" + text(low) + ", " + text(high) + "] of `" + variable.name +
-             "` are not within the robot's [" + text(lower) + ", " + text(upper) + "]");
+      refuse("limits [" + numberText(low) + ", " + numberText(high) + "] of `" + variable.name +
+             "` are not within the robot's [" + numberText(lower) + ", " + numberText(upper) + "]");
     }
     return narrower->second;
   }
@@ -153,7 +148,7 @@ void requireOptions(const Robot& robot, const Group& group, const StateSpaceOpti
       refuse("group `" + group.name + "` has no joint `" + name + "` to weigh");
     }
     if (!(weight > 0.0) || !std::isfinite(weight)) {
-      refuse("weight " + text(weight) + " of `" + name +
+      refuse("weight " + numberText(weight) + " of `" + name +
              "` is not a finite number greater than zero");
     }
   }

@@ -12,7 +12,9 @@
 #include <ompl/util/Console.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
+#include <string>
 
 #include "fixtures.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
@@ -22,6 +24,15 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
+
+std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
 
 class Paths : public testing::Test {
  protected:
@@ -85,8 +96,14 @@ TEST_F(Paths, BecomeShorterAndStayProven) {
   EXPECT_LT(path.length(), before);
   // Around the wall's edge and back: no path through the window is shorter than its two legs.
   EXPECT_GT(path.length(), 2.0 * std::hypot(0.8, 0.9, 0.9));
-  EXPECT_THROW(simplifyPath(path, *checker_, 0.0), std::invalid_argument);
-  EXPECT_THROW(simplifyPath(path, *checker_, std::nan("")), std::invalid_argument);
+  const auto refusal = [&](double time) {
+    return messageOf([&] { simplifyPath(path, *checker_, time); });
+  };
+  EXPECT_EQ(refusal(0.0), "simplifyPath: time 0 s must be a finite number greater than zero");
+  EXPECT_EQ(refusal(-1e-9),
+            "simplifyPath: time -1e-09 s must be a finite number greater than zero");
+  EXPECT_EQ(refusal(std::nan("")),
+            "simplifyPath: time nan s must be a finite number greater than zero");
 }
 
 /// A simplifier that samples may leave the proven path: then it stays.
@@ -194,7 +211,9 @@ TEST_F(Paths, ClearancesOfMotionsAreProven) {
   }
   EXPECT_GT(compared, 100);
   EXPECT_GT(lower, compared / 10);
-  EXPECT_THROW(CertifiedClearanceObjective(si, checker_, 0.0), std::invalid_argument);
+  EXPECT_EQ(messageOf([&] { CertifiedClearanceObjective(si, checker_, -1e-9); }),
+            "CertifiedClearanceObjective: accuracy -1e-09 m must be a finite number greater than "
+            "zero");
   EXPECT_THROW(CertifiedClearanceObjective(si, nullptr), std::invalid_argument);
 }
 
