@@ -122,7 +122,7 @@ class BothWalks {
   bool walk(const CheckerModel& robot, const std::vector<double>& state) {
     for (LaneScratch* scratch : {&one_, &eight_}) {
       if (!detail::compileLaneState(model_, robot.kinematics, state, *scratch)) return false;
-      detail::searchStates(model_, LaneMode::State, false, *scratch);
+      detail::searchStates(model_, LaneMode::State, detail::LaneContacts::Ignored, *scratch);
     }
     detail::LaneBlock& block = eight_.block;
     for (const std::uint32_t pair : block.open) block.openLanes[pair] = block.finalLanes[pair] = 0;

@@ -75,7 +75,7 @@ Verdict checkState(const CheckerModel& model, std::span<const double> configurat
   const bool fits =
       model.lanes.usable && compileLaneState(model.lanes, model.kinematics, q, workspace.lanes);
   if (!fits) return checkAllPairs(model, q, workspace);
-  searchStates(model.lanes, LaneMode::State, true, workspace.lanes);
+  searchStates(model.lanes, LaneMode::State, LaneContacts::Sought, workspace.lanes);
   const std::uint32_t contacts = workspace.lanes.block.contactLanes;
   return verdictOf(model, q, contacts == 0 ? 0 : std::countr_zero(contacts), workspace);
 }
@@ -88,7 +88,7 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
     const std::span<const double> some = states.subspan(first * dimension, count * dimension);
     const bool fits = count > 1 && dimension > 0 && model.lanes.usable &&
                       compileLaneStates(model.lanes, model.kinematics, some, workspace.lanes);
-    if (fits) searchStates(model.lanes, LaneMode::States, true, workspace.lanes);
+    if (fits) searchStates(model.lanes, LaneMode::States, LaneContacts::Sought, workspace.lanes);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::span<const double> q = some.subspan(lane * dimension, dimension);
       verdicts[first + lane] = fits ? verdictOf(model, q, static_cast<int>(lane), workspace)

@@ -268,11 +268,12 @@ LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, LaneGoal goal,
   return MotionSearch(model, judge, goal, scratch).run();
 }
 
-void searchStates(const LaneModel& model, LaneMode mode, bool contacts, LaneScratch& scratch) {
+void searchStates(const LaneModel& model, LaneMode mode, LaneContacts contacts,
+                  LaneScratch& scratch) {
   LaneBlock& block = scratch.block;
   forgetOpen(block);
   block.mode = mode;
-  block.stopAtContact = contacts;
+  block.stopAtContact = contacts == LaneContacts::Sought;
   block.contactLanes = 0;
   block.suspect = {};
   block.time = Row{};

@@ -53,14 +53,21 @@ enum class LaneGoal : std::uint8_t {
   Prefix,   ///< all that lies before the earliest contact
 };
 
+/// What a search of states does about contacts.
+enum class LaneContacts : std::uint8_t {
+  Sought,   ///< the lane in which one shows is not looked at any more
+  Ignored,  ///< pairs that are in contact are left open, as all that is not proven apart
+};
+
 /// Of the motion in the scratch.
 LaneAnswer searchMotion(const LaneModel& model, LaneJudge& judge, LaneGoal goal,
                         LaneScratch& scratch);
 /// Of states: of the motion's begin in all lanes (LaneMode::State), or of eight (States). What is
 /// found is in scratch.block: a lane is free if it is neither in `contactLanes` nor has open pairs.
-/// Under LaneMode::State the search ends with the first contact, in any lane, and pairs of two links
-/// are left open in the first lane alone.
-void searchStates(const LaneModel& model, LaneMode mode, bool contacts, LaneScratch& scratch);
+/// Under LaneMode::State the search ends with the first contact, in any lane, and pairs of two
+/// links are left open in the first lane alone.
+void searchStates(const LaneModel& model, LaneMode mode, LaneContacts contacts,
+                  LaneScratch& scratch);
 /// Puts the open pairs of a lane into scratch.restArena.
 void takeOpen(int lane, LaneScratch& scratch);
 
