@@ -60,6 +60,62 @@ TEST(Problems, UnknownSetsAndIndicesNameTheKnown) {
             path.string() + ": error: there is no set 'table'; there are cage, shelf");
 }
 
+/// `sets` named s00 on, each with problems 0, 10, 20, ...
+std::string manyProblems(int sets, int problems) {
+  std::string text = "{";
+  for (int i = 0; i < sets; ++i) {
+    text += (i > 0 ? ", \"s" : "\"s") + std::to_string(i / 10) + std::to_string(i % 10) + "\": [";
+    for (int j = 0; j < problems; ++j)
+      text += (j > 0 ? ", " : "") + ("{\"index\": " + std::to_string(10 * j)) +
+              ", \"world\": {}, \"start\": [5], \"goals\": [[6]], \"joint_names\": [\"a\"]}";
+    text += "]";
+  }
+  return text + "}";
+}
+
+TEST(Problems, OfManySetsAndIndicesTheNearestAreNamed) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("p.json", manyProblems(60, 30));
+  const ProblemFile file = ProblemFile::load(path);
+  const auto messageOf = [&](const std::string& set, int index) {
+    return test::inputError([&] { file.problem(set, index); });
+  };
+  const std::string begin = path.string() + ": error: ";
+  EXPECT_EQ(messageOf("s3", 0),
+            begin +
+                "there is no set 's3'; there are 60, among them s25, s26, s27, s28, s29, s30, "
+                "s31, s32, s33, s34");
+  EXPECT_EQ(messageOf("", 0),
+            begin +
+                "there is no set ''; there are 60, among them s00, s01, s02, s03, s04, s05, "
+                "s06, s07, s08, s09");
+  EXPECT_EQ(messageOf("t", 0),
+            begin +
+                "there is no set 't'; there are 60, among them s50, s51, s52, s53, s54, s55, "
+                "s56, s57, s58, s59");
+  EXPECT_EQ(messageOf("s07", 101),
+            begin +
+                "set 's07' has no problem 101; it has 30, among them 60, 70, 80, 90, 100, 110, "
+                "120, 130, 140, 150");
+}
+
+TEST(Problems, TenSetsAreAllNamed) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("p.json", manyProblems(10, 1));
+  EXPECT_EQ(test::inputError([&] { ProblemFile::load(path).problem("s1", 0); }),
+            path.string() +
+                ": error: there is no set 's1'; there are s00, s01, s02, s03, s04, s05, "
+                "s06, s07, s08, s09");
+}
+
+TEST(Problems, AFileMayHaveNone) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("p.json", manyProblems(2, 0));
+  EXPECT_THAT(ProblemFile::load(path).sets(), ElementsAre());
+  EXPECT_EQ(test::inputError([&] { ProblemFile::load(path).problem("s00", 0); }),
+            path.string() + ": error: there is no set 's00'; the file has no problems");
+}
+
 TEST(Problems, MotionBenchMakerFile) {
   const auto data = dataFolder();
   if (!data || !std::filesystem::exists(*data / "mbm/panda.json")) {

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 #include "io/input_source.hpp"
 #include "io/numbers.hpp"
@@ -173,11 +176,23 @@ json parseJson(const std::string& text, const std::string& file) {
   }
 }
 
+/// As they are given; of many their number, and those on either side of where `wanted` would stand
+/// in order.
 template <typename Value>
-std::string listed(const std::vector<Value>& values) {
+std::string listed(std::vector<Value> values, const Value& wanted) {
+  constexpr std::ptrdiff_t kMost = 10;
+  const auto count = std::ssize(values);
   std::string text;
-  for (const Value& value : values) {
-    text += text.empty() ? "" : ", ";
+  std::ptrdiff_t first = 0;
+  if (count > kMost) {
+    std::ranges::sort(values);
+    const auto place = std::ranges::lower_bound(values, wanted) - values.begin();
+    first = std::clamp<std::ptrdiff_t>(place - kMost / 2, 0, count - kMost);
+    text = std::to_string(count) + ", among them ";
+  }
+  for (std::ptrdiff_t i = first; i < std::min(count, first + kMost); ++i) {
+    if (i > first) text += ", ";
+    const Value& value = values[static_cast<std::size_t>(i)];
     if constexpr (std::is_same_v<Value, std::string>) {
       text += value;
     } else {
@@ -224,13 +239,16 @@ std::vector<int> ProblemFile::indices(const std::string& set) const {
 
 PlanningProblem ProblemFile::problem(const std::string& set, int index) const {
   const auto known = sets_.find(set);
-  if (known == sets_.end())
-    throw InputError(file_, 0, "there is no set '" + set + "'; there are " + listed(sets()));
+  if (known == sets_.end()) {
+    const std::string instead =
+        sets_.empty() ? "the file has no problems" : "there are " + listed(sets(), set);
+    throw InputError(file_, 0, "there is no set '" + set + "'; " + instead);
+  }
   const auto found = known->second.problems.find(index);
   if (found != known->second.problems.end()) return found->second;
   throw InputError(file_, 0,
                    "set '" + set + "' has no problem " + std::to_string(index) + "; it has " +
-                       listed(known->second.indices));
+                       listed(known->second.indices, index));
 }
 
 }  // namespace swept

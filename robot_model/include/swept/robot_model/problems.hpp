@@ -33,7 +33,8 @@ class ProblemFile {
   std::vector<std::string> sets() const;
   /// Of the problems of a set, in the order of the file; none for an unknown set.
   std::vector<int> indices(const std::string& set) const;
-  /// Throws InputError when there is no such set or index, and names those there are.
+  /// Throws InputError when there is no such set or index, and names those there are: of more than
+  /// ten their number, and the nearest in order.
   PlanningProblem problem(const std::string& set, int index) const;
 
  private:
