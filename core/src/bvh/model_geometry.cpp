@@ -200,7 +200,8 @@ void ModelGeometry::overwrite(std::string_view call, std::size_t first,
 }
 
 std::size_t ModelGeometry::pointsPerPrimitive() const {
-  return (isPointCloud() ? 1U : 3U) * (previous_.empty() ? 1U : 2U);
+  const std::size_t corners = isPointCloud() ? 1 : 3;
+  return previous_.empty() ? corners : 2 * corners;
 }
 
 std::vector<Vector3d> ModelGeometry::primitivePoints() const {

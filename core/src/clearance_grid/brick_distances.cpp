@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "clearance_grid/squared_gaps.hpp"
@@ -16,10 +18,10 @@ using Mask = Voxels::Mask;
 
 /// The least of either row's values, the other row's grown by a gap. All are read before any is
 /// written: what the compiler makes vectors of without asking whether the two overlap.
-template <int kCount>
+template <std::size_t kCount>
 void lowerRow(SquaredGap* to, const SquaredGap* from, SquaredGap gap) {
   std::array<SquaredGap, kCount> least;
-  for (int i = 0; i < kCount; ++i) {
+  for (std::size_t i = 0; i < kCount; ++i) {
     const auto found = static_cast<SquaredGap>(from[i] + gap);
     const SquaredGap known = to[i];
     least[i] = found < known ? found : known;
@@ -35,11 +37,11 @@ class BrickDistances {
       : voxels_(voxels), field_(field), steps_(static_cast<double>(field.voxel), kMost) {
     field.fineStep = steps_.step();
     for (int i = 0; i < 64; ++i) toBorder_[i] = toBorder(i % 4, i / 16, i / 4 % 4);
-    for (int row = 0; row < (1 << kWindow); ++row) {
-      for (int x = 0; x < 4; ++x) {
+    for (std::size_t row = 0; row < ofRow_.size(); ++row) {
+      for (std::size_t x = 0; x < 4; ++x) {
         SquaredGap least = kUnknownGap;
-        for (int k = 0; k < kWindow; ++k)
-          if ((row >> k & 1) != 0) least = std::min(least, gapSquared(std::abs(k - 4 - x)));
+        for (std::size_t k = 0; k < kWindow; ++k)
+          if ((row >> k & 1) != 0) least = std::min(least, gapTo(x, k));
         ofRow_[row][x] = least;
       }
     }
@@ -64,7 +66,7 @@ class BrickDistances {
   }
 
  private:
-  static constexpr int kWindow = 12;  ///< voxels: three blocks
+  static constexpr std::size_t kWindow = 12;  ///< voxels: three blocks
   static constexpr double kMost = 5.5;
 
   /// Blocks that are not empty, those around them, and those where the window cut the shape.
@@ -110,16 +112,16 @@ class BrickDistances {
     rows.fill(kUnknownGap);
     std::array<unsigned, kWindow> ofY{};  // bits of all rows at a y, and at a z: most are empty
     std::array<unsigned, kWindow> ofZ{};
-    for (int i = 0; i < 9; ++i) {
+    for (std::size_t i = 0; i < 9; ++i) {
       const Mask* blocks = &around_[3 * i];
       if ((blocks[0] | blocks[1] | blocks[2]) == 0) continue;
-      for (int j = 0; j < 16; ++j) {
-        const int shift = 4 * j;
+      for (std::size_t j = 0; j < 16; ++j) {
+        const std::size_t shift = 4 * j;
         const auto bits =
             static_cast<unsigned>((blocks[0] >> shift & 15U) | (blocks[1] >> shift & 15U) << 4 |
                                   (blocks[2] >> shift & 15U) << 8);
-        const int y = 4 * (i % 3) + j % 4;
-        const int z = 4 * (i / 3) + j / 4;
+        const std::size_t y = 4 * (i % 3) + j % 4;
+        const std::size_t z = 4 * (i / 3) + j / 4;
         ofY[y] |= bits;
         ofZ[z] |= bits;
         std::copy_n(ofRow_[bits].data(), 4, &rows[4 * (kWindow * z + y)]);
@@ -127,29 +129,32 @@ class BrickDistances {
     }
     std::array<SquaredGap, 4 * kWindow * 4> columns;
     columns.fill(kUnknownGap);
-    for (int from = 0; from < kWindow; ++from) {
+    for (std::size_t from = 0; from < kWindow; ++from) {
       if (ofZ[from] == 0) continue;
-      for (int z = 0; z < 4; ++z)
-        lowerRow<4 * kWindow>(&columns[4 * kWindow * z], &rows[4 * kWindow * from],
-                              gapSquared(std::abs(from - 4 - z)));
+      for (std::size_t z = 0; z < 4; ++z)
+        lowerRow<4 * kWindow>(&columns[4 * kWindow * z], &rows[4 * kWindow * from], gapTo(z, from));
     }
     // With z before y, so that the next step, too, goes through long rows.
     std::array<SquaredGap, kWindow * 16> turned;
-    for (int y = 0; y < kWindow; ++y)
-      for (int z = 0; z < 4; ++z)
+    for (std::size_t y = 0; y < kWindow; ++y)
+      for (std::size_t z = 0; z < 4; ++z)
         std::copy_n(&columns[4 * (kWindow * z + y)], 4, &turned[16 * y + 4 * z]);
     std::array<SquaredGap, 64> least = toBorder_;
-    for (int y = 0; y < 4; ++y)
-      for (int from = 0; from < kWindow; ++from)
-        if (ofY[from] != 0)
-          lowerRow<16>(&least[16 * y], &turned[16 * from], gapSquared(std::abs(from - 4 - y)));
-    for (int z = 0; z < 4; ++z) {
-      for (int y = 0; y < 4; ++y) {
+    for (std::size_t y = 0; y < 4; ++y)
+      for (std::size_t from = 0; from < kWindow; ++from)
+        if (ofY[from] != 0) lowerRow<16>(&least[16 * y], &turned[16 * from], gapTo(y, from));
+    for (std::size_t z = 0; z < 4; ++z) {
+      for (std::size_t y = 0; y < 4; ++y) {
         std::uint32_t word = 0;
-        for (int x = 0; x < 4; ++x) word |= steps_(least[16 * y + 4 * z + x]) << (8 * x);
+        for (std::size_t x = 0; x < 4; ++x) word |= steps_(least[16 * y + 4 * z + x]) << (8 * x);
         field_.voxels.push_back(word);
       }
     }
+  }
+
+  /// From the middle of a voxel of the middle block to one of the window, along one axis.
+  static SquaredGap gapTo(std::size_t voxel, std::size_t inWindow) {
+    return gapSquared(std::abs(static_cast<int>(inWindow) - 4 - static_cast<int>(voxel)));
   }
 
   /// Of the window, from the middle of a voxel.

@@ -28,7 +28,7 @@ std::uint32_t sidesOf(int corner) {
 
 /// Points in one cube of a coarse grid become one point, whose blur is what they are off by.
 double thinOut(std::vector<Vector3d>& points) {
-  constexpr int kGrid = 4;
+  constexpr std::size_t kGrid = 4;
   const auto [lower, upper] = Aabb::fit(points);
   struct Box {
     Vector3d lower, upper;
@@ -37,11 +37,11 @@ double thinOut(std::vector<Vector3d>& points) {
   std::array<Box, kGrid * kGrid * kGrid> boxes;
   const double step = std::max((upper - lower).maxCoeff() / kGrid, 1e-300);
   for (const Vector3d& point : points) {
-    std::array<int, 3> at;
+    std::array<std::size_t, 3> at;
     for (int axis = 0; axis < 3; ++axis) {
-      at[axis] = std::clamp(static_cast<int>((point[axis] - lower[axis]) / step), 0, kGrid - 1);
+      at[axis] = std::min(static_cast<std::size_t>((point[axis] - lower[axis]) / step), kGrid - 1);
     }
-    Box& box = boxes[static_cast<std::size_t>((at[2] * kGrid + at[1]) * kGrid + at[0])];
+    Box& box = boxes[(at[2] * kGrid + at[1]) * kGrid + at[0]];
     box.lower = box.used ? box.lower.cwiseMin(point) : point;
     box.upper = box.used ? box.upper.cwiseMax(point) : point;
     box.used = true;

@@ -21,7 +21,7 @@ Pockets::Pockets(std::span<const Vector3d> vertices, std::span<const Eigen::Vect
   }
   // No triangle reaches the outermost layer, whatever rounds.
   origin_ = lower - Vector3d::Constant(1.5 * cell_);
-  kinds_.assign(static_cast<std::size_t>(counts_[0] * counts_[1] * counts_[2]), Kind::Unreached);
+  kinds_.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2], Kind::Unreached);
   const Parts parts = partsOf(vertices, triangles);
   for (const Part& part : parts.list) kinds_[flat(part.cell)] = Kind::Occupied;
   walkFromOutside();

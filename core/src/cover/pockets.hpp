@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,8 +55,8 @@ class Pockets {
             std::span<const Eigen::Vector3i> triangles);
   bool touchesOutside(const Index& cell);
   Kind kindAt(const Eigen::Vector3d& p) const;
-  int flat(const Index& cell) const {
-    return (cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0];
+  std::size_t flat(const Index& cell) const {
+    return (static_cast<std::size_t>(cell[2]) * counts_[1] + cell[1]) * counts_[0] + cell[0];
   }
 
   Eigen::Vector3d origin_;  ///< m, corner of the grid

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "swept/core/traversal/traversal.hpp"
@@ -52,9 +53,8 @@ class FrontList {
       children = free_.back();
       free_.pop_back();
     }
-    for (int k = 0; k < 2; ++k) {
-      pairs_[static_cast<std::size_t>(children + k)] = {below[k][0], below[k][1], -1};
-    }
+    const auto left = static_cast<std::size_t>(children);
+    for (std::size_t k = 0; k < 2; ++k) pairs_[left + k] = {below[k][0], below[k][1], -1};
     pairs_[static_cast<std::size_t>(index)].children = children;
     return children;
   }
@@ -107,9 +107,9 @@ class FrontTraversal {
       return false;
     }
     const int children = front_.sprout(index, detail::pairsBelow(node_, pair.first, pair.second));
-    for (int k = 0; k < 2; ++k) {
-      const FrontList::Pair child = front_.pairs_[static_cast<std::size_t>(children + k)];
-      visitFront(children + k, child);
+    for (const int child : {children, children + 1}) {
+      const FrontList::Pair below = front_.pairs_[static_cast<std::size_t>(child)];
+      visitFront(child, below);
       if (node_.canStop()) break;
     }
     return false;
