@@ -68,7 +68,7 @@ class BvTree {
 
   BvTree() = default;  ///< no nodes
 
-  /// Top-down. `primitives` are finite and at least one, at most 2^30; Throws std::invalid_argument
+  /// Top-down. `primitives` are finite and at least one, at most 2^30. Throws std::invalid_argument
   /// unless maxLeaf >= 1.
   static BvTree build(const PrimitivePoints& primitives, const SplitFunction& split = MeanSplit{},
                       const FitFunction<BV>& fit = defaultFit<BV>(), int maxLeaf = 1);
