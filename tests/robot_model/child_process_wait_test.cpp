@@ -39,7 +39,6 @@ TEST(ChildProcessWait, OneThatSaysNoMoreAndSleepsIsEnded) {
   });
   EXPECT_EQ(ending, "took more than 10 s");
   EXPECT_GE(seconds, 10.0);
-  EXPECT_LT(seconds, 30.0);
 }
 
 TEST(ChildProcessWait, OneThatSaysNoMoreMayTakeItsTimeToEnd) {
