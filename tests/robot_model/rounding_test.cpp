@@ -121,6 +121,35 @@ TEST(Rounding, OfLargeAnglesIsStatedByLinkMotion) {
   }
 }
 
+/// Of a follower whose offset takes back most of what its master's angle is times a factor.
+TEST(Rounding, OfLargeAnglesThatAnOffsetTakesBack) {
+  constexpr double kFactor = 1e6, kOffset = -1e12, kRadius = 1e-6;
+  const auto robot = Robot::parse(
+      R"(<robot name='r'><link name='base'/><link name='knob'/><link name='ball'><collision>
+      <origin xyz='1 0 0'/><geometry><sphere radius='1e-6'/></geometry></collision></link>
+      <joint name='knob' type='continuous'><parent link='base'/><child link='knob'/>
+      <axis xyz='0 0 1'/></joint>
+      <joint name='dial' type='continuous'><parent link='base'/><child link='ball'/>
+      <axis xyz='0 0 1'/><mimic joint='knob' multiplier='1e6' offset='-1e12'/></joint></robot>)",
+      "r.urdf");
+  int far = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double q = std::nextafter(1e6 - 1e-7 * i, 0.0);
+    const double turned = kFactor * q + kOffset;
+    const double angle = std::fma(kFactor, q, kOffset);  // with one rounding, of the sum
+    if (!(std::abs(turned - angle) > 10.0 * kRadius)) continue;
+    ++far;
+    World world;
+    world.add("ball", makeSphere(kRadius), at(std::cos(angle), std::sin(angle), 0.0));
+    const Checker checker = checkerIn(robot, std::move(world));
+    Workspace workspace(checker);
+    const double away = turned > angle ? 1e-7 : -1e-7;
+    const std::vector<double> from{q}, to{std::remainder(q, 2.0 * std::numbers::pi) + away};
+    EXPECT_NE(checker.certifyMotion(from, to, workspace).verdict, Verdict::Free) << i;
+  }
+  EXPECT_GT(far, 50);
+}
+
 /// A pose from a file with nine digits is taken for a rotation, and its transpose for its inverse.
 TEST(Rounding, OfPosesIsTakenOffWhenTheyComeIn) {
   Isometry3d pose = at(50.0, 0.0, 0.0);

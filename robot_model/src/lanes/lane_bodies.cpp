@@ -29,11 +29,16 @@ LaneJointKind kindOf(JointType type) {
   }
 }
 
+/// rad, or m for what slides. A larger offset leaves little of a large value, which rounds as that
+/// does. With this one a value is at most so much more than what is left, which the motion tells.
+constexpr double kLargestOffset = 1e6;
+
 /// The arms do not count what planar and floating joints farther out let a body slide; in front of
 /// all other joints, as the base of a mobile robot, they are harmless.
 bool boundsHold(const KinematicModel& kinematics) {
-  return std::ranges::none_of(kinematics.bodies, [](const MovingBody& body) {
-    return slidesFreely(body.type) && body.parent > 0;
+  return std::ranges::all_of(kinematics.bodies, [](const MovingBody& body) {
+    const bool slidesFarOut = slidesFreely(body.type) && body.parent > 0;
+    return !slidesFarOut && std::abs(body.offset) <= kLargestOffset;
   });
 }
 
