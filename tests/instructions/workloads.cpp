@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "workloads.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -83,10 +85,36 @@ Workload cartMotions(Models& models) {
 }
 
 /// A floating base: a position in metres and a quaternion, which need not be of unit length.
-Workload drifterMotions(Models& models) {
+Sites drifterSite(Models& models) {
   const std::array ranges{Range{0, 2, -1.0, 1.0}, Range{2, 1, 0.0, 1.0}, Range{3, 4, -1.0, 1.0}};
-  return motionWorkload(randomSite(models, "drifter", "body", "table_objects", ranges, 60, 7),
-                        MotionQuery::VerdictOnly);
+  return randomSite(models, "drifter", "body", "table_objects", ranges, 60, 7);
+}
+
+Workload drifterMotions(Models& models) {
+  return motionWorkload(drifterSite(models), MotionQuery::VerdictOnly);
+}
+
+/// The same motions, 0.6 s each, under a box that goes to and fro and tumbles: each passes one of
+/// its 400 waypoints.
+Workload obstacleMotions(Models& models) {
+  const Sites still = drifterSite(models);
+  MovingObstacle shuttle{.name = "shuttle",
+                         .parts = {{makeBox({0.2, 0.1, 0.1}), Eigen::Isometry3d::Identity()}}};
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::AngleAxisd turn(0.5 * i, Eigen::Vector3d::UnitX());
+    const Eigen::Translation3d place(i % 2 == 0 ? -1.0 : 1.0, 0.0, 2.0);
+    shuttle.waypoints.push_back({0.5 * i, Eigen::Isometry3d(place * turn)});
+  }
+  Sites sites;
+  sites.push_back(std::make_unique<Site>(still.front()->checker.withObstacle(std::move(shuttle))));
+  double time = 0.2;
+  for (Motion motion : still.front()->motions) {
+    motion.from.push_back(time);
+    motion.to.push_back(time + 0.6);
+    sites.front()->motions.push_back(std::move(motion));
+    time += 3.0;
+  }
+  return motionWorkload(std::move(sites), MotionQuery::VerdictOnly);
 }
 
 struct Named {
@@ -113,7 +141,8 @@ const std::vector<Named>& catalogue() {
       {"state_batches",
        [](Models& models) { return stateWorkload(armSites(models), askTogether); }},
       {"cart_motions", cartMotions},
-      {"drifter_motions", drifterMotions}};
+      {"drifter_motions", drifterMotions},
+      {"obstacle_motions", obstacleMotions}};
   return all;
 }
 

@@ -52,8 +52,10 @@ EvenParts::EvenParts(const CheckerModel& model, std::span<const double> from,
   const double begin = from.back();
   const double end = to.back();
   if (!std::isfinite(begin) || !std::isfinite(end)) return;
+  const auto isPassed = [&](double time) {
+    return time > std::min(begin, end) && time < std::max(begin, end);
+  };
   const auto pass = [&](double time) {
-    if (!(time > std::min(begin, end) && time < std::max(begin, end))) return;
     // Halves: the whole span may overflow.
     const double t = (0.5 * time - 0.5 * begin) / (0.5 * end - 0.5 * begin);
     workspace.passages.push_back({std::clamp(t, 0.0, 1.0), time});
@@ -61,10 +63,13 @@ EvenParts::EvenParts(const CheckerModel& model, std::span<const double> from,
   for (const MovingObstacle& obstacle : model.world->obstacles()) {
     const auto& waypoints = obstacle.waypoints;
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
-      pass(waypoints[i].time);
-      // About half a turn: from its ends alone rounding would tell which way round.
-      if (i > 0 && angleBetween(waypoints[i - 1], waypoints[i]) > kWideTurn)
-        pass(0.5 * waypoints[i - 1].time + 0.5 * waypoints[i].time);
+      if (isPassed(waypoints[i].time)) pass(waypoints[i].time);
+      if (i == 0) continue;
+      // About half a turn: from its ends alone rounding would tell which way round. An angle costs
+      // as much as tens of comparisons: it is looked at only where the middle is passed.
+      const double halfway = 0.5 * waypoints[i - 1].time + 0.5 * waypoints[i].time;
+      if (isPassed(halfway) && angleBetween(waypoints[i - 1], waypoints[i]) > kWideTurn)
+        pass(halfway);
     }
   }
   // By time: of a jump both ends may be at the same t.
