@@ -204,6 +204,7 @@ struct WorkspaceData {
   double t = 0.0;
   double wander = 0.0;                 ///< m, of all planar and floating joints together
   double angleError = 0.0;             ///< rad, of all joints together: rounding of large angles
+  double slideError = 0.0;             ///< m, likewise: of what slides, made of large values
   std::vector<Eigen::Vector3d> hints;  ///< per pair, within one motion: last direction found
   std::vector<std::int64_t> hintStamps;
   std::vector<std::uint32_t> arena, nextArena, failed;

@@ -28,6 +28,7 @@ bool PairQuery::start(std::span<const double> from, std::span<const double> to) 
   workspace_.wander = 0.0;
   for (const JointMotion& joint : workspace_.motion) workspace_.wander += joint.wander;
   workspace_.angleError = angleError(workspace_.motion);
+  workspace_.slideError = slideError(workspace_.motion);
   return true;
 }
 
@@ -87,19 +88,20 @@ const Isometry3d& PairQuery::pose(int geometry) {
   return placed.world_from_shape;
 }
 
-/// Planar and floating joints move the coordinates' magnitude; the rest is known at compile time.
-double PairQuery::wanderRounding() const {
+/// Planar and floating joints move the coordinates' magnitude, and what slides may be made of
+/// larger values than its own; the rest is known at compile time.
+double PairQuery::slideRounding() const {
   const double joints = static_cast<double>(model_.kinematics.bodies.size() + 2);
-  return tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander;
+  return tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander + workspace_.slideError;
 }
 
 double PairQuery::rounding(const GeometryPair& pair) const {
-  return pair.rounding + wanderRounding() +
+  return pair.rounding + slideRounding() +
          workspace_.angleError * (reachOf(model_, pair) + 2.0 * workspace_.wander);
 }
 
 double PairQuery::largestRounding() const {
-  return model_.largestRounding + wanderRounding() +
+  return model_.largestRounding + slideRounding() +
          workspace_.angleError * (model_.largestReach + 2.0 * workspace_.wander);
 }
 

@@ -78,7 +78,7 @@ class PairQuery {
   const Eigen::Vector3d& center(int geometry);
   const Eigen::Isometry3d& pose(int geometry);
   double rounding(const GeometryPair& pair) const;
-  double wanderRounding() const;
+  double slideRounding() const;
   /// What the containing balls and boxes say.
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };
   /// `towards` becomes the unit direction from the first to the second that they were compared

@@ -25,6 +25,7 @@ struct LinkPath {
   double reach = 0.0;       ///< m, of the link's origin from the model frame's
   double perUnit = 0.0;     ///< 1 + the sum of the joints' rates, rad and m per unit of t
   double angleError = 0.0;  ///< rad, see detail::angleError
+  double slideError = 0.0;  ///< m, see detail::slideError
 
   BodyState at(double t) const {
     BodyState state;
@@ -124,6 +125,7 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   }
   path->body_from_link = still.world_from_body * path->body_from_link;
   path->angleError = detail::angleError(motion);
+  path->slideError = detail::slideError(motion);
   path->rates = ratesOf(kinematics, levers, motion);
   path_ = std::move(path);
 }
@@ -149,7 +151,8 @@ MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
 double LinkMotion::rounding(double reach) const {
   const double joints = static_cast<double>(path_->length + 2);
   return (tolerance::kRoundingPerJoint * joints * path_->perUnit + path_->angleError) *
-         (path_->reach + reach);
+             (path_->reach + reach) +
+         path_->slideError;
 }
 
 Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,

@@ -192,6 +192,11 @@ int addObstacleFrames(KinematicModel& model, std::size_t count) {
 
 namespace {
 
+/// Relative. A value, its way to another one and the sum of both round by four parts in 2^53.
+constexpr double kValueRounding = 8.0 * 0x1p-53;
+/// Up to so many radians, or times the limits of what slides, that is part of kRoundingPerJoint.
+constexpr double kOrdinary = 10.0;
+
 bool compileFloating(const double* from, const double* to, JointMotion& motion) {
   const Vector3d start(from[0], from[1], from[2]);
   const Vector3d end(to[0], to[1], to[2]);
@@ -237,6 +242,11 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       if (!(std::min(start, end) >= body.lower && std::max(start, end) <= body.upper)) return false;
       motion.translation = start * body.axis;
       motion.rate = (body.multiplier * difference) * body.axis;
+      const double largest = std::abs(body.multiplier) *
+                                 (std::max(std::abs(*q0), std::abs(*q1)) + std::abs(difference)) +
+                             std::abs(body.offset);
+      const double limit = std::max(std::abs(body.lower), std::abs(body.upper));
+      motion.slideError = kValueRounding * std::max(0.0, largest - kOrdinary * limit);
       break;
     }
     case JointType::Planar:
@@ -271,12 +281,15 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
 }
 
 double angleError(std::span<const JointMotion> motion) {
-  // An angle, its way round to another one and the sum of both round by four parts in 2^53.
-  constexpr double kRelative = 8.0 * 0x1p-53;
-  constexpr double kOrdinary = 10.0;  // rad
   double error = 0.0;
   for (const JointMotion& joint : motion)
-    error += kRelative * std::max(0.0, joint.largestAngle - kOrdinary);
+    error += kValueRounding * std::max(0.0, joint.largestAngle - kOrdinary);
+  return error;
+}
+
+double slideError(std::span<const JointMotion> motion) {
+  double error = 0.0;
+  for (const JointMotion& joint : motion) error += joint.slideError;
   return error;
 }
 

@@ -63,11 +63,15 @@ struct JointMotion {
   double spinSpeed = 0.0;     ///< rad per unit t, |spin|
   double wander = 0.0;        ///< m, planar and floating: largest |translation| over the motion
   double largestAngle = 0.0;  ///< rad, of what the joint's angle is made of, for its rounding
+  double slideError = 0.0;  ///< m, prismatic: what its value rounds by beyond what its limits tell
 };
 
 /// rad. What angles larger than a few turns, and the shorter way between two, round by: of all
 /// joints together, beyond what kRoundingPerJoint allows for.
 double angleError(std::span<const JointMotion> motion);
+/// m. Likewise of what slides, made of much larger values than its limits: a mimic joint's whose
+/// offset takes back most of what its master gives.
+double slideError(std::span<const JointMotion> motion);
 
 /// Frame and velocity field of a body at one t: the point p (m, model frame) has velocity
 /// linear + angular x p per unit t.
