@@ -170,14 +170,19 @@ TEST(Oracle, SolidPairsAgreeWithTheirSurfaces) {
     }
 }
 
-std::shared_ptr<const Mesh> cube(double half) {
+std::vector<Vector3d> cubeCorners(double half) {
   std::vector<Vector3d> v;
   for (int i = 0; i < 8; ++i)
     v.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
-  const std::vector<std::array<int, 3>> f{{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6},
-                                          {0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6},
-                                          {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
-  return std::make_shared<Mesh>(v, f);
+  return v;
+}
+
+const std::vector<std::array<int, 3>> kCubeFaces{{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6},
+                                                 {0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6},
+                                                 {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+
+std::shared_ptr<const Mesh> cube(double half) {
+  return std::make_shared<Mesh>(cubeCorners(half), kCubeFaces);
 }
 
 TEST(Oracle, MeshOfABoxBehavesAsTheBox) {
@@ -203,6 +208,46 @@ TEST(Oracle, MeshOfABoxBehavesAsTheBox) {
   }
   EXPECT_GT(hits, 900);
   EXPECT_LT(hits, 2400);
+  EXPECT_GT(enclosed, 300);
+}
+
+TEST(Oracle, CracksAndFoldsLeaveASolid) {
+  constexpr double kHalf = 0.3, kCrack = 1e-7;
+  Random random;
+  const std::vector<Vector3d> corners = cubeCorners(kHalf);
+  std::vector<Vector3d> own;
+  std::vector<std::array<int, 3>> faces;
+  for (const auto& face : kCubeFaces) {
+    const int first = static_cast<int>(own.size());
+    for (const int corner : face) own.push_back(corners[corner] + random.point(0.5 * kCrack));
+    faces.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_EQ(Mesh(own, faces).closedParts(), 0);
+  const Mesh cracked(own, faces, kCrack);
+  ASSERT_EQ(cracked.closedParts(), 1);
+  faces.pop_back();
+  EXPECT_EQ(Mesh(own, faces, kCrack).closedParts(), 0);
+
+  // A fin on the edge from 0 to 1, out and back.
+  std::vector<Vector3d> folded = corners;
+  folded.push_back(2 * corners[0]);
+  faces = kCubeFaces;
+  faces.push_back({0, 1, 8});
+  EXPECT_EQ(Mesh(folded, faces).closedParts(), 0);
+  faces.push_back({1, 0, 8});
+  const Mesh fin(folded, faces);
+  ASSERT_EQ(fin.closedParts(), 1);
+  // A sheet written twice is one all the same.
+  EXPECT_EQ(Mesh(corners, {{0, 1, 2}, {2, 1, 0}}).closedParts(), 0);
+
+  int enclosed = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d p = random.point(0.5);
+    const bool inside = (p.cwiseAbs().array() < kHalf).all();
+    enclosed += inside;
+    EXPECT_EQ(cracked.encloses(p), inside) << i;
+    EXPECT_EQ(fin.encloses(p), inside) << i;
+  }
   EXPECT_GT(enclosed, 300);
 }
 

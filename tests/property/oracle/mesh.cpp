@@ -7,46 +7,12 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace oracle {
 namespace {
-
-using Face = std::array<int, 3>;
-
-struct LessPoint {
-  bool operator()(const Vector3d& a, const Vector3d& b) const {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  }
-};
-
-/// Corners at the same place become one; triangles without three corners, or seen before, go.
-std::vector<Face> welded(const std::vector<Vector3d>& vertices, const std::vector<Face>& faces) {
-  std::map<Vector3d, int, LessPoint> firstAt;
-  std::vector<int> same(vertices.size());
-  for (size_t i = 0; i < vertices.size(); ++i)
-    same[i] = firstAt.try_emplace(vertices[i], static_cast<int>(i)).first->second;
-  std::set<Face> seen;
-  std::vector<Face> kept;
-  for (const Face& face : faces) {
-    const Face f{same[face[0]], same[face[1]], same[face[2]]};
-    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
-    Face sorted = f;
-    std::sort(sorted.begin(), sorted.end());
-    if (seen.insert(sorted).second) kept.push_back(f);
-  }
-  return kept;
-}
-
-/// Whether the face runs through the edge from its first corner to its second.
-bool runsForward(const Face& face, const std::pair<int, int>& edge) {
-  for (int k = 0; k < 3; ++k)
-    if (face[k] == edge.first && face[(k + 1) % 3] == edge.second) return true;
-  return false;
-}
 
 void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
              const Vector3d& scale, std::vector<Vector3d>& vertices, std::vector<Face>& faces) {
@@ -85,8 +51,10 @@ Crossing crossing(const Triangle& t, const Vector3d& p, const Vector3d& d) {
     return Crossing::No;
   }
   const double a = w.dot(h) / det, b = d.dot(q) / det, s = v.dot(q) / det;
-  if (s < 0 || a < -1e-9 || b < -1e-9 || a + b > 1 + 1e-9) return Crossing::No;
-  if (a < 1e-9 || b < 1e-9 || a + b > 1 - 1e-9) return Crossing::TooClose;
+  // Wide enough that a ray which goes through a crack grazes its borders.
+  constexpr double kBorder = 1e-6;
+  if (s < 0 || a < -kBorder || b < -kBorder || a + b > 1 + kBorder) return Crossing::No;
+  if (a < kBorder || b < kBorder || a + b > 1 - kBorder) return Crossing::TooClose;
   return det > 0 ? Crossing::FromFront : Crossing::FromBack;
 }
 
@@ -99,40 +67,20 @@ bool rayMeets(const Mesh::Node& box, const Vector3d& p, const Vector3d& inverse)
 
 }  // namespace
 
-Mesh::Mesh(const std::vector<Vector3d>& vertices, std::vector<Face> given) {
-  const std::vector<Face> faces = welded(vertices, given);
-  if (faces.empty()) throw std::runtime_error("mesh without triangles");
-  std::map<std::pair<int, int>, std::vector<int>> edges;
-  for (size_t f = 0; f < faces.size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      edges[std::minmax(faces[f][k], faces[f][(k + 1) % 3])].push_back(static_cast<int>(f));
-
-  std::vector<int> group(faces.size());
-  std::iota(group.begin(), group.end(), 0);
-  auto root = [&](int i) {
-    while (group[i] != i) i = group[i] = group[group[i]];
-    return i;
-  };
-  for (const auto& [edge, users] : edges)
-    for (const int f : users) group[root(f)] = root(users[0]);
-  std::map<int, int> number;
-  for (size_t f = 0; f < faces.size(); ++f) {
-    const auto [at, isNew] = number.try_emplace(root(static_cast<int>(f)), number.size());
-    part_.push_back(at->second);
-    if (isNew) representatives_.push_back(vertices[faces[f][0]]);
-    triangles_.push_back({vertices[faces[f][0]], vertices[faces[f][1]], vertices[faces[f][2]]});
-  }
-  closed_.assign(number.size(), 1);
-  oriented_.assign(number.size(), 1);
-  for (const auto& [edge, users] : edges) {
-    const int part = part_[users[0]];
-    if (users.size() != 2) {
-      closed_[part] = 0;
-    } else if (runsForward(faces[users[0]], edge) == runsForward(faces[users[1]], edge)) {
-      oriented_[part] = 0;
-    }
-  }
+Mesh::Mesh(const std::vector<Vector3d>& vertices, const std::vector<Face>& given, double crack) {
+  MeshParts parts = partsOf(vertices, given, crack);
+  if (parts.faces.empty()) throw std::runtime_error("mesh without triangles");
+  part_ = std::move(parts.part);
+  closed_ = std::move(parts.closed);
+  oriented_ = std::move(parts.oriented);
   closedParts_ = static_cast<int>(std::count(closed_.begin(), closed_.end(), 1));
+  std::vector<char> seen(closed_.size(), 0);
+  for (size_t f = 0; f < part_.size(); ++f) {
+    const Face& face = parts.faces[f];
+    triangles_.push_back({vertices[face[0]], vertices[face[1]], vertices[face[2]]});
+    if (!seen[part_[f]]) representatives_.push_back(vertices[face[0]]);
+    seen[part_[f]] = 1;
+  }
   split(0, static_cast<int>(triangles_.size()));
 }
 
@@ -144,8 +92,14 @@ Mesh Mesh::read(const std::filesystem::path& file, const Vector3d& scale) {
     throw std::runtime_error(file.string() + ": " + importer.GetErrorString());
   std::vector<Vector3d> vertices;
   std::vector<Face> faces;
-  collect(*scene, *scene->mRootNode, aiMatrix4x4(), scale, vertices, faces);
-  return Mesh(vertices, faces);
+  collect(*scene, *scene->mRootNode, aiMatrix4x4(), Vector3d::Ones(), vertices, faces);
+  double largest = 0;
+  for (Vector3d& vertex : vertices) {
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+    vertex = vertex.cwiseProduct(scale);
+  }
+  // Two steps of single precision: what may come of one corner in a file.
+  return Mesh(vertices, faces, 0x1p-22 * largest * scale.cwiseAbs().minCoeff());
 }
 
 int Mesh::split(int first, int last) {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <vector>
 
+#include "mesh_parts.hpp"
 #include "primitive.hpp"
 
 namespace oracle {
 
-/// Triangles with a binary tree of boxes. Parts joined over edges in which every edge has exactly
-/// two triangles are closed: they are solid.
+/// Triangles with a binary tree of boxes. Closed parts are solid.
 class Mesh {
  public:
   struct Node {
@@ -19,8 +18,10 @@ class Mesh {
     int first = 0, count = 0;   ///< range of triangles
   };
 
-  Mesh(const std::vector<Vector3d>& vertices, std::vector<std::array<int, 3>> faces);
-  /// All the meshes of a file in the file's own axes, lengths multiplied by `scale`.
+  /// `crack` (m): see partsOf().
+  Mesh(const std::vector<Vector3d>& vertices, const std::vector<Face>& faces, double crack = 0);
+  /// All the meshes of a file in the file's own axes, lengths multiplied by `scale`. Corners that
+  /// only rounding to single precision can have brought apart leave no crack.
   static Mesh read(const std::filesystem::path& file, const Vector3d& scale);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
