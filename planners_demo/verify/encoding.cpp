@@ -39,7 +39,8 @@ std::vector<Number> decoded(const std::string& text, const std::string& where) {
   const std::size_t size = length < 0 ? 0 : static_cast<std::size_t>(length) - padding;
   if (length < 0 || size % sizeof(Number) != 0) throw Refusal(where + " is not base64 of numbers");
   std::vector<Number> numbers(size / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data(), size);
+  // Of no numbers the address may be null, which memcpy must not be given.
+  if (size > 0) std::memcpy(numbers.data(), bytes.data(), size);
   return numbers;
 }
 

@@ -62,7 +62,9 @@ std::string_view take(std::string_view text, std::vector<Item>& items) {
   std::memcpy(&count, text.data(), sizeof count);
   if (count > (text.size() - sizeof count) / sizeof(Item)) refuseContent();
   items.resize(count);
-  std::memcpy(static_cast<void*>(items.data()), text.data() + sizeof count, count * sizeof(Item));
+  // Of no items the address may be null, which memcpy must not be given.
+  if (count > 0)
+    std::memcpy(static_cast<void*>(items.data()), text.data() + sizeof count, count * sizeof(Item));
   return text.substr(sizeof count + count * sizeof(Item));
 }
 
