@@ -294,7 +294,8 @@ TEST(VerifyModels, ProofsOfAllScenesHold) {
   std::size_t planes = 0, intervals = 0;
   const auto planAndVerify = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{
-        "plan", "models/robots/rook7/rook7.urdf", "--group", "arm", "-q", "-o", file};
+        "plan", "models/robots/rook7/rook7.urdf", "--group", "arm", "--time", "200", "-q", "-o",
+        file};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome run = runSwept(arguments);
     EXPECT_EQ(run.err, "") << testing::PrintToString(more);
