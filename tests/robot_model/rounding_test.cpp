@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -150,37 +151,49 @@ TEST(Rounding, OfLargeAnglesThatAnOffsetTakesBack) {
   EXPECT_GT(far, 50);
 }
 
-/// The same of one that slides.
-TEST(Rounding, OfLargeSlidesThatAnOffsetTakesBack) {
-  constexpr double kFactor = 1e6, kOffset = -1e12, kRadius = 1e-6;
-  const auto robot = Robot::parse(
-      R"(<robot name='r'><link name='base'/><link name='knob'/><link name='ball'><collision>
-      <geometry><sphere radius='1e-6'/></geometry></collision></link>
-      <joint name='knob' type='prismatic'><parent link='base'/><child link='knob'/>
-      <axis xyz='0 0 1'/><limit lower='999999.999993' upper='1000000.000007'
-      effort='1' velocity='1'/></joint>
-      <joint name='rail' type='prismatic'><parent link='base'/><child link='ball'/>
-      <axis xyz='1 0 0'/><limit lower='-10' upper='10' effort='1' velocity='1'/>
-      <mimic joint='knob' multiplier='1e6' offset='-1e12'/></joint></robot>)",
-      "r.urdf");
+/// The same of one that slides: `master` is the middle of its master's range, of half this width.
+void expectNoFreeSlide(double factor, double master, double width, double radius) {
+  const double offset = -factor * master;
+  std::ostringstream urdf;
+  urdf.precision(17);
+  urdf << "<robot name='r'><link name='base'/><link name='knob'/><link name='ball'><collision>"
+       << "<geometry><sphere radius='" << radius << "'/></geometry></collision></link>"
+       << "<joint name='knob' type='prismatic'><parent link='base'/><child link='knob'/>"
+       << "<axis xyz='0 0 1'/><limit lower='" << master - width << "' upper='" << master + width
+       << "' effort='1' velocity='1'/></joint>"
+       << "<joint name='rail' type='prismatic'><parent link='base'/><child link='ball'/>"
+       << "<axis xyz='1 0 0'/><limit lower='-10' upper='10' effort='1' velocity='1'/>"
+       << "<mimic joint='knob' multiplier='" << factor << "' offset='" << offset
+       << "'/></joint></robot>";
+  const auto robot = Robot::parse(urdf.str(), "r.urdf");
   int far = 0;
   for (int i = 0; i < 100; ++i) {
-    const double q = std::nextafter(1e6 + 1e-7 * (i - 50), 0.0);
-    const double slid = kFactor * q + kOffset;
-    const double place = std::fma(kFactor, q, kOffset);  // with one rounding, of the sum
-    if (!(std::abs(slid - place) > 10.0 * kRadius)) continue;
+    const double q = std::nextafter(master + 0.014 * width * (i - 50), 0.0);
+    const double slid = factor * q + offset;
+    const double place = std::fma(factor, q, offset);  // with one rounding, of the sum
+    if (!(std::abs(slid - place) > 10.0 * radius)) continue;
     ++far;
     World world;
-    world.add("ball", makeSphere(kRadius), at(place, 0.0, 0.0));
+    world.add("ball", makeSphere(radius), at(place, 0.0, 0.0));
     const Checker checker = checkerIn(robot, std::move(world));
     Workspace workspace(checker);
-    const std::vector<double> from{q}, to{q + (slid > place ? 1e-8 : -1e-8)};
+    const double away = 1e-3 * width;
+    const std::vector<double> from{q}, to{q + (slid > place ? away : -away)};
     EXPECT_NE(checker.certifyMotion(from, to, workspace).verdict, Verdict::Free) << i;
     EXPECT_NE(checker.checkState(from, workspace), Verdict::Free) << i;
     const LinkMotion motion(*robot, "all", "ball", from, to);
     EXPECT_LE(std::abs(motion.at(0.0).translation().x() - place), motion.rounding(0.0)) << i;
   }
-  EXPECT_GT(far, 50);
+  EXPECT_GT(far, 30);
+}
+
+TEST(Rounding, OfLargeSlidesThatAnOffsetTakesBack) {
+  expectNoFreeSlide(1e6, 1e6, 7e-6, 1e-6);
+}
+
+/// Minute ones, in which a small offset is as much.
+TEST(Rounding, OfMinuteSlidesThatAnOffsetTakesBack) {
+  expectNoFreeSlide(3.0, 33333.3, 3e-8, 1e-14);
 }
 
 /// A pose from a file with nine digits is taken for a rotation, and its transpose for its inverse.

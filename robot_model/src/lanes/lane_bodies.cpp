@@ -29,16 +29,24 @@ LaneJointKind kindOf(JointType type) {
   }
 }
 
-/// rad, or m for what slides. A larger offset leaves little of a large value, which rounds as that
-/// does. With this one a value is at most so much more than what is left, which the motion tells.
+/// rad, or times the limits of what slides. What is left of a value by an offset rounds in double
+/// as the value does: up to this offset by less than it rounds in single precision, which is
+/// counted.
 constexpr double kLargestOffset = 1e6;
+
+bool roundsInSingle(const MovingBody& body) {
+  const double unit = body.type == JointType::Prismatic
+                          ? std::max(std::abs(body.lower), std::abs(body.upper))
+                          : 1.0;
+  return std::abs(body.offset) <= kLargestOffset * unit;
+}
 
 /// The arms do not count what planar and floating joints farther out let a body slide; in front of
 /// all other joints, as the base of a mobile robot, they are harmless.
 bool boundsHold(const KinematicModel& kinematics) {
   return std::ranges::all_of(kinematics.bodies, [](const MovingBody& body) {
     const bool slidesFarOut = slidesFreely(body.type) && body.parent > 0;
-    return !slidesFarOut && std::abs(body.offset) <= kLargestOffset;
+    return !slidesFarOut && roundsInSingle(body);
   });
 }
 
