@@ -132,6 +132,7 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   if (parts.openComponents > 0 && crackWidth > 0.0) {
     const auto fillings = detail::crackFillings(welded.vertices, parts, crackWidth);
     cracksFilled = fillings.size();
+    requireCounts(welded.vertices.size(), welded.triangles.size() + cracksFilled);
     welded.triangles.insert(welded.triangles.end(), fillings.begin(), fillings.end());
     if (cracksFilled > 0) parts = detail::ComponentFinder(welded.triangles).result();
   }
