@@ -12,11 +12,11 @@
 #include <ompl/util/Console.h>
 
 #include <algorithm>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "fixtures.hpp"
+#include "message_of.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace swept::test {
@@ -24,15 +24,6 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing thrown";
-}
 
 class Paths : public testing::Test {
  protected:
