@@ -48,6 +48,8 @@ copy_into() {
 step_debian() {
   rm -rf --one-file-system "$folder/bare"
   debootstrap --variant=minbase bookworm "$folder/bare" ${mirror:+"$mirror"}
+  # As installers and images have it; debootstrap alone leaves nobody who knows localhost.
+  printf '127.0.0.1\tlocalhost\n::1\tlocalhost\n' >"$folder/bare/etc/hosts"
   copy_of_bare build
   git clone -q --no-hardlinks "$root" "$folder/build$clone"
 }
@@ -65,7 +67,7 @@ step_programs() {
   copy_into build tests/packaging/core tests/packaging/full models
   local project module words
   for project in core full; do
-    without_clone cmake -S "/root/$project" -B "/root/$project/build" -D CMAKE_PREFIX_PATH="$prefix"
+    without_clone cmake -G Ninja -S "/root/$project" -B "/root/$project/build" -D CMAKE_PREFIX_PATH="$prefix"
     without_clone cmake --build "/root/$project/build"
   done
   without_clone /root/core/build/distance

@@ -72,7 +72,7 @@ done
 
 # The core's program, with the core's packages alone.
 for package in libswept-core0.1 libswept-core-dev; do dpkg-deb -x "$debs/$package"_*.deb "$temporary/root"; done
-cmake -S "$here/core" -B "$temporary/core" -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$temporary/root/usr"
+cmake -G Ninja -S "$here/core" -B "$temporary/core" -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$temporary/root/usr"
 cmake --build "$temporary/core"
 "$temporary/core/distance" || fail "the core's answers are wrong"
 

@@ -10,7 +10,7 @@ namespace {
 
 TEST(Configure, WithoutZlibThereIsNoProgram) {
   const TemporaryFolder folder;
-  const Outcome run = runShell("cmake -S . -B '" + folder.path("build") +
+  const Outcome run = runShell("cmake -G Ninja -S . -B '" + folder.path("build") +
                                "' -D CMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON -D SWEPT_BUILD_TESTS=OFF");
   EXPECT_EQ(run.exitCode, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("-- swept: planners_demo left out (needs ompl_bridge, "
