@@ -20,7 +20,9 @@ TEST(PartnerLists, RefuseRoomForTooManyAndStayAsTheyWere) {
     lists.reserve(counts);
     FAIL() << "more than 2^32 places";
   } catch (const std::length_error& error) {
-    EXPECT_STREQ(error.what(), "SweepAndPrune: more than 2^31 pairs of near boxes");
+    EXPECT_STREQ(error.what(),
+                 "SweepAndPrune: so many pairs of near boxes that their lists would take more than "
+                 "2^32 places");
   }
   lists.add(0, 2, true);
   lists.add(0, 1, false);

@@ -2,17 +2,29 @@
 #include "broadphase/partner_lists.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace swept::detail {
+namespace {
+
+/// Offsets have 32 bits.
+void requirePlaces(std::size_t count) {
+  if (count > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::length_error(
+        "SweepAndPrune: so many pairs of near boxes that their lists would take more than 2^32 "
+        "places");
+  }
+}
+
+}  // namespace
 
 void PartnerLists::grow(List& list) {
   const std::uint32_t room = list.room == 0 ? kLeastRoom : 2 * list.room;
   std::vector<std::uint32_t>& pieces = free_[std::countr_zero(room)];
   std::uint32_t offset = 0;
   if (pieces.empty()) {
-    if (arena_.size() + room > 0xFFFFFFFF)
-      throw std::length_error("SweepAndPrune: more than 2^31 pairs of near boxes");
+    requirePlaces(arena_.size() + room);
     offset = static_cast<std::uint32_t>(arena_.size());
     arena_.resize(arena_.size() + room);
   } else {
@@ -37,8 +49,7 @@ void PartnerLists::reserve(std::span<const std::uint32_t> counts) {
   };
   std::size_t total = 0;
   for (const std::uint32_t count : counts) total += roomFor(count);
-  if (total > 0xFFFFFFFF)
-    throw std::length_error("SweepAndPrune: more than 2^31 pairs of near boxes");
+  requirePlaces(total);
   arena_.resize(total);
   // No list has room before there is any.
   std::uint32_t offset = 0;

@@ -22,8 +22,8 @@ namespace swept {
 /// anew. The pairs are kept sorted, up to date after every change.
 ///
 /// Exact: room only adds candidates, and the boxes themselves decide, in double. After an update
-/// for which there has been room before nothing is allocated. At most 2^30 boxes and 2^31 near
-/// pairs, else std::length_error.
+/// for which there has been room before nothing is allocated. At most 2^30 boxes, and 2^32 places
+/// in their lists of near ones, in which a pair takes at least two; else std::length_error.
 class SweepAndPrune {
  public:
   SweepAndPrune();
