@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "number_text.hpp"
 #include "preconditions.hpp"
 #include "state_layout.hpp"
 
@@ -80,11 +81,22 @@ InverseKinematics kinematicsOf(const std::shared_ptr<const Checker>& checker, st
   throw std::invalid_argument("PoseGoal: " + what);
 }
 
+void requirePositive(double tolerance, const std::string& of, const std::string& unit) {
+  if (tolerance > 0.0) return;
+  refuse("the " + of + " tolerance is " + detail::numberText(tolerance) + " " + unit +
+         "; it must be above 0");
+}
+
+void requireNotNegative(int number, const std::string& of) {
+  if (number >= 0) return;
+  refuse("the number of " + of + " is " + std::to_string(number) + "; it must be at least 0");
+}
+
 void requireSensible(const PoseGoalOptions& options) {
-  if (!(options.positionTolerance > 0.0)) refuse("the position tolerance is not positive");
-  if (!(options.orientationTolerance > 0.0)) refuse("the orientation tolerance is not positive");
-  if (options.maxSeeds < 0) refuse("the number of seeds is negative");
-  if (options.maxSamples < 0) refuse("the number of samples is negative");
+  requirePositive(options.positionTolerance, "position", "m");
+  requirePositive(options.orientationTolerance, "orientation", "rad");
+  requireNotNegative(options.maxSeeds, "seeds");
+  requireNotNegative(options.maxSamples, "samples");
 }
 
 }  // namespace

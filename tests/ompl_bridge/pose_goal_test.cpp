@@ -375,20 +375,24 @@ TEST_F(PoseGoals, SayWhatIsWrong) {
   EXPECT_EQ(build(other, "l6"),
             "state space `all` is not built as makeStateSpace does for group `all`");
   options.positionTolerance = std::nan("");
-  EXPECT_EQ(build(arm.checker, "ball"), "PoseGoal: the position tolerance is not positive");
+  EXPECT_EQ(build(arm.checker, "ball"),
+            "PoseGoal: the position tolerance is nan m; it must be above 0");
   // Half of it is what is searched with, in a thread where nothing may be thrown.
   options.positionTolerance = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(build(arm.checker, "ball"),
-            "InverseKinematics: the position tolerance is not positive");
+            "InverseKinematics: the position tolerance is 0 m; it must be above 0");
   options = {};
   options.orientationTolerance = 0.0;
-  EXPECT_EQ(build(arm.checker, "ball"), "PoseGoal: the orientation tolerance is not positive");
+  EXPECT_EQ(build(arm.checker, "ball"),
+            "PoseGoal: the orientation tolerance is 0 rad; it must be above 0");
   options = {};
   options.maxSeeds = -1;
-  EXPECT_EQ(build(arm.checker, "ball"), "PoseGoal: the number of seeds is negative");
+  EXPECT_EQ(build(arm.checker, "ball"),
+            "PoseGoal: the number of seeds is -1; it must be at least 0");
   options = {};
   options.maxSamples = -1;
-  EXPECT_EQ(build(arm.checker, "ball"), "PoseGoal: the number of samples is negative");
+  EXPECT_EQ(build(arm.checker, "ball"),
+            "PoseGoal: the number of samples is -1; it must be at least 0");
   options = {};
   target.linear() *= 2.0;
   EXPECT_EQ(build(arm.checker, "ball"), "InverseKinematics: the target is not a rigid transform");

@@ -536,11 +536,14 @@ TEST(InverseKinematics, SaysWhatCannotBeSolved) {
   EXPECT_EQ(solve(workspace), "");
   EXPECT_EQ(solve(wrong), "InverseKinematics: the workspace is of another object");
   options.positionTolerance = std::nan("");
-  EXPECT_EQ(solve(workspace), "InverseKinematics: the position tolerance is not positive");
+  EXPECT_EQ(solve(workspace),
+            "InverseKinematics: the position tolerance is nan m; it must be above 0");
   options = {.orientationTolerance = 0.0};
-  EXPECT_EQ(solve(workspace), "InverseKinematics: the orientation tolerance is not positive");
+  EXPECT_EQ(solve(workspace),
+            "InverseKinematics: the orientation tolerance is 0 rad; it must be above 0");
   options = {.maxIterations = -1};
-  EXPECT_EQ(solve(workspace), "InverseKinematics: the number of iterations is negative");
+  EXPECT_EQ(solve(workspace),
+            "InverseKinematics: the number of iterations is -1; it must be at least 0");
   options = {};
   target.translation().x() = kInfinity;
   EXPECT_EQ(solve(workspace), "InverseKinematics: the target is not a rigid transform");

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "io/numbers.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
 #include "kinematics/rigid_transform.hpp"
@@ -321,10 +322,19 @@ void requireSeed(const ToolChain& chain, std::span<const double> q) {
   }
 }
 
+void requirePositive(double tolerance, const std::string& of, const std::string& unit) {
+  if (tolerance > 0.0) return;
+  refuse("the " + of + " tolerance is " + detail::formatNumber(tolerance) + " " + unit +
+         "; it must be above 0");
+}
+
 void requireSensible(const InverseKinematicsOptions& options) {
-  if (!(options.positionTolerance > 0.0)) refuse("the position tolerance is not positive");
-  if (!(options.orientationTolerance > 0.0)) refuse("the orientation tolerance is not positive");
-  if (options.maxIterations < 0) refuse("the number of iterations is negative");
+  requirePositive(options.positionTolerance, "position", "m");
+  requirePositive(options.orientationTolerance, "orientation", "rad");
+  if (options.maxIterations < 0) {
+    refuse("the number of iterations is " + std::to_string(options.maxIterations) +
+           "; it must be at least 0");
+  }
 }
 
 }  // namespace
