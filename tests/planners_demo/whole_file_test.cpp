@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A signal that ended the program while it wrote a file left a hidden one beside it.
+// A signal that ended the program while it wrote a file left a hidden one beside it. A file that
+// was protected against writing was replaced.
 #include "output/whole_file.hpp"
 
 #include <gmock/gmock.h>
@@ -16,6 +17,8 @@
 #include <thread>
 
 #include "batch/interrupt.hpp"
+#include "command_line/exit_code.hpp"
+#include "nobody.hpp"
 #include "program.hpp"
 
 namespace swept::test {
@@ -100,6 +103,21 @@ TEST(WholeFile, IsLeftAloneByTheSecondInterrupt) {
       ASSERT_TRUE(WIFEXITED(status));
       EXPECT_EQ(WEXITSTATUS(status), 130);
     });
+}
+
+TEST(WholeFile, IsLeftAloneWhereItMayNotBeWritten) {
+  const TemporaryFolder folder;
+  folder.write(kFile, kOld);
+  const std::string file = folder.path(kFile), link = folder.path("link");
+  std::filesystem::create_symlink(file, link);
+  std::filesystem::permissions(folder.path("."), std::filesystem::perms::all);
+  std::filesystem::permissions(file, std::filesystem::perms::others_read);
+  const Nobody nobody;
+  for (const std::string& name : {file, link}) {
+    const std::string refusal = "cannot write '" + name + "': Permission denied";
+    EXPECT_THAT([&] { requireWritable(name); }, testing::ThrowsMessage<UsageError>(refusal));
+  }
+  requireWritable(folder.path("new"));
 }
 
 /// Who ignored a signal before goes on ignoring it, and afterwards nothing is as it was not before.

@@ -4,12 +4,9 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <stdexcept>
 
 #include "input_files.hpp"
+#include "nobody.hpp"
 #include "swept/robot_model/cloud_file.hpp"
 #include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/problems.hpp"
@@ -71,22 +68,6 @@ void forAllEndings(const fs::path& folder, const std::string& stem, const Make& 
   make(folder / (stem + ".stl"));
 }
 
-/// Rights of files mean nothing to the superuser.
-class Nobody {
- public:
-  Nobody() {
-    if (was_ == 0 && seteuid(65534) != 0) throw std::runtime_error("no other user");
-  }
-  ~Nobody() {
-    if (was_ == 0 && seteuid(0) != 0) std::abort();
-  }
-  Nobody(const Nobody&) = delete;
-  Nobody& operator=(const Nobody&) = delete;
-
- private:
-  uid_t was_ = geteuid();
-};
-
 TEST(UnreadableFiles, AreMissing) {
   const test::TemporaryFolder folder;
   expectRefused(folder.path(), "none", "file not found");
@@ -118,7 +99,7 @@ TEST(UnreadableFiles, AreInAFolderThatMayNotBeLookedInto) {
   fs::permissions(folder.path(), fs::perms::all);
   fs::permissions(closed, fs::perms::none);
   {
-    const Nobody nobody;
+    const test::Nobody nobody;
     expectRefused(closed, "any", "file cannot be read: Permission denied");
   }
   fs::permissions(closed, fs::perms::all);
@@ -131,7 +112,7 @@ TEST(UnreadableFiles, MayNotBeRead) {
     folder.write(file.filename().string(), "secret");
     fs::permissions(file, fs::perms::none);
   });
-  const Nobody nobody;
+  const test::Nobody nobody;
   for (const Reader& reader : readers()) {
     const fs::path file = folder.path() / (std::string("secret") + reader.ending);
     EXPECT_EQ(test::inputError([&] { reader.read(file); }),

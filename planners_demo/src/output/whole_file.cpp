@@ -71,6 +71,11 @@ class Unfinished {
   throw UsageError("cannot write '" + file.string() + "': " + std::strerror(error));
 }
 
+/// Refuses `file` when whom the program runs as may not do so with `path`.
+void requireAccess(const fs::path& file, const fs::path& path, int mode) {
+  if (faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) != 0) refuse(file, errno);
+}
+
 fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
@@ -151,13 +156,16 @@ void requireWritable(const fs::path& file) {
   if (type == fs::file_type::directory) refuse(file, EISDIR);
   if (type == fs::file_type::socket) refuse(file, ENXIO);
   if (takesBytesOnly(type)) {
-    if (access(file.c_str(), W_OK) != 0) refuse(file, errno);
+    requireAccess(file, file, W_OK);
     return;
   }
-  const fs::path folder = folderOf(endOfLinks(file));
-  if (access(folder.c_str(), F_OK) != 0) refuse(file, errno);
+  const fs::path end = endOfLinks(file);
+  const fs::path folder = folderOf(end);
+  requireAccess(file, folder, F_OK);
   if (typeOf(folder) != fs::file_type::directory) refuse(file, ENOTDIR);
-  if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(file, errno);
+  requireAccess(file, folder, W_OK | X_OK);
+  // It is replaced, for which rights to its folder are enough; but it was protected for a reason.
+  if (type == fs::file_type::regular) requireAccess(file, end, W_OK);
 }
 
 void writeWholeFile(const fs::path& file, const std::string& text) {
