@@ -26,7 +26,7 @@ bool CheckerModel::isSelfPair(const GeometryPair& pair) const {
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,
-                                                   const CheckerOptions& options,
+                                                   CheckerOptions options,
                                                    const CheckerModel* like) {
   static std::atomic<std::uint64_t> versions{0};
   auto model = std::make_shared<CheckerModel>();
@@ -34,7 +34,7 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
   model->robot = std::move(robot);
   model->world = std::move(world);
   model->group = group;
-  model->options = options;
+  model->options = std::move(options);
   if (!model->options.reference) model->options.reference = model->robot->defaultState();
   compileBodies(like, *model);
   compilePairs(*model);

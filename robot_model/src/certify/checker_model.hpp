@@ -148,7 +148,7 @@ struct CheckerModel {
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,
-                                                   const CheckerOptions& options,
+                                                   CheckerOptions options,
                                                    const CheckerModel* like = nullptr);
 
 /// A part of a motion with the pairs not yet proven apart on it (a range of an arena of pair

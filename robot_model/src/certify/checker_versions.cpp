@@ -33,8 +33,8 @@ std::optional<Eigen::Isometry3d> poseOf(const detail::CheckerModel& model,
 }  // namespace
 
 Checker Checker::version(std::shared_ptr<const World> world, CheckerOptions options) const {
-  return Checker(detail::compileChecker(model_->robot, model_->group, std::move(world), options,
-                                        model_.get()));
+  return Checker(detail::compileChecker(model_->robot, model_->group, std::move(world),
+                                        std::move(options), model_.get()));
 }
 
 Checker Checker::withWorld(std::shared_ptr<const World> next) const {

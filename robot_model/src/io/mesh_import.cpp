@@ -77,7 +77,7 @@ void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d&
 /// Too little memory is no fault of the file, but for Assimp it is as any other.
 void rethrowNoMemory(const Assimp::Importer& importer) {
   try {
-    if (const std::exception_ptr thrown = importer.GetException()) std::rethrow_exception(thrown);
+    if (const std::exception_ptr& thrown = importer.GetException()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {

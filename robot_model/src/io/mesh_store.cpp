@@ -61,7 +61,7 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
     MeshFileContent content = readMeshFile(file);
     const double crackWidth = roundingOf(content) * scale.cwiseAbs().minCoeff();
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
-    const TriangleMesh mesh =
+    TriangleMesh mesh =
         TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
     warnIfOpen(mesh, reference, line, source_);
     meshes_.emplace(key, mesh);

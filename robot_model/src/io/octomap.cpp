@@ -62,7 +62,7 @@ class TreeReader {
   std::uint64_t nodes_ = 0;
   std::array<Open, kLevels> open_;
   std::size_t depth_ = 0;  ///< so many of open_ are in use
-  OccupancyMap map_;
+  OccupancyMap map_{};
 };
 
 const char* TreeReader::take(std::size_t count) {

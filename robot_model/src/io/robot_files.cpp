@@ -47,7 +47,7 @@ std::shared_ptr<const Robot> Robot::load(const std::filesystem::path& urdf,
 }
 
 std::filesystem::path Robot::srdfBeside(const std::filesystem::path& urdf) {
-  const std::filesystem::path beside = std::filesystem::path(urdf).replace_extension(".srdf");
+  std::filesystem::path beside = std::filesystem::path(urdf).replace_extension(".srdf");
   std::error_code ignored;  // no such file is a normal answer
   if (beside == urdf || !std::filesystem::exists(beside, ignored)) return {};
   return beside;

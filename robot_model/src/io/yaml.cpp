@@ -10,8 +10,8 @@
 
 namespace swept::detail {
 
-YamlPlace::YamlPlace(YAML::Node node, std::string name, int line, const InputSource* source)
-    : node_(std::move(node)), name_(std::move(name)), line_(line), source_(source) {
+YamlPlace::YamlPlace(const YAML::Node& node, std::string name, int line, const InputSource* source)
+    : node_(node), name_(std::move(name)), line_(line), source_(source) {
   // yaml-cpp counts lines from 0 and gives -1 for what is not in the text.
   if (node_.Mark().line >= 0) line_ = node_.Mark().line + 1;
 }

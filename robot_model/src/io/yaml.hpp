@@ -48,7 +48,7 @@ class YamlPlace {
   Eigen::Isometry3d pose(const char* translation, const char* rotation) const;
 
  private:
-  YamlPlace(YAML::Node node, std::string name, int line, const InputSource* source);
+  YamlPlace(const YAML::Node& node, std::string name, int line, const InputSource* source);
   std::string join(const std::string& part) const;
 
   YAML::Node node_;  ///< null when absent

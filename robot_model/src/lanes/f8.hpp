@@ -20,7 +20,7 @@ namespace swept::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Part = hn::CappedTag<float, kLanes>;
 inline constexpr int kParts = kLanes / static_cast<int>(hn::MaxLanes(Part()));
-inline constexpr int kPartLanes = kLanes / kParts;
+inline constexpr std::ptrdiff_t kPartLanes = kLanes / kParts;
 
 struct F8 {
   hn::Vec<Part> part[kParts];

@@ -49,13 +49,13 @@ const JointTable::Cell* JointTable::cellAt(const Values& values) const {
   Range range;
   if (!find(values, values, range)) return nullptr;
   const int at = cellOf(range.begin[0]) * axes[1].cells + cellOf(range.begin[1]);
-  const Cell& cell = cells[static_cast<std::size_t>(at)];
+  const Cell& cell = cells[at];
   return cell.coarse ? nullptr : &cell;
 }
 
 bool JointTable::allProven(const Range& parts) const {
   const int width = axes[1].cells + 1;
-  const auto at = [&](int i, int j) { return open[static_cast<std::size_t>(i * width + j)]; };
+  const auto at = [&](int i, int j) { return open[i * width + j]; };
   const int row = cellOf(parts.begin[0]);
   const int column = cellOf(parts.begin[1]);
   const int rows = cellsEnd(parts.end[0]);
@@ -64,7 +64,7 @@ bool JointTable::allProven(const Range& parts) const {
 }
 
 std::uint8_t JointTable::openAmong(const Range& parts, int i, int j) const {
-  const Cell& cell = cells[static_cast<std::size_t>(i * axes[1].cells + j)];
+  const Cell& cell = cells[i * axes[1].cells + j];
   if (cell.openPairs == 0 || cell.parts < 0) return cell.openPairs;
   const int rowBegin = std::max(parts.begin[0] - i * kParts, 0);
   const int rowEnd = std::min(parts.end[0] - i * kParts, kParts);

@@ -71,7 +71,7 @@ HWY_INLINE V3 rowTimes(const Row* row, const M3& m) {
 
 HWY_INLINE void turnAfter(const float (&after)[9], LaneBodyState& state) {
   const M3 matrix = setMatrix(after);
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const V3 row = rowTimes(state.rotation + 3 * i, matrix);
     store(row.x, state.rotation[3 * i]);
     store(row.y, state.rotation[3 * i + 1]);
@@ -92,7 +92,7 @@ HWY_INLINE V3 placeFrame(const LaneBody& body, const LaneJointMotion& motion, co
   const M3 turned =
       setMatrix(body.kind == LaneJointKind::Floating ? motion.rotation : body.rotation);
   F8 axis[3];
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const V3 row = rowTimes(parent.rotation + 3 * i, turned);
     store(multiplyAdd(cosine, row.x, sine * row.y), state.rotation[3 * i]);
     store(subtractProduct(cosine * row.y, sine, row.x), state.rotation[3 * i + 1]);
@@ -132,16 +132,16 @@ void Place(const LaneModel& model, const LaneJointMotion* motion, std::span<cons
   for (const int b : bodies) {
     const LaneBody& body = model.bodies[b];
     const LaneJointMotion& joint = motion[b];
+    Row* slide = &block.slide[3 * static_cast<std::size_t>(b)];
     if (block.mode != LaneMode::States) {
       store(multiplyAdd(time, set(joint.angleRate), set(joint.angle)), block.angle[b]);
       if (body.kind != LaneJointKind::Turn)
         for (int i = 0; i < 3; ++i)
-          store(multiplyAdd(time, set(joint.slideRate[i]), set(joint.slide[i])),
-                block.slide[3 * b + i]);
+          store(multiplyAdd(time, set(joint.slideRate[i]), set(joint.slide[i])), slide[i]);
     }
     const LaneBodyState& parent = block.states[body.parent];
     LaneBodyState& state = block.states[b];
-    const V3 axis = placeFrame(body, joint, block.angle[b], &block.slide[3 * b], parent, state);
+    const V3 axis = placeFrame(body, joint, block.angle[b], slide, parent, state);
     if (moving) placeVelocity(body, joint, axis, parent, state);
     if (body.kind == LaneJointKind::Floating) turnAfter(joint.after, state);
     if (model.rootOfBody[b] >= 0)

@@ -32,9 +32,9 @@ class BoxTree {
     // Unbounded boxes would spoil the ones around them.
     std::vector<Entry> root;
     while (unbounded.size() >= kLanes) {
-      std::vector<Entry> some(unbounded.end() - (kLanes - 1), unbounded.end());
+      const Entry packed = pack(std::span(unbounded).last(kLanes - 1));
       unbounded.resize(unbounded.size() - (kLanes - 1));
-      unbounded.push_back(pack(some));
+      unbounded.push_back(packed);
     }
     root = unbounded;
     if (bounded.size() + root.size() <= kLanes) {

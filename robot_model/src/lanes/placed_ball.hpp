@@ -72,7 +72,7 @@ HWY_INLINE V3 placedAt(const LaneBodyState& state, int lane, const Eight& eight)
   const auto entry = [lane](const Row& row) { return set(row.lane[lane]); };
   const V3 local = {load(eight.x), load(eight.y), load(eight.z)};
   const auto& r = state.rotation;
-  const auto line = [&](int i) {
+  const auto line = [&](std::size_t i) {
     return multiplyAdd(
         entry(r[3 * i]), local.x,
         multiplyAdd(entry(r[3 * i + 1]), local.y,

@@ -37,7 +37,7 @@ TableBuilder::TableBuilder(const CheckerModel& model, const LaneModel& lanes,
     : motion_(motion), proof_(model, lanes, bodies, motion_) {
   table_.joints = motion_.joints();
   table_.axes = motion_.axes();
-  table_.cells.resize(static_cast<std::size_t>(table_.axes[0].cells * table_.axes[1].cells));
+  table_.cells.resize(static_cast<std::size_t>(table_.axes[0].cells) * table_.axes[1].cells);
   for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
     const LanePairSource& pair = lanes.sources[i];
     if (pair.obstacle < 0 && &lanes.bodyPairs[pair.bodyPair] == &bodies)
@@ -258,7 +258,7 @@ void TableBuilder::repeatTurns() {
 void TableBuilder::sum() {
   const int rows = table_.axes[0].cells;
   const int columns = table_.axes[1].cells;
-  table_.open.assign(static_cast<std::size_t>((rows + 1) * (columns + 1)), 0);
+  table_.open.assign(static_cast<std::size_t>(rows + 1) * (columns + 1), 0);
   for (int i = 0; i < rows; ++i) {
     std::uint32_t line = 0;
     for (int j = 0; j < columns; ++j) {
