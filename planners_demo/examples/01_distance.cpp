@@ -31,9 +31,9 @@ int main() {
   right &= (apart.pointA - Vector3d(1.0, 0.5, 0.5)).norm() < 1e-6;
 
   // Does it keep 0.9 m? A query that only has to say so ends as soon as it knows.
-  const auto enough = swept::distance(box, ball, box_from_ball, {.enough = 0.9});
-  std::cout << "more than 0.9 m: " << (enough.lower > 0.9 ? "proven" : "no") << '\n';
-  right &= enough.lower > 0.9;
+  const auto kept = swept::distance(box, ball, box_from_ball, {.enough = 0.9});
+  std::cout << "more than 0.9 m: " << (kept.lower > 0.9 ? "proven" : "no") << '\n';
+  right &= kept.lower > 0.9;
 
   // The middle is 0.1 m inside the face x = 1: out by that and the radius is the shortest way.
   box_from_ball.translation() = Vector3d(0.9, 0.0, 0.0);

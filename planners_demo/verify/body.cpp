@@ -56,6 +56,7 @@ double reachOf(const Element& element) {
 Body::Body(std::string name, std::vector<Element> elements, std::vector<Flat> flats,
            std::vector<Surface> solids)
     : name_(std::move(name)), flats_(std::move(flats)), solids_(std::move(solids)) {
+  if (elements.empty()) return;
   std::vector<Vector3d> centers;
   for (const Element& element : elements) {
     centers.push_back(centerOf(element));
@@ -63,7 +64,7 @@ Body::Body(std::string name, std::vector<Element> elements, std::vector<Flat> fl
   }
   std::vector<std::size_t> order(elements.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!elements.empty()) build(0, elements.size(), centers, order);
+  build(0, elements.size(), centers, order);
   for (const std::size_t index : order) elements_.push_back(std::move(elements[index]));
   for (Node& node : nodes_)
     if (node.last - node.first > elements_.size() / kTopmost) gather(node);

@@ -170,7 +170,7 @@ double readNumber(const Json& json, const std::string& where) {
 }
 
 Vector3d readUnit(const Json& json, const char* key, const std::string& where) {
-  const Vector3d axis = readVector(at(json, key, where), where + ", " + key);
+  Vector3d axis = readVector(at(json, key, where), where + ", " + key);
   if (!(std::abs(axis.norm() - 1.0) <= kUnit))
     throw Refusal(where + ": " + key + " has not length 1");
   return axis;

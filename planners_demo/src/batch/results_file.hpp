@@ -10,7 +10,7 @@
 namespace swept {
 
 /// What a results file holds: a header and a result per line.
-// NOLINTNEXTLINE(bugprone-exception-escape): what Json's move asserts would throw, and always holds.
+// NOLINTNEXTLINE(bugprone-exception-escape): Json's move is noexcept, which is not believed of it.
 struct Results {
   Json header;                  ///< null: there is none yet
   std::vector<RunResult> runs;  ///< in the order of the lines, each key once

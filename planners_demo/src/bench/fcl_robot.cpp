@@ -2,7 +2,6 @@
 #include "bench/fcl_robot.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace swept {
 namespace {
@@ -10,13 +9,15 @@ namespace {
 /// One object against the world's tree.
 struct WorldQuery {
   const fcl::CollisionRequestd* request;
+  const WorldBody* bodies;
   const std::vector<bool>* checkedBodies;
   fcl::CollisionResultd result;
   bool hit = false;
 };
 
-std::uintptr_t bodyIndex(const fcl::CollisionObjectd& object) {
-  return reinterpret_cast<std::uintptr_t>(object.getUserData());
+/// Null for an object of the robot.
+const WorldBody* bodyOf(const fcl::CollisionObjectd& object) {
+  return static_cast<const WorldBody*>(object.getUserData());
 }
 
 }  // namespace
@@ -61,11 +62,11 @@ void FclRobot::addLinkObjects() {
 void FclRobot::addWorld() {
   const auto& bodies = checker_.world().bodies();
   std::vector<fcl::CollisionObjectd*> all;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    for (const WorldBody::Part& part : bodies[b].parts) {
+  for (const WorldBody& body : bodies) {
+    for (const WorldBody::Part& part : body.parts) {
       worldObjects_.push_back(std::make_unique<fcl::CollisionObjectd>(
-          fclGeometry(part.shape, bodies[b].name), fcl::Transform3d(part.world_from_shape)));
-      worldObjects_.back()->setUserData(reinterpret_cast<void*>(b));
+          fclGeometry(part.shape, body.name), fcl::Transform3d(part.world_from_shape)));
+      worldObjects_.back()->setUserData(const_cast<WorldBody*>(&body));  // only read
       worldObjects_.back()->computeAABB();
       all.push_back(worldObjects_.back().get());
     }
@@ -145,9 +146,9 @@ void FclRobot::placeObjects(bool all) {
 
 bool FclRobot::worldCallback(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
   auto& query = *static_cast<WorldQuery*>(data);
-  // The manager may hand over the two in either order; only the world's objects have a number.
-  const std::uintptr_t body = std::max(bodyIndex(*a), bodyIndex(*b));
-  if (!(*query.checkedBodies)[body]) return false;
+  // The manager may hand over the two in either order; only the world's objects have a body.
+  const WorldBody* body = bodyOf(*a) != nullptr ? bodyOf(*a) : bodyOf(*b);
+  if (!(*query.checkedBodies)[static_cast<std::size_t>(body - query.bodies)]) return false;
   query.hit = fcl::collide(a, b, *query.request, query.result) > 0;
   return query.hit;
 }
@@ -157,7 +158,10 @@ bool FclRobot::collides(std::span<const double> q) {
   for (std::size_t i = 0; i < q.size(); ++i) values_[group.variables[i]] = q[i];
   for (const std::size_t joint : movingJoints_) placeLink(joint);
   placeObjects(false);
-  WorldQuery query{.request = &request_, .checkedBodies = nullptr, .result = {}};
+  WorldQuery query{.request = &request_,
+                   .bodies = checker_.world().bodies().data(),
+                   .checkedBodies = nullptr,
+                   .result = {}};
   for (LinkObject& object : objects_) {
     if (!moving_[object.link]) continue;
     query.checkedBodies = &object.checkedBodies;

@@ -80,11 +80,14 @@ const CertifiedBody::Part& SearchedBody::shapeOf(int node) {
   auto& shape = shapes_[static_cast<std::size_t>(node)];
   if (shape) return *shape;
   const verify::Body::Node& range = body_.nodes()[static_cast<std::size_t>(node)];
-  if (range.last == range.first + 1)
-    return shape.emplace(shapeOfElement(body_.elements()[range.first]));
-  std::vector<Vector3d> points;
-  for (std::size_t i = range.first; i < range.last; ++i) addPoints(body_.elements()[i], points);
-  return shape.emplace(CertifiedBody::Part{ConvexHull::of(points), Isometry3d::Identity()});
+  if (range.last == range.first + 1) {
+    shape = shapeOfElement(body_.elements()[range.first]);
+  } else {
+    std::vector<Vector3d> points;
+    for (std::size_t i = range.first; i < range.last; ++i) addPoints(body_.elements()[i], points);
+    shape = CertifiedBody::Part{ConvexHull::of(points), Isometry3d::Identity()};
+  }
+  return *shape;
 }
 
 double SearchedBody::sizeOf(int node) {

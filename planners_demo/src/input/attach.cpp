@@ -36,7 +36,7 @@ Spec specOf(const std::string& text) {
 
 std::optional<Shape> primitive(const std::string& text, const std::string& label) {
   const auto sizes = [&](const std::string& type, const std::vector<std::string>& names) {
-    const std::vector<double> values = readValues(text.substr(type.size() + 1), names, label);
+    std::vector<double> values = readValues(text.substr(type.size() + 1), names, label);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!(values[i] > 0.0))
         throw UsageError(label + ": " + names[i] + " is " + shortNumber(values[i]) +

@@ -39,7 +39,7 @@ class Pieces {
  private:
   std::string takeAllOf(const char* characters) {
     const std::size_t end = std::min(rest_.find_first_not_of(characters), rest_.size());
-    const std::string taken(rest_.substr(0, end));
+    std::string taken(rest_.substr(0, end));
     rest_.remove_prefix(end);
     return taken;
   }

@@ -26,7 +26,7 @@ std::string valueIn(const std::string& file, const std::string& key, char separa
 }
 
 std::string processor() {
-  const std::string model = valueIn("/proc/cpuinfo", "model name", ':');
+  std::string model = valueIn("/proc/cpuinfo", "model name", ':');
   utsname system{};
   if (model.empty() && uname(&system) == 0) return system.machine;
   return model;
