@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 
 namespace swept::detail {
 namespace {
@@ -194,13 +195,13 @@ void BoxTree::build(std::span<const std::uint32_t> owners, std::span<const Float
   classify();
   std::array<std::size_t, kSizeClasses + 1> starts{};
   for (const Item& item : items_) ++starts[item.sizeClass + 1];
-  for (std::size_t i = 0; i < kSizeClasses; ++i) starts[i + 1] += starts[i];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
   if (starts[kSizeClasses - 1] > 0) {
     std::sort(items_.begin(), items_.end(),
               [](const Item& a, const Item& b) { return a.sizeClass < b.sizeClass; });
   }
-  for (std::size_t i = 0; i < kSizeClasses; ++i)
-    if (starts[i] < starts[i + 1]) arrange(starts[i], starts[i + 1]);
+  for (auto start = starts.begin(); start + 1 != starts.end(); ++start)
+    if (start[0] < start[1]) arrange(start[0], start[1]);
 
   live_ = sorted_ = items_.size();
   makeRoomFor(items_.size());

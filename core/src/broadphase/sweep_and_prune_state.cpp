@@ -14,7 +14,7 @@ namespace {
 using detail::PairKey;
 
 /// Boxes between the request for memory and its use.
-constexpr std::uint32_t kAhead = 8;
+constexpr std::size_t kAhead = 8;
 
 /// Fewer are all in the cache.
 constexpr std::size_t kManyBoxes = 5000;
@@ -197,7 +197,7 @@ void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   left_.clear();
   changed_.clear();
   for (Number number = 0; number < placed_.size(); ++number) {
-    const Number ahead = number + kAhead;
+    const std::size_t ahead = number + kAhead;
     if (ahead < placed_.size() && placed_[ahead].owner != kNobody)
       prefetch(boxOf(placed_[ahead].owner));
     if (placed_[number].owner == kNobody) continue;
