@@ -15,12 +15,14 @@ try:
     from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     print("skipped: python3-selenium is not installed")
     sys.exit(0)
 
 SWEPT, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 ROOK = "models/robots/rook7/rook7.urdf"
+BUSY = 120  # s; a busy machine draws slowly
 SHRUNK = 4  # how many pixels of the screen are one of a picture, each way
 
 
@@ -37,7 +39,7 @@ def new_browser():
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.chrome.service.Service(shutil.which("chromedriver"))
     browser = webdriver.Chrome(service=service, options=options)
-    browser.set_script_timeout(120)  # s; a busy machine draws slowly
+    browser.set_script_timeout(BUSY)
     return browser
 
 
@@ -72,7 +74,11 @@ class BrowserTest(unittest.TestCase):
         self.browser.get_log("browser")
         self.browser.get_log("performance")
         self.browser.get(file.as_uri() + at)
-        self.assertTrue(self.js("return swept.ready"))
+        # On a busy machine the driver may come back before all of the page's scripts have run.
+        WebDriverWait(self.browser, BUSY).until(
+            lambda _: self.js("return document.readyState") == "complete")
+        if not self.js("return swept.ready"):
+            self.fail(f"the page is not ready: {self.browser.get_log('browser')}")
         self.drawn()
         return run
 
