@@ -214,7 +214,7 @@ class Refit {
   Below refit(std::int32_t index) {
     const int count = nodes_[static_cast<std::size_t>(index)].count;
     std::array<Below, WideNode::kLanes> lanes;
-    Below all;
+    Below all{};
     for (int i = 0; i < count; ++i) {
       const std::int32_t child = nodes_[static_cast<std::size_t>(index)].child[i];
       lanes[i] = child >= 0 ? refit(child) : single(~child);

@@ -127,7 +127,7 @@ class BrickDistances {
         std::copy_n(ofRow_[bits].data(), 4, &rows[4 * (kWindow * z + y)]);
       }
     }
-    std::array<SquaredGap, 4 * kWindow * 4> columns;
+    std::array<SquaredGap, kWindow * 16> columns;
     columns.fill(kUnknownGap);
     for (std::size_t from = 0; from < kWindow; ++from) {
       if (ofZ[from] == 0) continue;

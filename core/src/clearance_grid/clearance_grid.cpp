@@ -236,7 +236,7 @@ void requireNear(const Aabb& box, const Aabb& window) {
   throw std::invalid_argument(message.str());
 }
 
-const char* nameOf(const Shape& shape) {
+std::string nameOf(const Shape& shape) {
   constexpr std::array<const char*, 12> kNames = {
       "sphere",      "box",      "cylinder", "capsule",    "cone", "ellipsoid",
       "convex hull", "triangle", "plane",    "half-space", "mesh", "point cloud"};

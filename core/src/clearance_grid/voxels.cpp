@@ -18,7 +18,7 @@ constexpr Mask kFirstY = 0x000F000F000F000F;
 constexpr Mask kLastY = kFirstY << 12;
 
 /// Cells in the floods: marked, or on one side of the surface or the other, or not yet seen.
-enum : std::uint8_t { kUnseen, kMarked, kOutside, kInside };
+constexpr std::uint8_t kUnseen = 0, kMarked = 1, kOutside = 2, kInside = 3;
 
 /// With the neighbours within the block.
 Mask grown(Mask mask) {
@@ -53,9 +53,10 @@ class CellGrid {
 
   /// In cells.
   Vector3d middleOf(std::size_t cell) const {
-    return Vector3d(static_cast<double>(cell % count_[0]),
-                    static_cast<double>(cell / count_[0] % count_[1]),
-                    static_cast<double>(cell / steps_[2])) -
+    const std::size_t x = cell % count_[0];
+    const std::size_t y = cell / count_[0] % count_[1];
+    const std::size_t z = cell / steps_[2];
+    return Vector3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)) -
            Vector3d::Constant(0.5);
   }
 
@@ -64,7 +65,7 @@ class CellGrid {
       for (std::size_t y = 0; y < count_[1]; ++y) {
         const std::size_t row = y * steps_[1] + z * steps_[2];
         const bool whole = z == 0 || z + 1 == count_[2] || y == 0 || y + 1 == count_[1];
-        std::fill_n(&cells[row], whole ? count_[0] : 1, std::uint8_t{kMarked});
+        std::fill_n(&cells[row], whole ? count_[0] : 1, kMarked);
         cells[row + count_[0] - 1] = kMarked;
       }
     }

@@ -19,7 +19,6 @@ namespace {
 
 using detail::FeatureBits;
 using detail::FeatureKey;
-using detail::MeetingPair;
 using Mesh = DeformingMesh::Data;
 
 /// A triangle of a mesh during the step.

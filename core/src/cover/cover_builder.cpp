@@ -53,7 +53,7 @@ CoverBuilder::CoverBuilder(const Shape& shape, const SphereCoverOptions& options
     : options_(options), solid_(shape), cells_(solid_) {
   const BoundingSphere ball = boundingSphere(shape);
   rootRadius_ = ball.radius;
-  Node root;
+  Node root{};
   root.place = solid_.at(ball.center);
   root.radius = std::max(0.0, ball.radius - solid_.inflation());
   root.beyond = root.radius - root.place.depth;
@@ -306,7 +306,7 @@ bool CoverBuilder::isCovered(const Cell& cell, double delta, bool divisible,
 }
 
 SphereCover::Node CoverBuilder::finished(const Node& node) const {
-  SphereCover::Node out;
+  SphereCover::Node out{};
   out.ball.center = node.place.center.cast<float>();
   const double moved = (out.ball.center.cast<double>() - node.place.center).norm();
   out.ball.radius = roundedUp(node.radius + solid_.inflation() + solid_.pad() + moved);

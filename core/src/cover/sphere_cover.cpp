@@ -25,7 +25,7 @@ void requireOption(const char* name, double value, double least) {
 
 /// Of a shape that contains a point: none of the ball's is farther from it than the diameter.
 SphereCover oneBall(const BoundingSphere& ball) {
-  SphereCover::Node node;
+  SphereCover::Node node{};
   node.ball.center = ball.center.cast<float>();
   if (!node.ball.center.allFinite()) node.ball.center.setZero();
   const double moved = (node.ball.center.cast<double>() - ball.center).stableNorm();

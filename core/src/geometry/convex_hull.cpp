@@ -81,7 +81,7 @@ struct Spread {
       longest = length;
       corners = {low, high, 0, 0};
     }
-    const Eigen::Vector3d origin = points[corners[0]];
+    const Eigen::Vector3d& origin = points[corners[0]];
     axis = points[corners[1]] - origin;
     corners[2] = argMax(
         points, [&](const Eigen::Vector3d& p) { return axis.cross(p - origin).squaredNorm(); });

@@ -55,8 +55,8 @@ class Meeting {
     if (!isNew) return known->second;
     const Cell cell = cellOf(vertices_[vertex]);
     for (int neighbor = 0; neighbor < 27; ++neighbor) {
-      const Cell at = {cell[0] + neighbor % 3 - 1, cell[1] + neighbor / 3 % 3 - 1,
-                       cell[2] + neighbor / 9 - 1};
+      const int x = neighbor % 3 - 1, y = neighbor / 3 % 3 - 1, z = neighbor / 9 - 1;
+      const Cell at = {cell[0] + x, cell[1] + y, cell[2] + z};
       const auto found = cells_.find(at);
       if (found == cells_.end()) continue;
       for (const int other : found->second) {

@@ -235,7 +235,7 @@ Ellipsoid makeEllipsoid(const Eigen::Vector3d& semiAxes) {
 
 Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       const Eigen::Vector3d& c) {
-  const Triangle triangle{{a, b, c}};
+  Triangle triangle{{a, b, c}};
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d& corner = triangle.corners[i];
     if (corner.allFinite()) continue;

@@ -174,7 +174,7 @@ class Depth {
     if (!inside) goal.enough = radius;
     Isometry3d pose = Isometry3d::Identity();
     pose.translation() = point;
-    const PieceResult found = searchPieces(mesh, probe, pose, Vector3d::Zero(), goal);
+    PieceResult found = searchPieces(mesh, probe, pose, Vector3d::Zero(), goal);
     depth_.iterations += found.iterations;
     return found;
   }

@@ -220,7 +220,7 @@ Vector3d PiecePair::placeOne(const Side& side, const Piece& piece, TriangleCorne
     return side.cloud->points()[piece.primitive];
   }
   corners = cornersOf(*side.mesh, piece.primitive);
-  const Vector3d center = corners[0];
+  Vector3d center = corners[0];
   for (Vector3d& corner : corners) corner -= center;
   body = Convex::ofPoints(corners);
   return center;

@@ -80,8 +80,11 @@ class HilbertCurve {
     return {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(nextEntry + 8 * nextAxis)};
   }
 
-  static constexpr std::array<Step, 24 * 64> makeSteps() {
-    std::array<Step, 24 * 64> steps{};
+  /// Of 24 states, the 64 cells of two levels each.
+  using Steps = std::array<Step, 1536>;
+
+  static constexpr Steps makeSteps() {
+    Steps steps{};
     for (std::uint32_t state = 0; state < 24; ++state) {
       for (std::uint32_t cells = 0; cells < 64; ++cells) {
         const Step first = step(state, cells >> 3);
@@ -93,9 +96,9 @@ class HilbertCurve {
     return steps;
   }
 
-  static const std::array<Step, 24 * 64> kSteps;
+  static const Steps kSteps;
 };
 
-inline constexpr std::array<HilbertCurve::Step, 24 * 64> HilbertCurve::kSteps = makeSteps();
+inline constexpr HilbertCurve::Steps HilbertCurve::kSteps = makeSteps();
 
 }  // namespace swept::detail
