@@ -4,9 +4,9 @@
 
 usage: lint.py ROOT BUILD [FILE|FOLDER ...]
 
-ROOT: the tree, with .clang-tidy and tests/cppcheck_suppressions.txt. BUILD: has compile_commands.json,
-and is given what was found in each source, so that one is looked at again only when it, a file of the
-tree that it includes, how it is compiled, or a tool or its settings has changed. Prints
+ROOT: the tree, with .clang-tidy and tests/cppcheck_*. BUILD: has compile_commands.json, and is given
+what each tool found in each source, so that it looks again only when the source, a file of the tree that
+it includes, how it is compiled, or the tool or its settings has changed. Prints
 `FILE:LINE: MESSAGE [CHECK]` for each finding, once where a header is in several sources. Exit code 1:
 there are findings; 2: the arguments are wrong. Sources that the build does not have are named.
 """
@@ -21,7 +21,8 @@ import sys
 from pathlib import Path
 
 TIDY_SETTINGS = ".clang-tidy"  # of the root, and of folders
-CPPCHECK_SETTINGS = "tests/cppcheck_suppressions.txt"
+CPPCHECK_SUPPRESSIONS = "tests/cppcheck_suppressions.txt"
+CPPCHECK_GOOGLETEST = "tests/cppcheck_googletest.cfg"
 FINDING = re.compile(r"^(?P<file>[^\s:][^:]*):(?P<line>\d+):\d+: (?:warning|error|fatal error): (?P<message>.*\])$")
 
 # Ends what is said of a source that a tool could not look through, which another run may.
@@ -43,19 +44,25 @@ class Source:
 class Linter:
     def __init__(self, root, build):
         self.root, self.build = root, build
-        self.versions = [output_of([tool, "--version"]) for tool in ("clang-tidy", "cppcheck")]
+        self.tools = {"clang-tidy": self.tidy, "cppcheck": self.cppcheck}
+        self.versions = {tool: output_of([tool, "--version"]) for tool in self.tools}
 
     def relative(self, path):
         path = os.path.realpath(path)
         root = f"{self.root}{os.sep}"
         return path[len(root):] if path.startswith(root) else None
 
-    def state(self, source, files):
-        """Of all that findings come from: equal states have equal findings."""
-        digest = hashlib.sha256(json.dumps([self.versions, source.words, files]).encode())
+    @staticmethod
+    def settings(tool, files):
+        if tool == "cppcheck":
+            return [CPPCHECK_SUPPRESSIONS, CPPCHECK_GOOGLETEST]
         # clang-tidy takes the names of each folder's settings.
-        settings = {str(folder / TIDY_SETTINGS) for name in files for folder in Path(name).parents}
-        for name in [*sorted(settings), CPPCHECK_SETTINGS, *files]:
+        return sorted({str(folder / TIDY_SETTINGS) for name in files for folder in Path(name).parents})
+
+    def state(self, tool, source, files):
+        """Of all that a tool's findings come from: equal states have equal findings."""
+        digest = hashlib.sha256(json.dumps([self.versions[tool], source.words, files]).encode())
+        for name in [*self.settings(tool, files), *files]:
             path = self.root / name
             digest.update(hashlib.sha256(path.read_bytes() if path.is_file() else b"").digest())
         return digest.hexdigest()
@@ -95,32 +102,41 @@ class Linter:
         flags = [word for word in source.words if re.match(r"-[ID].", word)]
         return self.findings(source, [
             "cppcheck", "--quiet", "--enable=warning,performance,portability", "--std=c++20", "--language=c++",
-            "--library=googletest", "--error-exitcode=3", f"--suppressions-list={self.root / CPPCHECK_SETTINGS}",
+            "--library=googletest", f"--library={self.root / CPPCHECK_GOOGLETEST}", "--error-exitcode=3",
+            f"--suppressions-list={self.root / CPPCHECK_SUPPRESSIONS}",
             "--template={file}:{line}:0: warning: {message} [cppcheck-{id}]", "--template-location=",
             *flags, str(source.path)])
 
     def look(self, source):
         """Findings in a source, and whether they were known."""
         record = self.build / "lint" / f"{self.relative(source.path)}.json"
-        if record.is_file():
-            known = json.loads(record.read_text(encoding="utf-8"))
-            if known["state"] == self.state(source, known["files"]):
-                return known["findings"], True
+        known = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else {"files": []}
+
+        def unknown(tool, files):
+            return tool not in known or known[tool]["state"] != self.state(tool, source, files)
+
+        def found():
+            return [finding for tool in self.tools for finding in known[tool]["findings"]]
+
+        if not any(unknown(tool, known["files"]) for tool in self.tools):
+            return found(), True
         try:
             files = self.files_of(source)
         except subprocess.CalledProcessError as error:
             message = f"does not compile: {' '.join(error.stderr.split())}{FAILED}"
             return [[self.relative(source.path), 1, message]], False
-        state = self.state(source, files)
-        findings = self.tidy(source) + self.cppcheck(source)
-        if any(message.endswith(FAILED) for _, _, message in findings):
-            return findings, False
+        for tool, findings_of in self.tools.items():
+            if unknown(tool, files):
+                known[tool] = {"state": self.state(tool, source, files), "findings": findings_of(source)}
+        known["files"] = files
+        if any(message.endswith(FAILED) for _, _, message in found()):
+            return found(), False
         record.parent.mkdir(parents=True, exist_ok=True)
         # Complete or not there, should the run be stopped.
         partial = record.with_suffix(".partial")
-        partial.write_text(json.dumps({"state": state, "files": files, "findings": findings}), encoding="utf-8")
+        partial.write_text(json.dumps(known), encoding="utf-8")
         partial.replace(record)
-        return findings, False
+        return found(), False
 
 
 def output_of(command, folder=None):

@@ -16,6 +16,12 @@ ROOT, COMPILER = Path(sys.argv[1]), sys.argv[2]
 HALF = "#pragma once\ninline int half(int whole) { return whole / 2; }\n"
 ONE = '#include "half.hpp"\nint one() { return half(2); }\n'
 TWO = '#include "half.hpp"\nint two() { return half(4); }\n'
+TYPED = """#include <gtest/gtest.h>
+template <typename Number>
+class Numbers : public testing::Test {};
+TYPED_TEST_SUITE(Numbers, testing::Types<int>);
+TYPED_TEST(Numbers, StartAtZero) { EXPECT_EQ(TypeParam(), 0); }
+"""
 NAMING = "invalid case style for function 'Twice' [readability-identifier-naming]"
 ANY_NAME = """InheritParentConfig: true
 CheckOptions:
@@ -41,7 +47,7 @@ def expect(tree, what, status, *lines, names=()):
 
 
 def check(tree):
-    for name in [".clang-tidy", "tests/cppcheck_suppressions.txt"]:
+    for name in [".clang-tidy", "tests/cppcheck_suppressions.txt", "tests/cppcheck_googletest.cfg"]:
         write(tree / name, (ROOT / name).read_text(encoding="utf-8"))
     half, one, two = (tree / "core" / name for name in ("half.hpp", "one.cpp", "two.cpp"))
     generated = tree / "build/generated.cpp"
@@ -71,18 +77,20 @@ def check(tree):
     yield expect(tree, "cppcheck's", 1, found, "2 sources, 0 of them as they were, 1 findings", names=["core"])
     write(two, TWO + "// Changed.\n")
     yield expect(tree, "one has changed", 1, found, "2 sources, 1 of them as they were, 1 findings")
-    write(tree / "tests/cppcheck_suppressions.txt", "nullPointer\n")
-    yield expect(tree, "settings", 0, "2 sources, 0 of them as they were, 0 findings")
-
-    # As by someone who interrupts it all.
+    # clang-tidy ends as by someone who interrupts it all.
     killed = tree / "tools/clang-tidy"
     write(killed, f'#!/bin/sh\n[ "$1" = --version ] || kill -9 $$\nexec {shutil.which("clang-tidy")} "$@"\n')
     killed.chmod(0o755)
+    write(tree / "tests/cppcheck_suppressions.txt", "nullPointer\n")
+    yield expect(tree, "settings of one tool", 0, "2 sources, 0 of them as they were, 0 findings")
     write(one, ONE + "int more() { return 1; }\n")
     yield expect(tree, "a tool that is killed", 1, "core/one.cpp:1: clang-tidy ends with -9:  [lint]",
                  "2 sources, 1 of them as they were, 1 findings")
     killed.unlink()
     yield expect(tree, "looks again", 0, "2 sources, 1 of them as they were, 0 findings")
+
+    write(one, TYPED)
+    yield expect(tree, "typed tests", 0, "2 sources, 1 of them as they were, 0 findings")
 
     write(one, "int one() { return undeclared; }\n")
     yield expect(tree, "an error", 1, "core/one.cpp:1: use of undeclared identifier 'undeclared'",
