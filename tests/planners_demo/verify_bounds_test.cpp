@@ -134,6 +134,59 @@ std::vector<Vector3d> pointsOf(const verify::Element& element, std::mt19937_64& 
   return points;
 }
 
+/// At sampled times of the interval no sampled point of the node is nearer to the flat than the
+/// gap.
+TEST_P(VerifyBounds, NoPointsComeNearerToAFlatThanAGap) {
+  const auto robotsBodies =
+      static_cast<std::size_t>(std::ranges::find(model_.linkOf, -1) - model_.linkOf.begin());
+  int positive = 0, tight = 0, atBegin = 0;
+  constexpr int kCases = 1500;
+  for (int i = 0; i < kCases; ++i) {
+    const std::vector<double> from = randomState(), to = near(from);
+    verify::Model model = model_;
+    const Vector3d normal =
+        Vector3d(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)).normalized();
+    const verify::Flat flat{normal, uniform(-1.0, 1.0), false};
+    model.bodies.emplace_back("wall", std::vector<verify::Element>{}, std::vector{flat},
+                              std::vector<verify::Surface>{});
+    model.linkOf.push_back(-1);
+    model.paddings.push_back(0.0);
+    const auto body = static_cast<int>(random_() % robotsBodies);
+    const verify::Body& a = model.bodies[body];
+    const auto node = static_cast<int>(random_() % a.nodes().size());
+    const double begin = uniform(0.0, 1.0), end = std::min(1.0, begin + std::pow(uniform(0, 1), 2));
+    const verify::Motion motion(model, from, to);
+    const verify::PairMotion between(model, motion,
+                                     {body, static_cast<int>(model.bodies.size()) - 1}, begin, end);
+    const int side = uniform(-1.0, 1.0) < 0.0 ? -1 : 1;
+    const auto least = [&](double t) {
+      const Isometry3d pose =
+          LinkMotion(*robot_, GetParam().group, model.links[model.linkOf[body]], from, to).at(t);
+      double distance = INFINITY;
+      const verify::Body::Node& range = a.nodes()[node];
+      const std::size_t stride = 1 + (range.last - range.first) / 8;
+      for (std::size_t e = range.first; e < range.last; e += stride)
+        for (const Vector3d& point : pointsOf(a.elements()[e], random_))
+          distance = std::min(distance, side * (normal.dot(pose * point) - flat.offset));
+      return distance;
+    };
+    const double first = least(begin);
+    double sampled = first;
+    for (const double share : {1.0, uniform(0.0, 1.0), uniform(0.0, 1.0)})
+      sampled = std::min(sampled, least(begin + share * (end - begin)));
+    const double gap = between.gapToFlat(node, 0, side);
+    if (!(gap > 0.0)) continue;
+    ++positive;
+    tight += gap > 0.5 * sampled ? 1 : 0;
+    atBegin += sampled == first ? 1 : 0;
+    ASSERT_LE(gap, sampled) << a.name() << ", " << begin << " to " << end;
+  }
+  EXPECT_GE(positive, kCases / 8);
+  EXPECT_GE(tight, positive / 4);
+  EXPECT_GE(atBegin, positive / 8);
+  EXPECT_LE(atBegin, positive - positive / 8);
+}
+
 /// At sampled times of the interval no two sampled points of the two nodes are nearer than the gap.
 TEST_P(VerifyBounds, NoPointsComeNearerThanAGap) {
   const std::vector<verify::PairToProve> pairs = verify::pairsToProve(model_);

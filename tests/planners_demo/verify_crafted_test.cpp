@@ -54,8 +54,8 @@ verify::Surface tetrahedron() {
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
-/// A plane of the world has no intervals, whatever the file has under that name.
-TEST(VerifyCrafted, IntervalsThatProveNothingAreNotLookedAt) {
+/// A tetrahedron, from 0 to 1 m along z, and a half-space up to `height` m, or its surface.
+verify::Model solidAndGround(double height, bool isSolid) {
   verify::Model model;
   model.links = {"link"};
   model.jointOf = {-1};
@@ -64,10 +64,53 @@ TEST(VerifyCrafted, IntervalsThatProveNothingAreNotLookedAt) {
   model.bodies.emplace_back("solid", corners, std::vector<verify::Flat>{},
                             std::vector<verify::Surface>{tetrahedron()});
   model.bodies.emplace_back("ground", std::vector<verify::Element>{},
-                            std::vector<verify::Flat>{{Vector3d::UnitZ(), -1.0, true}},
+                            std::vector<verify::Flat>{{Vector3d::UnitZ(), height, isSolid}},
                             std::vector<verify::Surface>{});
   model.linkOf = {0, -1};
   model.paddings = {0.0, 0.0};
+  return model;
+}
+
+std::string refusalOfFlat(const verify::Model& model, const Json& intervals) {
+  const verify::Motion motion(model, {}, {});
+  const Json proof = {{"flats", Json::array({intervals})}};
+  return refusalOf([&] { checkPair(model, motion, {0, 1}, proof, "here"); });
+}
+
+TEST(VerifyCrafted, AMotionIsProvenFromItsBeginningToItsEnd) {
+  const verify::Model model = solidAndGround(-1.0, true);
+  const auto part = [](double begin, double end) {
+    return Json::array({begin, end, Json::array({1, 0.9})});
+  };
+  EXPECT_EQ(refusalOfFlat(model, {part(0.0, 0.5), part(0.5, 1.0)}), "");
+  EXPECT_EQ(refusalOfFlat(model, Json::array()), "here: nothing proves it from 0 to 1");
+  EXPECT_EQ(refusalOfFlat(model, Json::array({part(0.0, 0.5)})),
+            "here: nothing proves it from 0.5 to 1");
+  EXPECT_THAT(refusalOfFlat(model, Json::array({part(0.5, 1.0)})),
+              HasSubstr("does not begin at 0 and"));
+}
+
+TEST(VerifyCrafted, ABoundIsAboveWhatThePairHasToKeep) {
+  verify::Model model = solidAndGround(-1.0, true);
+  const Json intervals = Json::array({Json::array({0.0, 1.0, Json::array({1, 0.9})})});
+  model.margin = 0.25;
+  model.paddings = {0.5, 0.125};
+  EXPECT_EQ(refusalOfFlat(model, intervals), "");
+  model.paddings[1] = 0.25;
+  EXPECT_EQ(refusalOfFlat(model, intervals),
+            "here, 0 to 1: the bound 0.9 m is not above the margin, 1 m");
+}
+
+TEST(VerifyCrafted, BelowTheGroundNothingIsFree) {
+  const Json below = Json::array({Json::array({0.0, 1.0, Json::array({-1, 0.9})})});
+  EXPECT_EQ(refusalOfFlat(solidAndGround(2.0, false), below), "");
+  EXPECT_EQ(refusalOfFlat(solidAndGround(2.0, true), below),
+            "here, 0 to 1: the bound 0.9 m is not proven, only -inf m is");
+}
+
+/// A plane of the world has no intervals, whatever the file has under that name.
+TEST(VerifyCrafted, IntervalsThatProveNothingAreNotLookedAt) {
+  const verify::Model model = solidAndGround(-1.0, true);
   const verify::Motion motion(model, {}, {});
   const Json flats = Json::array({Json::array({Json::array({0.0, 1.0, Json::array({1, 0.9})})})});
   for (const Json& intervals : {Json::array(), Json(5), Json::array({5})}) {

@@ -163,5 +163,34 @@ TEST(VerifyEnclosure, WhatIsInsideIsRefused) {
   }
 }
 
+TEST(VerifyEnclosure, OfABodyInPartsNoneIsInside) {
+  verify::Model model;
+  model.links = {"link"};
+  model.jointOf = {-1};
+  model.linkOf = {0, -1};
+  model.paddings = {0.0, 0.0};
+  const verify::Surface cube = boxes({{-Vector3d::Ones(), Vector3d::Ones()}});
+  const auto isRefused = [&](double x, double y) {
+    model.bodies.clear();
+    model.bodies.emplace_back("balls",
+                              std::vector<verify::Element>{{.points = {{x, 0, 0}}, .radius = 0.1},
+                                                           {.points = {{y, 0, 0}}, .radius = 0.1}},
+                              std::vector<verify::Flat>{}, std::vector<verify::Surface>{});
+    model.bodies.emplace_back("box", std::vector<verify::Element>{{.points = cube.vertices}},
+                              std::vector<verify::Flat>{}, std::vector<verify::Surface>{cube});
+    const Json divided = {{"a", Json::array()}};
+    const Json proof = {{"intervals", Json::array({Json::array({0.0, 1.0, divided})})}};
+    try {
+      requireNotEnclosed(model, verify::Motion(model, {}, {}), {0, 1}, proof, "here");
+    } catch (const verify::Refusal&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(isRefused(-3.0, 3.0));
+  EXPECT_TRUE(isRefused(-3.0, 0.0));
+  EXPECT_TRUE(isRefused(0.0, 3.0));
+}
+
 }  // namespace
 }  // namespace swept::test

@@ -172,6 +172,67 @@ TEST(MotionBounds, HoldAgainstFiniteDifferences) {
   EXPECT_LE(tightest, 1.0 + 1e-6);
 }
 
+/// Stretched out, with joints that turn the same way about parallel axes, an arm accelerates as
+/// much as any with such joints does.
+TEST(MotionBounds, AreReachedByAPlanarArm) {
+  const double length = 0.5;
+  const std::vector<double> rates{0.7, 0.2, 1.3, 0.4};
+  KinematicModel model;
+  model.bodies.emplace_back();
+  std::vector<double> to;
+  double turning = 0.0, truth = 0.0;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    MovingBody body;
+    body.parent = static_cast<int>(i);
+    body.type = JointType::Revolute;
+    body.axis = sign * Vector3d::UnitZ();
+    body.parent_from_joint = Eigen::Translation3d(i == 0 ? 0.0 : length, 0.0, 0.0);
+    body.variable = model.dimension++;
+    body.lower = -2.0;
+    body.upper = 2.0;
+    model.cyclic.push_back(false);
+    model.bodies.push_back(body);
+    to.push_back(sign * rates[i]);
+    turning += rates[i];
+    truth += length * turning * turning;
+  }
+  const std::vector<double> from(rates.size(), 0.0);
+  std::vector<JointMotion> motion(model.bodies.size());
+  ASSERT_TRUE(swept::detail::compileMotion(model, from, to, motion));
+  const int last = static_cast<int>(rates.size());
+  const LeverArms levers = swept::detail::leverArms(model, last, Vector3d(length, 0.0, 0.0), 0.0);
+  const auto bound = swept::detail::travelBound(model, levers, 0, motion);
+  EXPECT_GE(bound.acceleration, truth);
+  EXPECT_LE(bound.acceleration, 1.001 * truth);
+}
+
+/// A turntable, and on it a base that drives outwards.
+TEST(MotionBounds, CountWhatABaseMovesAbout) {
+  KinematicModel model;
+  model.bodies.emplace_back();
+  for (const JointType type : {JointType::Revolute, JointType::Planar}) {
+    MovingBody body;
+    body.parent = static_cast<int>(model.bodies.size()) - 1;
+    body.type = type;
+    body.axis = Vector3d::UnitZ();
+    body.planarBasis = Eigen::Matrix3d::Identity();
+    body.variable = model.dimension;
+    body.lower = -2.0;
+    body.upper = 2.0;
+    model.dimension += type == JointType::Planar ? 3 : 1;
+    model.bodies.push_back(body);
+  }
+  model.cyclic = {false, false, false, true};
+  std::vector<JointMotion> motion(model.bodies.size());
+  const std::vector<double> from{0.0, 3.0, 0.0, 0.0}, to{1.0, 5.0, 0.0, 0.0};
+  ASSERT_TRUE(swept::detail::compileMotion(model, from, to, motion));
+  const LeverArms levers = swept::detail::leverArms(model, 2, Vector3d::Zero(), 0.0);
+  const auto bound = swept::detail::travelBound(model, levers, 0, motion);
+  EXPECT_GE(bound.speed, std::hypot(2.0, 5.0 * 1.0));               // at the end
+  EXPECT_GE(bound.acceleration, std::hypot(5.0 * 1.0, 2.0 * 2.0));  // and Coriolis'
+}
+
 TEST(MotionBounds, ReachHoldsOverAllConfigurations) {
   Random random(4);
   for (int round = 0; round < 200; ++round) {

@@ -160,6 +160,13 @@ TEST(MovingObstacle, WaypointsInAMotionTakeItApart) {
     }
     compare(whole.verdict, verdict, motions);
     EXPECT_NEAR(whole.freeUntil, freeUntil, 0.01);
+    const MotionClearance near = both.moving.motionClearance(from, to, 0.01, ofMoving);
+    EXPECT_LE(near.lower, near.upper);
+    EXPECT_GE(near.lower, near.upper - 0.01);
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const Eigen::VectorXd q = both.moving.interpolate(from, to, t);
+      EXPECT_GE(both.moving.clearance({q.data(), 3}, ofMoving), near.lower - 1e-6);
+    }
     if (whole.verdict != Verdict::Collision) continue;
     EXPECT_GE(whole.witness->t, whole.freeUntil);
     later += whole.witness->t > passages[0] ? 1 : 0;
@@ -218,6 +225,33 @@ TEST(MovingObstacle, ACornerOfItsWayIsNotCut) {
                           std::vector<double>{0.0, 0.0, now + 3.0}, workspace);
   ASSERT_EQ(hit.verdict, Verdict::Collision);
   EXPECT_NEAR(hit.witness->t, 0.5, 0.05);
+}
+
+TEST(MovingObstacle, WhatIsFreeBehindAnUndecidedPartDoesNotCount) {
+  // In its first part the ball grazes the hand that stands still, in the second one it goes away.
+  MovingObstacle ball{.name = "ball", .parts = {{Sphere{0.05}, at(0, 0, 0)}}};
+  ball.waypoints.push_back({0.0, at(-1.0, 0.02, 0.88 + 1e-9)});
+  ball.waypoints.push_back({1.0, at(1.0, 0.02, 0.88 + 1e-9)});
+  ball.waypoints.push_back({2.0, at(1.0, 0.0, 1.4)});
+  const auto certificateTo = [&](double end) {
+    World world;
+    world.add(ball);
+    const Checker checker(parseArm(armUrdf({})), "all", shared(world));
+    Workspace workspace(checker);
+    return checker.certifyMotion(std::vector<double>{0.0, 0.0, 0.0},
+                                 std::vector<double>{0.0, 0.0, end}, workspace);
+  };
+  const MotionCertificate open = certificateTo(2.0);
+  ASSERT_EQ(open.verdict, Verdict::Undecided);
+  EXPECT_NEAR(open.undecidedAt, 0.25, 0.05);
+  EXPECT_NEAR(open.freeUntil, 0.25, 0.05);
+  // Nor does what lies between it and a contact.
+  ball.waypoints.push_back({3.0, at(0.0, 0.0, 0.8)});
+  ball.waypoints.push_back({4.0, at(1.0, 0.0, 0.8)});
+  const MotionCertificate hit = certificateTo(4.0);
+  ASSERT_EQ(hit.verdict, Verdict::Collision);
+  EXPECT_GT(hit.witness->t, 0.5);
+  EXPECT_NEAR(hit.freeUntil, 0.125, 0.025);
 }
 
 TEST(MovingObstacle, PadsScalesAndRulesApply) {
