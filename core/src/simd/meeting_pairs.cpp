@@ -2,6 +2,7 @@
 #include "simd/meeting_pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
@@ -38,11 +39,14 @@ struct GrownBox {
   }
 };
 
+/// At either end of the motion.
+using Blocks = std::array<const BoxBlock*, 2>;
+
 /// Bit i: no axis keeps box i, on its way from one end to the other, from the grown box. Boxes
 /// around the corners at both ends, moving linearly, contain the triangle at every time between,
 /// and the gap along an axis is linear too. A NaN keeps nothing apart.
 template <int kEnds>
-HWY_INLINE std::uint32_t lanesMeet(const BoxBlock* const (&blocks)[2], const GrownBox (&box)[2]) {
+HWY_INLINE std::uint32_t lanesMeet(const Blocks& blocks, const GrownBox (&box)[2]) {
   const Tag tag;
   std::uint32_t meet = 0;
   for (std::size_t first = 0; first < kTreeLanes; first += hn::Lanes(tag)) {
@@ -229,12 +233,9 @@ class Finder {
   }
 
  private:
-  using Blocks = const BoxBlock* [2];
-
-  static void boxes(const MovingTree& tree, int level, std::uint32_t block, Blocks& out) {
+  static Blocks boxes(const MovingTree& tree, int level, std::uint32_t block) {
     const auto l = static_cast<std::size_t>(level);
-    out[0] = kEnds == 1 ? nullptr : &tree.start->boxes[l][block];
-    out[1] = &tree.end->boxes[l][block];
+    return {kEnds == 1 ? nullptr : &tree.start->boxes[l][block], &tree.end->boxes[l][block]};
   }
   void grow(const Blocks& blocks, std::size_t lane, GrownBox (&box)[2]) const {
     for (int end = 2 - kEnds; end < 2; ++end) box[end].set(*blocks[end], lane, margin_);
@@ -248,9 +249,8 @@ class Finder {
   void descendBoth(const OpenBlocks& pair) {
     const int level = pair.firstLevel;
     const auto below = static_cast<std::uint8_t>(level - 1);
-    Blocks first, second;
-    boxes(a_, level, pair.first, first);
-    boxes(b_, level, pair.second, second);
+    const Blocks first = boxes(a_, level, pair.first);
+    const Blocks second = boxes(b_, level, pair.second);
     const std::uint32_t used = inUse(b_, level, pair.second);
     const bool itself = same_ && pair.first == pair.second;
     std::uint32_t lanes = inUse(a_, level, pair.first);
@@ -274,9 +274,8 @@ class Finder {
     const std::uint32_t lowBlock = descendFirst ? pair.second : pair.first;
     const int level = std::max(pair.firstLevel, pair.secondLevel);
     const int lowLevel = std::min(pair.firstLevel, pair.secondLevel);
-    Blocks from, around;
-    boxes(tall, level, tallBlock, from);
-    boxes(low, lowLevel + 1, lowBlock / kTreeLanes, around);
+    const Blocks from = boxes(tall, level, tallBlock);
+    const Blocks around = boxes(low, lowLevel + 1, lowBlock / kTreeLanes);
     GrownBox box[2];
     grow(around, lowBlock % kTreeLanes, box);
     std::uint32_t hits = lanesMeet<kEnds>(from, box) & inUse(tall, level, tallBlock);
@@ -305,8 +304,7 @@ class Finder {
     Prepared preparedB;
     prepare(b_, second, preparedB);
     bool withNormals = false;
-    Blocks around;
-    boxes(b_, 1, second / kTreeLanes, around);
+    const Blocks around = boxes(b_, 1, second / kTreeLanes);
     GrownBox whole[2];
     grow(around, second % kTreeLanes, whole);
     const Blocks boxesA = {&preparedA_.box[0], &preparedA_.box[1]};
