@@ -48,6 +48,8 @@ inline const int hooks = __sanitizer_install_malloc_and_free_hooks(
     [](const volatile void* memory) { givenBack(const_cast<void*>(memory)); });
 }  // namespace swept::test
 #else
+// Glibc's own names; a program may define each of these functions once.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,misc-definitions-in-headers)
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -80,4 +82,5 @@ void free(void* memory) noexcept {
   __libc_free(memory);
 }
 }
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,misc-definitions-in-headers)
 #endif

@@ -58,7 +58,8 @@ inline std::vector<PlacedBox> splitBoxes(const std::vector<PlacedBox>& boxes, in
     const Eigen::Vector3i n = partsOf(box.size, std::cbrt(box.size.prod() / parts));
     const Eigen::Vector3d size = box.size.cwiseQuotient(n.cast<double>());
     for (int i = 0; i < n.prod(); ++i) {
-      const Eigen::Vector3d index(i % n.x(), i / n.x() % n.y(), i / (n.x() * n.y()));
+      const int x = i % n.x(), y = i / n.x() % n.y(), z = i / (n.x() * n.y());
+      const Eigen::Vector3d index(x, y, z);
       PlacedBox part = box;
       part.size = size;
       part.world_from_box.translate(

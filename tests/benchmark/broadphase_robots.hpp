@@ -27,9 +27,10 @@ class FoldingRobots : public BoxWorld {
         std::lround(std::cbrt(static_cast<double>(count) / (kLinks + kThings))));
     side_ = kCell * static_cast<double>(cells);
     for (std::size_t i = 0; i < cells * cells * cells; ++i) {
-      const Eigen::Vector3d lower = kCell * Eigen::Vector3d(static_cast<double>(i % cells),
-                                                            static_cast<double>(i / cells % cells),
-                                                            static_cast<double>(i / cells / cells));
+      const auto x = i % cells, y = i / cells % cells, z = i / cells / cells;
+      const Eigen::Vector3d lower =
+          kCell *
+          Eigen::Vector3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
       for (std::size_t link = 0; link < kLinks; ++link)
         moving_.push_back(static_cast<std::uint32_t>(boxes_.size() + link));
       boxes_.insert(boxes_.end(), kLinks, {lower, lower});

@@ -52,7 +52,7 @@ inline std::shared_ptr<fcl::OcTreed> fclOctree(const Points& points, double radi
   for (const Eigen::Vector3d& p : points) map->updateNode(p.x(), p.y(), p.z(), true, true);
   map->updateInnerOccupancy();
   map->prune();
-  const auto tree = std::make_shared<fcl::OcTreed>(map);
+  auto tree = std::make_shared<fcl::OcTreed>(map);
   tree->computeLocalAABB();
   return tree;
 }

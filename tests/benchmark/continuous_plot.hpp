@@ -127,8 +127,9 @@ class CurvePicture {
     label((left + right) / 2, y0_ - 9, "middle", workload, "font-weight=\"bold\"");
     label((left + right) / 2, bottom + 31, "middle", "mean time, µs");
     std::ostringstream turned;
-    turned << "transform=\"rotate(-90 " << x0_ - 18 << ' ' << y0_ + kSide / 2 << ")\"";
-    label(x0_ - 18, y0_ + kSide / 2, "middle", "mean error, m", turned.str().c_str());
+    constexpr int kHalf = kSide / 2;
+    turned << "transform=\"rotate(-90 " << x0_ - 18 << ' ' << y0_ + kHalf << ")\"";
+    label(x0_ - 18, y0_ + kHalf, "middle", "mean error, m", turned.str().c_str());
     curve(workload, "swept", kOurs);
     curve(workload, "FCL", kTheirs);
   }

@@ -18,7 +18,8 @@
 namespace swept::benchmark {
 namespace {
 
-enum Query { kRefit, kSelf, kSelfContinuous, kRefitObjects, kPairs, kPairsContinuous, kQueries };
+constexpr int kRefit = 0, kSelf = 1, kSelfContinuous = 2, kRefitObjects = 3, kPairs = 4,
+              kPairsContinuous = 5, kQueries = 6;
 constexpr const char* kNames[kQueries] = {
     "refit",           "discrete, itself", "continuous, itself", "refit of the objects",
     "discrete, pairs", "continuous, pairs"};
@@ -34,7 +35,7 @@ class Stopwatch {
   explicit Stopwatch(Costs& costs) : costs_(costs) {}
   /// The least of two turns. `run` returns the number of pairs it found.
   template <typename Run>
-  void measure(Query query, const Run& run) {
+  void measure(int query, const Run& run) {
     double least = std::numeric_limits<double>::infinity();
     std::size_t found = 0;
     for (int turn = 0; turn < 2; ++turn) {

@@ -64,7 +64,7 @@ class Source {
         const bool free = test::ask(moved(q, middle * along)).verdict == Verdict::Free;
         (free ? apart : touching) = middle;
       }
-      const ImpactQuery found = moved(q, (side == Verdict::Free ? apart : touching) * along);
+      ImpactQuery found = moved(q, (side == Verdict::Free ? apart : touching) * along);
       if (boxesOverlap(found)) return found;
     }
   }

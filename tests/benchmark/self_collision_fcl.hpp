@@ -91,7 +91,7 @@ class FclSelf {
     return least;
   }
   /// As placed.
-  Eigen::Isometry3d model_from_link(int link) const {
+  Eigen::Isometry3d poseOfLink(int link) const {
     return states_[model_.bodyOfLink[link]].world_from_body * model_.body_from_link[link];
   }
 
@@ -124,6 +124,7 @@ class FclSelf {
       for (const CollisionGeometry& part : robot.links()[i].collision) {
         auto object =
             std::make_unique<fcl::CollisionObjectd>(fclGeometry(part.shape, robot.links()[i].name));
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): FCL keeps it, and does not look there.
         object->setUserData(reinterpret_cast<void*>(objects_.size()));
         objects_.push_back({i, model_.bodyOfLink[i],
                             model_.body_from_link[i] * part.link_from_shape, std::move(object)});

@@ -103,7 +103,7 @@ class SelfJudge {
 
   bool isEnclosed(int a, int b) const {
     const auto& links = checker_.robot().links();
-    const Eigen::Isometry3d a_from_b = fcl_.model_from_link(a).inverse() * fcl_.model_from_link(b);
+    const Eigen::Isometry3d a_from_b = fcl_.poseOfLink(a).inverse() * fcl_.poseOfLink(b);
     for (const CollisionGeometry& first : links[a].collision)
       for (const CollisionGeometry& second : links[b].collision)
         if (encloses(first, second, a_from_b) || encloses(second, first, a_from_b.inverse()))

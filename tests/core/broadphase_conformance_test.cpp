@@ -283,7 +283,7 @@ TYPED_TEST(BroadphaseConformance, ManagerAgainstManager) {
     }));
     EXPECT_EQ(visited, expected);
     found += expected.size();
-    most += 60 * 40;
+    most += std::size_t{60} * 40;
   }
   EXPECT_GT(found, most / 50);
   EXPECT_LT(found, most / 2);

@@ -122,7 +122,8 @@ TEST(ClearanceGrid, NeverSaysMoreFromCornerToCorner) {
   points.emplace_back();
   for (int i = 0; i < 27; ++i) {
     if (i == 13) continue;
-    const Vector3d towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const int y = i / 3 % 3, z = i / 9;
+    const Vector3d towards(i % 3 - 1, y - 1, z - 1);
     const Vector3d p = middle + 0.5 * kWithin * side * towards;
     for (int cells = 2; cells < 10; ++cells) {
       points.back() = middle + (cells - 0.5 * kWithin) * side * towards;
@@ -246,7 +247,7 @@ TEST(ClearanceGrid, CountsWhatTheWindowCutsOffAsOccupied) {
     for (int i = 0; i < 6000; ++i) {
       Vector3d middle;
       for (int k = 0; k < 3; ++k)
-        middle[k] = 0.5 + static_cast<double>(random() % (4 * field.blocks[k]));
+        middle[k] = 0.5 + std::uniform_int_distribution<int>(0, 4 * field.blocks[k] - 1)(random);
       // Half of them at the face.
       const auto off = static_cast<double>(random() % 6);
       if (i % 2 == 0) middle[axis] = isLower ? off + 0.5 : 4.0 * field.blocks[axis] - off - 0.5;
@@ -371,6 +372,7 @@ TEST(ClearanceGrid, QueriesAllocateNothingAndCopiesShare) {
   const ClearanceScene scene = test::clearanceScenes().front();
   const ClearanceGrid grid = ClearanceGrid::build(scene.shape, kFewCells);
   const long before = test::allocations;
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): what a copy costs is asked here.
   const ClearanceGrid copy = grid;
   double sum = 0.0;
   std::array<Vector3d, 16> points;

@@ -178,7 +178,7 @@ class Check {
       if (child >= 0) {
         run = visit(child);
       } else {
-        const auto point = static_cast<std::size_t>(~child);
+        const auto point = static_cast<std::size_t>(-1 - child);
         run = {point, point + 1};
         ++seen_[point];
       }

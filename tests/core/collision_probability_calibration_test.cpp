@@ -150,7 +150,7 @@ class SceneSampler {
   /// Within a step or two of the noise from the surface, mostly outside.
   Vector3d nearSurface(const Shape& shape) {
     for (int tries = 0; tries < 10000; ++tries) {
-      const Vector3d at = uniformPoint(random_, 1.0);
+      Vector3d at = uniformPoint(random_, 1.0);
       const DistanceResult apart =
           distance(shape, Sphere{0.0}, Isometry3d(Eigen::Translation3d(at)));
       if (apart.upper <= 0.0 ? random_() % 4 == 0 : apart.upper < uniform(random_, 0.0, 0.3)) {
@@ -353,8 +353,9 @@ double massOf(const detail::NoiseFrame& frame, const detail::LineCell& cell,
   const double stepV = (cell.to[1] - cell.from[1]) / kSteps;
   double mass = 0.0;
   for (int i = 0; i < kSteps * kSteps; ++i) {
-    const double u = cell.from[0] + (i / kSteps + 0.5) * stepU;
-    const double v = cell.from[1] + (i % kSteps + 0.5) * stepV;
+    const int row = i / kSteps, column = i % kSteps;
+    const double u = cell.from[0] + (row + 0.5) * stepU;
+    const double v = cell.from[1] + (column + 0.5) * stepV;
     std::vector<detail::Interval> on;
     for (const auto& set : sets) on.push_back(set.along(frame.line(u, v), frame.way()));
     std::sort(on.begin(), on.end(), [](const auto& a, const auto& b) { return a.from < b.from; });

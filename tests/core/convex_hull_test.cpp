@@ -65,7 +65,7 @@ void checkFaces(const ConvexHull& hull) {
 /// coordinates.
 ConvexHull checkedHull(const Points& points, double mostError = 2e-12) {
   std::mt19937 random(31);
-  const ConvexHull hull = ConvexHull::of(points);
+  ConvexHull hull = ConvexHull::of(points);
   const double scale = magnitude(points);
   EXPECT_GE(hull.error(), 0.0);
   EXPECT_LE(hull.error(), mostError * scale);

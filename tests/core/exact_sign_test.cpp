@@ -90,8 +90,8 @@ TEST(ExactSign, DecidesGridsOfLastPlacesAroundAPlane) {
   int roundedWrong = 0;
   for (int i = 0; i < 40; ++i) {
     for (int j = 0; j < 40; ++j) {
-      const Vector3d p(0.5 + i * step, 0.5 + j * step,
-                       0.5 + ((i + j) / 2 + (i * 7 + j) % 3 - 1) * step);
+      const int k = (i + j) / 2 + (i * 7 + j) % 3 - 1;
+      const Vector3d p(0.5 + i * step, 0.5 + j * step, 0.5 + k * step);
       tally.expectRightSide(a, b, c, p);
       const double rounded = (b - a).cross(c - a).dot(p - a);
       const int sign = rounded > 0.0 ? 1 : (rounded < 0.0 ? -1 : 0);

@@ -26,7 +26,10 @@ constexpr double kResolution = 1e-9;
 
 struct Pair {
   Pair(Shape first, UniformMotion moveFirst, Shape second, UniformMotion moveSecond)
-      : a(std::move(first)), b(std::move(second)), moveA(moveFirst), moveB(moveSecond) {}
+      : a(std::move(first)),
+        b(std::move(second)),
+        moveA(std::move(moveFirst)),
+        moveB(std::move(moveSecond)) {}
 
   std::optional<LeafContact::Found> find(double from, double to, bool touching, double margin = 0) {
     const BoundingSphere ballA = boundingSphere(a), ballB = boundingSphere(b);

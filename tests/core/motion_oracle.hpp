@@ -104,7 +104,7 @@ struct Blend {
 };
 
 inline Curve bezier(const Eigen::Matrix3d& orientation, std::vector<swept::ControlPose> control) {
-  return [q = quaternion(orientation), control](Real t) {
+  return [q = quaternion(orientation), control = std::move(control)](Real t) {
     const int degree = static_cast<int>(control.size()) - 1;
     Blend blend;
     Real choose = 1;
@@ -130,7 +130,7 @@ inline Real basis(Real x) {
 
 inline Curve uniformCubic(const Eigen::Matrix3d& orientation,
                           std::vector<swept::ControlPose> control) {
-  return [q = quaternion(orientation), control](Real t) {
+  return [q = quaternion(orientation), control = std::move(control)](Real t) {
     const Real x = 3 + t * static_cast<Real>(control.size() - 3);
     Blend blend;
     for (std::size_t i = 0; i < control.size(); ++i) {

@@ -144,8 +144,9 @@ void expectInside(const TriangleMesh& mesh) {
       }
       return;
     }
-    ++leaves.at(static_cast<std::size_t>(~child));
-    for (const int corner : mesh.triangles()[static_cast<std::size_t>(~child)]) {
+    const auto triangle = static_cast<std::size_t>(-1 - child);
+    ++leaves.at(triangle);
+    for (const int corner : mesh.triangles()[triangle]) {
       const Vector3d& p = mesh.vertices()[static_cast<std::size_t>(corner)];
       for (const detail::OrientedBox& box : boxes) {
         for (int j = 0; j < 3; ++j) {

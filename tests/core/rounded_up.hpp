@@ -15,7 +15,7 @@ inline std::string roundedUp(double measured) {
   const double x = 1.2 * measured;
   const int power = static_cast<int>(std::floor(std::log10(x)));
   for (const auto& [digit, raise] : {std::pair{"1", 0}, {"2", 0}, {"5", 0}, {"1", 1}}) {
-    const std::string text = digit + ("e" + std::to_string(power + raise));
+    std::string text = digit + ("e" + std::to_string(power + raise));
     if (std::strtod(text.c_str(), nullptr) >= x) return text;
   }
   return "inf";

@@ -31,7 +31,7 @@ class CoincidentWorld {
 /// multiples of 1/16 m. Every third link is a line, every fifth a plate.
 class FoldedArms : public CoincidentWorld {
  public:
-  FoldedArms() {
+  explicit FoldedArms(bool rounded = false) : rounded_(rounded) {
     boxes_.assign(kArms * kLinks, {Vector3d::Zero(), Vector3d::Zero()});
     for (int level = 0; level < 6; ++level) {
       const double z = 0.25 * level - 0.5;
@@ -52,10 +52,15 @@ class FoldedArms : public CoincidentWorld {
     place();
   }
 
- protected:
+ private:
   static constexpr std::size_t kArms = 6, kLinks = 8;
 
-  virtual Eigen::Isometry3d turned(int quarters, std::size_t joint) const {
+  Eigen::Isometry3d turned(int quarters, std::size_t joint) const {
+    if (rounded_) {
+      const double angle = 0.5 * 3.14159265358979323846 * (quarters - 4.0);
+      const Vector3d axis = Vector3d::Unit(static_cast<int>(joint % 3));
+      return Eigen::Isometry3d(Eigen::AngleAxisd(angle, axis));
+    }
     const std::array<Eigen::Matrix3d, 3> quarter{Eigen::Matrix3d{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
                                                  Eigen::Matrix3d{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
                                                  Eigen::Matrix3d{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
@@ -76,17 +81,14 @@ class FoldedArms : public CoincidentWorld {
     }
   }
 
- private:
+  bool rounded_;
   std::array<std::array<int, kLinks>, kArms> turns_{};
 };
 
 /// The same but for the rounding of sines and cosines.
 class NearlyFoldedArms : public FoldedArms {
- protected:
-  Eigen::Isometry3d turned(int quarters, std::size_t joint) const override {
-    const double angle = 0.5 * 3.14159265358979323846 * (quarters - 4.0);
-    return Eigen::Isometry3d(Eigen::AngleAxisd(angle, Vector3d::Unit(static_cast<int>(joint % 3))));
-  }
+ public:
+  NearlyFoldedArms() : FoldedArms(true) {}
 };
 
 /// All boxes the same, but for those that are a step ahead; they grow, shrink to a point, and move.

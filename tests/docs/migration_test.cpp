@@ -62,12 +62,12 @@ TEST(Migration, Tolerance) {
   }
 }
 
-/// A tetrahedron.
-const std::vector<Eigen::Vector3d> vertices = {
-    {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-const std::vector<Eigen::Vector3i> triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-
 TEST(Migration, Meshes) {
+  // A tetrahedron.
+  const std::vector<Eigen::Vector3d> vertices = {
+      {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  const std::vector<Eigen::Vector3i> triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+
   const swept::Shape solid = swept::TriangleMesh::build(vertices, triangles);
   const swept::Shape surface =
       swept::TriangleMesh::build(vertices, triangles, swept::MeshInterior::Surface);

@@ -10,7 +10,7 @@ using namespace error_table;
 /// A direction in which an edge or a face touches.
 Wish drawFlatWish(const Body& body, Random& random) {
   for (;;) {
-    const Wish wish = drawWish(body, random);
+    Wish wish = drawWish(body, random);
     if (wish.tie != Wish::Tie::None) return wish;
   }
 }

@@ -117,7 +117,7 @@ StiffSample floating(Random& random, int i) {
   sample.from = {0, 0, 0, 0, 0, scale * ends[0], scale * ends[1]};
   sample.to = {0, 0, 0, 0, 0, ends[2], ends[3]};
   const Real angle = 2 * atan2(Real(ends[2]), Real(ends[3]));
-  const Real quarter = boost::math::constants::half_pi<Real>();
+  const Real& quarter = boost::math::constants::half_pi<Real>();
   const auto distanceAt = [=](const Real& turned) {
     const Real half = (turned - quarter) / 2;
     const Real between = Real(away) - lever;

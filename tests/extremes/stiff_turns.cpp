@@ -8,8 +8,6 @@ namespace extremes {
 
 namespace {
 
-using error_table::real;
-
 Real pi() {
   return boost::math::constants::pi<Real>();
 }

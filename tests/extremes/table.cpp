@@ -76,7 +76,7 @@ std::string markdown(const std::vector<Row>& rows) {
 }
 
 std::string commaSeparated(const std::vector<Row>& rows) {
-  const auto quoted = [](std::string cell) { return cell.insert(0, 1, '"') + '"'; };
+  const auto quoted = [](const std::string& cell) { return '"' + cell + '"'; };
   std::string text = joined(kHeads, ",") + "\n";
   for (const Row& row : rows) {
     std::array<std::string, kColumns> cells = cellsOf(row);

@@ -71,8 +71,8 @@ void compare(const Row& row, const Cells& now, const Cells& stated) {
   for (const char* column : {"n", "apart", "wrong", "honest", "work at most"}) {
     EXPECT_EQ(now.at(column), stated.at(column)) << nameOf(row) << ", " << column;
   }
-  EXPECT_NEAR(row.undecided, std::atoi(stated.at("undecided").c_str()), 2 + row.n / 20)
-      << nameOf(row);
+  const int slack = 2 + row.n / 20;
+  EXPECT_NEAR(row.undecided, std::atoi(stated.at("undecided").c_str()), slack) << nameOf(row);
   if (row.countsWork && row.isOrdinary()) {
     EXPECT_LE(static_cast<double>(row.work), 0.5 + 1.5 * std::atof(stated.at("counted").c_str()))
         << nameOf(row);

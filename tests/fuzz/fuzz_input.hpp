@@ -87,10 +87,14 @@ class Numbers {
     bytes_ = bytes_.subspan(1);
     return first;
   }
+  int signedByte() {
+    const int value = byte();
+    return value < 128 ? value : value - 256;
+  }
   /// In [-1, 1], with 0, 1 and numbers near them among few bytes.
   double unit() {
-    const int high = static_cast<std::int8_t>(byte());
-    const int low = static_cast<std::int8_t>(byte());
+    const int high = signedByte();
+    const int low = signedByte();
     const double coarse = high == -128 ? -1.0 : high / 127.0;
     return std::min(
         1.0,
@@ -99,7 +103,7 @@ class Numbers {
   }
   /// Between 1e-3 and 1e3 for most bytes, up to 1e-9 and 1e9 for some.
   double size() {
-    const int exponent = static_cast<std::int8_t>(byte());
+    const int exponent = signedByte();
     const double digits = 1.0 + byte() / 64.0;
     return digits * std::pow(10.0, exponent % 8 == 7 ? exponent / 15.0 : exponent / 50.0);
   }

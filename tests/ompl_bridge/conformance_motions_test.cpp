@@ -20,6 +20,7 @@ TEST_P(Contract, MotionsAgreeWithTheirStates) {
   int valid = 0, partly = 0;
   for (int i = 0; i < kMotions; ++i) {
     const State s1 = randomValid(), s2 = i % 2 == 0 ? random() : near(s1, 0.15);
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): states may change through get().
     const State before1(s1), before2(s2), untouched = random();
     State last(untouched);
     std::pair<ob::State*, double> lastValid{last.get(), -7.0};

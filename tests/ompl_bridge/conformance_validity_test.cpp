@@ -24,6 +24,7 @@ TEST_P(Contract, ValidityAgreesWithItself) {
   constexpr int kStates = 150;
   int valid = 0, led = 0;
   for (int i = 0; i < kStates; ++i) {
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): states may change through get().
     const State state = random(), before(state);
     const bool answer = validity.isValid(state.get());
     valid += answer;

@@ -9,7 +9,7 @@ namespace swept::test {
 namespace {
 
 // OMPL seeds by the clock unless told before its first random number; tests repeat.
-[[maybe_unused]] const bool seeded = (ompl::RNG::setSeed(42), true);
+[[maybe_unused]] const bool kSeeded = (ompl::RNG::setSeed(42), true);
 
 std::string ballLink(const std::string& name, double radius) {
   return "<link name='" + name + "'><collision><geometry><sphere radius='" +

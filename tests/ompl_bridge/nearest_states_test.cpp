@@ -58,7 +58,10 @@ class Forest {
     }
     return node;
   }
-  Node* make() { return &nodes_.emplace_back(Node{space_->allocState()}); }
+  Node* make() {
+    nodes_.push_back(Node{space_->allocState()});
+    return &nodes_.back();
+  }
   void add(Node* node) {
     listed_.push_back(node);
     nearest_.add(node);

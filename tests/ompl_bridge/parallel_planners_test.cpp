@@ -140,8 +140,8 @@ class ParallelPlanners : public testing::Test {
   }
 
   std::shared_ptr<PoseGoal> poseGoal() {
-    const auto goal = std::make_shared<PoseGoal>(si(), checker_, "ball",
-                                                 Eigen::Isometry3d(Eigen::Translation3d(kGoal)));
+    auto goal = std::make_shared<PoseGoal>(si(), checker_, "ball",
+                                           Eigen::Isometry3d(Eigen::Translation3d(kGoal)));
     setup_->setGoal(goal);
     return goal;
   }

@@ -32,7 +32,7 @@ class Paths : public testing::Test {
   og::SimpleSetupPtr throughTheWindow(MotionCheck motions = MotionCheck::Certified) {
     SetupOptions options;
     options.motions = motions;
-    const auto setup = makeSimpleSetup(checker_, options);
+    auto setup = makeSimpleSetup(checker_, options);
     setStartAndGoal(*setup, *checker_, std::vector<double>{-0.8, -0.5, -0.5},
                     std::vector<double>{0.8, -0.5, -0.5});
     return setup;

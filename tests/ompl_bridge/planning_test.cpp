@@ -22,7 +22,7 @@ class Planning : public testing::Test {
   static og::SimpleSetupPtr problem(const std::shared_ptr<const Checker>& checker,
                                     const std::vector<double>& from,
                                     const std::vector<double>& to) {
-    const auto setup = makeSimpleSetup(checker);
+    auto setup = makeSimpleSetup(checker);
     setStartAndGoal(*setup, *checker, from, to);
     return setup;
   }

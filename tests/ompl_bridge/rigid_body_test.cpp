@@ -29,7 +29,7 @@ namespace og = ompl::geometric;
 using Eigen::Vector3d;
 
 // OMPL seeds by the clock unless told before its first random number; tests repeat.
-[[maybe_unused]] const bool seeded = (ompl::RNG::setSeed(7), true);
+[[maybe_unused]] const bool kSeeded = (ompl::RNG::setSeed(7), true);
 
 // m; mesh files keep floats, which these are.
 constexpr double kReach = 0.3125, kInner = -0.15625, kHalfThick = 0.078125;  // of the L
@@ -165,9 +165,9 @@ class RigidBody : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
-    checker_ = floatingL();
+    sharedChecker = floatingL();
   }
-  static void TearDownTestSuite() { checker_.reset(); }
+  static void TearDownTestSuite() { sharedChecker.reset(); }
 
   static Eigen::Isometry3d poseOf(std::span<const double> q) {
     Eigen::Isometry3d pose(Eigen::Translation3d(q[0], q[1], q[2]));
@@ -206,16 +206,16 @@ class RigidBody : public testing::Test {
     conversion_.toState(q, state.get());
   }
 
-  static inline std::shared_ptr<const Checker> checker_;
-  og::SimpleSetupPtr setup_ = makeSimpleSetup(checker_, {.space = bounds()});
+  static inline std::shared_ptr<const Checker> sharedChecker;
+  og::SimpleSetupPtr setup_ = makeSimpleSetup(sharedChecker, {.space = bounds()});
   ob::StateSpacePtr space_ = setup_->getStateSpace();
-  StateConversion conversion_{checker_->robot(), checker_->group()};
+  StateConversion conversion_{sharedChecker->robot(), sharedChecker->group()};
   ob::ScopedState<> from_{space_}, to_{space_}, at_{space_}, last_{space_};
 };
 
 TEST_F(RigidBody, IsOneSolidThatFloats) {
-  ASSERT_EQ(checker_->dimension(), 7);
-  const auto& parts = checker_->robot().links()[0].collision;
+  ASSERT_EQ(sharedChecker->dimension(), 7);
+  const auto& parts = sharedChecker->robot().links()[0].collision;
   ASSERT_EQ(parts.size(), 1u);
   const auto& mesh = std::get<TriangleMesh>(parts[0].shape);
   EXPECT_TRUE(mesh.isClosed());
@@ -225,7 +225,7 @@ TEST_F(RigidBody, IsOneSolidThatFloats) {
 
 TEST_F(RigidBody, StatesAreWhatTheBoxesSay) {
   constexpr int kStates = 2000;
-  Workspace workspace(*checker_);
+  Workspace workspace(*sharedChecker);
   int free = 0;
   for (int i = 0; i < kStates; ++i) {
     sampleNear(from_, 0.5);
@@ -235,7 +235,7 @@ TEST_F(RigidBody, StatesAreWhatTheBoxesSay) {
     free += valid;
     if (truth > 1e-9) {
       ASSERT_TRUE(valid);
-      ASSERT_NEAR(checker_->clearance(q, workspace), truth, 1e-8);
+      ASSERT_NEAR(sharedChecker->clearance(q, workspace), truth, 1e-8);
     } else {
       ASSERT_FALSE(valid);
     }
@@ -263,7 +263,7 @@ TEST_F(RigidBody, TheSpaceInterpolatesTheCertifiedMotion) {
     const std::vector<double> a = configurationOf(from_.get()), b = configurationOf(to_.get());
     const double t = uniform(random, 0.0, 1.0);
     space_->interpolate(from_.get(), to_.get(), t, at_.get());
-    const Eigen::VectorXd ours = checker_->interpolate(a, b, t);
+    const Eigen::VectorXd ours = sharedChecker->interpolate(a, b, t);
     const Eigen::Isometry3d pose = poseOf({ours.data(), 7});
     ASSERT_LT((poseOf(configurationOf(at_.get())).matrix() - pose.matrix()).norm(), 1e-12);
     ASSERT_LT((between(poseOf(a), poseOf(b), t).matrix() - pose.matrix()).norm(), 1e-9);
@@ -316,7 +316,7 @@ TEST_F(RigidBody, ThreadsThroughTheHole) {
   ASSERT_TRUE(setup_->solve(120.0) == ob::PlannerStatus::EXACT_SOLUTION);
   const og::PathGeometric& path = setup_->getSolutionPath();
   EXPECT_TRUE(path.check());
-  const auto certificates = certifyPath(path, *checker_);
+  const auto certificates = certifyPath(path, *sharedChecker);
   ASSERT_EQ(certificates.size() + 1, path.getStateCount());
   for (const MotionCertificate& certificate : certificates) {
     EXPECT_EQ(certificate.verdict, Verdict::Free);

@@ -26,7 +26,7 @@ struct Answer {
 // One set of validators for all threads, and what they say of motion i.
 class Queries {
  public:
-  Queries(std::shared_ptr<const Checker> checker, std::size_t count)
+  Queries(const std::shared_ptr<const Checker>& checker, std::size_t count)
       : space_(makeStateSpace(checker->robot(), checker->group())),
         si_(std::make_shared<ob::SpaceInformation>(space_)),
         validity_(si_, checker),

@@ -33,18 +33,19 @@ constexpr const char* kProblems = R"({"wall": [
 class BatchOutput : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    batch_ = runSwept(gantryBatch(
-        *folder_, {"--planners", "RRTConnect,RRT", "--time", "0.5", "--validators",
-                   "certified,discrete:0.1", "--runs", "2", "-q", "-o", folder_->path("r"), "--csv",
-                   folder_->path("csv"), "--log", folder_->path("logs")}));
-    for (json& run : jsonLines(folder_->read("r")))
-      if (!run.contains("format")) runs_.push_back(std::move(run));
-    std::ranges::sort(runs_, {}, [](const json& run) { return keyOf(run); });
+    sharedFolder = new TemporaryFolder;
+    sharedBatch = runSwept(
+        gantryBatch(*sharedFolder,
+                    {"--planners", "RRTConnect,RRT", "--time", "0.5", "--validators",
+                     "certified,discrete:0.1", "--runs", "2", "-q", "-o", sharedFolder->path("r"),
+                     "--csv", sharedFolder->path("csv"), "--log", sharedFolder->path("logs")}));
+    for (json& run : jsonLines(sharedFolder->read("r")))
+      if (!run.contains("format")) sharedRuns.push_back(std::move(run));
+    std::ranges::sort(sharedRuns, {}, [](const json& run) { return keyOf(run); });
   }
   static void TearDownTestSuite() {
-    delete folder_;
-    runs_.clear();
+    delete sharedFolder;
+    sharedRuns.clear();
   }
   static Words gantryBatch(const TemporaryFolder& folder, const Words& more) {
     const Gantry gantry;
@@ -60,16 +61,16 @@ class BatchOutput : public testing::Test {
            run["run"].dump();
   }
 
-  static inline TemporaryFolder* folder_ = nullptr;
-  static inline Outcome batch_;
-  static inline std::vector<json> runs_;  ///< in the order of the CSV's rows
+  static inline TemporaryFolder* sharedFolder = nullptr;
+  static inline Outcome sharedBatch;
+  static inline std::vector<json> sharedRuns;  ///< in the order of the CSV's rows
 };
 
 TEST_F(BatchOutput, IsRepresentative) {
-  ASSERT_EQ(batch_.exitCode, 0) << batch_.err;
-  ASSERT_EQ(runs_.size(), 2u * 2 * 2 * 2);
+  ASSERT_EQ(sharedBatch.exitCode, 0) << sharedBatch.err;
+  ASSERT_EQ(sharedRuns.size(), 2u * 2 * 2 * 2);
   int found = 0, impossible = 0, missed = 0;
-  for (const json& run : runs_) {
+  for (const json& run : sharedRuns) {
     const bool behindWall = run["index"] == 2;
     const bool solved = run["solved"] == true;
     EXPECT_EQ(solved, !behindWall || run["validator"] != "certified") << run;
@@ -111,14 +112,14 @@ json cellValue(const json& run, std::string column) {
 }
 
 TEST_F(BatchOutput, TheCsvHasTheValuesOfTheLines) {
-  const auto rows = quotedCsvRows(folder_->read("csv"));
-  ASSERT_EQ(rows.size(), runs_.size() + 1);
+  const auto rows = quotedCsvRows(sharedFolder->read("csv"));
+  ASSERT_EQ(rows.size(), sharedRuns.size() + 1);
   EXPECT_THAT(rows[0], testing::IsSupersetOf({"path_length [rad or m]", "certified_clearance [m]",
                                               "planning [s]", "certification [s]"}));
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
+  for (std::size_t i = 0; i < sharedRuns.size(); ++i) {
     ASSERT_EQ(rows[i + 1].size(), rows[0].size());
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
-      const json value = cellValue(runs_[i], rows[0][c]);
+      const json value = cellValue(sharedRuns[i], rows[0][c]);
       const std::string& cell = rows[i + 1][c];
       if (value.is_number())
         EXPECT_EQ(std::stod(cell), value.get<double>()) << rows[0][c];
@@ -250,7 +251,7 @@ void expectRun(const LogReader& log, const LogReader::Planner& planner,
 
 TEST_F(BatchOutput, EachLogIsOneExperimentOfTheGrammar) {
   for (const std::string index : {"1", "2"}) {
-    LogReader log(folder_->read("logs/wall_" + index + ".log"));
+    LogReader log(sharedFolder->read("logs/wall_" + index + ".log"));
     ASSERT_NO_THROW(log.read());
     EXPECT_EQ(log.preamble["experiment"], "wall_" + index);
     EXPECT_EQ(log.preamble["seed"], "1");
@@ -259,7 +260,7 @@ TEST_F(BatchOutput, EachLogIsOneExperimentOfTheGrammar) {
     EXPECT_EQ(log.planners.size(), 4u);
     int seen = 0;
     double total = 0.0;
-    for (const json& run : runs_) {
+    for (const json& run : sharedRuns) {
       if (run["index"].dump() != index) continue;
       const LogReader::Planner& planner = log.planners.at(run["planner"].get<std::string>() + "/" +
                                                           run["validator"].get<std::string>());
@@ -273,14 +274,14 @@ TEST_F(BatchOutput, EachLogIsOneExperimentOfTheGrammar) {
 }
 
 TEST_F(BatchOutput, TheTableIsOfTheLines) {
-  const json table = jsonOf(runSwept({"bench", "summary", folder_->path("r"), "--json"}));
+  const json table = jsonOf(runSwept({"bench", "summary", sharedFolder->path("r"), "--json"}));
   EXPECT_EQ(table["runs"], 16);
   ASSERT_EQ(table["rows"].size(), 4u) << "one set, so no total";
   for (const json& row : table["rows"]) {
     int runs = 0, solved = 0, certified = 0, withMissed = 0;
     double length = 0.0;
     std::vector<double> times;
-    for (const json& run : runs_) {
+    for (const json& run : sharedRuns) {
       if (run["planner"] != row["planner"] || run["validator"] != row["validator"]) continue;
       ++runs;
       if (run["solved"] == false) continue;
@@ -307,12 +308,12 @@ TEST_F(BatchOutput, TheTableIsOfTheLines) {
 
 TEST_F(BatchOutput, ASummaryIsWhatTheBatchPrintedAndWrote) {
   const Outcome summary =
-      runSwept({"bench", "summary", folder_->path("r"), folder_->path("r"), "--csv",
-                folder_->path("csv2"), "--log", folder_->path("logs2")});
+      runSwept({"bench", "summary", sharedFolder->path("r"), sharedFolder->path("r"), "--csv",
+                sharedFolder->path("csv2"), "--log", sharedFolder->path("logs2")});
   EXPECT_EQ(summary.exitCode, 0) << summary.err;
-  EXPECT_EQ(summary.out, batch_.out);
-  EXPECT_EQ(folder_->read("csv2"), folder_->read("csv"));
-  EXPECT_EQ(folder_->read("logs2/wall_2.log"), folder_->read("logs/wall_2.log"));
+  EXPECT_EQ(summary.out, sharedBatch.out);
+  EXPECT_EQ(sharedFolder->read("csv2"), sharedFolder->read("csv"));
+  EXPECT_EQ(sharedFolder->read("logs2/wall_2.log"), sharedFolder->read("logs/wall_2.log"));
 }
 
 TEST_F(BatchOutput, ProgressIsForTerminalsOnly) {
@@ -326,7 +327,7 @@ TEST_F(BatchOutput, ProgressIsForTerminalsOnly) {
   Words quiet = batch;
   quiet.push_back("-q");
   EXPECT_EQ(runSwept(quiet, Stderr::Terminal).err, "");
-  EXPECT_EQ(batch_.err, "");
+  EXPECT_EQ(sharedBatch.err, "");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ Outcome gantryBench(const Gantry& gantry, const std::string& edges, const Words&
 }
 
 std::string writeCompressed(const TemporaryFolder& folder, const std::string& text) {
-  const std::string file = folder.path("edges.csv.gz");
+  std::string file = folder.path("edges.csv.gz");
   gzFile stream = gzopen(file.c_str(), "wb");
   gzwrite(stream, text.data(), static_cast<unsigned>(text.size()));
   gzclose(stream);

@@ -17,7 +17,6 @@ using nlohmann::json;
 using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::EndsWith;
-using testing::HasSubstr;
 using testing::StartsWith;
 
 class Dump : public testing::Test {
@@ -46,7 +45,7 @@ class Dump : public testing::Test {
     std::ifstream stream(files().at(0));
     json file = json::parse(stream);
     file["cases"][0][json::json_pointer(pointer)] = value;
-    const std::string path = folder() + "/other.json";
+    std::string path = folder() + "/other.json";
     std::ofstream(path) << file;
     return path;
   }

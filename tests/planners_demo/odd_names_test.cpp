@@ -14,7 +14,6 @@ namespace swept::test {
 namespace {
 
 using nlohmann::json;
-using testing::EndsWith;
 using testing::HasSubstr;
 
 class OddNames : public testing::Test {

@@ -127,9 +127,10 @@ TEST_F(Page, SaysWhatACloudsProofIsFor) {
 TEST_F(Page, DrawsSomeOfALargeCloud) {
   std::string points;
   constexpr int kPoints = 150'001;
-  for (int i = 0; i < kPoints - 1; ++i)
-    points +=
-        std::to_string(1.5 + i % 500 * 0.002) + " " + std::to_string(i / 500 * 0.002) + " 0.5\n";
+  for (int i = 0; i < kPoints - 1; ++i) {
+    const int row = i / 500, column = i % 500;
+    points += std::to_string(1.5 + column * 0.002) + " " + std::to_string(row * 0.002) + " 0.5\n";
+  }
   const std::string cloud = folder_.write("large.xyz", points + "0.6 0 0.2\n");
   const std::vector<std::string> command{"check",   kRook, "ready",          "--group", "arm",
                                          "--cloud", cloud, "--point-radius", "0.001"};
@@ -218,7 +219,7 @@ TEST_F(Page, ViewWritesOrOpens) {
 }
 
 TEST_F(Page, WhatCannotBeAPageIsRefusedAtOnce) {
-  const auto errorOf = [](std::vector<std::string> arguments) {
+  const auto errorOf = [](const std::vector<std::string>& arguments) {
     const Outcome run = runSwept(arguments);
     EXPECT_EQ(run.exitCode, 3);
     EXPECT_EQ(run.out, "");

@@ -49,7 +49,7 @@ std::string between(const std::string& text, const std::string& begin, const std
 nlohmann::json pageData(const std::string& html) {
   const std::string text =
       between(html, "<script id=\"data\" type=\"application/json\">", "</script>");
-  const nlohmann::json data = nlohmann::json::parse(text, nullptr, false);
+  nlohmann::json data = nlohmann::json::parse(text, nullptr, false);
   EXPECT_TRUE(data.is_object()) << "no data in a page of " << html.size() << " bytes";
   return data;
 }

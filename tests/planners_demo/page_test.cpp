@@ -45,66 +45,67 @@ class PlannedPage : public testing::Test {
   static void SetUpTestSuite() {
     if (!programHasPages()) return;
     const TemporaryFolder folder;
-    run_ = runSwept({"plan", kRook, "--group", "arm", "--problems", "models/problems.json", "--set",
-                     "shelf", "--index", "1", "--html", folder.path("page.html")});
-    line_ = "page written to " + folder.path("page.html") + "\n";
-    html_ = folder.read("page.html");
-    data_ = pageData(html_);
+    sharedRun = runSwept({"plan", kRook, "--group", "arm", "--problems", "models/problems.json",
+                          "--set", "shelf", "--index", "1", "--html", folder.path("page.html")});
+    sharedLine = "page written to " + folder.path("page.html") + "\n";
+    sharedHtml = folder.read("page.html");
+    sharedData = pageData(sharedHtml);
     const PlanningProblem problem =
         ProblemFile::load(modelsDir() + "/problems.json").problem("shelf", 1);
-    checker_ = std::make_unique<Checker>(rook(), "arm", std::make_shared<World>(problem.world));
+    sharedChecker =
+        std::make_unique<Checker>(rook(), "arm", std::make_shared<World>(problem.world));
   }
-  static void TearDownTestSuite() { checker_.reset(); }
+  static void TearDownTestSuite() { sharedChecker.reset(); }
   void SetUp() override {
     if (!programHasPages()) GTEST_SKIP() << "swept was built without three.js";
   }
 
-  static inline Outcome run_;
-  static inline std::string html_, line_;
-  static inline json data_;
-  static inline std::unique_ptr<Checker> checker_;
+  static inline Outcome sharedRun;
+  static inline std::string sharedHtml, sharedLine;
+  static inline json sharedData;
+  static inline std::unique_ptr<Checker> sharedChecker;
 };
 
 TEST_F(PlannedPage, IsWrittenAndSaysSo) {
-  EXPECT_EQ(run_.exitCode, 0) << run_.err;
-  EXPECT_THAT(run_.out, testing::EndsWith(line_));
-  EXPECT_LT(html_.size(), 5'000'000u);
-  EXPECT_EQ(data_["tone"], "good");
-  const auto segments = data_["motions"].size();
-  EXPECT_EQ(data_["headline"],
+  EXPECT_EQ(sharedRun.exitCode, 0) << sharedRun.err;
+  EXPECT_THAT(sharedRun.out, testing::EndsWith(sharedLine));
+  EXPECT_LT(sharedHtml.size(), 5'000'000u);
+  EXPECT_EQ(sharedData["tone"], "good");
+  const auto segments = sharedData["motions"].size();
+  EXPECT_EQ(sharedData["headline"],
             "solved: " + std::to_string(segments) + " segments, all proven free");
 }
 
 TEST_F(PlannedPage, NeedsNoNetwork) {
-  EXPECT_THAT(html_, testing::HasSubstr("default-src 'none'"));
-  EXPECT_THAT(html_, testing::HasSubstr("Copyright (c) 2010-2019 three.js authors"));
-  EXPECT_THAT(html_, testing::Not(testing::HasSubstr("<link")));
-  EXPECT_THAT(html_, testing::Not(testing::HasSubstr("<script src")));
-  EXPECT_THAT(html_, testing::Not(testing::HasSubstr("@import")));
-  EXPECT_THAT(html_, testing::Not(testing::ContainsRegex("(src|href) *= *[\"']https?:")));
+  EXPECT_THAT(sharedHtml, testing::HasSubstr("default-src 'none'"));
+  EXPECT_THAT(sharedHtml, testing::HasSubstr("Copyright (c) 2010-2019 three.js authors"));
+  EXPECT_THAT(sharedHtml, testing::Not(testing::HasSubstr("<link")));
+  EXPECT_THAT(sharedHtml, testing::Not(testing::HasSubstr("<script src")));
+  EXPECT_THAT(sharedHtml, testing::Not(testing::HasSubstr("@import")));
+  EXPECT_THAT(sharedHtml, testing::Not(testing::ContainsRegex("(src|href) *= *[\"']https?:")));
 }
 
 TEST_F(PlannedPage, LinksAreWhereForwardKinematicsPutsThem) {
   for (const char* const link : {"link7", "link4", "hand"}) {
     const InverseKinematics kinematics(rook(), "arm", link);
-    for (const json& motion : data_["motions"]) {
+    for (const json& motion : sharedData["motions"]) {
       const int steps = motion["steps"];
       for (int i = 0; i <= steps; ++i) {
         const Eigen::Isometry3d expected =
-            kinematics.pose(at(*checker_, motion, static_cast<double>(i) / steps));
+            kinematics.pose(at(*sharedChecker, motion, static_cast<double>(i) / steps));
         const std::size_t frame = motion["first_frame"].get<std::size_t>() + std::size_t(i);
-        EXPECT_LT(poseError(linkPose(data_, frame, link), expected).position, 1e-6);
-        EXPECT_LT(poseError(linkPose(data_, frame, link), expected).angle, 1e-5);
+        EXPECT_LT(poseError(linkPose(sharedData, frame, link), expected).position, 1e-6);
+        EXPECT_LT(poseError(linkPose(sharedData, frame, link), expected).angle, 1e-5);
       }
     }
   }
-  EXPECT_EQ(data_["tip"], "link7");
+  EXPECT_EQ(sharedData["tip"], "link7");
 }
 
 TEST_F(PlannedPage, MotionsFollowEachOtherFromStartToGoal) {
   const PlanningProblem problem =
       ProblemFile::load(modelsDir() + "/problems.json").problem("shelf", 1);
-  const json& motions = data_["motions"];
+  const json& motions = sharedData["motions"];
   EXPECT_EQ(valuesOf(motions.front()["from"]), problem.start);
   EXPECT_THAT(problem.goals, testing::Contains(valuesOf(motions.back()["to"])));
   for (std::size_t i = 1; i < motions.size(); ++i)
@@ -113,9 +114,9 @@ TEST_F(PlannedPage, MotionsFollowEachOtherFromStartToGoal) {
 
 /// The bound of a part holds at states within it, and is not far below what is attained.
 TEST_F(PlannedPage, BoundsOfPartsHoldAndAreTight) {
-  Workspace workspace(*checker_);
+  Workspace workspace(*sharedChecker);
   int exact = 0, parts = 0;
-  for (const json& motion : data_["motions"]) {
+  for (const json& motion : sharedData["motions"]) {
     const auto steps = static_cast<int>(motion["pieces"]["tiers"].size());
     for (int i = 0; i < steps; ++i, ++parts) {
       const std::string tier = motion["pieces"]["tiers"][std::size_t(i)];
@@ -124,8 +125,8 @@ TEST_F(PlannedPage, BoundsOfPartsHoldAndAreTight) {
       const double lower = motion["pieces"]["lower"][std::size_t(i)];
       double least = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= 4; ++k) {
-        const auto q = at(*checker_, motion, (i + 0.25 * k) / steps);
-        const double distance = checker_->signedClearance(q, workspace).upper;
+        const auto q = at(*sharedChecker, motion, (i + 0.25 * k) / steps);
+        const double distance = sharedChecker->signedClearance(q, workspace).upper;
         EXPECT_LE(lower, distance + 1e-9);
         least = std::min(least, distance);
       }
@@ -139,36 +140,38 @@ TEST_F(PlannedPage, BoundsOfPartsHoldAndAreTight) {
 }
 
 TEST_F(PlannedPage, NearestPairOfAFrameIsTheReports) {
-  const json& table = data_["clearances"];
+  const json& table = sharedData["clearances"];
   ASSERT_EQ(table["stride"], 1);
   const std::vector<float> distance = floats(table["distance"]);
   const std::vector<std::int32_t> partner = integers(table["partner"]);
-  const std::size_t bodies = data_["bodies"].size();
-  ASSERT_EQ(distance.size(), bodies * data_["frames"]["count"].get<std::size_t>());
-  Workspace workspace(*checker_);
-  for (const json& motion : data_["motions"])
+  const std::size_t bodies = sharedData["bodies"].size();
+  ASSERT_EQ(distance.size(), bodies * sharedData["frames"]["count"].get<std::size_t>());
+  Workspace workspace(*sharedChecker);
+  for (const json& motion : sharedData["motions"])
     for (const int i : {0, 7, 48}) {
-      const StateReport report = checker_->reportState(at(*checker_, motion, i / 48.0), workspace);
+      const StateReport report =
+          sharedChecker->reportState(at(*sharedChecker, motion, i / 48.0), workspace);
       const std::size_t row = (motion["first_frame"].get<std::size_t>() + std::size_t(i)) * bodies;
       const auto first = distance.begin() + static_cast<std::ptrdiff_t>(row);
       const auto least = std::min_element(first, first + static_cast<std::ptrdiff_t>(bodies));
       EXPECT_NEAR(*least, report.clearance, 3e-5);
       const auto at = static_cast<std::size_t>(least - first);
-      const std::string a = data_["bodies"][at]["name"];
-      const std::string b = data_["bodies"][static_cast<std::size_t>(partner[row + at])]["name"];
+      const std::string a = sharedData["bodies"][at]["name"];
+      const std::string b =
+          sharedData["bodies"][static_cast<std::size_t>(partner[row + at])]["name"];
       EXPECT_EQ(std::minmax(a, b), std::minmax(report.nearestA, report.nearestB));
     }
 }
 
 TEST_F(PlannedPage, FactsAreTheRuns) {
   std::map<std::string, std::string> facts;
-  for (const json& fact : data_["facts"]) facts[fact[0]] = fact[1];
+  for (const json& fact : sharedData["facts"]) facts[fact[0]] = fact[1];
   EXPECT_EQ(facts["planner"], "RRTConnect");
   EXPECT_EQ(facts["seed"], "1");
   EXPECT_EQ(facts["margin"], "0 m");
   EXPECT_EQ(facts["tolerance"], "0.001 m");
   EXPECT_EQ(facts["swept"], SWEPT_VERSION);
-  EXPECT_THAT(run_.out, testing::HasSubstr(facts["least certified clearance"] + "\n"));
+  EXPECT_THAT(sharedRun.out, testing::HasSubstr(facts["least certified clearance"] + "\n"));
   EXPECT_THAT(facts["command"], testing::StartsWith("swept plan " + kRook + " --group arm"));
 }
 
@@ -178,12 +181,12 @@ TEST_F(PlannedPage, GeometryIsTheCheckedOne) {
   for (const Link& link : rook()->links())
     for (std::size_t k = 0; k < link.collision.size(); ++k) {
       const auto body = std::ranges::find_if(
-          data_["bodies"], [&](const json& entry) { return entry["name"] == link.name; });
-      ASSERT_NE(body, data_["bodies"].end()) << link.name;
+          sharedData["bodies"], [&](const json& entry) { return entry["name"] == link.name; });
+      ASSERT_NE(body, sharedData["bodies"].end()) << link.name;
       const json& part = (*body)["parts"][k];
       const Eigen::Isometry3d pose = poseOf(floats(part["pose"]), 0);
       EXPECT_LT(poseError(pose, link.collision[k].link_from_shape).position, 1e-6);
-      const json& geometry = data_["geometries"][part["geometry"].get<std::size_t>()];
+      const json& geometry = sharedData["geometries"][part["geometry"].get<std::size_t>()];
       const auto* mesh = std::get_if<TriangleMesh>(&link.collision[k].shape);
       if (mesh == nullptr) continue;
       ++meshes;
@@ -202,14 +205,14 @@ TEST_F(PlannedPage, GeometryIsTheCheckedOne) {
 }
 
 TEST_F(PlannedPage, CoversCoverTheVertices) {
-  for (const json& body : data_["bodies"])
+  for (const json& body : sharedData["bodies"])
     for (const json& part : body["parts"]) {
       EXPECT_EQ(part["cover"].is_null(), body["kind"] == "world") << body["name"];
-      const json& geometry = data_["geometries"][part["geometry"].get<std::size_t>()];
+      const json& geometry = sharedData["geometries"][part["geometry"].get<std::size_t>()];
       if (part["cover"].is_null() || geometry["kind"] != "triangles") continue;
       const std::vector<float> vertices = floats(geometry["positions"]);
       const std::vector<float> balls =
-          floats(data_["covers"][part["cover"].get<std::size_t>()]["balls"]);
+          floats(sharedData["covers"][part["cover"].get<std::size_t>()]["balls"]);
       EXPECT_LE(balls.size(), 4u * 96u);
       for (std::size_t v = 0; v < vertices.size(); v += 3) {
         bool covered = false;

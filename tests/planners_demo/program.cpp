@@ -113,7 +113,7 @@ Outcome runCommands(const std::string& commands, const std::string& folder) {
 }
 
 nlohmann::json jsonOf(const Outcome& run) {
-  const nlohmann::json json = nlohmann::json::parse(run.out, nullptr, false);
+  nlohmann::json json = nlohmann::json::parse(run.out, nullptr, false);
   EXPECT_TRUE(json.is_object()) << "not one JSON object:\n" << run.out << run.err;
   return json;
 }

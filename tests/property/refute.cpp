@@ -42,6 +42,7 @@ bool runAll(Arguments& a) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): CLI throws where the options below are wrong.
 int main(int argc, char** argv) {
   Arguments a;
   CLI::App app{"Tries to prove the checker wrong on random motions."};

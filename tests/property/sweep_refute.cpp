@@ -5,6 +5,7 @@
 
 #include "sweeps/campaign.hpp"
 
+// NOLINTNEXTLINE(bugprone-exception-escape): CLI throws where the options below are wrong.
 int main(int argc, char** argv) {
   sweeps::CampaignOptions options;
   std::uint64_t report = 100000;

@@ -25,8 +25,8 @@ double kilobytesOf(const std::string& what, const Make& make) {
 /// Six joints, meshes and primitives, a world of boxes.
 class CheckerMemory : public testing::Test {
  protected:
-  CheckerMemory() : world_(std::make_shared<World>(test::clutter(1, 12))) {
-    robot_ = test::modelRobot("rook6");
+  CheckerMemory()
+      : world_(std::make_shared<World>(test::clutter(1, 12))), robot_(test::modelRobot("rook6")) {
     base_.emplace(robot_, robot_->groups().front().name, world_);
   }
 

@@ -32,8 +32,11 @@ struct Motions {
       }
     }
   }
-  std::span<const double> begin(int i) const { return {from.data() + 2 * i, 2}; }
-  std::span<const double> end(int i) const { return {to.data() + 2 * i, 2}; }
+  std::span<const double> begin(int i) const { return of(from, i); }
+  std::span<const double> end(int i) const { return of(to, i); }
+  static std::span<const double> of(std::span<const double> ends, int i) {
+    return ends.subspan(2 * static_cast<std::size_t>(i), 2);
+  }
   std::vector<double> from, to;
 };
 

@@ -89,7 +89,8 @@ TEST(ChildProcess, MemoryIsBounded) {
 
 TEST(ChildProcess, WhatItSaysIsBounded) {
   const std::string text(1 << 20, 'x');
-  EXPECT_EQ(runInChild([&] { return text; }, {.seconds = 20, .bytes = 256 << 20}), text);
+  EXPECT_EQ(runInChild([&] { return std::string(text); }, {.seconds = 20, .bytes = 256 << 20}),
+            text);
   // It has the text already, and so needs no memory for it.
   std::string large(8 << 20, 'x');
   const auto give = [&] { return std::move(large); };

@@ -260,8 +260,8 @@ TEST(Lzf, ExpandsWhatTheFormatSays) {
   // A distance of 0x1f00 + 1 needs the low bits of the first byte.
   std::string far;
   for (int i = 0; i < 249; ++i) far += "\x1f"s + std::string(32, static_cast<char>('a' + i % 9));
-  const std::string plain = expanded(far, 249 * 32);
-  EXPECT_EQ(expanded(far + "\xff\xff\x00"s, 249 * 32 + 264),
+  const std::string plain = expanded(far, far.size() / 33 * 32);
+  EXPECT_EQ(expanded(far + "\xff\xff\x00"s, plain.size() + 264),
             plain + plain.substr(plain.size() - 0x1f01, 264));
 }
 

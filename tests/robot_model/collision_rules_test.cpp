@@ -16,7 +16,6 @@ using test::armUrdf;
 using test::messageOf;
 using test::parseArm;
 using test::shared;
-using test::sphere;
 
 TEST(CollisionRules, ThePatternAddedLastCounts) {
   CollisionRules rules;

@@ -108,7 +108,7 @@ Motion motionOf(Random& random, const CheckerModel& model) {
 class Geometry {
  public:
   Geometry(const CheckerModel& model, const Motion& motion)
-      : model_(model), motion_(motion), states_(model.kinematics.bodies.size()) {
+      : model_(model), states_(model.kinematics.bodies.size()) {
     joints_.resize(states_.size());
     EXPECT_TRUE(detail::compileMotion(model.kinematics, motion.from, motion.to, joints_));
   }
@@ -162,7 +162,6 @@ class Geometry {
   }
 
   const CheckerModel& model_;
-  const Motion& motion_;
   std::vector<detail::JointMotion> joints_;
   std::vector<detail::BodyState> states_;
 };

@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
 
-void Squared(const LaneObstacles& world, const Row (&x)[3], const Row (&g)[3], Row& squared) {
+void measureSquared(const LaneObstacles& world, const Row (&x)[3], const Row (&g)[3],
+                    Row& squared) {
   store(squaredDistance(world, world.obstacles.front(), Segment{load3(x), load3(g)}), squared);
 }
 
@@ -30,7 +31,7 @@ HWY_AFTER_NAMESPACE();
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {
-HWY_EXPORT(Squared);
+HWY_EXPORT(measureSquared);
 
 namespace {
 
@@ -115,8 +116,7 @@ Scene sceneOf(Random& random, Kind kind) {
 
 /// A point near the obstacle, most of them outside, some about to touch it.
 Vector3d pointNear(Random& random, const Scene& scene) {
-  const Vector3d point =
-      scene.world_from_shape * random.vector(scene.size * random.scale(0.3, 3.0));
+  Vector3d point = scene.world_from_shape * random.vector(scene.size * random.scale(0.3, 3.0));
   if (random.chance(0.5)) return point;
   const Isometry3d point_from_shape = Eigen::Translation3d(-point) * scene.world_from_shape;
   const DistanceResult found = distance(Sphere{0.0}, scene.shape, point_from_shape);
@@ -168,7 +168,7 @@ std::array<double, kLanes> laneDistances(const Scene& scene, const Segments& seg
       g[i].lane[lane] = static_cast<float>(segments.g[lane][i]);
     }
   }
-  HWY_DYNAMIC_DISPATCH(Squared)(scene.world, x, g, squared);
+  HWY_DYNAMIC_DISPATCH(measureSquared)(scene.world, x, g, squared);
   std::array<double, kLanes> distances{};
   for (int lane = 0; lane < kLanes; ++lane)
     distances[lane] = std::sqrt(static_cast<double>(squared.lane[lane]));

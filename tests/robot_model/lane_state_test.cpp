@@ -232,7 +232,7 @@ TEST(LaneState, NoMarginIsMissedByAHair) {
     int proven = 0;
     for (int round = 0; round < 150; ++round) {
       ChainOptions options;
-      options.types.assign(static_cast<std::size_t>(4 + random.below(12)), JointType::Revolute);
+      options.types.assign(4 + static_cast<std::size_t>(random.below(12)), JointType::Revolute);
       options.branches = random.chance(0.5) ? 0.5 : 0.0;
       options.link = random.scale(1e-2, 1e1);
       CheckerModel model = robotOf(random, options);

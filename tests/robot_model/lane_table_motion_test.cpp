@@ -10,7 +10,6 @@ namespace swept::lane_test {
 namespace {
 
 using detail::LaneBodyPair;
-using detail::LaneModel;
 using detail::TableMotion;
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
 

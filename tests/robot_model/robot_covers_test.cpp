@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-Link linkOf(std::vector<Shape> shapes) {
+Link linkOf(const std::vector<Shape>& shapes) {
   Link link;
   for (const Shape& shape : shapes) {
     link.collision.push_back({shape, Eigen::Isometry3d::Identity(), "test"});

@@ -11,7 +11,6 @@
 namespace swept {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 Eigen::Isometry3d pose(const Eigen::Vector3d& p, double aboutZ) {

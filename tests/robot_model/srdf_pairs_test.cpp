@@ -9,8 +9,6 @@
 namespace swept {
 namespace {
 
-using testing::ElementsAre;
-
 std::shared_ptr<const Robot> robot() {
   return Robot::parse(
       "<robot name='r&amp;d'><link name='a'/><link name='b'/><link name='c &lt; d'/>"

@@ -125,7 +125,7 @@ struct Named {
 };
 
 inline std::vector<Named> buildRobotsWithTables() {
-  const auto compile = [](std::shared_ptr<const Robot> robot, const char* group) {
+  const auto compile = [](const std::shared_ptr<const Robot>& robot, const char* group) {
     const Group& known = *robot->findGroup(group);
     const auto model = detail::compileChecker(robot, known, std::make_shared<World>(), {});
     // Tables of bodies that never meet, too.

@@ -103,6 +103,7 @@ TEST(World, FindsWhatIsThereByItsName) {
     }
     ASSERT_NO_FATAL_FAILURE(expectAs(world, still, moving, kNames)) << "step " << i;
     if (i % 100 == 0) {
+      // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): copies are asked here.
       const World copy = world;
       ASSERT_NO_FATAL_FAILURE(expectAs(copy, still, moving, kNames)) << "step " << i;
     }

@@ -6,11 +6,11 @@
 namespace soak {
 
 Stage::Stage(const ScenarioFiles& files, std::uint64_t seed, double margin)
-    : files_(files), name_(files.robot.stem().string()), margin_(margin) {
-  swept::CheckerOptions options;
-  options.margin = margin;
-  base_ = loadScenario(files, options);
-  space_ = swept::makeStateSpace(base_.checker->robot(), base_.checker->group());
+    : files_(files),
+      name_(files.robot.stem().string()),
+      margin_(margin),
+      base_(loadScenario(files, {.margin = margin})),
+      space_(swept::makeStateSpace(base_.checker->robot(), base_.checker->group())) {
   for (int form = 0; form < kForms; ++form) forms_.push_back(makeClutter(kForms * seed + form));
 }
 

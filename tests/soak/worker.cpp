@@ -144,7 +144,7 @@ void Worker::statesInBatch(Seat& seat, int count, bool threads) {
   }
 }
 
-void Worker::differs(Sample sample, bool valid) {
+void Worker::differs(const Sample& sample, bool valid) {
   shared_.failures.add(std::string("through OMPL it is ") + (valid ? "valid" : "not valid") + '\n' +
                        reproducer(sample, shared_.seed));
 }

@@ -54,7 +54,7 @@ class Worker {
                   Query query, const swept::MotionCertificate& answer);
   /// What the bridge has to say: that one of both queries proves the motion.
   bool proven(const swept::MotionCertificate& verdictOnly);
-  void differs(Sample sample, bool valid);
+  void differs(const Sample& sample, bool valid);
   /// Whether this answer is one to be judged.
   bool sampled(std::int64_t& left);
   Query anyQuery() { return random_() % 2 == 0 ? Query::FirstContact : Query::VerdictOnly; }

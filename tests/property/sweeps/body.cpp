@@ -68,8 +68,9 @@ Soup sheet(const Vector3d& size, Random& random) {
   Soup soup;
   constexpr int kSide = 4;
   for (int i = 0; i < kSide * kSide; ++i) {
-    const double x = 2.0 * (i % kSide) / (kSide - 1.0) - 1.0;
-    const double y = 2.0 * (i / kSide) / (kSide - 1.0) - 1.0;
+    const int row = i / kSide, column = i % kSide;
+    const double x = 2.0 * column / (kSide - 1.0) - 1.0;
+    const double y = 2.0 * row / (kSide - 1.0) - 1.0;
     soup.vertices.push_back(size.cwiseProduct(Vector3d(x, y, random.uniform(-1.0, 1.0))));
   }
   for (int i = 0; i + kSide < kSide * kSide; ++i) {

@@ -15,7 +15,7 @@ Matrix3d frame(const Vector3d& x) {
 class Maker {
  public:
   Maker(std::uint64_t seed, std::uint64_t index) : random_(seed, index) {
-    const auto pair = static_cast<int>(index % (kKinds * kKinds));
+    const auto pair = static_cast<int>(index % (std::uint64_t{kKinds} * kKinds));
     sweep_.size = random_.decades(-3.0, 3.0);
     // Mostly of like sizes, sometimes a speck or a plain.
     sizeA_ = sweep_.size * random_.decades(random_.chance(0.15) ? -4.0 : -1.0, 0.0);
