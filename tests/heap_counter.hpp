@@ -3,6 +3,7 @@
 
 #include <malloc.h>
 
+#include <Eigen/Core>  // clang's intrinsics, which declare posix_memalign without noexcept
 #include <atomic>
 #include <cerrno>
 #include <cstddef>

@@ -86,7 +86,7 @@ TEST(Motions, SayWhatIsWrong) {
     SplineMotion::bezier(Matrix3d::Identity(), one);
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find('1'), std::string::npos) << error.what();
   }
 }
 

@@ -7,6 +7,7 @@
 #include "../core/mesh_samples.hpp"
 #include "model_robots.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "version_arms.hpp"
 
 /// What is proven of a mesh or a cloud by its clearance field and its hierarchy has to agree with
 /// what is found about its triangles or balls as so many obstacles, which takes another way.
@@ -125,6 +126,43 @@ TEST(FieldWorlds, CloudsAgreeWithTheirBalls) {
   Counts counts;
   for (int i = 0; i < 10; ++i) compare(cloudWorlds(random), true, random, counts);
   expectRepresentative(counts);
+}
+
+/// Nearer to the surface than a cell of the field, which does not tell that they are inside.
+TEST(FieldWorlds, PointsInsideAreNotFree) {
+  std::string urdf = "<robot name='gantry'>" + test::urdfLink("frame", {}) +
+                     test::urdfLink("beam", {}) + test::urdfLink("trolley", {}) +
+                     test::urdfLink("ball", {{test::sphere(1e-3), {0, 0, 0}}});
+  const std::string limits = "<limit lower='-3' upper='3' effort='1' velocity='1'/>";
+  urdf += test::urdfJoint("x", "prismatic", "frame", "beam", "<axis xyz='1 0 0'/>" + limits) +
+          test::urdfJoint("y", "prismatic", "beam", "trolley", "<axis xyz='0 1 0'/>" + limits) +
+          test::urdfJoint("z", "prismatic", "trolley", "ball", "<axis xyz='0 0 1'/>" + limits) +
+          "</robot>";
+  std::mt19937 random(31);
+  const test::Soup soup = test::torusSoup(28, 16, 0.9, 0.3).moved(test::randomPose(random, 0.5));
+  const TriangleMesh mesh = TriangleMesh::build(soup.vertices, soup.triangles);
+  const auto world = std::make_shared<World>();
+  world->add("torus", mesh, Isometry3d::Identity());
+  const Checker checker(Robot::parse(urdf, "gantry.urdf"), "all", world);
+  Workspace workspace(checker);
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto& corner = soup.triangles[random() % soup.triangles.size()];
+    const Vector3d a = soup.vertices[corner[0]];
+    const Vector3d b = soup.vertices[corner[1]], c = soup.vertices[corner[2]];
+    const Vector3d normal = (b - a).cross(c - a).normalized();
+    const double depth = (i % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, uniform(random, -2.5, -1.0));
+    const Vector3d p = (a + b + c) / 3.0 + depth * normal;
+    const Vector3d q = p + 2e-3 * test::unitVector(random);
+    const std::vector<double> from{p.x(), p.y(), p.z()}, to{q.x(), q.y(), q.z()};
+    const bool isInside = mesh.encloses(p);
+    (isInside ? inside : outside) += 1;
+    const Verdict wanted = isInside ? Verdict::Collision : Verdict::Free;
+    ASSERT_EQ(checker.checkState(from, workspace), wanted) << depth;
+    if (std::abs(depth) < 4e-3) continue;
+    ASSERT_EQ(checker.certifyMotion(from, to, workspace).verdict, wanted) << depth;
+  }
+  EXPECT_GT(std::min(inside, outside), 1500);
 }
 
 }  // namespace

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "../core/mesh_samples.hpp"
+#include "swept/robot_model/checker.hpp"
+#include "version_arms.hpp"
+
+/// Levers whose ends go side by side, at the same speed, and bend towards each other: nothing but
+/// what bounds how much the ways bend says that they meet.
+namespace swept {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test::uniform;
+
+enum class End { Ball, Box };
+
+std::string endOf(End end) {
+  return end == End::Ball ? test::sphere(0.03125) : test::box(0.0625, 0.0625, 0.0625);
+}
+
+std::string jointAt(const std::string& name, const std::string& parent, const std::string& child,
+                    double x) {
+  return test::urdfJoint(name, "revolute", parent, child,
+                         "<origin xyz='" + std::to_string(x) +
+                             " 0 0'/><axis xyz='0 0 1'/>"
+                             "<limit lower='-30' upper='30' effort='1' velocity='1'/>");
+}
+
+/// A hub that turns, and on it one lever or two, each with something at its end.
+std::shared_ptr<const Robot> levers(End end, double hub, double a, double lengthA,
+                                    std::optional<std::pair<double, double>> b) {
+  std::string urdf = "<robot name='levers'>" + test::urdfLink("base", {}) +
+                     test::urdfLink("hub", {}) +
+                     test::urdfLink("a", {{endOf(end), {lengthA, 0.0, 0.0}}}) +
+                     jointAt("hub_joint", "base", "hub", hub) + jointAt("a_joint", "hub", "a", a);
+  if (b)
+    urdf += test::urdfLink("b", {{endOf(end), {b->second, 0.0, 0.0}}}) +
+            jointAt("b_joint", "hub", "b", b->first);
+  return Robot::parse(urdf + "</robot>", "levers.urdf");
+}
+
+/// Exact as a text of six digits.
+double coarse(double value) {
+  return std::round(64.0 * value) / 64.0;
+}
+
+struct Tally {
+  int contacts = 0, free = 0;  ///< those at the beginning are not counted
+};
+
+/// Whoever meets somebody stays there for a while, and was apart until then.
+void expectFreeUntilContact(const Checker& checker, const std::vector<double>& from,
+                            const std::vector<double>& to, Tally& tally) {
+  Workspace workspace(checker);
+  const MotionCertificate certificate = checker.certifyMotion(from, to, workspace);
+  ASSERT_NE(certificate.verdict, Verdict::Undecided);
+  tally.free += certificate.verdict == Verdict::Free ? 1 : 0;
+  tally.contacts += certificate.freeUntil > 0.01 && certificate.freeUntil < 1.0 ? 1 : 0;
+  const auto expectFree = [&](double t) {
+    const Eigen::VectorXd q = checker.interpolate(from, to, t);
+    ASSERT_NE(checker.checkState({q.data(), from.size()}, workspace), Verdict::Collision)
+        << t << " is before " << certificate.freeUntil;
+  };
+  for (double t = 0.0; t < certificate.freeUntil; t += 0.005) expectFree(t);
+  for (double before = 0.125; before > 1e-7; before *= 0.5)
+    if (before < certificate.freeUntil) expectFree(certificate.freeUntil - before);
+}
+
+/// Within [0, 1], and angles about the one at that time.
+struct Turn {
+  double at, speed;
+  double from(double angle) const { return angle - at * speed; }
+  double to(double angle) const { return angle + (1.0 - at) * speed; }
+};
+
+class FirstContact : public testing::TestWithParam<std::tuple<End, bool>> {};
+
+TEST_P(FirstContact, OfTwoLinks) {
+  const auto [end, hubTurns] = GetParam();
+  std::mt19937 random(51);
+  Tally tally;
+  for (int i = 0; i < 400; ++i) {
+    const double lengthA = coarse(uniform(random, 0.25, 2.0));
+    const double lengthB = coarse(uniform(random, 0.25, 2.0));
+    const double apart = 0.0625 + coarse(std::pow(10.0, uniform(random, -1.8, -0.5)));
+    // The end of a is to the left of that of b, and its joint to the right of b's.
+    const auto robot = levers(end, coarse(uniform(random, -1.0, 1.0)), lengthA, lengthA,
+                              std::pair(apart - lengthB, lengthB));
+    const Checker checker(robot, "all", std::make_shared<const World>());
+    const double at = uniform(random, 0.1, 0.9);
+    const double speed = std::pow(10.0, uniform(random, -0.5, 1.0));
+    const Turn a{at, -speed / lengthA};
+    const Turn b{at, uniform(random, 0.9, 1.1) * speed / lengthB};
+    const Turn hub{at, hubTurns ? uniform(random, -3.0, 3.0) : 0.0};
+    expectFreeUntilContact(checker, {hub.from(0.4), a.from(std::numbers::pi), b.from(0.0)},
+                           {hub.to(0.4), a.to(std::numbers::pi), b.to(0.0)}, tally);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(tally.contacts, 100);
+  EXPECT_GT(tally.free, 20);
+}
+
+TEST_P(FirstContact, OfALinkAndTheWorld) {
+  const auto [end, hubTurns] = GetParam();
+  std::mt19937 random(52);
+  Tally tally;
+  for (int i = 0; i < 400; ++i) {
+    const double length = coarse(uniform(random, 0.25, 2.0));
+    const double hubAt = hubTurns ? -coarse(uniform(random, 0.0, 1.0)) : 0.0;
+    const Checker alone(levers(end, hubAt, -hubAt, length, std::nullopt), "all",
+                        std::make_shared<const World>());
+    // Inside of the circle of the lever's end, or of both turning as one.
+    const double inside = uniform(random, -0.02, 0.1);
+    const double angle = uniform(random, -1.0, 1.0);
+    const Vector3d place((length - inside) * std::cos(angle), (length - inside) * std::sin(angle),
+                         0.0);
+    World world;
+    world.add(
+        "post",
+        end == End::Ball ? Shape(makeSphere(0.03125)) : Shape(makeBox({0.0625, 0.0625, 0.0625})),
+        Isometry3d(Eigen::Translation3d(place)));
+    const Checker checker = alone.withWorld(std::make_shared<const World>(std::move(world)));
+    const double speed = std::pow(10.0, uniform(random, -0.5, 1.0));
+    const Turn a{uniform(random, 0.1, 0.9), uniform(random, 0.0, 1.0) < 0.5 ? speed : -speed};
+    const Turn hub{a.at, hubTurns ? 0.2 * a.speed : 0.0};
+    expectFreeUntilContact(checker, {hub.from(0.0), a.from(angle)}, {hub.to(0.0), a.to(angle)},
+                           tally);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(tally.contacts, 100);
+  EXPECT_GT(tally.free, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levers, FirstContact,
+                         testing::Combine(testing::Values(End::Ball, End::Box), testing::Bool()));
+
+}  // namespace
+}  // namespace swept
