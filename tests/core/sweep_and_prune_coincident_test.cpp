@@ -113,7 +113,8 @@ class TouchingGrid : public CoincidentWorld {
  public:
   TouchingGrid() {
     for (int i = 0; i < 125; ++i) {
-      const Vector3d lower(i % 5, i / 5 % 5, i / 25);
+      const int y = i / 5 % 5, z = i / 25;
+      const Vector3d lower(i % 5, y, z);
       boxes_.push_back({lower, lower + Vector3d::Ones()});
     }
     home_ = boxes_;

@@ -88,7 +88,8 @@ WideBvh built(std::vector<Vector3d>& corners) {
   const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, WideNode::kLanes);
   std::vector<Vector3d> ordered;
   for (const int from : tree.order) {
-    ordered.insert(ordered.end(), corners.begin() + 3 * from, corners.begin() + 3 * from + 3);
+    const auto first = corners.begin() + std::ptrdiff_t{3} * from;
+    ordered.insert(ordered.end(), first, first + 3);
   }
   corners = std::move(ordered);
   return WideBvh(tree, {corners, 3});

@@ -163,7 +163,7 @@ void Worker::statesThroughBridge(Seat& seat, int count) {
     if (valid != (verdict == Verdict::Free)) {
       Sample sample{.version = version_, .way = Way::One, .from = to_};
       sample.answer.verdict = verdict;
-      differs(std::move(sample), valid);
+      differs(sample, valid);
     }
     noteState(seat, Way::Bridge, to_, verdict);
   }

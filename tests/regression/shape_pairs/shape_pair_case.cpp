@@ -72,9 +72,10 @@ Eigen::Affine3d poseIn(std::istream& words) {
   const std::vector<double> n = numbersIn(words);
   if (n.size() != 12) throw std::invalid_argument("a pose has 12 numbers");
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      pose(row, column) = n[static_cast<std::size_t>(4 * row + column)];
+  for (int i = 0; i < 12; ++i) {
+    const int row = i / 4, column = i % 4;
+    pose(row, column) = n[static_cast<std::size_t>(i)];
+  }
   return pose;
 }
 
