@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // sweep_refute: tries to prove continuousCollide wrong on random sweeps. Exit code 1 when it did.
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <iostream>
 
 #include "sweeps/campaign.hpp"
@@ -22,15 +23,20 @@ int main(int argc, char** argv) {
     options.count = 1;
     options.symmetries = 1;
   }
-  if (code) std::cout << sweeps::makeSweep(options.seed, options.first).code();
-  sweeps::CampaignReport total;
-  const std::uint64_t end = options.first + options.count;
-  for (sweeps::CampaignOptions part = options; part.first < end; part.first += part.count) {
-    part.count = std::min(report, end - part.first);
-    const sweeps::CampaignReport found = runCampaign(part);
-    for (const std::string& failure : found.failures) std::cout << "  " << failure << std::endl;
-    total.add(found);
-    std::cout << summary(total) << std::endl;
+  try {
+    if (code) std::cout << sweeps::makeSweep(options.seed, options.first).code();
+    sweeps::CampaignReport total;
+    const std::uint64_t end = options.first + options.count;
+    for (sweeps::CampaignOptions part = options; part.first < end; part.first += part.count) {
+      part.count = std::min(report, end - part.first);
+      const sweeps::CampaignReport found = runCampaign(part);
+      for (const std::string& failure : found.failures) std::cout << "  " << failure << std::endl;
+      total.add(found);
+      std::cout << summary(total) << std::endl;
+    }
+    return total.failures.empty() ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 3;
   }
-  return total.failures.empty() ? 0 : 1;
 }

@@ -104,7 +104,6 @@ TEST_P(FirstContact, OfTwoLinks) {
     const double lengthA = coarse(uniform(random, 0.25, 2.0));
     const double lengthB = coarse(uniform(random, 0.25, 2.0));
     const double apart = 0.0625 + coarse(std::pow(10.0, uniform(random, -1.8, -0.5)));
-    // The end of a is to the left of that of b, and its joint to the right of b's.
     const double at = uniform(random, 0.1, 0.9);
     const double speed = std::pow(10.0, uniform(random, -1.0, 1.0));
     const Turn a{at, -speed / lengthA};
@@ -118,6 +117,8 @@ TEST_P(FirstContact, OfTwoLinks) {
       for (std::vector<double>* ends : {&from, &to})
         *ends = {(*ends)[0], (*ends)[1], 0.3, (*ends)[2], -0.2};
     }
+    // a, turned by pi, reaches to the left as far as 0, and b to the right as far as `apart`: past
+    // each other, with the ends side by side.
     const auto robot = levers(end, coarse(uniform(random, -1.0, 1.0)),
                               {{lengthA, lengthA}, {apart - lengthB, lengthB}},
                               static_cast<int>(most) + 1, wrists);
