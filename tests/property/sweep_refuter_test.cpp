@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sweeps/campaign.hpp"
+#include "sweeps/gap.hpp"
 
 namespace {
 
@@ -89,6 +90,34 @@ TEST(SweepJudge, NoticesWrongAnswers) {
   wrong = right;
   wrong.freeUntil = 0.0;
   EXPECT_TRUE(finds(sweep, wrong, "tolerances beyond the margin"));
+}
+
+/// Hulls a million times as long as they are wide, at which a search for the nearest point stalls.
+TEST(SweepJudge, KnowsThePointsOfNeedles) {
+  int inside = 0, ahead = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    Random random(8, i);
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 7; ++k) {
+      points.push_back(100.0 * random.direction().cwiseProduct(Vector3d(1e-6, 1.0, 1e-6)));
+    }
+    Body needle;
+    needle.kind = Kind::Hull;
+    needle.shape = swept::ConvexHull::of(points);
+    needle.parts.push_back({.points = points});
+    const double rounding = 1e-14 * 100.0;
+    for (int k = 0; k < 20; ++k) {
+      const double u = random.uniform(0.0, 1.0), v = random.uniform(0.0, 1.0 - u);
+      const Vector3d p = u * points[0] + v * points[1] + (1.0 - u - v) * points[2];
+      inside += outside(needle, p) <= rounding ? 1 : 0;
+      const Vector3d n = random.across(Vector3d::UnitY());
+      const double off = random.uniform(1e-9, 1e-6);
+      const Vector3d q = needle.parts[0].support(n) + off * n;
+      ahead += std::abs(outside(needle, q) - off) <= rounding ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(inside, 400 * 20);
+  EXPECT_EQ(ahead, 400 * 20);
 }
 
 /// The descent finds contacts that nobody constructed.

@@ -147,6 +147,26 @@ double betweenFlats(const Body& a, const Body& b, const Isometry3d& a_from_b) {
   return std::abs(ahead);
 }
 
+/// Of a part with points. The triangles of its points are within it and some of them are its
+/// surface, so that the nearest one is right where the search stalls, as it does at needles.
+double outside(const Part& part, const Vector3d& p) {
+  const std::vector<Vector3d>& corners = part.points;
+  const std::size_t count = corners.size();
+  Part point;
+  point.points = {p};
+  point.center = p;
+  double least = count == 3 ? INFINITY : between(part, point, Isometry3d::Identity());
+  for (std::size_t i = 0; i < count && least > 0.0; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      for (std::size_t k = j + 1; k < count; ++k) {
+        const double far = reference::pointTriangle(p, {corners[i], corners[j], corners[k]});
+        least = std::min(least, far - part.ball);
+      }
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
 double Gap::operator()(const Isometry3d& a_from_b) {
@@ -203,17 +223,8 @@ double outside(const Body& body, const Vector3d& p) {
   if (body.parts.empty() || body.parts[0].core != Part::Core::Points) {
     return oracle::outside(body.shape, p);
   }
-  Part point;
-  point.points = {p};
-  point.center = p;
   double least = INFINITY;
-  for (const Part& part : body.parts) {
-    least = std::min(
-        least, part.points.size() == 3
-                   ? reference::pointTriangle(p, {part.points[0], part.points[1], part.points[2]}) -
-                         part.ball
-                   : between(part, point, Isometry3d::Identity()));
-  }
+  for (const Part& part : body.parts) least = std::min(least, outside(part, p));
   return std::max(0.0, least);
 }
 
