@@ -128,6 +128,38 @@ TEST(Checker, AThinRodBetweenTwoFreeStatesIsHit) {
               0.0, 0.001 + 1e-9);
 }
 
+/// Fingers that close: the second mimics the first backwards, from 0.08 m to 0.
+constexpr const char* kGripper = R"(<robot name="gripper">
+  <link name="palm"/>
+  <link name="left"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
+  <link name="right"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
+  <joint name="close" type="prismatic"><parent link="palm"/><child link="left"/>
+    <axis xyz="1 0 0"/><limit lower="-0.08" upper="0" effort="1" velocity="1"/></joint>
+  <joint name="follow" type="prismatic"><parent link="palm"/><child link="right"/>
+    <origin xyz="0 0.1 0"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="0.08" effort="1" velocity="1"/><mimic joint="close" multiplier="-1"/></joint>
+</robot>)";
+
+TEST(Checker, AFingerMayMimicTheOtherBackwards) {
+  const std::vector<double> open{-0.08};
+  const std::vector<double> closed{0.0};
+  const auto ask = [](double x, const std::vector<double>& from, const std::vector<double>& to) {
+    const Checker checker = makeChecker(kGripper, worldOf(swept::Sphere{0.01}, at(x, 0.1, 0.0)));
+    Workspace workspace(checker);
+    return checker.certifyMotion(from, to, workspace);
+  };
+  // 1 mm from where the finger is when it is open.
+  EXPECT_EQ(ask(0.101, open, closed).verdict, Verdict::Free);
+  EXPECT_EQ(ask(0.101, closed, open).verdict, Verdict::Free);
+  // In the middle of its way; the balls touch after a quarter of it.
+  for (const MotionCertificate& met : {ask(0.04, open, closed), ask(0.04, closed, open)}) {
+    ASSERT_EQ(met.verdict, Verdict::Collision);
+    EXPECT_LE(met.freeUntil, 0.25);
+    EXPECT_GT(met.freeUntil, 0.24);
+    EXPECT_EQ(met.witness->bodyA, "right");
+  }
+}
+
 TEST(Checker, GrazingWithinTheToleranceIsUndecidedAndBeyondItIsFree) {
   // A ball above the pole's plane of motion: the pole passes 'gap' below it.
   const auto verdict = [](double gap, double tolerance) {
