@@ -39,8 +39,8 @@ JointTable randomTable(Random& random, int joints) {
     made.parts = static_cast<std::int32_t>(table.openParts.size());
     table.openParts.push_back(parts);
   }
-  const int width = columns + 1;
-  table.open.assign(static_cast<std::size_t>((rows + 1) * width), 0);
+  const auto width = static_cast<std::size_t>(columns) + 1;
+  table.open.assign((static_cast<std::size_t>(rows) + 1) * width, 0);
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
       table.open[(i + 1) * width + j + 1] =
