@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
 #include "lane_robots.hpp"
 
 namespace swept::lane_test {

@@ -147,23 +147,20 @@ double betweenFlats(const Body& a, const Body& b, const Isometry3d& a_from_b) {
   return std::abs(ahead);
 }
 
-/// Of a part with points. The triangles of its points are within it and some of them are its
-/// surface, so that the nearest one is right where the search stalls, as it does at needles.
+/// Of a part with points. Triangles of its points are within it and some of them are its surface,
+/// so that the nearest one is right where the search stalls, as it does at needles.
 double outside(const Part& part, const Vector3d& p) {
-  const std::vector<Vector3d>& corners = part.points;
-  const std::size_t count = corners.size();
   Part point;
   point.points = {p};
   point.center = p;
-  double least = count == 3 ? INFINITY : between(part, point, Isometry3d::Identity());
-  for (std::size_t i = 0; i < count && least > 0.0; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
-      for (std::size_t k = j + 1; k < count; ++k) {
-        const double far = reference::pointTriangle(p, {corners[i], corners[j], corners[k]});
-        least = std::min(least, far - part.ball);
-      }
-    }
-  }
+  double least = between(part, point, Isometry3d::Identity());
+  std::vector<Vector3d> corners = part.points;
+  for (Vector3d& corner : corners) corner -= p;
+  for (std::size_t i = 0; i < corners.size() && least > 0.0; ++i)
+    for (std::size_t j = i + 1; j < corners.size(); ++j)
+      for (std::size_t k = j + 1; k < corners.size(); ++k)
+        least = std::min(
+            least, ofTriangle(corners[i], corners[j], corners[k]).nearest().norm() - part.ball);
   return least;
 }
 
