@@ -23,13 +23,17 @@ targets() {
 fuzz_one() {
   local target="$1" log="$build/logs/$1.log"
   local found="$build/found/$target" finds="$build/finds/$target"
+  local words=()
+  if [[ -f "$root/tests/fuzz/dictionaries/$target.dict" ]]; then
+    words=("-dict=$root/tests/fuzz/dictionaries/$target.dict")
+  fi
   mkdir -p "$build/logs" "$found" "$finds"
   local before
   before="$(find "$finds" -type f | wc -l)"
   local TIMEFORMAT='%U %S' busy
   # Reading a mesh waits for a process: up to its limit of wall time.
   busy="$({ time "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=60 \
-    -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$finds/" "$found" \
+    -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$finds/" "${words[@]}" "$found" \
     "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 || true; } 2>&1)"
   awk -v target="$target" -v finds="$(($(find "$finds" -type f | wc -l) - before))" -v busy="$busy" '
     / cov: / { for (i = 1; i < NF; i++) if ($i == "cov:") cover = $(i + 1) }
