@@ -11,6 +11,7 @@
 #include "geometry/convex_combination.hpp"
 #include "geometry/point_text.hpp"
 #include "geometry/quickhull.hpp"
+#include "geometry/small_ball.hpp"
 #include "geometry/weld.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -303,6 +304,7 @@ ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
     data->faces.emplace_back(vertexOf[face[0]], vertexOf[face[1]], vertexOf[face[2]]);
   }
   data->coordinates = byCoordinate(data->vertices);
+  data->ball = detail::smallBall(data->vertices);
   data->error = selection.error / scale;
   data->extent = data->extent * (1.0 + 8.0 * std::numeric_limits<double>::epsilon()) +
                  std::numeric_limits<double>::min();

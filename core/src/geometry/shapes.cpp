@@ -10,9 +10,12 @@
 #include <string_view>
 
 #include "geometry/point_text.hpp"
+#include "geometry/small_ball.hpp"
 
 namespace swept {
 namespace {
+
+using detail::roundedUp;
 
 void requireSize(std::string_view name, double value) {
   if (value >= 0.0 && std::isfinite(value)) return;
@@ -35,26 +38,6 @@ double requireNormal(std::string_view name, const Eigen::Vector3d& normal, doubl
   throw std::invalid_argument(message.str());
 }
 
-/// Upper bound of a length that was computed with fewer than 16 rounded operations on non-negative
-/// terms: each costs at most half an epsilon, and the last term covers results that underflow.
-double roundedUp(double length) {
-  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-  return length * (1.0 + 8.0 * kEpsilon) + std::numeric_limits<double>::min();
-}
-
-double farthest(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& from,
-                Eigen::Vector3d& farthestPoint) {
-  double largest = -1.0;
-  for (const Eigen::Vector3d& point : points) {
-    const double squared = (point - from).squaredNorm();
-    if (squared > largest) {
-      largest = squared;
-      farthestPoint = point;
-    }
-  }
-  return largest;
-}
-
 Aabb boxOf(std::span<const Eigen::Vector3d> points) {
   Aabb box{points.front(), points.front()};
   for (const Eigen::Vector3d& point : points) {
@@ -62,38 +45,6 @@ Aabb boxOf(std::span<const Eigen::Vector3d> points) {
     box.upper = box.upper.cwiseMax(point);
   }
   return box;
-}
-
-/// Centre of a nearly smallest ball: Badoiu and Clarkson 2003 ("Smaller core-sets for balls"),
-/// which steps towards the farthest point by 1/(i + 1). Started from the box centre, and the best
-/// centre seen is kept, so symmetric sets get their exact centre.
-Eigen::Vector3d ballCenter(std::span<const Eigen::Vector3d> points) {
-  constexpr std::size_t kWork = 20'000'000;  // points looked at: bounds the time on large sets
-  const int steps = static_cast<int>(std::clamp<std::size_t>(kWork / points.size(), 16, 512));
-  const Aabb box = boxOf(points);
-  Eigen::Vector3d center = 0.5 * box.lower + 0.5 * box.upper;
-  Eigen::Vector3d best = center;
-  Eigen::Vector3d target = center;
-  double bestSquared = std::numeric_limits<double>::infinity();
-  for (int i = 1; i <= steps; ++i) {
-    const double squared = farthest(points, center, target);
-    if (squared < bestSquared) {
-      bestSquared = squared;
-      best = center;
-    }
-    center += (target - center) / (i + 1);
-  }
-  return best;
-}
-
-/// Contains `points` whatever `center` is: the radius is measured, not inferred.
-BoundingSphere ballAround(const Eigen::Vector3d& center, std::span<const Eigen::Vector3d> points) {
-  double radius = 0.0;
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d offset = point - center;
-    radius = std::max(radius, std::hypot(offset.x(), offset.y(), offset.z()));
-  }
-  return {center, roundedUp(radius)};
 }
 
 struct SphereOf {
@@ -125,20 +76,20 @@ struct SphereOf {
     return {Eigen::Vector3d::Zero(), ellipsoid.semiAxes.maxCoeff()};
   }
   BoundingSphere operator()(const Triangle& triangle) const {
-    return ballAround(ballCenter(triangle.corners), triangle.corners);
+    return detail::smallBall(triangle.corners);
   }
   BoundingSphere operator()(const Plane&) const { return everywhere(); }
   BoundingSphere operator()(const HalfSpace&) const { return everywhere(); }
   BoundingSphere operator()(const ConvexHull& hull) const {
-    BoundingSphere ball = ballAround(ballCenter(hull.vertices()), hull.vertices());
+    BoundingSphere ball = hull.ball();
     ball.radius = roundedUp(ball.radius + hull.error());
     return ball;
   }
   BoundingSphere operator()(const TriangleMesh& mesh) const {
-    return ballAround(ballCenter(mesh.hull().vertices()), mesh.vertices());
+    return detail::ballAround(mesh.hull().ball().center, mesh.vertices());
   }
   BoundingSphere operator()(const PointCloud& cloud) const {
-    BoundingSphere ball = ballAround(ballCenter(cloud.hull().vertices()), cloud.points());
+    BoundingSphere ball = detail::ballAround(cloud.hull().ball().center, cloud.points());
     ball.radius = roundedUp(ball.radius + cloud.largestRadius());
     return ball;
   }

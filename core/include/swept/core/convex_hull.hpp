@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "swept/core/arithmetic.hpp"
+#include "swept/core/bounding_sphere.hpp"
 
 namespace swept {
 
@@ -34,6 +35,8 @@ class ConvexHull {
   const std::vector<Eigen::Vector3i>& faces() const { return data_->faces; }
   double error() const { return data_->error; }    ///< m
   double extent() const { return data_->extent; }  ///< m, no vertex is farther from the origin
+  /// Of the vertices: the smallest, but for rounding. The hull itself is larger by `error()`.
+  const BoundingSphere& ball() const { return data_->ball; }
   /// m. All x, then all y, then all z of the vertices, each list filled up to a multiple of
   /// `kLanes` with the first vertex: what a vectorised scan reads.
   std::span<const double> coordinates() const { return data_->coordinates; }
@@ -44,6 +47,7 @@ class ConvexHull {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<Eigen::Vector3i> faces;
     std::vector<double> coordinates;
+    BoundingSphere ball{};
     double error = 0.0;
     double extent = 0.0;
   };

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "swept/core/bounding_sphere.hpp"
 #include "swept/core/shapes.hpp"
 #include "swept/core/tolerances.hpp"
 

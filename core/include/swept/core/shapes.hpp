@@ -5,6 +5,7 @@
 #include <array>
 #include <variant>
 
+#include "swept/core/bounding_sphere.hpp"
 #include "swept/core/bv/aabb.hpp"
 #include "swept/core/convex_hull.hpp"
 #include "swept/core/point_cloud.hpp"
@@ -92,11 +93,6 @@ Plane makePlane(const Eigen::Vector3d& normal, double offset);
 HalfSpace makeHalfSpace(const Eigen::Vector3d& normal, double offset);
 ///@}
 
-/// Ball that contains a shape; of infinite radius for planes and half-spaces.
-struct BoundingSphere {
-  Eigen::Vector3d center;  ///< m, in the shape's frame
-  double radius;           ///< m, rounded outward
-};
 /// Contains all of the shape, rounding included; not always the smallest that does.
 BoundingSphere boundingSphere(const Shape& shape);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "swept/core/bounding_sphere.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept {
