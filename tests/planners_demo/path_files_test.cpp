@@ -65,6 +65,19 @@ Outcome recheck(const Gantry& gantry, const TextStates& states) {
   return gantry.run("motion", arguments);
 }
 
+TEST(PathFiles, SayWhatWasTyped) {
+  const Gantry gantry;
+  gantry.folder().write("far.xyz", "0 9 9\n");
+  const std::vector<std::string> typed{"-0.25,0", "-.1,0.5"};
+  const Outcome run = gantry.run(
+      "plan", {typed[0], typed[1], "--cloud", gantry.folder().path("far.xyz"), "--point-radius",
+               "0.01", "--cloud-pose", "-1,0,0,0,0,0,1", "-o", gantry.folder().path("path.json")});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const auto inputs = nlohmann::json::parse(gantry.folder().read("path.json"))["inputs"];
+  EXPECT_EQ(inputs["states"], typed);
+  EXPECT_EQ(inputs["cloud_pose"], "-1,0,0,0,0,0,1");
+}
+
 TEST(PathFiles, ThreeFormatsHoldTheSamePathAndItChecks) {
   const Gantry gantry;
   for (const std::string name : {"path.json", "path.csv", "path.yaml"}) {

@@ -35,6 +35,11 @@ std::vector<std::string> reversedArguments(int argc, const char* const* argv) {
   return reversed;
 }
 
+/// Takes that blank away again, so that files say what was typed.
+void restore(std::string& value) {
+  if (value.starts_with(" -")) value.erase(0, 1);
+}
+
 /// The command line as it could be pasted into a shell.
 std::string typedAgain(int argc, const char* const* argv) {
   std::string line = "swept";
@@ -137,6 +142,8 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
     std::cerr << "swept: error: " << messageOf(error, argc, argv) << " (try --help)\n";
     return {.run = {}, .exitCode = static_cast<int>(ExitCode::BadInput)};
   }
+  restore(args.cloudPose);
+  for (std::string& state : args.states) restore(state);
   return {.run = std::move(args), .exitCode = 0};
 }
 
