@@ -218,6 +218,17 @@ TEST(MeshFiles, WhatHangsOrCrashesAssimpIsRefused) {
   EXPECT_THAT(message("short.off"), ::testing::StartsWith("mesh 'short.off' of link 'a' "));
 }
 
+/// Assimp 5.2 hands the null address of nothing to memcpy.
+TEST(MeshFiles, EmptyIsRefusedBeforeReading) {
+  const test::TemporaryFolder folder;
+  for (const std::string name : {"none.stl", "none.dae", "none.obj"}) {
+    folder.write(name, "");
+    EXPECT_EQ(test::inputError([&] { withMeshes(folder, {"filename='" + name + "'"}); }),
+              (folder.path() / "m.urdf").string() + ":2: error: mesh '" + name +
+                  "' of link 'a' is empty");
+  }
+}
+
 TEST(MeshFiles, TooLargeIsRefusedBeforeReading) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("huge.stl", "");

@@ -29,6 +29,7 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw MeshFileError("cannot be read: " + error.message());
+  if (size == 0) throw MeshFileError("is empty");
   if (size > kMaxBytes) {
     throw MeshFileError("has " + std::to_string(size) + " bytes; at most " +
                         std::to_string(kMaxBytes) + " are allowed");
