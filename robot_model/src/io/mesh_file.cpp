@@ -41,6 +41,14 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+/// Assimp 5.2 looks without end for the rest of a PLY header that is cut.
+void requireWholeHeader(std::string_view text) {
+  const bool isPly = text.starts_with("ply\n") || text.starts_with("ply\r");
+  const auto has = [&](std::string_view line) { return text.find(line) != std::string_view::npos; };
+  if (isPly && !has("\nend_header") && !has("\rend_header"))
+    throw MeshFileError("cannot be read: its PLY header has no line 'end_header'");
+}
+
 /// First letter of what a child says; what follows is the content, or a message.
 enum class Kind : char { Content = 'c', Error = 'e' };
 
@@ -88,6 +96,7 @@ std::string saidOf(const std::string& name, const std::vector<std::uint8_t>& byt
 MeshFileContent readMeshFile(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = readBytes(file);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  requireWholeHeader(text);
   if (text.find("<COLLADA") != std::string_view::npos) checkCollada(text);
   const ChildLimits limits{
       .seconds = kSeconds + static_cast<unsigned>(bytes.size() / kBytesPerSecond),
