@@ -33,8 +33,8 @@ fuzz_one() {
   local TIMEFORMAT='%U %S' busy
   # Reading a mesh waits for a process: up to its limit of wall time.
   busy="$({ time "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" -timeout=60 \
-    -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$finds/" "${words[@]}" "$found" \
-    "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 || true; } 2>&1)"
+    -report_slow_units=60 -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$finds/" \
+    "${words[@]}" "$found" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 || true; } 2>&1)"
   awk -v target="$target" -v finds="$(($(find "$finds" -type f | wc -l) - before))" -v busy="$busy" '
     / cov: / { for (i = 1; i < NF; i++) if ($i == "cov:") cover = $(i + 1) }
     /^stat::number_of_executed_units/ { runs = $2 }
