@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto urdf = fuzz::files().write(
       "mesh.urdf", "<robot name=\"r\"><link name=\"l\"><collision><geometry><mesh filename=\"" +
                        name + "\"/></geometry></collision></link></robot>");
-  // As a world: a robot's links get covers, which take a thousand times as long as reading.
+  // As a world: a robot's links get covers, which take up to a minute with sanitizers.
   fuzz::mayRefuse([&] { World::load(urdf); });
   return 0;
 }

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "swept/core/bv/aabb.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -26,15 +28,6 @@ struct Ball {
   Vector3d center;
   double squared;  ///< of its radius
 };
-
-double boxCoordinate(Points points, int axis) {
-  double lower = points.front()[axis], upper = lower;
-  for (const Vector3d& point : points) {
-    lower = std::min(lower, point[axis]);
-    upper = std::max(upper, point[axis]);
-  }
-  return 0.5 * lower + 0.5 * upper;
-}
 
 struct Farthest {
   Vector3d point = Vector3d::Zero();
@@ -127,8 +120,8 @@ BoundingSphere ballAround(const Vector3d& center, Points points) {
 
 BoundingSphere smallBall(Points points) {
   // The middle of the box is the centre already where points are symmetric.
-  const Vector3d center(boxCoordinate(points, 0), boxCoordinate(points, 1),
-                        boxCoordinate(points, 2));
+  const Aabb box = Aabb::fit(points);
+  const Vector3d center = 0.5 * box.lower + 0.5 * box.upper;
   Farthest outermost = farthest(points, center);
   Vector3d best = center;
   double least = outermost.squared;
