@@ -44,15 +44,30 @@ TEST(TextFile, EveryByteIsThere) {
 }
 
 TEST(TextFile, JsonIsNestedNoDeeperThanTheLimit) {
-  EXPECT_NO_THROW(requireShallowJson(nested(kMaxNesting), "a.json"));
-  EXPECT_EQ(inputError([] { requireShallowJson("\n" + nested(kMaxNesting + 1), "a.json", 5); }),
+  EXPECT_NO_THROW(requireModestJson(nested(kMaxNesting), "a.json"));
+  EXPECT_EQ(inputError([] { requireModestJson("\n" + nested(kMaxNesting + 1), "a.json", 5); }),
             "a.json:6: error: objects and arrays are nested deeper than 500");
   // Many, but not in each other, and brackets in texts.
   std::string flat = "[";
   for (int i = 0; i < 2 * kMaxNesting; ++i)
     flat += R"(["[[\\\"{", {"[": "\\"}],)"
             "\n";
-  EXPECT_NO_THROW(requireShallowJson(flat + "0]", "a.json"));
+  EXPECT_NO_THROW(requireModestJson(flat + "0]", "a.json"));
+}
+
+TEST(TextFile, JsonObjectsHaveNoMoreKeysThanTheLimit) {
+  const auto object = [](std::size_t keys) {
+    std::string text = "{";
+    for (std::size_t i = 0; i < keys; ++i) text += "\"k:" + std::to_string(i) + "\": [1, {}],\n";
+    return text + "\"last\": 0}";
+  };
+  EXPECT_NO_THROW(requireModestJson(object(kMaxKeys - 1), "a.json"));
+  EXPECT_EQ(inputError([&] { requireModestJson(object(kMaxKeys), "a.json"); }),
+            "a.json:20001: error: an object has more than 20000 keys");
+  // Several objects have as many each.
+  EXPECT_NO_THROW(
+      requireModestJson("[" + object(kMaxKeys - 1) + "," + object(kMaxKeys - 1) + "]", "a.json"));
+  EXPECT_NO_THROW(requireModestJson("]}:", "a.json")) << "malformed: the parser says so";
 }
 
 TEST(TextFile, ProblemsAreNestedNoDeeper) {

@@ -85,7 +85,7 @@ Results parseResults(const std::string& text, const std::string& file) {
   for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     const std::string line = text.substr(begin, end - begin);
     if (++number == 1) {
-      requireShallowJson(line, file);
+      requireModestJson(line, file);
       results.header = Json::parse(line, nullptr, false);
       requireHeader(results.header, file);
     } else {

@@ -95,7 +95,7 @@ Json keyJson(const RunKey& key) {
 }
 
 nlohmann::json parseJsonLine(const std::string& line, const std::string& source, int number) {
-  requireShallowJson(line, source, number);
+  requireModestJson(line, source, number);
   nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) throw InputError(source, number, "the line is not a JSON object");
   return json;

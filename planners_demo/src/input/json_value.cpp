@@ -21,7 +21,7 @@ std::string reasonOf(const json::exception& error, std::string_view front) {
 template <typename Value>
 Value parsed(const std::string& file) {
   const std::string text = readTextFile(file);
-  requireShallowJson(text, file);
+  requireModestJson(text, file);
   try {
     return Value::parse(text);
   } catch (const json::parse_error& error) {

@@ -164,7 +164,7 @@ std::string reasonOf(const json::exception& error, const char* front) {
 }
 
 json parseJson(const std::string& text, const std::string& file) {
-  requireShallowJson(text, file);
+  requireModestJson(text, file);
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {

@@ -2,6 +2,8 @@
 #include "swept/robot_model/text_file.hpp"
 
 #include <fstream>
+#include <iterator>
+#include <vector>
 
 #include "io/regular_file.hpp"
 #include "swept/robot_model/input.hpp"
@@ -28,9 +30,9 @@ std::string readTextFile(const std::filesystem::path& file) {
   return text;
 }
 
-void requireShallowJson(std::string_view text, const std::string& file, int firstLine) {
+void requireModestJson(std::string_view text, const std::string& file, int firstLine) {
   int line = firstLine;
-  int depth = 0;
+  std::vector<std::size_t> keys;  // of each object and array that is open
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char letter = text[i];
@@ -40,9 +42,13 @@ void requireShallowJson(std::string_view text, const std::string& file, int firs
       if (letter == '\\') ++i;
       continue;
     }
-    if (letter == '}' || letter == ']') --depth;
+    if ((letter == '}' || letter == ']') && !keys.empty()) keys.pop_back();
+    if (letter == ':' && !keys.empty() && ++keys.back() > kMaxKeys) {
+      throw InputError(file, line, "an object has more than " + std::to_string(kMaxKeys) + " keys");
+    }
     if (letter != '{' && letter != '[') continue;
-    if (++depth > kMaxNesting) {
+    keys.push_back(0);
+    if (std::ssize(keys) > kMaxNesting) {
       throw InputError(file, line,
                        "objects and arrays are nested deeper than " + std::to_string(kMaxNesting));
     }

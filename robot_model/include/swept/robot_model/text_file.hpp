@@ -15,12 +15,17 @@ inline constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20;
 /// on a stack that ends. (The readers of XML and YAML have a limit of their own.)
 inline constexpr int kMaxNesting = 500;
 
+/// Keys that an object of JSON may have. Where their order is kept, each of them is looked up among
+/// those before it.
+inline constexpr std::size_t kMaxKeys = 20'000;
+
 /// The whole file. Throws InputError (line 0) when it is not a readable regular file, or has more
 /// than kMaxTextBytes.
 std::string readTextFile(const std::filesystem::path& file);
 
 /// Throws InputError with the line of the first `{` or `[` outside of strings that is nested deeper
-/// than kMaxNesting; `file` is named in it, and `firstLine` the number of the text's first line.
-void requireShallowJson(std::string_view text, const std::string& file, int firstLine = 1);
+/// than kMaxNesting, or of the first key that is one of more than kMaxKeys in an object; `file` is
+/// named in it, and `firstLine` the number of the text's first line.
+void requireModestJson(std::string_view text, const std::string& file, int firstLine = 1);
 
 }  // namespace swept
