@@ -156,7 +156,11 @@ Json digestsOf(const Json& model) {
     for (const Json& item : readArray(model, kind, "model")) {
       const Json& name = at(item, "name", kind);
       if (!name.is_string()) throw Refusal(std::string(kind) + ": a name is not a text");
-      digests[kind][name.get<std::string>()] = digestOf(item.dump());
+      Json& digest = digests[kind][name.get<std::string>()];
+      // Of two, the second one's digest would stand for both.
+      if (!digest.is_null())
+        throw Refusal(std::string(kind) + ": there are two of the name " + name.dump());
+      digest = digestOf(item.dump());
     }
     rules.erase(kind);
   }

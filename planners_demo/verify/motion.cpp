@@ -31,7 +31,8 @@ int parentOf(const Model& model, int link) {
 
 Quaterniond orientation(const double* xyzw, const std::string& joint) {
   const Quaterniond turn(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-  if (!(turn.norm() > 1e-6)) throw Refusal("joint " + joint + ": a quaternion has no direction");
+  if (!(turn.norm() > 1e-6 && std::isfinite(turn.norm())))
+    throw Refusal("joint " + joint + ": a quaternion has no direction");
   return turn.normalized();
 }
 

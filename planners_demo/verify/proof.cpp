@@ -83,8 +83,8 @@ double PairMotion::most(const Body& body, int node, const Placed& placed, double
 }
 
 double PairMotion::gap(int nodeA, int nodeB, const Vector3d& direction) const {
-  // Squares of tiny numbers have few digits or none: n would not be of length one.
-  const Vector3d n = direction.stableNormalized();
+  // Squares and lengths of tiny numbers have few digits or none: n would not be of length one.
+  const Vector3d n = (direction / direction.cwiseAbs().maxCoeff()).normalized();
   const auto at = [&](double s) {
     return -most(bodyB_, nodeB, b_, s, -n) - most(bodyA_, nodeA, a_, s, n);
   };

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "model.hpp"
@@ -14,6 +16,26 @@ using Eigen::Vector3d;
 
 /// How far from 1 lengths of axes and columns of rotations may be.
 constexpr double kUnit = 1e-12;
+
+/// More would take hours: links and pairs are gone through again and again.
+constexpr std::size_t kMaxLinks = 10'000;
+constexpr std::size_t kMaxPairs = 10'000'000;
+
+/// Of things of one kind. Each name may occur once.
+class Names {
+ public:
+  explicit Names(std::string kind) : kind_(std::move(kind)) {}
+  /// The name itself. Throws Refusal when it is not the first of its kind.
+  const std::string& add(const std::string& name) {
+    const auto [entry, isNew] = seen_.insert(name);
+    if (!isNew) throw Refusal(kind_ + " " + name + ": there are two of this name");
+    return *entry;
+  }
+
+ private:
+  std::string kind_;
+  std::set<std::string> seen_;
+};
 
 std::string readText(const Json& json, const char* key, const std::string& where) {
   const Json& value = at(json, key, where);
@@ -60,6 +82,10 @@ std::size_t sizeOf(JointKind kind) {
   return 0;
 }
 
+bool isWhole(double number) {
+  return number == std::round(number);
+}
+
 void readValues(const Json& json, const Model& model, const std::string& where, Joint& joint) {
   const Json& variable = at(json, "variable", where);
   if (variable.is_null()) {
@@ -69,8 +95,9 @@ void readValues(const Json& json, const Model& model, const std::string& where, 
       throw Refusal(where + ": values has another number of values than the joint");
     return;
   }
-  if (!variable.is_number_unsigned() ||
-      variable.get<std::size_t>() + sizeOf(joint.kind) > model.variables.size())
+  const std::size_t values = sizeOf(joint.kind), count = model.variables.size();
+  if (!variable.is_number_unsigned() || values > count ||
+      variable.get<std::size_t>() > count - values)
     throw Refusal(where + ": no variable " + variable.dump());
   joint.variable = variable.get<int>();
   joint.multiplier = readNumber(at(json, "multiplier", where), where + ", multiplier");
@@ -78,6 +105,11 @@ void readValues(const Json& json, const Model& model, const std::string& where, 
   const bool several = joint.kind == JointKind::Planar || joint.kind == JointKind::Floating;
   if (several && (joint.multiplier != 1.0 || joint.offset != 0.0))
     throw Refusal(where + ": a joint of this type cannot mimic another");
+  // One motion would end where the next one does not begin.
+  const bool cyclic = !several && values > 0 && model.variables[variable.get<std::size_t>()].cyclic;
+  const bool comesBack = joint.kind == JointKind::Revolute && isWhole(joint.multiplier);
+  if (cyclic && !comesBack)
+    throw Refusal(where + ": a turn of its variable takes it somewhere else");
 }
 
 Joint readJoint(const Json& json, const Model& model) {
@@ -125,8 +157,6 @@ void readBody(const Json& json, Model& model) {
     readShape(shape, readPose(at(shape, "pose", where), where + ", pose"), where, parts);
   if (link >= 0 && !parts.flats.empty())
     throw Refusal(where + ": a robot has no plane and no half-space");
-  for (const Body& other : model.bodies)
-    if (other.name() == json["name"]) throw Refusal(where + ": there are two of this name");
   model.bodies.emplace_back(json["name"], std::move(parts.elements), std::move(parts.flats),
                             std::move(parts.solids));
   model.linkOf.push_back(link);
@@ -197,21 +227,34 @@ Isometry3d readPose(const Json& json, const std::string& where) {
 
 Model readModel(const Json& json) {
   Model model;
+  Names links("link"), variables("variable"), joints("joint"), bodies("body");
   for (const Json& name : readList(json, "links", "model")) {
     if (!name.is_string()) throw Refusal("links: not a text: " + name.dump());
-    model.links.push_back(name.get<std::string>());
+    model.links.push_back(links.add(name.get<std::string>()));
+    if (model.links.size() > kMaxLinks)
+      throw Refusal("model: more than " + std::to_string(kMaxLinks) + " links");
   }
-  for (const Json& variable : readList(json, "variables", "model"))
+  for (const Json& variable : readList(json, "variables", "model")) {
     model.variables.push_back(readVariable(variable));
+    variables.add(model.variables.back().name);
+  }
   model.jointOf.assign(model.links.size(), -1);
   for (const Json& joint : readList(json, "joints", "model")) {
     model.joints.push_back(readJoint(joint, model));
+    joints.add(model.joints.back().name);
     int& above = model.jointOf[static_cast<std::size_t>(model.joints.back().child)];
     if (above >= 0)
       throw Refusal("joint " + model.joints.back().name + ": a second one above its link");
     above = static_cast<int>(model.joints.size()) - 1;
   }
-  for (const Json& body : readList(json, "bodies", "model")) readBody(body, model);
+  for (const Json& body : readList(json, "bodies", "model")) {
+    readBody(body, model);
+    bodies.add(model.bodies.back().name());
+  }
+  const auto ofRobot =
+      static_cast<std::size_t>(std::ranges::count_if(model.linkOf, [](int l) { return l >= 0; }));
+  if (ofRobot > 0 && model.bodies.size() > kMaxPairs / ofRobot)
+    throw Refusal("model: more than " + std::to_string(kMaxPairs) + " pairs of bodies");
   readRules(json, model);
   return model;
 }

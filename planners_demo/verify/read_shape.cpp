@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <cstddef>
+#include <set>
 
 #include "encoding.hpp"
 #include "model.hpp"
@@ -92,6 +93,18 @@ void addFlat(const Json& json, bool solid, const Isometry3d& frame, const std::s
   parts.flats.push_back({normal, offset + normal.dot(frame.translation()), solid});
 }
 
+/// What is inside is told by the edges that triangles share. By a vertex that is there twice, or a
+/// triangle with a corner twice, a closed surface would seem to be open.
+void requireWelded(const Surface& surface, const std::string& where) {
+  std::set<std::array<double, 3>> places;
+  for (const Vector3d& vertex : surface.vertices)
+    if (!places.insert({vertex.x(), vertex.y(), vertex.z()}).second)
+      throw Refusal(where + ": two vertices of a solid mesh are at the same place");
+  for (const auto& [a, b, c] : surface.triangles)
+    if (a == b || b == c || c == a)
+      throw Refusal(where + ": a triangle of a solid mesh has a corner twice");
+}
+
 void addMesh(const Json& json, const Isometry3d& frame, const std::string& where,
              ShapeParts& parts) {
   Surface surface;
@@ -113,10 +126,13 @@ void addMesh(const Json& json, const Isometry3d& frame, const std::string& where
     surface.triangles.push_back(triangle);
     parts.elements.push_back(std::move(element));
   }
+  if (corners.size() % 3 != 0) throw Refusal(where + ": triangles of less than three corners");
   if (surface.triangles.empty()) throw Refusal(where + ": a mesh without triangles");
   const Json& solid = at(json, "solid", where);
   if (!solid.is_boolean()) throw Refusal(where + ": solid is neither true nor false");
-  if (solid.get<bool>()) parts.solids.push_back(std::move(surface));
+  if (!solid.get<bool>()) return;
+  requireWelded(surface, where);
+  parts.solids.push_back(std::move(surface));
 }
 
 void addCloud(const Json& json, const Isometry3d& frame, const std::string& where,

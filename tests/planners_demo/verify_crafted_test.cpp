@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
 
 #include "gantry.hpp"
 #include "verify/check.hpp"
 #include "verify/enclosed.hpp"
+#include "verify/encoding.hpp"
 #include "verify/intervals.hpp"
+#include "verify/proof.hpp"
 
 /// Files that somebody made in order to deceive the checker of proofs, or to end it.
 namespace swept::test {
@@ -47,6 +51,26 @@ TEST(VerifyCrafted, DirectionsOfAnyLengthProveTheSame) {
     EXPECT_EQ(said(length, 1.0 - 1e-9), "") << length;
     EXPECT_THAT(said(length, 1.1), HasSubstr("is not proven, only")) << length;
   }
+}
+
+/// Of the smallest numbers there are, squares are nothing and lengths have no digits.
+TEST(VerifyCrafted, DirectionsOfTheSmallestNumbersHaveLengthOne) {
+  verify::Model model;
+  model.links = {"link"};
+  model.jointOf = {-1};
+  const std::vector<verify::Element> here{{.points = {Vector3d::Zero()}}};
+  const std::vector<verify::Element> there{{.points = {Vector3d(3.0, 4.0, 0.0)}}};
+  model.bodies.emplace_back("here", here, std::vector<verify::Flat>{},
+                            std::vector<verify::Surface>{});
+  model.bodies.emplace_back("there", there, std::vector<verify::Flat>{},
+                            std::vector<verify::Surface>{});
+  model.linkOf = {0, -1};
+  model.paddings = {0.0, 0.0};
+  const verify::PairMotion motion(model, verify::Motion(model, {}, {}), {0, 1}, 0.0, 1.0);
+  for (const double unit : {5e-324, 1e-322, 1e-315, 1e-310, 1.0, 1e307})
+    EXPECT_NEAR(motion.gap(0, 0, {3.0 * unit, 4.0 * unit, 0.0}), 5.0, 1e-9) << unit;
+  EXPECT_NEAR(motion.gap(0, 0, {5e-324, 5e-324, 0.0}), 7.0 / std::sqrt(2.0), 1e-9);
+  EXPECT_TRUE(std::isnan(motion.gap(0, 0, Vector3d::Zero())));
 }
 
 verify::Surface tetrahedron() {
@@ -135,6 +159,130 @@ TEST(VerifyCrafted, LargeAnglesRoundAtEitherEnd) {
   for (const auto& [from, to] : {std::pair(small, large), std::pair(large, small)})
     EXPECT_GE(verify::Motion(model, from, to).bounds(1, -1, 1.0).turn, 1e15);
   EXPECT_LT(verify::Motion(model, small, small).bounds(1, -1, 1.0).turn, 3.0);
+}
+
+/// Of a model of a link that turns, after a change; empty: it is read.
+std::string refusalOfModel(const std::function<void(Json&)>& change) {
+  Json model = Json::parse(R"({
+    "links": ["base", "arm"],
+    "variables": [{"name": "turn", "lower": null, "upper": null, "cyclic": true}],
+    "joints": [{"name": "turn", "type": "continuous", "parent": "base", "child": "arm",
+                "pose": [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0], "axis": [0, 0, 1],
+                "variable": 0, "multiplier": 1.0, "offset": 0.0}],
+    "bodies": [], "margin": 0.0, "paddings": {}, "allowed": []})");
+  change(model);
+  return refusalOf([&] {
+    verify::digestsOf(model);
+    verify::readModel(model);
+  });
+}
+
+TEST(VerifyCrafted, NamesAreThereOnce) {
+  EXPECT_EQ(refusalOfModel([](Json&) {}), "");
+  // Digests are by name: the genuine joint's would stand for a forged one before it.
+  EXPECT_EQ(refusalOfModel([](Json& model) {
+              Json forged = model["joints"][0];
+              forged["parent"] = nullptr;
+              forged["child"] = "base";
+              forged["pose"][9] = 100.0;
+              model["joints"].insert(model["joints"].begin(), forged);
+            }),
+            "joints: there are two of the name \"turn\"");
+  EXPECT_EQ(refusalOfModel([](Json& model) { model["links"].push_back("arm"); }),
+            "link arm: there are two of this name");
+  EXPECT_EQ(
+      refusalOfModel([](Json& model) { model["variables"].push_back(model["variables"][0]); }),
+      "variable turn: there are two of this name");
+  const Json body = {{"name", "cup"}, {"link", nullptr}, {"shapes", Json::array()}};
+  EXPECT_EQ(refusalOfModel([&](Json& model) {
+              model["bodies"] = {body, body};
+            }),
+            "bodies: there are two of the name \"cup\"");
+}
+
+/// Added to its size, the largest number is a small one.
+TEST(VerifyCrafted, AVariableIsOneThatIsThere) {
+  for (const std::uint64_t variable : {std::uint64_t{1}, UINT64_MAX, UINT64_MAX - 6})
+    for (const char* type : {"continuous", "floating"})
+      EXPECT_EQ(refusalOfModel([&](Json& model) {
+                  model["joints"][0]["variable"] = variable;
+                  model["joints"][0]["type"] = type;
+                }),
+                "joint turn: no variable " + std::to_string(variable));
+}
+
+/// Otherwise a motion ends where the next one does not begin.
+TEST(VerifyCrafted, WhatFollowsACyclicVariableComesBackAfterATurn) {
+  const auto said = [](const char* type, double multiplier, bool cyclic) {
+    return refusalOfModel([&](Json& model) {
+      model["joints"][0]["type"] = type;
+      model["joints"][0]["multiplier"] = multiplier;
+      model["variables"][0]["cyclic"] = cyclic;
+    });
+  };
+  const std::string elsewhere = "joint turn: a turn of its variable takes it somewhere else";
+  for (const double multiplier : {-3.0, 0.0, 1.0, 2.0})
+    EXPECT_EQ(said("continuous", multiplier, true), "") << multiplier;
+  EXPECT_EQ(said("continuous", 0.5, true), elsewhere);
+  EXPECT_EQ(said("revolute", 1.0 + 1e-15, true), elsewhere);
+  EXPECT_EQ(said("prismatic", 1.0, true), elsewhere);
+  EXPECT_EQ(said("continuous", 0.5, false), "");
+  EXPECT_EQ(said("prismatic", 1.0, false), "");
+}
+
+TEST(VerifyCrafted, AQuaternionHasALength) {
+  verify::Model model;
+  model.links = {"base"};
+  model.jointOf = {0};
+  model.joints = {{.name = "fly", .kind = verify::JointKind::Floating, .child = 0, .variable = 0}};
+  model.variables.resize(7, {"fly", -INFINITY, INFINITY, false});
+  for (const double number : {0.0, 1e-7, 1e200}) {
+    const std::vector<double> pose{0.0, 0.0, 0.0, 0.0, 0.0, number, number};
+    EXPECT_EQ(refusalOf([&] { verify::Motion(model, pose, pose); }),
+              "joint fly: a quaternion has no direction")
+        << number;
+  }
+}
+
+TEST(VerifyCrafted, ModelsThatWouldTakeHoursAreRefused) {
+  EXPECT_EQ(refusalOfModel([](Json& model) {
+              for (int i = 0; i < 9'999; ++i) model["links"].push_back(std::to_string(i));
+            }),
+            "model: more than 10000 links");
+  EXPECT_EQ(refusalOfModel([](Json& model) {
+              for (int i = 0; i < 3'163; ++i)
+                model["bodies"].push_back(
+                    {{"name", std::to_string(i)}, {"link", "arm"}, {"shapes", Json::array()}});
+            }),
+            "model: more than 10000000 pairs of bodies");
+}
+
+std::string refusalOfMesh(const verify::Surface& surface) {
+  std::vector<double> numbers;
+  std::vector<std::uint32_t> corners;
+  for (const Vector3d& vertex : surface.vertices)
+    numbers.insert(numbers.end(), vertex.begin(), vertex.end());
+  for (const auto& triangle : surface.triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  const Json mesh = {{"type", "mesh"},
+                     {"vertices", verify::base64Of(numbers)},
+                     {"triangles", verify::base64Of(corners)},
+                     {"solid", true}};
+  verify::ShapeParts parts;
+  return refusalOf(
+      [&] { verify::readShape(mesh, Eigen::Isometry3d::Identity(), "body b", parts); });
+}
+
+/// By any of these a closed surface would seem to be an open one, which has no inside.
+TEST(VerifyCrafted, ASolidMeshIsWelded) {
+  EXPECT_EQ(refusalOfMesh(tetrahedron()), "");
+  verify::Surface torn = tetrahedron();
+  torn.vertices.emplace_back(-0.0, 0.0, 1.0);
+  torn.triangles[3][2] = 4;
+  EXPECT_EQ(refusalOfMesh(torn), "body b: two vertices of a solid mesh are at the same place");
+  verify::Surface needle = tetrahedron();
+  needle.triangles.push_back({0, 0, 1});
+  EXPECT_EQ(refusalOfMesh(needle), "body b: a triangle of a solid mesh has a corner twice");
 }
 
 TEST(VerifyCrafted, AMeshWithoutTrianglesIsRefused) {
