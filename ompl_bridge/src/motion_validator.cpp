@@ -6,22 +6,11 @@
 
 #include "preconditions.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
+#include "swept/ompl_bridge/paths.hpp"
 #include "workspace_pool.hpp"
 
 namespace swept {
 namespace {
-
-// Near the tolerance a proof may hang on the order in which a motion is looked at, and the two
-// queries have each its own. Both overloads go by both, so that they say the same.
-bool isProven(const Checker& checker, WorkspacePool::Scratch& scratch, std::span<const double> to,
-              MotionQuery first, MotionCertificate& certificate) {
-  certificate = checker.certifyMotion(scratch.from, to, scratch.workspace, first);
-  if (certificate.verdict != Verdict::Undecided) return certificate.verdict == Verdict::Free;
-  const MotionQuery second =
-      first == MotionQuery::VerdictOnly ? MotionQuery::FirstContact : MotionQuery::VerdictOnly;
-  return checker.certifyMotion(scratch.from, to, scratch.workspace, second).verdict ==
-         Verdict::Free;
-}
 
 // Up to which t the motion to the state `q` there is proven, given that all before freeUntil is.
 // Planners take the way to the last valid state for valid without asking. As a motion of its own it
@@ -36,8 +25,9 @@ double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, doubl
     // Not the space's interpolate: it takes orientations closer than 1e-4 rad for equal and would
     // leave the certified motion by that much.
     checker.interpolate(scratch.from, scratch.to, t, q);
-    MotionCertificate certificate;
-    if (isProven(checker, scratch, q, MotionQuery::VerdictOnly, certificate)) return t;
+    const MotionCertificate certificate =
+        certifyByEither(checker, scratch.from, q, scratch.workspace, MotionQuery::VerdictOnly);
+    if (certificate.verdict == Verdict::Free) return t;
   }
   return 0.0;
 }
@@ -66,8 +56,9 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1,
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  MotionCertificate certificate;
-  return count(isProven(*checker_, *scratch, scratch->to, MotionQuery::VerdictOnly, certificate));
+  const MotionCertificate certificate = certifyByEither(
+      *checker_, scratch->from, scratch->to, scratch->workspace, MotionQuery::VerdictOnly);
+  return count(certificate.verdict == Verdict::Free);
 }
 
 bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
@@ -80,9 +71,10 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const om
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  MotionCertificate certificate;
-  if (isProven(*checker_, *scratch, scratch->to, MotionQuery::FirstContact, certificate))
-    return count(true);
+  // By both queries, as the other overload does: both say the same.
+  const MotionCertificate certificate =
+      certifyByEither(*checker_, scratch->from, scratch->to, scratch->workspace);
+  if (certificate.verdict == Verdict::Free) return count(true);
 
   lastValid.second = lastProven(*checker_, *scratch, certificate.freeUntil, scratch->proven);
   if (lastValid.first != nullptr && lastValid.second > 0.0) {

@@ -26,13 +26,24 @@ std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeo
   return states;
 }
 
+MotionCertificate certifyByEither(const Checker& checker, std::span<const double> from,
+                                  std::span<const double> to, Workspace& workspace,
+                                  MotionQuery first) {
+  MotionCertificate certificate = checker.certifyMotion(from, to, workspace, first);
+  if (certificate.verdict != Verdict::Undecided) return certificate;
+  const MotionQuery second =
+      first == MotionQuery::VerdictOnly ? MotionQuery::FirstContact : MotionQuery::VerdictOnly;
+  MotionCertificate other = checker.certifyMotion(from, to, workspace, second);
+  return other.verdict == Verdict::Free ? other : certificate;
+}
+
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker) {
   const std::vector<std::vector<double>> states = configurationsOf(path, checker);
   std::vector<MotionCertificate> certificates;
   Workspace workspace(checker);
   for (std::size_t i = 1; i < states.size(); ++i)
-    certificates.push_back(checker.certifyMotion(states[i - 1], states[i], workspace));
+    certificates.push_back(certifyByEither(checker, states[i - 1], states[i], workspace));
   return certificates;
 }
 
@@ -68,7 +79,7 @@ unsigned certifyEdges(ompl::base::PlannerData& data, const Checker& checker) {
     data.getEdges(v, neighbours);
     for (const unsigned int other : neighbours) {
       conversion.toConfiguration(data.getVertex(other).getState(), to);
-      const CertifiedEdge edge(checker.certifyMotion(from, to, workspace));
+      const CertifiedEdge edge(certifyByEither(checker, from, to, workspace));
       ompl::base::Cost weight;
       data.getEdgeWeight(v, other, &weight);
       data.removeEdge(v, other);

@@ -3,6 +3,7 @@
 #include "swept/ompl_bridge/paths.hpp"
 
 #include <gtest/gtest.h>
+#include <ompl/base/PlannerDataStorage.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/planners/prm/LazyPRM.h>
@@ -12,9 +13,12 @@
 #include <ompl/util/Console.h>
 
 #include <algorithm>
+#include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "../robot_model/model_robots.hpp"
 #include "fixtures.hpp"
 #include "message_of.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
@@ -173,6 +177,57 @@ TEST_F(Paths, EdgesOfRoadmapsCarryCertificates) {
     }
     setup->clear();  // OMPL 1.5.2's LazyPRM ends without giving its states back
   }
+}
+
+/// In the order that the documentation has: stored, loaded, and then certified.
+TEST_F(Paths, RoadmapsAreStoredBeforeTheyAreCertified) {
+  const auto setup = throughTheWindow();
+  const auto& si = setup->getSpaceInformation();
+  setup->setPlanner(std::make_shared<og::PRM>(si));
+  ASSERT_TRUE(setup->solve(20.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  ob::PlannerData data(si), loaded(si);
+  setup->getPlannerData(data);
+  std::stringstream stream;
+  ob::PlannerDataStorage storage;
+  storage.store(data, stream);
+  storage.load(stream, loaded);
+  ASSERT_GT(data.numEdges(), 20u);
+  EXPECT_EQ(loaded.numEdges(), data.numEdges());
+  EXPECT_EQ(certifyEdges(loaded, *checker_), certifyEdges(data, *checker_));
+}
+
+/// At a coarse tolerance proofs hang on the order in which a motion is looked at. What the planner
+/// took for valid is proven when its path is certified, too.
+TEST(PathsOfAnArm, OfMotionsThatTheValidatorTakesAreProven) {
+  const auto world = std::make_shared<const World>(World::load(modelsDir() + "/scenes/shelf.yaml"));
+  const auto checker = std::make_shared<const Checker>(modelRobot("rook7"), "arm", world,
+                                                       CheckerOptions{.tolerance = 0.2});
+  const auto setup = makeSimpleSetup(checker);
+  const auto& si = setup->getSpaceInformation();
+  si->setup();
+  const StateConversion conversion(checker->robot(), checker->group());
+  ob::ScopedState<> from(si), to(si);
+  Workspace workspace(*checker);
+  std::mt19937 random(1);
+  std::vector<double> q0(conversion.dimension()), q1(q0);
+  int taken = 0, byTheOtherOnly = 0;
+  for (int i = 0; i < 60'000; ++i) {
+    for (std::size_t k = 0; k < q0.size(); ++k) {
+      const Variable& variable = checker->robot().variables()[checker->group().variables[k]];
+      q0[k] = std::uniform_real_distribution<>(variable.lower, variable.upper)(random);
+      const double near = q0[k] + std::uniform_real_distribution<>(-1.0, 1.0)(random);
+      q1[k] = std::clamp(near, variable.lower, variable.upper);
+    }
+    conversion.toState(q0, from.get());
+    conversion.toState(q1, to.get());
+    if (!si->checkMotion(from.get(), to.get())) continue;
+    ++taken;
+    const og::PathGeometric path(si, from.get(), to.get());
+    EXPECT_EQ(certifyPath(path, *checker).front().verdict, Verdict::Free);
+    byTheOtherOnly += checker->certifyMotion(q0, q1, workspace).verdict != Verdict::Free;
+  }
+  EXPECT_GT(taken, 30'000);
+  EXPECT_GT(byTheOtherOnly, 0);
 }
 
 TEST_F(Paths, ClearancesOfMotionsAreProven) {

@@ -5,6 +5,7 @@
 #include <ompl/base/PlannerData.h>
 #include <ompl/geometric/PathGeometric.h>
 
+#include <span>
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
@@ -17,8 +18,16 @@ namespace swept {
 std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
                                                   const Checker& checker);
 
-/// Certificates of all segments of a path, in order: one fewer than it has states. They say nothing
-/// about bounds. Throws std::invalid_argument when the path is not one of the checker's group.
+/// The motion as CertifiedMotionValidator judges it. Near the tolerance a proof may hang on the
+/// order in which a motion is looked at, and the two queries have each its own: where `first`
+/// leaves the motion undecided and the other one proves it free, the certificate is the other's.
+MotionCertificate certifyByEither(const Checker& checker, std::span<const double> from,
+                                  std::span<const double> to, Workspace& workspace,
+                                  MotionQuery first = MotionQuery::FirstContact);
+
+/// Certificates, by certifyByEither(), of all segments of a path, in order: one fewer than it has
+/// states. They say nothing about bounds. Throws std::invalid_argument when the path is not one of
+/// the checker's group.
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker);
 
@@ -48,6 +57,9 @@ class CertifiedEdge : public ompl::base::PlannerDataEdge {
 /// Makes every edge of a planner's data a CertifiedEdge, with the weight that it had. Returns how
 /// many are proven free. Planners that check their edges lazily leave some that are not. Throws
 /// std::invalid_argument when the data is not of the checker's group.
+///
+/// A certificate is of the checker's world and is not for keeping: PlannerDataStorage stores no
+/// such edges (of OMPL, only the log says so). Store the data before, and certify what is loaded.
 unsigned certifyEdges(ompl::base::PlannerData& data, const Checker& checker);
 
 }  // namespace swept
