@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "joint_space.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <new>
 #include <typeinfo>
 #include <utility>
@@ -9,6 +11,38 @@
 namespace swept::detail {
 
 namespace ob = ompl::base;
+
+namespace {
+
+class Sampler : public ob::RealVectorStateSampler {
+ public:
+  explicit Sampler(const JointSpace& space) : RealVectorStateSampler(&space), joints_(space) {}
+
+  void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
+    forEachJoint(state, near, distance, [&](double value, double reach, double low, double high) {
+      return rng_.uniformReal(std::max(low, value - reach), std::min(high, value + reach));
+    });
+  }
+  void sampleGaussian(ob::State* state, const ob::State* mean, double deviation) override {
+    forEachJoint(state, mean, deviation, [&](double value, double reach, double low, double high) {
+      return std::clamp(rng_.gaussian(value, reach), low, high);
+    });
+  }
+
+ private:
+  void forEachJoint(ob::State* state, const ob::State* from, double distance, const auto& sample) {
+    const ob::RealVectorBounds& bounds = joints_.getBounds();
+    const double* values = from->as<ob::RealVectorStateSpace::StateType>()->values;
+    double* sampled = state->as<ob::RealVectorStateSpace::StateType>()->values;
+    for (std::size_t i = 0; i < joints_.weights().size(); ++i)
+      sampled[i] =
+          sample(values[i], distance / joints_.weights()[i], bounds.low[i], bounds.high[i]);
+  }
+
+  const JointSpace& joints_;
+};
+
+}  // namespace
 
 JointSpace::JointSpace(std::vector<double> weights)
     : RealVectorStateSpace(static_cast<unsigned int>(weights.size())),
@@ -32,6 +66,16 @@ double JointSpace::getMaximumExtent() const {
     sum += range * range;
   }
   return std::sqrt(sum);
+}
+
+double JointSpace::getMeasure() const {
+  double measure = RealVectorStateSpace::getMeasure();
+  for (const double weight : weights_) measure *= weight;
+  return measure;
+}
+
+ob::StateSamplerPtr JointSpace::allocDefaultStateSampler() const {
+  return std::make_shared<Sampler>(*this);
 }
 
 ob::State* JointSpace::allocState() const {

@@ -25,6 +25,10 @@ class JointSpace : public ompl::base::RealVectorStateSpace {
   const std::vector<double>& weights() const { return weights_; }
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
   double getMaximumExtent() const override;
+  /// Of ranges times weights, as in OMPL's compound spaces: planners make radii of it.
+  double getMeasure() const override;
+  /// Its distances, and deviations, are those of the space: a joint's divided by its weight.
+  ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;
 
