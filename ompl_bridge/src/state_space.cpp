@@ -165,6 +165,28 @@ ob::StateSpacePtr finished(const std::shared_ptr<Space>& space, const Robot& rob
 
 }  // namespace
 
+std::map<std::string, std::pair<double, double>> limitsAround(
+    const Robot& robot, const Group& group, std::span<const std::vector<double>> configurations) {
+  std::map<std::string, std::pair<double, double>> limits;
+  for (const std::vector<double>& q : configurations) {
+    if (q.size() != group.variables.size())
+      throw std::invalid_argument("limitsAround: a configuration of " + std::to_string(q.size()) +
+                                  " values; group `" + group.name + "` has " +
+                                  std::to_string(group.variables.size()));
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      const Variable& variable = robot.variables()[group.variables[i]];
+      const auto [low, high] = limitsOf(variable, {.limits = limits});
+      const bool below = q[i] < low && variable.lower < low && std::isfinite(q[i]);
+      const bool above = q[i] > high && variable.upper > high && std::isfinite(q[i]);
+      if (!below && !above) continue;
+      limits[variable.name] = {
+          below ? std::max(variable.lower, q[i] - kUnboundedTranslation) : low,
+          above ? std::min(variable.upper, q[i] + kUnboundedTranslation) : high};
+    }
+  }
+  return limits;
+}
+
 ob::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
                                  const StateSpaceOptions& options) {
   const std::vector<JointRun> runs = detail::jointRuns(robot, group);

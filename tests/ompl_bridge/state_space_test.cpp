@@ -166,6 +166,72 @@ TEST(StateSpace, WeighsJoints) {
   }
 }
 
+/// Planners take radii from the measure, and distances of samples from the space.
+TEST(StateSpace, MeasureAndSamplesAreWeighedToo) {
+  const auto robot = everyJoint();
+  const Group& group = *robot->findGroup("limited");
+  StateSpaceOptions options;
+  options.weights = {{"elbow", 4.0}};
+  const auto space = makeStateSpace(*robot, group, options);
+  const auto plain = makeStateSpace(*robot, group);
+  space->setup();
+  plain->setup();
+  EXPECT_NEAR(space->getMeasure(), 4.0 * plain->getMeasure(), 1e-12 * space->getMeasure());
+  const auto place = std::ranges::find(group.joints, *robot->findJoint("elbow"));
+  const auto elbow = static_cast<std::size_t>(place - group.joints.begin());
+  ASSERT_LT(elbow, group.joints.size());
+  const ob::StateSamplerPtr sampler = space->allocStateSampler();
+  const StateConversion conversion(*robot, group);
+  ob::ScopedState<> middle(space), sample(space);
+  std::vector<double> q(conversion.dimension(), 0.1), near(q);
+  conversion.toState(q, middle.get());
+  double farthest = 0.0, farthestElbow = 0.0, squares = 0.0, squaresElbow = 0.0;
+  constexpr int kSamples = 2000;
+  for (int i = 0; i < kSamples; ++i) {
+    sampler->sampleUniformNear(sample.get(), middle.get(), 0.08);
+    conversion.toConfiguration(sample.get(), near);
+    EXPECT_TRUE(space->satisfiesBounds(sample.get()));
+    farthestElbow = std::max(farthestElbow, std::abs(near[elbow] - q[elbow]));
+    farthest = std::max(farthest, std::abs(near[1 - elbow] - q[1 - elbow]));
+    sampler->sampleGaussian(sample.get(), middle.get(), 0.04);
+    conversion.toConfiguration(sample.get(), near);
+    EXPECT_TRUE(space->satisfiesBounds(sample.get()));
+    squaresElbow += std::pow(near[elbow] - q[elbow], 2);
+    squares += std::pow(near[1 - elbow] - q[1 - elbow], 2);
+  }
+  EXPECT_LE(farthest, 0.08);
+  EXPECT_GT(farthest, 0.079);
+  EXPECT_LE(farthestElbow, 0.02);
+  EXPECT_GT(farthestElbow, 0.0197);
+  EXPECT_NEAR(std::sqrt(squares / kSamples), 0.04, 0.003);
+  EXPECT_NEAR(std::sqrt(squaresElbow / kSamples), 0.01, 0.001);
+}
+
+/// A base that drives may begin and end anywhere.
+TEST(StateSpace, IsMadeWideEnoughForConfigurations) {
+  const auto robot = everyJoint();
+  const Group& group = *robot->findGroup("all");
+  std::vector<std::vector<double>> ends(2, std::vector<double>(group.variables.size(), 0.0));
+  EXPECT_TRUE(limitsAround(*robot, group, ends).empty());
+  const auto at = [&](const std::string& name) -> std::size_t {
+    const auto found = std::ranges::find(group.variables, *robot->findVariable(name));
+    return static_cast<std::size_t>(found - group.variables.begin());
+  };
+  ends[0][at("cart/x")] = 15.0;
+  ends[1][at("cart/x")] = -3.0;
+  ends[1][at("body/trans_z")] = -1e3;
+  ends[1][at("elbow")] = 100.0;  // beyond the robot's own limits, which stay
+  ends[0][at("cart/y")] = std::numeric_limits<double>::quiet_NaN();
+  using Limits = std::map<std::string, std::pair<double, double>>;
+  const Limits limits = limitsAround(*robot, group, ends);
+  EXPECT_EQ(limits, (Limits{{"cart/x", {-10.0, 25.0}}, {"body/trans_z", {-1010.0, 10.0}}}));
+  const auto space = makeStateSpace(*robot, group, {.limits = limits});
+  const auto* cart = space->as<ob::CompoundStateSpace>()->as<ob::SE2StateSpace>(3);
+  EXPECT_EQ(cart->getBounds().high, (std::vector<double>{25.0, 10.0}));
+  ends[0].pop_back();
+  EXPECT_THROW(limitsAround(*robot, group, ends), std::invalid_argument);
+}
+
 TEST(StateSpace, SaysWhichOptionIsWrong) {
   const auto robot = everyJoint();
   const Group& group = *robot->findGroup("all");

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <regex>
+#include <utility>
 
 #include "gantry.hpp"
+#include "models_dir.hpp"
 
 namespace swept::test {
 namespace {
@@ -54,6 +56,19 @@ TEST(Plan, ThePathLeadsFromStartToGoalAndKeepsTheClearanceItClaims) {
   EXPECT_GT(json["minimum_certified_clearance"], 0.0);
   EXPECT_LE(json["minimum_certified_clearance"], least);
   EXPECT_GE(json["minimum_certified_clearance"], least - 2e-4);
+}
+
+/// A base without limits: what it plans within holds both ends, wherever they are.
+TEST(Plan, ABaseMayBeginAndEndFarAway) {
+  const std::string urdf = modelsDir() + "/robots/drifter/drifter.urdf";
+  const std::string far = "15,0,1,0,0,0,1", farther = "-40,3,1,0,0,0,1", home = "0,0,1,0,0,0,1";
+  for (const auto& [start, goal] : {std::pair(far, farther), std::pair(home, far)}) {
+    const Outcome run = runSwept({"plan", urdf, "--", start, goal});
+    EXPECT_EQ(run.exitCode, 0) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("all proven free")) << start << " to " << goal;
+  }
+  const Outcome pose = runSwept({"plan", urdf, home, "--goal-pose", far});
+  EXPECT_EQ(pose.exitCode, 0) << pose.out;
 }
 
 TEST(Plan, TakesStatesBehindADoubleDash) {

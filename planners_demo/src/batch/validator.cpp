@@ -101,8 +101,9 @@ Validator readValidator(const std::string& text, double margin) {
 }
 
 SetupMaker setupMaker(const Validator& validator, std::atomic<std::uint64_t>& statesChecked) {
-  return [validator, &statesChecked](const std::shared_ptr<const Checker>& checker) {
-    SetupOptions options;
+  return [validator, &statesChecked](const std::shared_ptr<const Checker>& checker,
+                                     const StateSpaceOptions& space) {
+    SetupOptions options{.space = space};
     const bool certified = validator.kind == Validator::Kind::Certified;
     options.motions = certified ? MotionCheck::Certified : MotionCheck::Discrete;
     auto setup = makeSimpleSetup(checker, options);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
@@ -63,6 +64,26 @@ Ends usableEnds(const Checker& checker, const std::vector<LabelledState>& states
   }
   if (ends.goals.empty() && !request.goalPose) std::ranges::for_each(badGoals, refuse);
   return ends;
+}
+
+/// What the planner may use of a floor or a space that has no end: it holds both ends.
+StateSpaceOptions spaceAround(const Checker& checker, const Ends& ends,
+                              const PlanRequest& request) {
+  std::vector<std::vector<double>> held{ends.start->q};
+  for (const LabelledState* goal : ends.goals) held.push_back(goal->q);
+  if (request.goalPose) {
+    // How far from the link the base will be is not known: as far as both are from the origin.
+    const double away = request.goalPose->model_from_link.translation().norm();
+    for (const double value : {-away, away}) {
+      std::vector<double>& q = held.emplace_back(ends.start->q);
+      const std::vector<int>& variables = checker.group().variables;
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        const Variable& variable = checker.robot().variables()[variables[i]];
+        if (std::isinf(variable.lower) || std::isinf(variable.upper)) q[i] = value;
+      }
+    }
+  }
+  return {.limits = limitsAround(checker.robot(), checker.group(), held)};
 }
 
 /// Looks for goal states until it has enough or gives up, before the planner starts: what that
@@ -136,7 +157,7 @@ void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometr
   for (std::size_t i = 0; i + 1 < outcome.states.size(); ++i) {
     const std::vector<double>& from = outcome.states[i];
     const std::vector<double>& to = outcome.states[i + 1];
-    PathSegment segment{.certificate = checker.certifyMotion(from, to, workspace),
+    PathSegment segment{.certificate = certifyByEither(checker, from, to, workspace),
                         .clearance = 0.0};
     if (clearance && segment.certificate.verdict == Verdict::Free)
       segment.clearance =
@@ -202,8 +223,9 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
   }
   // Spaces and planners draw from the seed as soon as they are made.
   ompl::RNG::setSeed(request.seed);
+  const StateSpaceOptions space = spaceAround(*checker, ends, request);
   const og::SimpleSetupPtr setup =
-      request.setup ? request.setup(checker) : makeSimpleSetup(checker);
+      request.setup ? request.setup(checker, space) : makeSimpleSetup(checker, {.space = space});
   const StateConversion conversion(checker->robot(), checker->group());
   setEnds(*setup, conversion, ends);
   try {

@@ -12,6 +12,7 @@
 #include "input/task.hpp"
 #include "plan/end_report.hpp"
 #include "plan/pose_target.hpp"
+#include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace ompl::geometric {
@@ -22,7 +23,7 @@ namespace swept {
 
 /// Space, validity and motion checks of a checker's group.
 using SetupMaker = std::function<std::shared_ptr<ompl::geometric::SimpleSetup>(
-    const std::shared_ptr<const Checker>&)>;
+    const std::shared_ptr<const Checker>&, const StateSpaceOptions&)>;
 
 struct PlanRequest {
   std::string planner;  ///< as plannerName() returns it

@@ -13,7 +13,7 @@ AskedMethod::AskedMethod(const ReportMethod& method, std::shared_ptr<const Check
       statesChecked_(std::make_unique<std::atomic<std::uint64_t>>(0)),
       workspace_(*checker_) {
   const Validator validator{.kind = method.kind, .resolution = method.setting};
-  setup_ = setupMaker(validator, *statesChecked_)(checker_);
+  setup_ = setupMaker(validator, *statesChecked_)(checker_, {});
   setup_->getSpaceInformation()->setup();
 }
 

@@ -35,7 +35,7 @@ struct StateSpaceOptions {
 ///
 /// The space has the group's name, a dimension its variable's, a subspace its joint's
 /// (`first..last` where joints share one). Unbounded prismatic, planar or floating translations
-/// need bounds: they are +-10 m unless the options have others. longestValidSegmentFraction is
+/// need bounds: they are +-10 m unless the options have others (limitsAround() makes some). longestValidSegmentFraction is
 /// OMPL's 1 %: it plays no part in validity, only in how densely paths are interpolated for show.
 /// The default projection, for planners that keep grids, is the position of the group's tip (its
 /// first two values where the group has none that it moves).
@@ -45,6 +45,12 @@ struct StateSpaceOptions {
 /// positive number.
 ompl::base::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
                                          const StateSpaceOptions& options = {});
+
+/// Limits, for StateSpaceOptions, of the unbounded translations whose default limits leave out one
+/// of the configurations: they reach 10 m beyond it. Throws std::invalid_argument for a
+/// configuration of another size than the group's.
+std::map<std::string, std::pair<double, double>> limitsAround(
+    const Robot& robot, const Group& group, std::span<const std::vector<double>> configurations);
 
 /// Copies between a state of makeStateSpace(robot, group) and the group's configuration.
 /// Both throw std::invalid_argument unless q has `dimension()` values.
