@@ -217,8 +217,17 @@ TEST_P(Contract, SpacePassesOmplsOwnChecks) {
   }
   EXPECT_EQ(space_->getDimension(), freedom);
   if (!space_->isCompound()) {
+    // In the space's own distance, whose weights it has.
     const ob::RealVectorBounds& bounds = space_->as<ob::RealVectorStateSpace>()->getBounds();
-    for (unsigned int k = 0; k < freedom; ++k) measure *= bounds.high[k] - bounds.low[k];
+    for (unsigned int k = 0; k < freedom; ++k) {
+      const State from = random(), to = random();
+      double* low = from.get()->as<ob::RealVectorStateSpace::StateType>()->values;
+      double* high = to.get()->as<ob::RealVectorStateSpace::StateType>()->values;
+      std::ranges::copy(bounds.low, low);
+      std::ranges::copy(bounds.low, high);
+      high[k] = bounds.high[k];
+      measure *= distance(from, to);
+    }
     EXPECT_NEAR(space_->getMeasure(), measure, 1e-12 * measure);
   }
   EXPECT_GT(space_->getMeasure(), 0.0);
