@@ -28,6 +28,7 @@ HWY_AFTER_NAMESPACE();
 
 #include "lane_robots.hpp"
 #include "lane_targets.hpp"
+#include "swept/core/axis_frame.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {
@@ -133,9 +134,7 @@ double exactDistance(const Scene& scene, const Vector3d& x, const Vector3d& g) {
   Isometry3d world_from_segment = Isometry3d::Identity();
   world_from_segment.translation() = x;
   const double length = g.norm();
-  if (length > 0.0)
-    world_from_segment.linear() =
-        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), g).toRotationMatrix();
+  if (length > 0.0) world_from_segment.linear() = axisFrame(g);
   const Shape segment = length > 0.0 ? Shape(Capsule{0.0, length}) : Shape(Sphere{0.0});
   return distance(segment, scene.shape, world_from_segment.inverse() * scene.world_from_shape)
       .upper;

@@ -8,6 +8,7 @@
 #include "lanes/hull_planes.hpp"
 #include "lanes/lane_kinematics.hpp"
 #include "lanes/lane_motion.hpp"
+#include "swept/core/axis_frame.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept::lane_test {
@@ -135,8 +136,7 @@ class Pass {
       RobotGeometry& plate = all[pair.a];
       plate.body_from_shape = Eigen::Isometry3d(
           Eigen::Translation3d(at + (radius + bend * random.uniform(1.2, 4.0) + thin) * n));
-      plate.body_from_shape.linear() =
-          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), n).toRotationMatrix();
+      plate.body_from_shape.linear() = axisFrame(n);
       setShape(Box{{wide, wide, thin}}, plate);
     });
     return true;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/checker_model.hpp"
+#include "swept/core/axis_frame.hpp"
 
 /// Random robots for tests of the lane tier, and their kinematics once more in extended precision.
 namespace swept::lane_test {
@@ -85,8 +86,7 @@ inline void addBody(Random& random, const ChainOptions& options, JointType type,
     body.parent_from_joint = Eigen::Translation3d(options.link, 0.0, 0.0);
     body.axis = Eigen::Vector3d::UnitZ();
   }
-  body.planarBasis =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), body.axis).toRotationMatrix();
+  body.planarBasis = axisFrame(body.axis);
   const double range =
       type == JointType::Prismatic ? options.link : std::numeric_limits<double>::infinity();
   body.lower = -range;

@@ -7,6 +7,7 @@
 
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
+#include "swept/core/axis_frame.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace {
@@ -61,8 +62,7 @@ KinematicModel chain(Random& random, const std::vector<JointType>& types) {
     body.type = type;
     body.parent_from_joint = random.pose(0.4);
     body.axis = random.vector(1.0).normalized();
-    body.planarBasis =
-        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), body.axis).toRotationMatrix();
+    body.planarBasis = swept::axisFrame(body.axis);
     body.variable = model.dimension;
     body.lower = -0.3;
     body.upper = 0.5;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "point_cloud/gaussian.hpp"
+#include "swept/core/axis_frame.hpp"
 #include "swept/core/collision_probability.hpp"
 
 namespace swept::detail {
@@ -115,8 +116,7 @@ void EventIntegral::makeFrame() {
     noise_.factor.colwise().norm().maxCoeff(&largest);
     along = Vector3d::Unit(largest);
   }
-  const Matrix3d turn =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along).toRotationMatrix();
+  const Matrix3d turn = axisFrame(along);
   // u and v along the noise's axes besides w: where it has none, lines are all the same.
   Matrix3d axes = noise_.factor * turn;
   const double square = axes.col(0).squaredNorm() - axes.col(1).squaredNorm();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "swept/core/axis_frame.hpp"
+
 namespace swept {
 namespace {
 
@@ -110,9 +112,7 @@ Eigen::Isometry3d FclRobot::jointMotion(const Joint& joint) const {
       motion.translation() = value * joint.axis;
       break;
     case JointType::Planar: {
-      const auto plane_from_xy =
-          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
-      motion.translation() = plane_from_xy * Eigen::Vector3d(values[0], values[1], 0.0);
+      motion.translation() = axisFrame(joint.axis) * Eigen::Vector3d(values[0], values[1], 0.0);
       motion.linear() = Eigen::AngleAxisd(values[2], joint.axis).toRotationMatrix();
       break;
     }

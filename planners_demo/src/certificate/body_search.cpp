@@ -6,17 +6,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "swept/core/axis_frame.hpp"
+
 namespace swept {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr int kRim = 16;  ///< points on the rim of a disc
 
 Isometry3d along(const Vector3d& axis, const Vector3d& middle) {
-  return Eigen::Translation3d(middle) * Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis);
+  Isometry3d pose = Isometry3d::Identity();
+  pose.linear() = axisFrame(axis);
+  pose.translation() = middle;
+  return pose;
 }
 
 /// The element itself, where the library has its shape; else the hull of its points.

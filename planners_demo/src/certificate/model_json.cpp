@@ -7,6 +7,7 @@
 #include "certificate/shape_json.hpp"
 #include "command_line/exit_code.hpp"
 #include "output/robot_json.hpp"
+#include "swept/core/axis_frame.hpp"
 
 namespace swept {
 namespace {
@@ -70,9 +71,7 @@ Json jointJson(const Checker& checker, const Joint& joint) {
   json["pose"] = poseJson(joint.parent_from_joint);
   json["axis"] = toJson(joint.axis);
   if (joint.type == JointType::Planar)
-    json["planar_x"] = toJson(
-        Eigen::Vector3d(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis) *
-                        Eigen::Vector3d::UnitX()));
+    json["planar_x"] = toJson(Eigen::Vector3d(axisFrame(joint.axis).col(0)));
   addValues(checker, joint, json);
   return json;
 }

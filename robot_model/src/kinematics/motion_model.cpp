@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "swept/core/axis_frame.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -57,7 +58,7 @@ Isometry3d heldTransform(const Robot& robot, const Joint& joint, const Eigen::Ve
   MovingBody body;
   body.type = joint.type;
   body.axis = joint.axis;
-  body.planarBasis = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis).toRotationMatrix();
+  body.planarBasis = axisFrame(joint.axis);
   JointMotion motion;
   const Joint& source = joint.mimic ? robot.joints()[joint.mimic->master] : joint;
   if (joint.type == JointType::Fixed || source.firstVariable < 0) return Isometry3d::Identity();
@@ -90,7 +91,7 @@ MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group)
   MovingBody body;
   body.type = joint.type;
   body.axis = joint.axis;
-  body.planarBasis = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis).toRotationMatrix();
+  body.planarBasis = axisFrame(joint.axis);
   const Joint& source = joint.mimic ? robot.joints()[joint.mimic->master] : joint;
   if (joint.mimic) {
     body.multiplier = joint.mimic->multiplier;

@@ -8,6 +8,7 @@
 #include "certify/checker_model.hpp"
 #include "lanes/cover_compile.hpp"
 #include "lanes/single.hpp"
+#include "swept/core/axis_frame.hpp"
 
 namespace swept::detail {
 
@@ -54,7 +55,7 @@ bool boundsHold(const KinematicModel& kinematics) {
 Matrix3d bodyFromLane(const MovingBody& body) {
   if (body.type == JointType::Planar) return body.planarBasis;
   if (!turns(body.type)) return Matrix3d::Identity();
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), body.axis).toRotationMatrix();
+  return axisFrame(body.axis);
 }
 
 /// Of the angle between the axes of a joint and its parent's, as LaneBody has it.

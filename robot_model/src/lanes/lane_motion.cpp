@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lanes/lane_kinematics.hpp"
+#include "swept/core/axis_frame.hpp"
 
 namespace swept::detail {
 
@@ -21,9 +22,7 @@ constexpr double kOutward = 1.0 + 2.0 * kSingle;
 /// before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the axis.
 void compileFloating(const MovingBody& body, const JointMotion& joint, LaneJointMotion& lane) {
   Eigen::Matrix3d toAxis = Eigen::Matrix3d::Identity();
-  if (joint.spinSpeed > 0.0)
-    toAxis =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.spin).toRotationMatrix();
+  if (joint.spinSpeed > 0.0) toAxis = axisFrame(joint.spin);
   const Eigen::Matrix3d before = body.parent_from_joint.linear() * toAxis;
   const Eigen::Matrix3d after = toAxis.transpose() * joint.rotation.toRotationMatrix();
   for (int r = 0; r < 3; ++r) {

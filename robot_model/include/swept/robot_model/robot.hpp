@@ -58,8 +58,9 @@ struct Joint {
   int firstVariable = -1;  ///< into Robot::variables(); -1 for fixed and mimicking joints
 };
 
-/// One number of a configuration. A planar joint has three (x, y in m; theta in rad), a floating
-/// one seven (x, y, z in m; quaternion x, y, z, w), in this order.
+/// One number of a configuration. A planar joint has three (x, y in m along the first two columns
+/// of axisFrame(axis); theta in rad about the axis), a floating one seven (x, y, z in m; quaternion
+/// x, y, z, w), in this order.
 struct Variable {
   std::string
       name;  ///< the joint's, or `joint/x`, `joint/theta`, `joint/trans_x`, `joint/rot_w`, ...
