@@ -9,6 +9,7 @@
 #include "continuous/leaf_contact.hpp"
 #include "continuous/relative_motion.hpp"
 #include "continuous/slice_descent.hpp"
+#include "geometry/nearest_rotation.hpp"
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/enclosure.hpp"
 #include "swept/core/distance.hpp"
@@ -116,8 +117,8 @@ class TimeSearch {
  private:
   /// True: there is nothing more to find out.
   bool decidedAtStart() {
-    const Isometry3d world_from_a = motionA_.at(0.0);
-    const Isometry3d a_from_b = world_from_a.inverse() * motionB_.at(0.0);
+    const Isometry3d world_from_a = detail::rigidPose(motionA_.at(0.0));
+    const Isometry3d a_from_b = world_from_a.inverse() * detail::rigidPose(motionB_.at(0.0));
     if (!world_from_a.matrix().allFinite() || !a_from_b.matrix().allFinite()) return true;
     // Whether they touch without a margin is decided exactly; a distance only says how far apart.
     const bool exact = !(options_.margin > 0.0);
@@ -239,9 +240,9 @@ class TimeSearch {
   /// the surface, and inside.
   void lookInside(double t) {
     if (contact_ && t >= result_.contactBy) return;
-    const Isometry3d world_from_a = motionA_.at(t);
+    const Isometry3d world_from_a = detail::rigidPose(motionA_.at(t));
     const std::optional<Eigen::Vector3d> point =
-        detail::enclosedPoint(a_, b_, world_from_a.inverse() * motionB_.at(t));
+        detail::enclosedPoint(a_, b_, world_from_a.inverse() * detail::rigidPose(motionB_.at(t)));
     if (!point) return;
     noteContact(t, world_from_a, *point, *point);
     waiting_.clear();

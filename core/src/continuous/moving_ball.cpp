@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous/moving_ball.hpp"
 
+#include "geometry/nearest_rotation.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -16,7 +18,7 @@ MovingBall::MovingBall(const Motion& motion, const BoundingSphere& ball, double 
                        double middle)
     : rates(motion.rates(from, to)), radius(ball.radius) {
   const MotionState state = motion.state(middle);
-  pose = state.pose;
+  pose = rigidPose(state.pose);
   twist = state.twist;
   reference = pose * motion.reference();
   center = pose * ball.center;

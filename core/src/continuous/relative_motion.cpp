@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "continuous/moving_ball.hpp"
+#include "geometry/nearest_rotation.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -143,7 +144,9 @@ MotionSlice RelativeMotion::over(double from, double to, double margin) const {
 }
 
 RelativeState RelativeMotion::at(double t) const {
-  const MotionState a = a_.state(t), b = b_.state(t);
+  MotionState a = a_.state(t), b = b_.state(t);
+  a.pose = rigidPose(a.pose);
+  b.pose = rigidPose(b.pose);
   const Eigen::Matrix3d a_from_world = a.pose.linear().transpose();
   const Vector3d origin = a.pose.translation();
   const auto atOrigin = [&](const MotionState& body, const Vector3d& reference) {

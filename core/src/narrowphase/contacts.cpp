@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/contacts.hpp"
 
+#include "geometry/nearest_rotation.hpp"
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/piece_pair.hpp"
 #include "swept/core/signed_distance.hpp"
@@ -115,7 +116,10 @@ ContactsResult wholeContact(const Shape& a, const Shape& b, const Isometry3d& a_
 
 ContactsResult findContacts(const Shape& a, const Shape& b, const Isometry3d& a_from_b,
                             std::size_t most, std::vector<ContactPoint>& contacts) {
-  if (!a_from_b.matrix().allFinite()) return {};
+  if (!detail::isRigidPose(a_from_b)) {
+    const auto rigid = detail::nearestRigidPose(a_from_b);
+    return rigid ? findContacts(a, b, *rigid, most, contacts) : ContactsResult{};
+  }
   const Side sideA = Side::of(a);
   const Side sideB = Side::of(b);
   if (sideA.isConvex() && sideB.isConvex()) {

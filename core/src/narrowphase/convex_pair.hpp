@@ -31,15 +31,4 @@ bool convexSigned(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_fro
 bool convexCollide(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                    Contact& result);
 
-/// As allFinite() of the matrix, in a part of the time, for queries that take some ten nanoseconds:
-/// a sum of products with zero is zero unless a term is infinite or NaN.
-inline bool isFinite(const Eigen::Isometry3d& pose) {
-  const Eigen::Matrix<double, 4, 4>& m = pose.matrix();
-  double sum = 0.0;
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 3; ++row) sum += 0.0 * m(row, column);
-  }
-  return sum == 0.0;
-}
-
 }  // namespace swept::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "geometry/nearest_rotation.hpp"
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/libccd_backend.hpp"
 #include "narrowphase/piecewise.hpp"
@@ -43,7 +44,10 @@ DistanceResult distanceOfPieces(const Shape& a, const Shape& b, const Eigen::Iso
 
 DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                         const DistanceOptions& options) {
-  if (!detail::isFinite(a_from_b)) return {};
+  if (!detail::isRigidPose(a_from_b)) {
+    const auto rigid = detail::nearestRigidPose(a_from_b);
+    return rigid ? distance(a, b, *rigid, options) : DistanceResult{};
+  }
   if (wantsLibccd(a, b, options.backend)) return detail::libccdDistance(a, b, a_from_b, options);
   DistanceResult result;
   if (detail::convexDistance(a, b, a_from_b, options, result)) return result;
@@ -52,7 +56,10 @@ DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d&
 
 Contact collide(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                 Backend backend) {
-  if (!detail::isFinite(a_from_b)) return Contact::Unknown;
+  if (!detail::isRigidPose(a_from_b)) {
+    const auto rigid = detail::nearestRigidPose(a_from_b);
+    return rigid ? collide(a, b, *rigid, backend) : Contact::Unknown;
+  }
   if (wantsLibccd(a, b, backend)) return detail::libccdIntersect(a, b, a_from_b);
   Contact contact = Contact::Unknown;
   if (detail::convexCollide(a, b, a_from_b, contact)) return contact;

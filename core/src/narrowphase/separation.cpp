@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/separation.hpp"
 
+#include "geometry/nearest_rotation.hpp"
 #include "narrowphase/piecewise.hpp"
 
 namespace swept {
 
 SeparationResult separate(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                           const SeparationQuery& query) {
+  if (!detail::isRigidPose(a_from_b)) {
+    const auto rigid = detail::nearestRigidPose(a_from_b);
+    return rigid ? separate(a, b, *rigid, query) : SeparationResult{};
+  }
   SeparationResult result;
-  if (!a_from_b.matrix().allFinite()) return result;
   detail::PieceGoal goal;
   goal.approach = &query.approach;
   goal.contact = query.contact;

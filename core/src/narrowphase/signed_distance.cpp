@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/nearest_rotation.hpp"
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/mesh_depth.hpp"
 #include "narrowphase/piecewise.hpp"
@@ -14,7 +15,10 @@ using Eigen::Vector3d;
 
 SignedDistanceResult signedDistance(const Shape& a, const Shape& b, const Isometry3d& a_from_b,
                                     double tolerance) {
-  if (!detail::isFinite(a_from_b)) return {};
+  if (!detail::isRigidPose(a_from_b)) {
+    const auto rigid = detail::nearestRigidPose(a_from_b);
+    return rigid ? signedDistance(a, b, *rigid, tolerance) : SignedDistanceResult{};
+  }
   SignedDistanceResult result;
   if (detail::convexSigned(a, b, a_from_b, tolerance, result)) return result;
   const detail::Side sideA = detail::Side::of(a);

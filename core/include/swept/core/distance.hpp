@@ -49,6 +49,10 @@ struct DistanceResult {
 
 /// Distance of `b` from `a`; pose of b in a's frame. Never throws on finite input. With a
 /// non-finite pose the result is the widest interval, [0, infinity].
+///
+/// Here and in every query of the core a pose whose linear part R is not quite a rotation stands
+/// for the rotation nearest to R (polar decomposition). One that is far from any, by more than 1e-3
+/// in an entry of R^T R, is answered as a non-finite one.
 DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                         const DistanceOptions& options = {});
 
