@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "model_robots.hpp"
@@ -90,6 +91,50 @@ TEST(StateBatch, LeavesWhatIsNoStateUndecided) {
     const std::span<const double> q(states.data() + i * dimension, dimension);
     EXPECT_EQ(verdicts[i] == Verdict::Undecided, i == 3 || i == 5) << i;
     EXPECT_EQ(verdicts[i], checker.checkState(q, workspace)) << i;
+  }
+}
+
+/// Of joints of every kind, whichever value it is. Of a planar joint a value that was no number went
+/// into the lanes, where a walk compared with it: it met every box, or none.
+TEST(StateBatch, LeavesNoValueThatIsNotFiniteToTheLanes) {
+  std::mt19937 random(74);
+  for (const Case& which : kCases) {
+    const Checker checker(load(which), which.group, scene("shelf.yaml"));
+    const auto dimension = static_cast<std::size_t>(checker.dimension());
+    Workspace workspace(checker);
+    const std::vector<double> fine = randomStates(random, checker, which.farthest, 8);
+    const std::span<const double> first(fine.data(), dimension);
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+      for (std::size_t value = 0; value < dimension; ++value) {
+        SCOPED_TRACE(testing::Message() << which.robot << ", value " << value << " is " << bad);
+        std::vector<double> states = fine;
+        states[5 * dimension + value] = bad;
+        std::vector<Verdict> verdicts(8);
+        checker.checkStates(states, verdicts, workspace);
+        EXPECT_EQ(verdicts[5], Verdict::Undecided);
+        const std::span<const double> q(states.data() + 5 * dimension, dimension);
+        EXPECT_EQ(checker.checkState(q, workspace), Verdict::Undecided);
+        for (const MotionQuery query : {MotionQuery::VerdictOnly, MotionQuery::FirstContact}) {
+          EXPECT_EQ(checker.certifyMotion(first, q, workspace, query).verdict, Verdict::Undecided);
+          EXPECT_EQ(checker.certifyMotion(q, first, workspace, query).verdict, Verdict::Undecided);
+        }
+      }
+    }
+  }
+}
+
+/// Components of a quaternion whose squares are no finite number say as little about its direction.
+TEST(StateBatch, LeavesOrientationsThatOverflowUndecided) {
+  const Checker checker(load(kCases[3]), kCases[3].group, scene("shelf.yaml"));
+  Workspace workspace(checker);
+  const std::vector<double> fine{0.5, 0.5, 3.0, 0.0, 0.0, 0.0, 1.0};
+  ASSERT_EQ(checker.checkState(fine, workspace), Verdict::Free);
+  for (const double large : {1e155, 1e200, 1e308}) {
+    std::vector<double> turned = fine;
+    turned[4] = large;
+    EXPECT_EQ(checker.checkState(turned, workspace), Verdict::Undecided) << large;
+    EXPECT_EQ(checker.reportState(turned, workspace).verdict, Verdict::Undecided) << large;
+    EXPECT_EQ(checker.certifyMotion(fine, turned, workspace).verdict, Verdict::Undecided) << large;
   }
 }
 

@@ -41,7 +41,7 @@ void validate(const Robot& robot, const CheckerOptions& options) {
   }
   for (const Joint& joint : robot.joints()) {
     if (joint.type != JointType::Floating) continue;
-    if (!(options.reference->segment<4>(joint.firstVariable + 3).norm() > 1e-6)) {
+    if (!detail::hasDirection(options.reference->data() + joint.firstVariable + 3)) {
       throw std::invalid_argument("Checker: the quaternion of joint '" + joint.name +
                                   "' has no direction");
     }

@@ -119,6 +119,11 @@ bool moves(const Robot& robot, const Joint& joint, const Group& group) {
 
 }  // namespace
 
+bool hasDirection(const double* quaternion) {
+  const double length = Eigen::Map<const Eigen::Vector4d>(quaternion).norm();
+  return length > 1e-6 && std::isfinite(length);
+}
+
 double cyclicDifference(double from, double to) {
   const double difference = to - from;
   return std::abs(difference) <= kPi ? difference : std::remainder(difference, 2.0 * kPi);
@@ -201,9 +206,9 @@ constexpr double kOrdinary = 10.0;
 bool compileFloating(const double* from, const double* to, JointMotion& motion) {
   const Vector3d start(from[0], from[1], from[2]);
   const Vector3d end(to[0], to[1], to[2]);
+  if (!hasDirection(from + 3) || !hasDirection(to + 3)) return false;
   Quaterniond first(from[6], from[3], from[4], from[5]);
   Quaterniond second(to[6], to[3], to[4], to[5]);
-  if (!(first.norm() > 1e-6) || !(second.norm() > 1e-6)) return false;
   first.normalize();
   second.normalize();
   motion.translation = start;

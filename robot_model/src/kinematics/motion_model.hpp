@@ -91,6 +91,9 @@ inline bool slidesFreely(JointType type) {
   return type == JointType::Planar || type == JointType::Floating;
 }
 
+/// Of x, y, z, w. False, too, where the squares overflow, or a component is not finite.
+bool hasDirection(const double* quaternion);
+
 /// The way a cyclic value goes: the given difference when it is at most half a turn, else the
 /// shorter.
 double cyclicDifference(double from, double to);

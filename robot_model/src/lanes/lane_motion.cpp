@@ -64,6 +64,8 @@ bool addSlide(const LaneModel& model, const KinematicModel& kinematics, std::siz
   JointMotion joint;
   if (!compileJoint(kinematics, body, from, to, joint)) return false;
   if (!(joint.largestAngle <= kLargestAngle)) return false;
+  // The largest of several may leave out what is no number: a walk must never see it.
+  if (!std::isfinite(joint.wander + joint.speed)) return false;
   const bool floating = body.type == JointType::Floating;
   // Slides are written in the parent's frame.
   const Eigen::Matrix3d lane_from_joint =
