@@ -18,6 +18,7 @@
 #include "fixtures.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 #include "swept/robot_model/link_motion.hpp"
+#include "urdf_text.hpp"
 
 namespace swept::test {
 namespace {
@@ -56,6 +57,34 @@ TEST(StateSpace, EveryJointTypeHasItsSubspace) {
   EXPECT_EQ(compound->as<ob::SE3StateSpace>(4)->getBounds().low,
             (std::vector<double>{-10, -10, -10}));
   EXPECT_TRUE(compound->isLocked());
+}
+
+/// What mimics `drive` times 0.5 is half a turn away after a turn of it: the two ends of its range
+/// are not one state.
+TEST(StateSpace, AContinuousJointWithAGearIsARealVector) {
+  const std::string follows = "<mimic joint='drive' multiplier='0.5'/>";
+  const auto robot =
+      Robot::parse("<robot name='g'><link name='a'/><link name='b'/><link name='c'/>" +
+                       joint("drive", "continuous", "a", "b", "") +
+                       joint("d", "continuous", "a", "c", follows) + "</robot>",
+                   "g.urdf");
+  const auto space = makeStateSpace(*robot, *robot->findGroup("all"));
+  ASSERT_EQ(space->getType(), ob::STATE_SPACE_REAL_VECTOR);
+  const auto* vector = space->as<ob::RealVectorStateSpace>();
+  EXPECT_EQ(vector->getBounds().low, std::vector{-std::numbers::pi});
+  EXPECT_EQ(vector->getBounds().high, std::vector{std::numbers::pi});
+  ob::ScopedState<ob::RealVectorStateSpace> from(space), to(space), middle(space);
+  from[0] = 3.0;
+  to[0] = -3.0;
+  EXPECT_EQ(space->distance(from.get(), to.get()), 6.0);
+  space->interpolate(from.get(), to.get(), 0.25, middle.get());
+  EXPECT_EQ(middle[0], 1.5);
+  const auto sampler = space->allocStateSampler();
+  for (int i = 0; i < 1000; ++i) {
+    sampler->sampleUniformNear(middle.get(), from.get(), 1.0);
+    EXPECT_GE(middle[0], 2.0);
+    EXPECT_LE(middle[0], std::numbers::pi);
+  }
 }
 
 TEST(StateSpace, HasADefaultProjectionAfterSetup) {

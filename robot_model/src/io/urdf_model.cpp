@@ -50,6 +50,7 @@ class Assembler {
   void addVariables(int jointIndex);
   void resolveMimic(int jointIndex);
   void warnOfMimicRange(const Joint& joint);
+  void boundMaster(const Joint& follower);
 
   const UrdfOutline& outline_;
   const InputSource& source_;
@@ -83,6 +84,7 @@ RobotParts Assembler::assemble(const SrdfDocument& srdf, const InputSource& srdf
   const int count = static_cast<int>(parts_.joints.size());
   for (int j = 0; j < count; ++j) addVariables(j);
   for (int j = 0; j < count; ++j) resolveMimic(j);
+  for (const Joint& joint : parts_.joints) boundMaster(joint);
   return std::move(parts_);
 }
 
@@ -227,6 +229,25 @@ void Assembler::warnOfMimicRange(const Joint& joint) {
                start + " and takes values in [" + formatNumber(std::min(a, b)) + ", " +
                    formatNumber(std::max(a, b)) + "], beyond its limits [" +
                    formatNumber(limits->lower) + ", " + formatNumber(limits->upper) + "]");
+}
+
+/// A cyclic variable is the same after a turn: then all joints that follow it have to be, too. Else
+/// a motion through a whole turn would end where the next one does not begin.
+void Assembler::boundMaster(const Joint& follower) {
+  if (!follower.mimic) return;
+  Joint& master = parts_.joints[follower.mimic->master];
+  Variable& variable = parts_.variables[master.firstVariable];
+  const double multiplier = follower.mimic->multiplier;
+  const bool comesBack =
+      follower.type != JointType::Prismatic && multiplier == std::round(multiplier);
+  if (!variable.cyclic || comesBack) return;
+  variable.cyclic = false;
+  master.type = JointType::Revolute;
+  source_.warn(outline_.joints[indexOf(outline_.joints, follower.name)].mimic->line,
+               "joint '" + follower.name + "' mimics '" + master.name + "' times " +
+                   formatNumber(multiplier) + " and is elsewhere after a turn of it: '" +
+                   master.name + "', which is continuous, is read as revolute with limits [" +
+                   formatNumber(variable.lower) + ", " + formatNumber(variable.upper) + "]");
 }
 
 }  // namespace

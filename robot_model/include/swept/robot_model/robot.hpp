@@ -18,7 +18,9 @@
 
 namespace swept {
 
-/// As in URDF; a planar joint has three values, a floating one seven.
+/// As in URDF; a planar joint has three values, a floating one seven. A continuous joint is read as
+/// Revolute, from -pi to pi, if a joint mimics it that is elsewhere after a turn of it: one that
+/// slides, or turns by a multiplier that is no whole number. Loading warns of it.
 enum class JointType : std::uint8_t { Fixed, Revolute, Continuous, Prismatic, Planar, Floating };
 
 /// Value of a mimicking joint = multiplier * value of `master` + offset.
@@ -64,9 +66,11 @@ struct Joint {
 struct Variable {
   std::string
       name;  ///< the joint's, or `joint/x`, `joint/theta`, `joint/trans_x`, `joint/rot_w`, ...
-  int joint = -1;       ///< index of its joint
-  double lower = 0.0;   ///< rad or m; -infinity where nothing bounds it
-  double upper = 0.0;   ///< rad or m
+  int joint = -1;  ///< index of its joint
+  /// rad or m; -infinity where nothing bounds it. Of `<limit>` and, where it is narrower, of the
+  /// soft limits in `<safety_controller>`, as MoveIt has it.
+  double lower = 0.0;
+  double upper = 0.0;   ///< rad or m; likewise
   bool cyclic = false;  ///< angle modulo 2 pi: interpolated the shorter way
 };
 
