@@ -123,6 +123,27 @@ TEST(Urdf, AxesAreUnitAndDefaultToX) {
   EXPECT_LT((axis("pr") - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm(), 1e-15);
 }
 
+/// Squares of components would overflow, or vanish, long before the components do.
+TEST(Urdf, AxesAreUnitAtEveryScale) {
+  for (int decade = -322; decade <= 307; ++decade) {
+    const auto axisOf = [&](const std::string& x, const std::string& y, const std::string& z) {
+      const std::string scale = "e" + std::to_string(decade);
+      const auto robot = Robot::parse(
+          "<robot name='s'><link name='a'/><link name='b'/><joint name='j' type='continuous'>"
+          "<parent link='a'/><child link='b'/><axis xyz='" +
+              x + scale + " " + y + scale + " " + z + scale + "'/></joint></robot>",
+          "s.urdf");
+      return robot->joints().at(0).axis;
+    };
+    EXPECT_EQ(axisOf("0", "0", "-3"), Eigen::Vector3d(0, 0, -1)) << decade;
+    const Eigen::Vector3d axis = axisOf("1", "-2", "2");
+    EXPECT_NEAR(axis.norm(), 1.0, 1e-15) << decade;
+    // Denormal components have few digits themselves.
+    const double error = decade > -305 ? 1e-15 : std::pow(10.0, -decade) * 5e-324;
+    EXPECT_LE((axis - Eigen::Vector3d(1, -2, 2) / 3.0).norm(), error) << decade;
+  }
+}
+
 std::string chain(const std::string& limitOfD) {
   return "<robot name='m'><link name='l0'/><link name='l1'/><link name='l2'/><link name='l3'/>"
          "<link name='l4'/>\n"
