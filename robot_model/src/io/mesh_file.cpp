@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mesh_file.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -8,10 +10,13 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "io/child_process.hpp"
-#include "io/collada_check.hpp"
+#include "io/mesh_claim.hpp"
 #include "io/mesh_import.hpp"
+#include "io/numbers.hpp"
+#include "io/point_file.hpp"
 
 namespace swept::detail {
 
@@ -41,12 +46,47 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+using Check = MeshClaim (*)(std::string_view, const InputSource&);
+
+Check checkOf(const std::string& ending) {
+  constexpr std::array<std::pair<std::string_view, Check>, 4> kFormats{
+      {{".stl", checkStl}, {".obj", checkObj}, {".dae", checkCollada}, {".ply", checkPly}}};
+  const auto found =
+      std::ranges::find(kFormats, ending, [](const auto& format) { return format.first; });
+  if (found != kFormats.end()) return found->second;
+  throw MeshFileError("has the ending " + shown(ending) +
+                      "; allowed are .stl, .obj, .dae and .ply");
+}
+
 /// Assimp 5.2 looks without end for the rest of a PLY header that is cut.
 void requireWholeHeader(std::string_view text) {
   const bool isPly = text.starts_with("ply\n") || text.starts_with("ply\r");
   const auto has = [&](std::string_view line) { return text.find(line) != std::string_view::npos; };
   if (isPly && !has("\nend_header") && !has("\rend_header"))
     throw MeshFileError("cannot be read: its PLY header has no line 'end_header'");
+}
+
+MeshClaim claimOf(const std::filesystem::path& file, std::string_view text, Check check) {
+  try {
+    MeshClaim claim = check(text, InputSource(file.string(), {}));
+    if (claim.triangles == 0) throw MeshFileError("has no triangles");
+    requireFewTriangles(claim.triangles);
+    return claim;
+  } catch (const InputError& error) {
+    const std::string line =
+        error.line() > 0 ? "its line " + std::to_string(error.line()) + ": " : "";
+    throw MeshFileError("cannot be read: " + line + error.message());
+  }
+}
+
+std::string extent(const Eigen::AlignedBox3d& box) {
+  std::string text;
+  for (const Eigen::Vector3d& corner : {box.min(), box.max()}) {
+    text += text.empty() ? "from (" : ") to (";
+    for (int axis = 0; axis < 3; ++axis)
+      text += (axis > 0 ? ", " : "") + formatNumber(corner[axis]);
+  }
+  return text + ")";
 }
 
 /// First letter of what a child says; what follows is the content, or a message.
@@ -91,29 +131,73 @@ std::string saidOf(const std::string& name, const std::vector<std::uint8_t>& byt
   }
 }
 
-}  // namespace
+/// Holds what assimp made of a file against what there is to be made of it.
+void requireWhole(const MeshClaim& claim, MeshFileContent& content) {
+  constexpr double kSame = 1e-4;  // of the largest coordinate: a thousand times single precision
+  if (content.triangles.size() != claim.triangles) {
+    throw MeshFileError("cannot be read: it has " + std::to_string(claim.triangles) +
+                        " triangles, where a face of n corners counts n - 2, and assimp makes " +
+                        std::to_string(content.triangles.size()) +
+                        " of them; faces of more than 4 corners must not cross themselves");
+  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3i& triangle : content.triangles) {
+    for (const int corner : triangle) {
+      if (corner < 0 || corner >= std::ssize(content.vertices)) refuseContent();
+      box.extend(content.vertices[static_cast<std::size_t>(corner)]);
+    }
+  }
+  const double off = std::max((box.min() - claim.box.min()).cwiseAbs().maxCoeff(),
+                              (box.max() - claim.box.max()).cwiseAbs().maxCoeff());
+  const double largest =
+      std::max(claim.box.min().cwiseAbs().maxCoeff(), claim.box.max().cwiseAbs().maxCoeff());
+  // NaN fails it.
+  if (!(off <= kSame * largest)) {
+    throw MeshFileError("cannot be read: its faces reach " + extent(claim.box) +
+                        ", and those that assimp makes of them " + extent(box));
+  }
+  content.loss = std::max(claim.loss, off);
+}
 
-MeshFileContent readMeshFile(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = readBytes(file);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  requireWholeHeader(text);
-  if (text.find("<COLLADA") != std::string_view::npos) checkCollada(text);
+MeshFileContent importInChild(const std::string& name, const std::vector<std::uint8_t>& bytes) {
   const ChildLimits limits{
       .seconds = kSeconds + static_cast<unsigned>(bytes.size() / kBytesPerSecond),
       .bytes = kMemory + kMemoryPerByte * bytes.size()};
   std::string said;
   try {
-    said = runInChild([&] { return saidOf(file.filename().string(), bytes); }, limits);
+    said = runInChild([&] { return saidOf(name, bytes); }, limits);
   } catch (const ChildError& error) {
     throw MeshFileError(std::string("cannot be read: assimp ") + error.what());
   } catch (const std::system_error& error) {
     throw MeshFileError(std::string("cannot be read: ") + error.what());
   }
-  const std::string_view rest = std::string_view(said).substr(1);
   if (said.empty()) refuseContent();
+  const std::string_view rest = std::string_view(said).substr(1);
   if (said.front() == static_cast<char>(Kind::Error)) throw MeshFileError(std::string(rest));
   MeshFileContent content;
   take(take(rest, content.vertices), content.triangles);
+  return content;
+}
+
+}  // namespace
+
+void requireFewTriangles(std::uint64_t count) {
+  constexpr std::uint64_t kMost = 20'000'000;
+  if (count <= kMost) return;
+  throw MeshFileError("has more than " + std::to_string(kMost) +
+                      " triangles, which is the most allowed");
+}
+
+MeshFileContent readMeshFile(const std::filesystem::path& file) {
+  const std::string ending = lowerEnding(file);
+  const Check check = checkOf(ending);
+  const std::vector<std::uint8_t> bytes = readBytes(file);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  requireWholeHeader(text);
+  const MeshClaim claim = claimOf(file, text, check);
+  // By a name of ours, whatever the file's has in it.
+  MeshFileContent content = importInChild("mesh" + ending, bytes);
+  requireWhole(claim, content);
   return content;
 }
 

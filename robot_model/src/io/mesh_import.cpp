@@ -16,8 +16,6 @@ namespace swept::detail {
 
 namespace {
 
-constexpr std::size_t kMaxTriangles = 20'000'000;
-
 /// Shows assimp one file, held in memory, and nothing else of the file system.
 class OneFile final : public Assimp::IOSystem {
  public:
@@ -57,10 +55,7 @@ void appendMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
                                    first + static_cast<int>(face.mIndices[1]),
                                    first + static_cast<int>(face.mIndices[2]));
   }
-  if (content.triangles.size() > kMaxTriangles) {
-    throw MeshFileError("has more than " + std::to_string(kMaxTriangles) +
-                        " triangles, which is the most allowed");
-  }
+  requireFewTriangles(content.triangles.size());
 }
 
 void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& file_from_parent,

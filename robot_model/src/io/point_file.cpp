@@ -44,7 +44,7 @@ void PointFile::failAt(std::size_t offset, const std::string& message) const {
 }
 
 bool LineReader::next() {
-  const std::string_view rest = file_.bytes().substr(offset_);
+  const std::string_view rest = bytes_.substr(offset_);
   if (rest.empty()) return false;
   ++number_;
   // One byte more than the longest line, for its end.

@@ -50,7 +50,9 @@ class PointFile {
 /// The lines of a file, one after the other, without what ends them (LF, or CR and LF).
 class LineReader {
  public:
-  explicit LineReader(const PointFile& file) : file_(file) {}
+  explicit LineReader(const PointFile& file) : LineReader(file.source(), file.bytes()) {}
+  /// Both outlive it.
+  LineReader(const InputSource& source, std::string_view bytes) : source_(source), bytes_(bytes) {}
   /// False: there are no more. Throws InputError for one that is too long.
   bool next();
   /// The same, of lines with something else than white space in them.
@@ -60,12 +62,11 @@ class LineReader {
   int number() const { return number_; }
   /// Of the byte behind the end of the present line.
   std::size_t offset() const { return offset_; }
-  [[noreturn]] void fail(const std::string& message) const {
-    file_.source().fail(number_, message);
-  }
+  [[noreturn]] void fail(const std::string& message) const { source_.fail(number_, message); }
 
  private:
-  const PointFile& file_;
+  const InputSource& source_;
+  std::string_view bytes_;
   std::string_view line_;
   int number_ = 0;
   std::size_t offset_ = 0;

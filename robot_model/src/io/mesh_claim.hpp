@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "io/input_source.hpp"
+
+namespace swept::detail {
+
+/// What a mesh file says it holds, found by small readers of ours. Assimp leaves out in silence
+/// what it does not understand, and reads faces that are not there; what it returns is held against
+/// this.
+struct MeshClaim {
+  std::uint64_t triangles = 0;  ///< a polygon of n corners counts n - 2
+  Eigen::AlignedBox3d box;      ///< of their corners; frame and unit of MeshFileContent
+  double loss = 0.0;            ///< at most, of a coordinate in single precision; the same unit
+
+  /// The coordinate that a word says, and what assimp makes of it into `loss`; empty: it is no
+  /// finite number.
+  std::optional<double> coordinate(std::string_view word);
+  /// Likewise, of one that is binary.
+  std::optional<double> coordinate(double value);
+};
+
+/// One reader for each format: none of them leaves anything out that could be part of a face. They
+/// throw InputError for what they do not understand and for what is not whole.
+MeshClaim checkStl(std::string_view bytes, const InputSource& source);
+MeshClaim checkObj(std::string_view bytes, const InputSource& source);
+MeshClaim checkPly(std::string_view bytes, const InputSource& source);
+MeshClaim checkCollada(std::string_view bytes, const InputSource& source);
+
+}  // namespace swept::detail
