@@ -141,6 +141,30 @@ TEST(MeshFiles, CracksOfSinglePrecisionAreNoHoles) {
   EXPECT_THAT(warnings.lines.front(), testing::HasSubstr("mesh 'open.stl' is an open surface"));
 }
 
+/// At 10 km single precision has steps of 1 mm, and rounds by half of one.
+TEST(MeshFiles, CoordinatesThatSinglePrecisionMovesAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto at = [](const std::string& x) {
+    return "v " + x + " 0 0\nv " + x + " 1 0\nv " + x + " 0 1\nf 1 2 3\n";
+  };
+  folder.write("near.obj", at("10000.00045"));
+  folder.write("far.obj", at("100000.00341796875"));
+  folder.write("exact.obj", at("100000.0078125"));
+  const auto refused = [&](const std::string& lost) {
+    return (folder.path() / "m.urdf").string() +
+           ":2: error: mesh 'far.obj' of link 'a' has coordinates that single precision moves by " +
+           lost + " m; at most 0.001 m are allowed";
+  };
+  EXPECT_EQ(test::inputError([&] { withMeshes(folder, {"filename='far.obj'"}); }),
+            refused("0.00341796875"));
+  EXPECT_NE(test::inputError([&] { withMeshes(folder, {"filename='near.obj' scale='1 1 -3'"}); }),
+            "");
+  const auto robot = withMeshes(folder, {"filename='near.obj'", "filename='exact.obj'",
+                                         "filename='far.obj' scale='0.1 0.1 0.1'"});
+  EXPECT_NEAR(mesh(*robot, 0).vertices()[0].x(), 10000.00045, 5e-4);
+  EXPECT_EQ(mesh(*robot, 1).vertices()[0].x(), 100000.0078125);
+}
+
 TEST(MeshFiles, ColladaUnitCountsAndUpAxisDoesNot) {
   const test::TemporaryFolder folder;
   folder.write("z.dae", collada("0.001", "Z_UP"));

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "io/mesh_file.hpp"
+#include "io/numbers.hpp"
 #include "io/package_paths.hpp"
 #include "io/regular_file.hpp"
 
@@ -49,6 +50,15 @@ double roundingOf(const MeshFileContent& content) {
   return 2.0 * largest * std::numeric_limits<float>::epsilon();
 }
 
+/// Assimp has coordinates in single precision; far from 0 that takes them where they are not.
+void requirePrecise(const MeshFileContent& content, const Eigen::Vector3d& scale) {
+  constexpr double kMostLost = 1e-3;  // m
+  const double lost = content.loss * scale.cwiseAbs().maxCoeff();
+  if (lost <= kMostLost) return;
+  throw MeshFileError("has coordinates that single precision moves by " + formatNumber(lost) +
+                      " m; at most " + formatNumber(kMostLost) + " m are allowed");
+}
+
 }  // namespace
 
 TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
@@ -59,6 +69,7 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   try {
     MeshFileContent content = readMeshFile(file);
+    requirePrecise(content, scale);
     const double crackWidth = roundingOf(content) * scale.cwiseAbs().minCoeff();
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
     TriangleMesh mesh =
