@@ -12,10 +12,13 @@ void BruteForce::require(BoxHandle handle) const {
 }
 
 BoxHandle BruteForce::registerBox(const Aabb& box) {
+  const Aabb bounded =
+      boundedOrEverywhere(box);  // before its memory, if it is ours, goes elsewhere
   const auto free = std::find(boxes_.begin(), boxes_.end(), std::nullopt);
   const auto handle = static_cast<BoxHandle>(free - boxes_.begin());
   if (free == boxes_.end()) boxes_.emplace_back();
-  boxes_[handle] = boundedOrEverywhere(box);
+  boxes_[handle] = bounded;
+  changes_.add();
   return handle;
 }
 
@@ -28,11 +31,13 @@ std::vector<BoxHandle> BruteForce::registerBoxes(std::span<const Aabb> boxes) {
 void BruteForce::unregisterBox(BoxHandle handle) {
   require(handle);
   boxes_[handle].reset();
+  changes_.add();
 }
 
 void BruteForce::update(BoxHandle handle, const Aabb& box) {
   require(handle);
   boxes_[handle] = boundedOrEverywhere(box);
+  changes_.add();
 }
 
 void BruteForce::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
@@ -46,6 +51,7 @@ void BruteForce::updateAll(std::span<const Aabb> boxes) {
   std::size_t next = 0;
   for (std::optional<Aabb>& box : boxes_)
     if (box) box = boundedOrEverywhere(boxes[next++]);
+  changes_.add();
 }
 
 std::size_t BruteForce::size() const {

@@ -49,7 +49,9 @@ SweepAndPrune::SweepAndPrune(const SweepAndPrune& other)
     : state_(std::make_unique<State>(*other.state_)) {}
 SweepAndPrune& SweepAndPrune::operator=(const SweepAndPrune& other) {
   // What was moved from has no state.
-  if (this != &other) state_ = std::make_unique<State>(*other.state_);
+  if (this == &other) return *this;
+  state_ = std::make_unique<State>(*other.state_);
+  changes_.add();
   return *this;
 }
 
@@ -58,22 +60,26 @@ BoxHandle SweepAndPrune::registerBox(const Aabb& box) {
 }
 
 std::vector<BoxHandle> SweepAndPrune::registerBoxes(std::span<const Aabb> boxes) {
+  changes_.add();
   return state_->add(boxes);
 }
 
 void SweepAndPrune::unregisterBox(BoxHandle handle) {
+  changes_.add();
   state_->remove(handle);
 }
 
 void SweepAndPrune::update(BoxHandle handle, const Aabb& box) {
-  state_->update({&handle, 1}, {&box, 1});
+  update({&handle, 1}, {&box, 1});
 }
 
 void SweepAndPrune::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
+  changes_.add();
   state_->update(handles, boxes);
 }
 
 void SweepAndPrune::updateAll(std::span<const Aabb> boxes) {
+  changes_.add();
   state_->updateAll(boxes);
 }
 
@@ -112,18 +118,17 @@ void SweepAndPrune::findOverlapping(const Aabb& box, BroadphaseScratch& scratch)
   std::sort(scratch.handles.begin(), scratch.handles.end());
 }
 
-void SweepAndPrune::startNearest(BroadphaseScratch& scratch) const {
-  scratch.nearest.clear();
+void SweepAndPrune::startNearest(std::vector<Candidate>& heap) const {
+  heap.clear();
   for (std::size_t i = 0; i < detail::BoxForest::kTrees; ++i) {
     const detail::BoxTree& tree = state_->forest().tree(i);
-    if (tree.live() > 0) push(scratch.nearest, {0.0, blockOrder(i, tree.levels() - 1, 0)});
+    if (tree.live() > 0) push(heap, {0.0, blockOrder(i, tree.levels() - 1, 0)});
   }
 }
 
-bool SweepAndPrune::nextNearest(const Aabb& box, double bound, BroadphaseScratch& scratch,
+bool SweepAndPrune::nextNearest(const Aabb& box, double bound, std::vector<Candidate>& heap,
                                 Near& near) const {
   const Aabb bounded = boundedOrEverywhere(box);
-  std::vector<Candidate>& heap = scratch.nearest;
   const auto consider = [&](const Aabb& candidate, std::uint64_t order) {
     const double distance = boxDistance(bounded, candidate);
     if (distance < bound) push(heap, {distance, order});
@@ -154,13 +159,14 @@ bool SweepAndPrune::nextNearest(const Aabb& box, double bound, BroadphaseScratch
 
 void SweepAndPrune::findNearestPairs(const SweepAndPrune* other,
                                      const BroadphaseScratch::Pair& after, double bound,
-                                     std::size_t most, BroadphaseScratch& scratch) const {
+                                     std::size_t most,
+                                     std::vector<BroadphaseScratch::Pair>& pairs) const {
   const detail::PlacedForest a = state_->placed();
   if (other == nullptr) {
-    detail::findNearestPairs(a, nullptr, after, bound, most, scratch.pairs);
+    detail::findNearestPairs(a, nullptr, after, bound, most, pairs);
   } else {
     const detail::PlacedForest b = other->state_->placed();
-    detail::findNearestPairs(a, &b, after, bound, most, scratch.pairs);
+    detail::findNearestPairs(a, &b, after, bound, most, pairs);
   }
 }
 

@@ -72,15 +72,15 @@ std::vector<BoxHandle> SweepAndPrune::State::add(std::span<const Aabb> boxes) {
   std::vector<BoxHandle> handles;
   handles.reserve(boxes.size());
   left_.clear();
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  for (const Aabb& box : boxes) {
+    // If it is one of ours, it is the only one, and its memory may go elsewhere with the number.
+    const Aabb bounded = boundedOrEverywhere(box);
     handles.push_back(handles_.take());
     left_.push_back(takeNumber(handles.back()));
+    placed_[left_.back()].box = bounded;
   }
   resize();
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    placed_[left_[i]].box = boundedOrEverywhere(boxes[i]);
-    rooms_[left_[i]] = detail::floatBox(placed_[left_[i]].box);
-  }
+  for (const Number number : left_) rooms_[number] = detail::floatBox(placed_[number].box);
   if (manyLeft()) {
     rebuild();
   } else {

@@ -32,7 +32,8 @@ inline Aabb boundedOrEverywhere(const Aabb& box) {
 /// they overlap. Of what does not fit into a double: the largest one.
 double boxDistance(const Aabb& a, const Aabb& b);
 
-/// Memory that queries use again; one for each thread. Its content never matters.
+/// Memory that queries use again; one for each thread. Its content never matters. A visitor may ask
+/// with the scratch of the query that visits; memory is then allocated, which another one spares.
 struct BroadphaseScratch {
   /// What the search for the nearest has yet to look at.
   struct Candidate {
@@ -58,7 +59,11 @@ struct BroadphaseScratch {
 ///
 /// What is visited, and in which order, depends on the boxes and their handles alone, not on how
 /// they got there. A visitor that returns true stops the visit, and the function returns true.
-/// Visitors must not change what they visit. Everything const may run in any number of threads.
+/// Everything const may run in any number of threads. Visitors may ask again, and may change other
+/// managers. One that changes the boxes it visits has to end the visit, by returning true or a
+/// bound that nothing is nearer than; else std::logic_error. The change is made in either case.
+/// Boxes may be the manager's own (`update(a, manager.box(b))`), and `other` the manager itself:
+/// each box then meets itself, too.
 ///
 /// - `registerBox(box)`, `registerBoxes(boxes)`, `unregisterBox(handle)`
 /// - `update(handle, box)`, `update(handles, boxes)`; `updateAll(boxes)`: in the order of handles

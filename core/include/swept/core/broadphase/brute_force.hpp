@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "swept/core/broadphase/broadphase.hpp"
+#include "swept/core/broadphase/visits.hpp"
 #include "swept/core/bv/aabb.hpp"
 
 namespace swept {
@@ -35,10 +36,12 @@ class BruteForce {
 
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {
+    const detail::Unchanged unchanged(changes_);
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
       for (BoxHandle b = a + 1; b < boxes_.size(); ++b) {
         if (!contains(a) || !contains(b) || !boxes_[a]->overlaps(*boxes_[b])) continue;
         if (visitor(a, b)) return true;
+        unchanged.require();
       }
     }
     return false;
@@ -46,18 +49,27 @@ class BruteForce {
 
   template <typename Visitor>
   bool collide(const Aabb& box, BroadphaseScratch&, Visitor&& visitor) const {
+    const detail::Unchanged unchanged(changes_);
     const Aabb bounded = boundedOrEverywhere(box);
-    for (BoxHandle a = 0; a < boxes_.size(); ++a)
-      if (contains(a) && boxes_[a]->overlaps(bounded) && visitor(a)) return true;
+    for (BoxHandle a = 0; a < boxes_.size(); ++a) {
+      if (!contains(a) || !boxes_[a]->overlaps(bounded)) continue;
+      if (visitor(a)) return true;
+      unchanged.require();
+    }
     return false;
   }
 
   template <typename Visitor>
   bool collide(const BruteForce& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    const detail::Unchanged unchanged(changes_);
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
       if (!contains(a)) continue;
-      if (other.collide(*boxes_[a], scratch, [&](BoxHandle b) { return visitor(a, b); }))
-        return true;
+      const auto visitPair = [&](BoxHandle b) {
+        if (visitor(a, b)) return true;
+        unchanged.require();
+        return false;
+      };
+      if (other.collide(*boxes_[a], scratch, visitPair)) return true;
     }
     return false;
   }
@@ -65,11 +77,14 @@ class BruteForce {
   template <typename Visitor>
   double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     sortByDistance(box, scratch);
+    const detail::Unchanged unchanged(changes_);
+    detail::Lent nearest(scratch.nearest);
     double bound = std::numeric_limits<double>::infinity();
-    for (const BroadphaseScratch::Candidate& next : scratch.nearest) {
+    for (const BroadphaseScratch::Candidate& next : nearest.items()) {
       if (!(next.distance < bound)) break;
       const double enough = visitor(static_cast<BoxHandle>(next.order), next.distance);
       if (enough < bound) bound = enough;
+      if (next.distance < bound) unchanged.require();
     }
     return bound;
   }
@@ -81,7 +96,7 @@ class BruteForce {
       for (BoxHandle b = a + 1; b < boxes_.size(); ++b)
         if (contains(a) && contains(b)) addPair(a, b, *boxes_[b], scratch);
     }
-    return visitPairs(scratch, visitor);
+    return visitPairs(*this, scratch, visitor);
   }
 
   template <typename Visitor>
@@ -91,7 +106,7 @@ class BruteForce {
       for (BoxHandle b = 0; b < other.boxes_.size(); ++b)
         if (contains(a) && other.contains(b)) addPair(a, b, *other.boxes_[b], scratch);
     }
-    return visitPairs(scratch, visitor);
+    return visitPairs(other, scratch, visitor);
   }
   ///@}
 
@@ -102,18 +117,24 @@ class BruteForce {
     scratch.pairs.push_back({boxDistance(*boxes_[a], boxB), a, b});
   }
   template <typename Visitor>
-  static double visitPairs(BroadphaseScratch& scratch, Visitor&& visitor) {
+  double visitPairs(const BruteForce& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
     std::sort(scratch.pairs.begin(), scratch.pairs.end());
+    const detail::Unchanged unchanged(changes_), otherUnchanged(other.changes_);
+    detail::Lent pairs(scratch.pairs);
     double bound = std::numeric_limits<double>::infinity();
-    for (const BroadphaseScratch::Pair& next : scratch.pairs) {
+    for (const BroadphaseScratch::Pair& next : pairs.items()) {
       if (!(next.distance < bound)) break;
       const double enough = visitor(next.a, next.b, next.distance);
       if (enough < bound) bound = enough;
+      if (!(next.distance < bound)) continue;
+      unchanged.require();
+      otherUnchanged.require();
     }
     return bound;
   }
 
   std::vector<std::optional<Aabb>> boxes_;
+  detail::ChangeCount changes_;
 };
 
 }  // namespace swept

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "swept/core/broadphase/broadphase.hpp"
+#include "swept/core/broadphase/visits.hpp"
 #include "swept/core/bv/aabb.hpp"
 
 namespace swept {
@@ -58,17 +59,18 @@ class SweepAndPrune {
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {
     const Pairs pairs = this->pairs();
+    const detail::Unchanged unchanged(changes_);
     auto from = pairs.sorted.begin();
     for (const std::uint64_t changed : pairs.changed) {
       for (; from != pairs.sorted.end() && *from < changed; ++from)
-        if (visit(*from, visitor)) return true;
+        if (visit(*from, unchanged, visitor)) return true;
       if (from != pairs.sorted.end() && *from == changed)
         ++from;
-      else if (visit(changed, visitor))
+      else if (visit(changed, unchanged, visitor))
         return true;
     }
     for (; from != pairs.sorted.end(); ++from)
-      if (visit(*from, visitor)) return true;
+      if (visit(*from, unchanged, visitor)) return true;
     return false;
   }
 
@@ -76,17 +78,26 @@ class SweepAndPrune {
   template <typename Visitor>
   bool collide(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     findOverlapping(box, scratch);
-    for (const BoxHandle handle : scratch.handles)
+    const detail::Unchanged unchanged(changes_);
+    detail::Lent handles(scratch.handles);
+    for (const BoxHandle handle : handles.items()) {
       if (visitor(handle)) return true;
+      unchanged.require();
+    }
     return false;
   }
 
   /// As `Broadphase` says: a search in `other` for each box.
   template <typename Visitor>
   bool collide(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    const detail::Unchanged unchanged(changes_);
     for (BoxHandle handle = 0; handle < handleEnd(); ++handle) {
       if (!contains(handle)) continue;
-      const auto visitPair = [&](BoxHandle found) { return visitor(handle, found); };
+      const auto visitPair = [&](BoxHandle found) {
+        if (visitor(handle, found)) return true;
+        unchanged.require();
+        return false;
+      };
       if (other.collide(box(handle), scratch, visitPair)) return true;
     }
     return false;
@@ -97,10 +108,14 @@ class SweepAndPrune {
   double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     double bound = std::numeric_limits<double>::infinity();
     Near near;
-    startNearest(scratch);
-    while (nextNearest(box, bound, scratch, near)) {
+    const detail::Unchanged unchanged(changes_);
+    detail::Lent heap(scratch.nearest);
+    startNearest(heap.items());
+    while (nextNearest(box, bound, heap.items(), near)) {
       const double enough = visitor(near.handle, near.distance);
       if (enough < bound) bound = enough;
+      if (!(near.distance < bound)) break;  // the next ones are no nearer
+      unchanged.require();
     }
     return bound;
   }
@@ -109,8 +124,10 @@ class SweepAndPrune {
   template <typename Visitor>
   double distance(BroadphaseScratch& scratch, Visitor&& visitor) const {
     double bound = std::numeric_limits<double>::infinity();
-    collide([&](BoxHandle a, BoxHandle b) { return !visitNear({0.0, a, b}, bound, visitor); });
-    visitApart(nullptr, bound, scratch, visitor);
+    const auto visitPair = [&](BoxHandle a, BoxHandle b) {
+      return !visitNear({0.0, a, b}, bound, visitor);
+    };
+    if (!collide(visitPair)) visitApart(nullptr, bound, scratch, visitor);
     return bound;
   }
 
@@ -118,10 +135,10 @@ class SweepAndPrune {
   template <typename Visitor>
   double distance(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
     double bound = std::numeric_limits<double>::infinity();
-    collide(other, scratch, [&](BoxHandle a, BoxHandle b) {
+    const auto visitPair = [&](BoxHandle a, BoxHandle b) {
       return !visitNear({0.0, a, b}, bound, visitor);
-    });
-    visitApart(&other, bound, scratch, visitor);
+    };
+    if (!collide(other, scratch, visitPair)) visitApart(&other, bound, scratch, visitor);
     return bound;
   }
 
@@ -137,8 +154,10 @@ class SweepAndPrune {
   };
 
   template <typename Visitor>
-  static bool visit(std::uint64_t pair, Visitor&& visitor) {
-    return visitor(static_cast<BoxHandle>(pair >> 32), static_cast<BoxHandle>(pair));
+  static bool visit(std::uint64_t pair, const detail::Unchanged& unchanged, Visitor&& visitor) {
+    if (visitor(static_cast<BoxHandle>(pair >> 32), static_cast<BoxHandle>(pair))) return true;
+    unchanged.require();
+    return false;
   }
   /// Whether to go on with pairs as near as this one.
   template <typename Visitor>
@@ -153,26 +172,35 @@ class SweepAndPrune {
   void visitApart(const SweepAndPrune* other, double& bound, BroadphaseScratch& scratch,
                   Visitor&& visitor) const {
     constexpr BoxHandle kLast = std::numeric_limits<BoxHandle>::max();
+    const detail::Unchanged unchanged(changes_);
+    const detail::Unchanged otherUnchanged(other == nullptr ? changes_ : other->changes_);
+    detail::Lent pairs(scratch.pairs);
     BroadphaseScratch::Pair after{0.0, kLast, kLast};
     for (std::size_t most = 32; 0.0 < bound; most *= 8) {
-      findNearestPairs(other, after, bound, most, scratch);
-      for (const BroadphaseScratch::Pair& pair : scratch.pairs)
+      findNearestPairs(other, after, bound, most, pairs.items());
+      for (const BroadphaseScratch::Pair& pair : pairs.items()) {
         if (!(pair.distance < bound) || !visitNear(pair, bound, visitor)) return;
-      if (scratch.pairs.size() < most) return;
-      after = scratch.pairs.back();
+        unchanged.require();
+        otherUnchanged.require();
+      }
+      if (pairs.items().size() < most) return;
+      after = pairs.items().back();
     }
   }
   Pairs pairs() const;
   BoxHandle handleEnd() const;  ///< all handles in use are below
   void findOverlapping(const Aabb& box, BroadphaseScratch& scratch) const;
-  void startNearest(BroadphaseScratch& scratch) const;
+  void startNearest(std::vector<BroadphaseScratch::Candidate>& heap) const;
   /// The next box that is nearer than the bound; false if there is none.
-  bool nextNearest(const Aabb& box, double bound, BroadphaseScratch& scratch, Near& near) const;
+  bool nextNearest(const Aabb& box, double bound, std::vector<BroadphaseScratch::Candidate>& heap,
+                   Near& near) const;
   /// The first `most` pairs after this one that are nearer than the bound, in their order.
   void findNearestPairs(const SweepAndPrune* other, const BroadphaseScratch::Pair& after,
-                        double bound, std::size_t most, BroadphaseScratch& scratch) const;
+                        double bound, std::size_t most,
+                        std::vector<BroadphaseScratch::Pair>& pairs) const;
 
   std::unique_ptr<State> state_;
+  detail::ChangeCount changes_;
 };
 
 }  // namespace swept
