@@ -273,6 +273,35 @@ TYPED_TEST(BoundingVolumes, WhatIsNotFiniteFailsSafe) {
   }
 }
 
+/// Squares of small numbers underflow, or keep a few of their digits: bounds were up to twice the
+/// distance, and points beyond what should contain them.
+TYPED_TEST(BoundingVolumes, SizesMayBeExtreme) {
+  std::mt19937 random(9);
+  for (const double exponent :
+       {-319.0, -310.0, -300.0, -170.0, -162.0, -161.8, -161.0, -160.0, -155.0, -150.0, -77.0,
+        77.0,   100.0,  150.0,  153.9,  154.1,  155.0,  160.0,  200.0,  300.0,  307.0}) {
+    const double scale = std::pow(10.0, exponent);
+    for (int i = 0; i < 200; ++i) {
+      const Points a = randomPoints(random, 1 + i % 8, scale);
+      const Points b = randomPoints(random, 1 + i % 8, scale);
+      const TypeParam first = TypeParam::fit(a), second = TypeParam::fit(b);
+      const TypeParam both = TypeParam::merge(first, second);
+      for (const Vector3d& p : a) ASSERT_TRUE(first.contains(p) && both.contains(p)) << scale;
+      for (const Vector3d& p : b) ASSERT_TRUE(second.contains(p) && both.contains(p)) << scale;
+      Isometry3d a_from_b = test::randomPose(random, 0.0);
+      a_from_b.translation() = a.front() - a_from_b.linear() * b.front();
+      ASSERT_TRUE(first.overlaps(second, a_from_b)) << scale;
+      a_from_b.translation() = 3.0 * scale * test::uniformPoint(random, 1.0);
+      double least = std::numeric_limits<double>::infinity();
+      for (const Vector3d& p : a) {
+        for (const Vector3d& q : moved(b, a_from_b))
+          least = std::min(least, std::hypot(p.x() - q.x(), p.y() - q.y(), p.z() - q.z()));
+      }
+      ASSERT_LE(first.distanceBound(second, a_from_b), least) << scale;
+    }
+  }
+}
+
 /// The sharp claims of single volumes, against queries of solids.
 
 TEST(Obb, FifteenAxesDecideAsTheBoxesDo) {

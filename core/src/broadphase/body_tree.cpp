@@ -215,7 +215,7 @@ bool BodyTree::apart(const LocalBox& a, const LocalBox& b, const Isometry3d& a_f
   const double scale = detail::magnitude(a.middle) + detail::magnitude(b.middle) +
                        detail::magnitude(a.half) + detail::magnitude(b.half) + a.radius + b.radius +
                        detail::magnitude(a_from_b.translation());
-  pair.margin = a.radius + b.radius + detail::kVolumeRounding * scale;
+  pair.margin = a.radius + b.radius + detail::volumeMargin(scale);
   return detail::separatedByFaces(pair) || detail::separatedByEdges(pair);
 }
 

@@ -23,9 +23,9 @@ detail::BoxPair pairOf(const Aabb& a, const Aabb& b, const Isometry3d& a_from_b)
   p.offset = p.rotation * middleB + a_from_b.translation() - middleA;
   p.halfA = 0.5 * a.upper - 0.5 * a.lower;
   p.halfB = 0.5 * b.upper - 0.5 * b.lower;
-  p.margin = detail::kVolumeRounding *
-             (detail::magnitude(middleA) + detail::magnitude(middleB) + detail::magnitude(p.halfA) +
-              detail::magnitude(p.halfB) + detail::magnitude(a_from_b.translation()));
+  p.margin = detail::volumeMargin(detail::magnitude(middleA) + detail::magnitude(middleB) +
+                                  detail::magnitude(p.halfA) + detail::magnitude(p.halfB) +
+                                  detail::magnitude(a_from_b.translation()));
   return p;
 }
 

@@ -17,6 +17,18 @@ namespace swept::detail {
 /// again.
 inline constexpr double kVolumeRounding = 2.0 * tolerance::kSupportRounding;
 
+/// m; far more than products that underflow lose together, each at most the least denormal.
+inline constexpr double kVolumeUnderflow = 1e-300;
+
+/// m^2; squares, and sums of some, keep their digits down to here.
+inline constexpr double kLeastSquare = 1e-290;
+
+/// m; what a gap may be off by, where the absolute values of all numbers that enter add up to `sum`
+/// (m).
+inline double volumeMargin(double sum) {
+  return kVolumeRounding * sum + kVolumeUnderflow;
+}
+
 /// What a lower bound loses to the rounding of its own last operations, and to the lengths of axes.
 inline constexpr double kBoundShrink = 1.0 - kVolumeRounding;
 
@@ -87,10 +99,11 @@ inline double provenSquare(double gap, double margin) {
   return proven > 0.0 ? proven * proven : 0.0;
 }
 
-/// m; 0 for what is not a finite positive number.
+/// m; 0 for what is not a finite positive number, or so small that it has lost digits.
 inline double boundFromSquare(double squared) {
+  if (!(squared > kLeastSquare)) return 0.0;
   const double bound = kBoundShrink * std::sqrt(squared);
-  return bound > 0.0 && bound < std::numeric_limits<double>::infinity() ? bound : 0.0;
+  return bound < std::numeric_limits<double>::infinity() ? bound : 0.0;
 }
 
 /// m^2; squared lower bound on the distance. The vector between two points has, along each of three

@@ -96,8 +96,8 @@ detail::BoxPair pairOf(const KDop<K>& a, const KDop<K>& b, const Isometry3d& a_f
   p.halfA = half(a);
   p.halfB = half(b);
   // A projection on a slab's direction adds up to three coordinates, hence the factor.
-  p.margin = 3.0 * detail::kVolumeRounding *
-             (reachOf(a) + reachOf(b) + detail::magnitude(a_from_b.translation()));
+  p.margin = 3.0 * detail::volumeMargin(reachOf(a) + reachOf(b) +
+                                        detail::magnitude(a_from_b.translation()));
   return p;
 }
 

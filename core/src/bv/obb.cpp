@@ -33,7 +33,8 @@ Obb boxOver(const Matrix3d& axes, const Extents& extents, const Vector3d& origin
   const Vector3d local = 0.5 * (extents.lower + extents.upper);
   const Vector3d middle = origin + axes * local;
   const double reach = detail::magnitude(extents.lower) + detail::magnitude(extents.upper);
-  const double growth = 5e-15 * reach + 2e-15 * detail::magnitude(origin);
+  const double growth =
+      5e-15 * reach + 2e-15 * detail::magnitude(origin) + detail::kVolumeUnderflow;
   return {axes, middle, extents.half().array() + growth};
 }
 
@@ -44,9 +45,9 @@ BoxPair pairOf(const Obb& a, const Obb& b, const Matrix3d& axesB, const Vector3d
   p.offset.noalias() = a.axes.transpose() * offset;
   p.halfA = a.halfExtents;
   p.halfB = b.halfExtents;
-  p.margin = detail::kVolumeRounding *
-             (magnitudeOfPose + detail::magnitude(a.middle) + detail::magnitude(b.middle) +
-              detail::magnitude(a.halfExtents) + detail::magnitude(b.halfExtents));
+  p.margin = detail::volumeMargin(magnitudeOfPose + detail::magnitude(a.middle) +
+                                  detail::magnitude(b.middle) + detail::magnitude(a.halfExtents) +
+                                  detail::magnitude(b.halfExtents));
   return p;
 }
 

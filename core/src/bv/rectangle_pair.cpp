@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 constexpr int kMaxSteps = 24;
 /// Accuracy of the bound, relative to it.
 constexpr double kAccuracy = 1e-3;
+/// m. Shorter directions lose digits of their length, whose square underflows.
+constexpr double kShortest = 1e-145;
 
 /// The point of the difference (second rectangle minus first) that lies least far along `n`.
 Vector3d supportAgainst(const RectanglePair& p, const Vector3d& n) {
@@ -39,7 +41,7 @@ double rectangleGap(const RectanglePair& p, double enough) {
   double proven = 0.0;
   for (int step = 0; step < kMaxSteps; ++step) {
     const double length = n.norm();
-    if (!(length > 0.0)) break;
+    if (!(length > kShortest)) break;
     const Vector3d w = supportAgainst(p, n);
     const double gap = n.dot(w) / length;
     if (gap > proven) proven = gap;

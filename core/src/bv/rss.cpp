@@ -100,7 +100,8 @@ struct Slab {
 /// Lemma (containment): the coordinates round by a few epsilons of the largest difference or of the
 /// middle's coordinates, the squared reach by a few epsilons of the squared radius, hence the
 /// distance to the rectangle by as few of the radius. The growth below exceeds their sum and that
-/// of contains().
+/// of contains(). Its last term exceeds what is off where squares of small numbers underflow: the
+/// root of the least denormal, a few times.
 template <typename BallAt>
 Rss fitBalls(std::size_t count, const BallAt& ballAt, const Slab& slab, const Matrix3d& axes,
              const Vector3d& origin, double reach) {
@@ -112,7 +113,7 @@ Rss fitBalls(std::size_t count, const BallAt& ballAt, const Slab& slab, const Ma
   for (std::size_t i = 0; i < count; ++i) rectangle.reachPastCorner(ballAt(i));
 
   const Vector2d middle = 0.5 * (rectangle.lower + rectangle.upper);
-  const double growth = 1e-14 * reach + 2e-15 * detail::magnitude(origin);
+  const double growth = 1e-14 * reach + 2e-15 * detail::magnitude(origin) + 1e-150;
   return {axes, origin + axes * Vector3d(middle.x(), middle.y(), rectangle.height),
           0.5 * (rectangle.upper - rectangle.lower), rectangle.radius + growth};
 }
@@ -140,9 +141,9 @@ RectanglePair pairOf(const Rss& a, const Rss& b, const Vector3d& firstAxis,
   p.halfA = a.halfLengths;
   p.halfB = b.halfLengths;
   p.radii = a.radius + b.radius;
-  p.margin = detail::kVolumeRounding *
-             (magnitudeOfPose + detail::magnitude(a.middle) + detail::magnitude(b.middle) +
-              a.halfLengths.sum() + b.halfLengths.sum() + p.radii);
+  p.margin = detail::volumeMargin(magnitudeOfPose + detail::magnitude(a.middle) +
+                                  detail::magnitude(b.middle) + a.halfLengths.sum() +
+                                  b.halfLengths.sum() + p.radii);
   return p;
 }
 
