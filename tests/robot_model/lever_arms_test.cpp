@@ -53,7 +53,7 @@ TEST(LeverArms, OfNearlyParallelAxesReachWhereTheTiltLifts) {
         ASSERT_EQ(levers.arms.size(), 3u);
         EXPECT_GE(levers.arms[0], fromFirst)
             << "tilt " << tilt << ", short by " << fromFirst - levers.arms[0] << " m";
-        EXPECT_GE(levers.reach, fromFirst) << "tilt " << tilt;
+        EXPECT_GE(levers.span, fromFirst) << "tilt " << tilt;
         EXPECT_LE(levers.arms[0], fromFirst * (1.0L + 1e-9L)) << "tilt " << tilt;
       }
     }

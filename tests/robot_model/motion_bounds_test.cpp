@@ -251,7 +251,7 @@ TEST(MotionBounds, ReachHoldsOverAllConfigurations) {
       std::vector<BodyState> states(model.bodies.size());
       evaluateAll(model, motion, 0.0, states);
       const Vector3d tip = states[last].world_from_body * center;
-      EXPECT_LE(tip.norm() + 0.1, levers.reach);
+      EXPECT_LE(tip.norm() + 0.1, levers.span);
       EXPECT_LE((tip - base).norm() + 0.1, levers.reachFromBase);
       // Distance from each axis, the quantity the arms bound.
       for (std::size_t k = 0; k < levers.path.size(); ++k) {
@@ -301,7 +301,7 @@ TEST(MotionModel, PosesAreWithinTheRoundingBound) {
                          (states[last].world_from_body * point).cast<long double>();
     const LeverArms levers = swept::detail::leverArms(model, last, point, 0.0);
     const double bound =
-        swept::tolerance::kRoundingPerJoint * levers.reach * static_cast<double>(joints + 2);
+        swept::tolerance::kRoundingPerJoint * levers.span * static_cast<double>(joints + 2);
     worst = std::max(worst, static_cast<double>(error.norm()) / bound);
   }
   EXPECT_LT(worst, 0.25) << "less than a factor of four is left";

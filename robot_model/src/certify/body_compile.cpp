@@ -164,6 +164,11 @@ class BodyCompiler {
     geometry.magnitude =
         geometry.body_from_shape.translation().norm() + ball.center.norm() + ball.radius;
     geometry.levers = leverArms(model_.kinematics, geometry.body, geometry.center, ball.radius);
+    geometry.transforms = geometry.levers.transforms;
+    if (carrier.link < 0) return;
+    const Fold& fold = model_.kinematics.foldOfLink[carrier.link];
+    geometry.magnitude += fold.detour(model_.kinematics.body_from_link[carrier.link]);
+    geometry.transforms += fold.transforms;
   }
 
   /// The same piece of the same carrier in the earlier version; null: there is none.

@@ -41,7 +41,9 @@ struct RobotGeometry {
   Eigen::Isometry3d body_from_shape;
   Eigen::Vector3d center;  ///< m, of a ball that contains it, body frame
   double radius = 0.0;     ///< m
-  double magnitude = 0.0;  ///< m, of its coordinates in the shape's frame and of what places that
+  /// m, of its coordinates in the shape's frame and of what places that in the body's.
+  double magnitude = 0.0;
+  double transforms = 0.0;  ///< multiplied to place it in the model frame
   LeverArms levers;
   std::shared_ptr<const SphereCover> cover;
 };
@@ -129,7 +131,7 @@ struct CheckerModel {
   std::uint32_t firstSelfPair = 0;
   double largestMargin = 0.0;    ///< m, of the pairs
   double largestRounding = 0.0;  ///< m, likewise
-  double largestReach = 0.0;     ///< m, likewise, from the model frame's origin, both together
+  double largestSpan = 0.0;      ///< m, likewise, see spanOf
   /// The world's boxes, for the exact tier; null for a world with few. Handles are indices into
   /// worldGeometry.
   std::shared_ptr<const SweepAndPrune> boxes;
@@ -167,11 +169,11 @@ struct PendingPart {
   double end = 1.0;
 };
 
-/// m. No point of the pair's geometry of the robot is farther from the model frame's origin, of
-/// both together, but for translations of planar and floating joints.
-inline double reachOf(const CheckerModel& model, const GeometryPair& pair) {
-  const double reach = model.robotGeometry[pair.a].levers.reach;
-  return pair.self ? reach + model.robotGeometry[pair.b].levers.reach : reach;
+/// m. No point of the pair's geometry of the robot is farther from a joint that carries it, of both
+/// together, but for translations of planar and floating joints.
+inline double spanOf(const CheckerModel& model, const GeometryPair& pair) {
+  const double span = model.robotGeometry[pair.a].levers.span;
+  return pair.self ? span + model.robotGeometry[pair.b].levers.span : span;
 }
 
 /// An obstacle changes its way.

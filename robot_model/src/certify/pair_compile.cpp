@@ -44,7 +44,7 @@ class PairCompiler {
     for (const GeometryPair& pair : model_.pairs) {
       model_.largestMargin = std::max(model_.largestMargin, pair.margin);
       model_.largestRounding = std::max(model_.largestRounding, pair.rounding);
-      model_.largestReach = std::max(model_.largestReach, reachOf(model_, pair));
+      model_.largestSpan = std::max(model_.largestSpan, spanOf(model_, pair));
     }
   }
 
@@ -83,13 +83,13 @@ class PairCompiler {
   }
 
   /// Rounding of the relative pose of two geometries, in metres at their points: proportional to
-  /// the coordinates and to the number of joints that were multiplied.
-  static double rounding(double magnitudes, std::size_t joints) {
-    return tolerance::kRoundingPerJoint * magnitudes * static_cast<double>(joints + 2);
+  /// the coordinates and to the number of transforms that were multiplied.
+  static double rounding(double magnitudes, double transforms) {
+    return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0);
   }
 
   static double magnitudeOf(const RobotGeometry& robot) {
-    return std::max(robot.levers.reach, robot.magnitude);
+    return std::max(robot.levers.span, robot.magnitude);
   }
 
   int travelSlot(int geometry, int reference) {
@@ -112,7 +112,7 @@ class PairCompiler {
     const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
     const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
     const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
-    const double slack = rounding(magnitudeOf(robot) + world.magnitude, robot.levers.path.size());
+    const double slack = rounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
     return outside.norm() > robot.levers.reachFromBase + margin + slack;
   }
 
@@ -164,7 +164,7 @@ class PairCompiler {
     pair.a = a;
     pair.b = b;
     pair.travelA = travelSlot(a, 0);
-    pair.rounding = rounding(magnitudeOf(robot) + world.magnitude, robot.levers.path.size());
+    pair.rounding = rounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
     pair.margin = bodies.margin;
     add(pair, model_.pairs, "shapes");
   }
@@ -245,8 +245,7 @@ class PairCompiler {
     pair.reference = lastCommonAncestor(a.body, b.body);
     pair.travelA = travelSlot(i, pair.reference);
     pair.travelB = travelSlot(j, pair.reference);
-    pair.rounding =
-        rounding(magnitudeOf(a) + magnitudeOf(b), a.levers.path.size() + b.levers.path.size());
+    pair.rounding = rounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms);
     pair.margin = bodies.margin;
     add(pair, model_.pairs, "shapes");
   }

@@ -97,12 +97,12 @@ double PairQuery::slideRounding() const {
 
 double PairQuery::rounding(const GeometryPair& pair) const {
   return pair.rounding + slideRounding() +
-         workspace_.angleError * (reachOf(model_, pair) + 2.0 * workspace_.wander);
+         workspace_.angleError * (spanOf(model_, pair) + 2.0 * workspace_.wander);
 }
 
 double PairQuery::largestRounding() const {
   return model_.largestRounding + slideRounding() +
-         workspace_.angleError * (model_.largestReach + 2.0 * workspace_.wander);
+         workspace_.angleError * (model_.largestSpan + 2.0 * workspace_.wander);
 }
 
 double PairQuery::travel(const GeometryPair& pair, double half) {

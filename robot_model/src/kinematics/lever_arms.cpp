@@ -22,6 +22,11 @@ struct ReachableSet {
   double high;
   double ball;
 
+  void addOrigin() {
+    low = std::min(low, 0.0);
+    high = std::max(high, 0.0);
+  }
+
   void tighten() {
     ball = std::min(ball, std::hypot(radius, std::max(std::abs(low), std::abs(high))));
     radius = std::min(radius, ball);
@@ -78,6 +83,23 @@ void sweepByJoint(const MovingBody& body, ReachableSet& set) {
   }
 }
 
+/// m; see LeverArms::span. The set of the points goes inwards with the frames that are passed.
+double spanOf(const KinematicModel& model, int body, ReachableSet set) {
+  double span = set.ball;
+  double detours = 0.0;
+  for (int i = body; i > 0; i = model.bodies[i].parent) {
+    const MovingBody& current = model.bodies[i];
+    set.addOrigin();
+    sweepByJoint(current, set);
+    set.addOrigin();
+    span = std::max(span, set.ball);
+    set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
+    span = std::max(span, set.ball);
+    detours += current.fold.detour(current.parent_from_joint);
+  }
+  return (span + detours) * kOutward;
+}
+
 }  // namespace
 
 LeverArms leverArms(const KinematicModel& model, int body, const Vector3d& center, double radius) {
@@ -85,16 +107,17 @@ LeverArms leverArms(const KinematicModel& model, int body, const Vector3d& cente
   const Vector3d first = axisOf(model.bodies[body]);
   const double along = first.dot(center);
   ReachableSet set{first, (center - along * first).norm(), along, along, center.norm()};
+  result.span = spanOf(model, body, set) + radius;
   for (int i = body; i > 0; i = model.bodies[i].parent) {
     const MovingBody& current = model.bodies[i];
     const double arm = current.type == JointType::Floating ? set.ball : set.radius;
     result.path.push_back(i);
+    result.transforms += 1.0 + current.fold.transforms;
     result.arms.push_back(arm * kOutward + radius);
     sweepByJoint(current, set);
     result.reachFromBase = set.ball * kOutward + radius;
     set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
   }
-  result.reach = set.ball * kOutward + radius;
   std::reverse(result.path.begin(), result.path.end());
   std::reverse(result.arms.begin(), result.arms.end());
   return result;

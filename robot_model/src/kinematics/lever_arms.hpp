@@ -17,9 +17,14 @@ namespace swept::detail {
 struct LeverArms {
   std::vector<int> path;     ///< bodies from the model frame (exclusive) to the ball's, root first
   std::vector<double> arms;  ///< m
-  double reach = 0.0;  ///< m, bound on the distance of every point from the model frame's origin
-  /// The same from the origin of path[0]'s joint frame.
+  /// m, bound on the distance of every point from the origin of path[0]'s joint frame.
   double reachFromBase = 0.0;
+  /// m. What the ball's place is computed from is no larger: how far its points and the frames on
+  /// the way to it can be from the model frame's origin, and those beyond each frame from that one.
+  /// Rounding is as large as this, however near what comes of it. Translations of planar and
+  /// floating joints come on top.
+  double span = 0.0;
+  double transforms = 0.0;  ///< multiplied on the way, see Fold
 };
 
 LeverArms leverArms(const KinematicModel& model, int body, const Eigen::Vector3d& center,

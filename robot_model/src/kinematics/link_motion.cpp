@@ -20,9 +20,9 @@ struct LinkPath {
   std::vector<MovingBody> bodies;  ///< from the model frame to the link
   std::vector<JointMotion> joints;
   Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();  ///< of the last body
-  std::size_t length = 0;  ///< joints, with those that stand still
+  double transforms = 0.0;  ///< joints, with those that stand still
   MotionRates rates;
-  double reach = 0.0;       ///< m, of the link's origin from the model frame's
+  double span = 0.0;        ///< m, see LeverArms::span, of the link's origin
   double perUnit = 0.0;     ///< 1 + the sum of the joints' rates, rad and m per unit of t
   double angleError = 0.0;  ///< rad, see detail::angleError
   double slideError = 0.0;  ///< m, see detail::slideError
@@ -105,14 +105,15 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   path->body_from_link = kinematics.body_from_link[linkIndex];
   const detail::LeverArms levers = detail::leverArms(kinematics, kinematics.bodyOfLink[linkIndex],
                                                      path->body_from_link.translation(), 0.0);
-  path->reach = levers.reach;
+  const detail::Fold& fold = kinematics.foldOfLink[linkIndex];
+  path->span = levers.span + fold.detour(path->body_from_link);
   path->perUnit = 1.0;
-  path->length = levers.path.size();
+  path->transforms = levers.transforms + fold.transforms;
   detail::BodyState still;  // since the last joint that moves
   for (const int member : levers.path) {
     MovingBody body = kinematics.bodies[static_cast<std::size_t>(member)];
     const JointMotion& joint = motion[static_cast<std::size_t>(member)];
-    path->reach += joint.wander;
+    path->span += joint.wander;
     if (joint.speed == 0.0 && joint.spinSpeed == 0.0) {
       still = detail::bodyAt(body, joint, 0.0, still);
       continue;
@@ -149,9 +150,9 @@ MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
 }
 
 double LinkMotion::rounding(double reach) const {
-  const double joints = static_cast<double>(path_->length + 2);
+  const double joints = path_->transforms + 2.0;
   return (tolerance::kRoundingPerJoint * joints * path_->perUnit + path_->angleError) *
-             (path_->reach + reach) +
+             (path_->span + reach) +
          path_->slideError;
 }
 

@@ -87,6 +87,24 @@ Isometry3d heldTransform(const Robot& robot, const Joint& joint, const Eigen::Ve
   return jointTransform(body, motion, 0.0);
 }
 
+/// rad. A held angle of so much rounds by what is allowed for one transform.
+constexpr double kAngleOfTransform = 10.0;
+
+/// With one joint more, which is held; its frame and its child's are `joint` and `child`.
+Fold folded(Fold fold, const Robot& robot, const Joint& held, const Eigen::VectorXd& reference,
+            const Isometry3d& joint, const Isometry3d& child) {
+  fold.transforms += 1.0;
+  fold.farthest = std::max({fold.farthest, joint.translation().norm(), child.translation().norm()});
+  const Joint& source = held.mimic ? robot.joints()[held.mimic->master] : held;
+  if (held.type == JointType::Fixed || source.firstVariable < 0) return fold;
+  const bool planar = held.type == JointType::Planar;
+  double value = std::abs(reference[source.firstVariable + (planar ? 2 : 0)]);
+  if (held.mimic) value = std::abs(held.mimic->multiplier) * value + std::abs(held.mimic->offset);
+  if (held.type == JointType::Prismatic) fold.farthest = std::max(fold.farthest, value);
+  if (turns(held.type) || planar) fold.transforms += value / kAngleOfTransform;
+  return fold;
+}
+
 MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group) {
   MovingBody body;
   body.type = joint.type;
@@ -144,21 +162,26 @@ KinematicModel compileKinematics(const Robot& robot, const Group& group,
   const std::size_t links = robot.links().size();
   model.bodyOfLink.assign(links, 0);
   model.body_from_link.assign(links, Isometry3d::Identity());
+  model.foldOfLink.assign(links, Fold{});
   for (const Joint& joint : robot.joints()) {
     const int parentBody = joint.parentLink < 0 ? 0 : model.bodyOfLink[joint.parentLink];
     const Isometry3d parentPose =
         joint.parentLink < 0 ? Isometry3d::Identity() : model.body_from_link[joint.parentLink];
     const Isometry3d body_from_joint = parentPose * joint.parent_from_joint;
+    const Fold before = joint.parentLink < 0 ? Fold{} : model.foldOfLink[joint.parentLink];
     if (moves(robot, joint, group)) {
       MovingBody body = moveJoint(robot, joint, group);
       body.parent = parentBody;
       body.parent_from_joint = body_from_joint;
+      body.fold = before;
       model.bodyOfLink[joint.childLink] = static_cast<int>(model.bodies.size());
       model.bodies.push_back(body);
     } else {
       model.bodyOfLink[joint.childLink] = parentBody;
       model.body_from_link[joint.childLink] =
           body_from_joint * heldTransform(robot, joint, reference);
+      model.foldOfLink[joint.childLink] = folded(before, robot, joint, reference, body_from_joint,
+                                                 model.body_from_link[joint.childLink]);
     }
   }
   return model;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -9,11 +10,24 @@
 
 namespace swept::detail {
 
+/// Joints that stand still, multiplied into one frame.
+struct Fold {
+  /// So many. A joint held at a large angle rounds as several.
+  double transforms = 0.0;
+  double farthest = 0.0;  ///< m, of the frames between, and of what they are made of
+
+  /// m. How far these go beyond where they lead.
+  double detour(const Eigen::Isometry3d& frame) const {
+    return std::max(0.0, farthest - frame.translation().norm());
+  }
+};
+
 /// A frame that the group moves, with everything rigidly attached to it.
 struct MovingBody {
   int parent = -1;  ///< index into KinematicModel::bodies; 0 is the model frame
   JointType type = JointType::Fixed;
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  ///< fixed joints folded in
+  Fold fold;                                                            ///< of these
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();                      ///< unit, joint frame
   Eigen::Matrix3d planarBasis =
       Eigen::Matrix3d::Identity();  ///< columns x, y of a planar joint, normal
@@ -35,6 +49,7 @@ struct KinematicModel {
   std::vector<MovingBody> bodies;  ///< parents first; [0] is the model frame itself
   std::vector<int> bodyOfLink;
   std::vector<Eigen::Isometry3d> body_from_link;
+  std::vector<Fold> foldOfLink;      ///< of what is folded into these
   std::vector<char> cyclic;          ///< per value of a configuration
   std::vector<double> lower, upper;  ///< likewise: rad, m or s
   int dimension = 0;                 ///< of a configuration

@@ -28,7 +28,9 @@ class CoverCompiler {
       const RobotGeometry& geometry = model_.robotGeometry[i];
       geometriesOf[geometry.body].push_back(static_cast<int>(i));
       geometryBody_.push_back(geometry.body);
-      lanes_.reach = std::max(lanes_.reach, static_cast<float>(geometry.levers.reach) * 1.00001F);
+      // What places a shape in its body is rounded in double alone.
+      const double span = std::max(geometry.levers.span, kSingle * geometry.magnitude);
+      lanes_.reach = std::max(lanes_.reach, static_cast<float>(span) * 1.00001F);
     }
     rootOfGeometry_.assign(model_.robotGeometry.size(), -1);
     rootOfBody_.assign(bodies, -1);

@@ -151,7 +151,7 @@ struct LaneModel {
   bool floats = false;                      ///< some joint is floating
   float margin = 0.0F;                      ///< m, the least of all pairs
   float rounding = 0.0F;                    ///< relative, of positions; see lane_motion.cpp
-  float reach = 0.0F;  ///< m, no point is farther from the origin but for what slides freely
+  float reach = 0.0F;  ///< m, see LeverArms::span: the largest, but for what slides freely
   std::shared_ptr<const JointTables> tables;  ///< all that were built
 
   /// m. What the pair has to keep beyond `margin`.
