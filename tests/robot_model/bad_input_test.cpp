@@ -445,6 +445,125 @@ std::vector<BadInput> yamlScenes() {
   };
 }
 
+/// What was ignored without a word.
+std::vector<BadInput> yamlKeys() {
+  const std::string box = "      primitives: [{type: box, dimensions: [1, 1, 1]}]\n";
+  const std::string objectKeys =
+      "header, pose, id, type, primitives, primitive_poses, meshes, mesh_poses, planes, "
+      "plane_poses, subframe_names, subframe_poses and operation";
+  return {
+      {"SceneKey", "s.yaml", "wrold: 1\nworld: {}\n",
+       "@/s.yaml:1: error: the file has the unknown key 'wrold'; allowed are name, robot_state, "
+       "robot_model_name, fixed_frame_transforms, allowed_collision_matrix, link_padding, "
+       "link_scale, object_colors, world, collision_objects and is_diff"},
+      {"SceneKeyTwice", "s.yaml", "world: {}\nname: a\nworld: {collision_objects: []}\n",
+       "@/s.yaml:3: error: the file has the key 'world' twice"},
+      {"WorldKey", "s.yaml", "world:\n  colision_objects: []\n",
+       "@/s.yaml:2: error: world has the unknown key 'colision_objects'; allowed are "
+       "collision_objects and octomap"},
+      {"ObjectKey", "s.yaml", boxed(box + "      primitve_poses: [{position: [1, 2, 3]}]\n"),
+       "@/s.yaml:5: error: object 'crate': has the unknown key 'primitve_poses'; allowed are " +
+           objectKeys},
+      {"ObjectKeyTwice", "s.yaml", boxed(box + box),
+       "@/s.yaml:5: error: object 'crate': has the key 'primitives' twice"},
+      {"ObjectMerged", "s.yaml", boxed(box + "      <<: {pose: {position: [1, 2, 3]}}\n"),
+       "@/s.yaml:5: error: object 'crate': has the unknown key '<<'; allowed are " + objectKeys},
+      {"KeyIsAList", "s.yaml", boxed(box + "      ? [pose]\n      : 1\n"),
+       "@/s.yaml:5: error: object 'crate': has a key that is not a single value"},
+      {"PoseKey", "s.yaml",
+       boxed(box + "      pose: {position: [1, 2, 3], rotation: [0, 0, 0, 1]}\n"),
+       "@/s.yaml:5: error: object 'crate': pose has the unknown key 'rotation'; allowed are "
+       "position and orientation"},
+      {"PositionKeyUnknown", "s.yaml",
+       boxed(box + "      pose: {position: {x: 1, y: 2, z: 3, w: 4}}\n"),
+       "@/s.yaml:5: error: object 'crate': pose.position has the unknown key 'w'; allowed are x, y "
+       "and z"},
+      {"PrimitiveKey", "s.yaml",
+       boxed("      primitives: [{type: sphere, dimensions: [1], radius: 2}]\n"),
+       "@/s.yaml:4: error: object 'crate': primitives[0] has the unknown key 'radius'; allowed are "
+       "type, dimensions and polygon"},
+      {"MeshKey", "s.yaml", boxed("      meshes: [{resource: a.stl, scle: [2, 2, 2]}]\n"),
+       "@/s.yaml:4: error: object 'crate': meshes[0] has the unknown key 'scle'; allowed are "
+       "resource, scale and dimensions"},
+      {"MeshScaleTwice", "s.yaml",
+       boxed("      meshes: [{resource: a.stl, scale: [2, 2, 2], dimensions: [2, 2, 2]}]\n"),
+       "@/s.yaml:4: error: object 'crate': meshes[0].dimensions and scale are two names for one "
+       "thing; one is allowed"},
+      {"MeshDimensionsZero", "s.yaml",
+       boxed("      meshes: [{resource: a.stl, dimensions: [2, 0, 2]}]\n"),
+       "@/s.yaml:4: error: object 'crate': meshes[0].dimensions must hold factors other than 0"},
+      {"HeaderKey", "s.yaml", boxed(box + "      header: {frame: table}\n"),
+       "@/s.yaml:5: error: object 'crate': header has the unknown key 'frame'; allowed are seq, "
+       "stamp and frame_id"},
+      {"SecondDocument", "s.yaml", "world: {}\n---\nworld: {}\n",
+       "@/s.yaml:3: error: a second document begins; one is allowed"},
+      {"LinkPadding", "s.yaml",
+       "world: {}\nlink_padding:\n  - {link_name: a, padding: 0}\n  - {link_name: b, padding: "
+       "0.01}\n",
+       "@/s.yaml:4: error: link_padding[1].padding of link 'b' is 0.01, which is not read from a "
+       "scene; give it as a rule instead (CollisionRules::pad, --pad)"},
+      {"LinkScale", "s.yaml", "world: {}\nlink_scale: [{link_name: b, scale: 1.1}]\n",
+       "@/s.yaml:2: error: link_scale[0].scale of link 'b' is 1.1, which is not read from a scene; "
+       "give it as a rule instead (CollisionRules::scale, --scale)"},
+  };
+}
+
+std::vector<BadInput> yamlNumbers() {
+  std::vector<BadInput> inputs;
+  const auto add = [&](const std::string& name, const std::string& number,
+                       const std::string& what) {
+    inputs.push_back({"Number" + name, "s.yaml",
+                      boxed("      primitives: [{type: sphere, dimensions: [" + number + "]}]\n"),
+                      "@/s.yaml:4: error: object 'crate': primitives[0].dimensions[0] " + what});
+  };
+  const auto notFinite = [](const std::string& number) {
+    return "is '" + number + "'; it must be a finite number";
+  };
+  int i = 0;
+  for (const char* number : {".inf", "-.INF", ".nan", "inf", "nan", "1e400", "0x10", "0o10", "0b1",
+                             "1_000", "1:30", "1.5.2", "1e", "++1", "true", "2 m"}) {
+    add(std::to_string(++i), number, notFinite(number));
+  }
+  add("Octal", "010", "is '010'; it must not begin with 0");
+  add("SignedOctal", "+00", "is '+00'; it must not begin with 0");
+  add("None", "~", "is missing");
+  return inputs;
+}
+
+std::vector<BadInput> yamlFrames() {
+  const auto transforms = [](const std::string& second) {
+    return "world: {}\nfixed_frame_transforms:\n"
+           "  - {header: {frame_id: table}, child_frame_id: base, transform: {}}\n" +
+           second;
+  };
+  return {
+      {"FrameOfTf", "s.yaml",
+       transforms("  - header: {frame_id: base}\n    child_frame_id: base\n"
+                  "    transform: {translation: [0, 0, 1]}\n"),
+       "@/s.yaml:4: error: fixed_frame_transforms[1] moves the planning frame: child_frame_id has "
+       "to name that one, header.frame_id another, whose pose in it the transform is"},
+      {"FrameWithoutName", "s.yaml",
+       transforms("  - child_frame_id: base\n    transform: {translation: [0, 0, 1]}\n"),
+       "@/s.yaml:4: error: fixed_frame_transforms[1] moves the planning frame: child_frame_id has "
+       "to name that one, header.frame_id another, whose pose in it the transform is"},
+      {"FrameOfAnother", "s.yaml",
+       transforms("  - header: {frame_id: tray}\n    child_frame_id: table\n    transform: {}\n"),
+       "@/s.yaml:5: error: fixed_frame_transforms[1].child_frame_id is 'table'; it must be 'base', "
+       "the planning frame, as in the first transform"},
+      {"FrameTwice", "s.yaml",
+       transforms("  - {header: {frame_id: /table}, child_frame_id: base, transform: {}}\n"),
+       "@/s.yaml:4: error: fixed_frame_transforms[1] is a second transform of frame 'table'"},
+      {"FrameKey", "s.yaml",
+       transforms("  - {header: {frame_id: tray}, child_frame: base, transform: {}}\n"),
+       "@/s.yaml:4: error: fixed_frame_transforms[1] has the unknown key 'child_frame'; allowed "
+       "are "
+       "header, child_frame_id and transform"},
+      {"FrameWithoutTransform", "s.yaml",
+       transforms("  - {header: {frame_id: tray}, child_frame_id: base}\n"),
+       "@/s.yaml:4: error: fixed_frame_transforms[1].transform is missing"},
+  };
+}
+
 std::vector<BadInput> textScenes() {
   return {
       {"SceneCutOff", "s.scene", "name\n* a\n1\nbox\n1 1 1\n0 0 0\n",
@@ -541,8 +660,9 @@ std::vector<BadInput> problems() {
 
 std::vector<BadInput> allInputs() {
   std::vector<BadInput> all;
-  for (const auto& part : {urdfDocuments(), urdfTrees(), urdfJoints(), urdfMimics(), urdfShapes(),
-                           meshes(), srdfs(), yamlScenes(), textScenes(), problems()}) {
+  for (const auto& part :
+       {urdfDocuments(), urdfTrees(), urdfJoints(), urdfMimics(), urdfShapes(), meshes(), srdfs(),
+        yamlScenes(), yamlKeys(), yamlNumbers(), yamlFrames(), textScenes(), problems()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

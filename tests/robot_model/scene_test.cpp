@@ -11,6 +11,8 @@
 namespace swept {
 namespace {
 
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::IsEmpty;
 
 Eigen::Isometry3d pose(const Eigen::Vector3d& p, double aboutZ) {
@@ -128,6 +130,8 @@ world:
       meshes: [{resource: cube.obj, scale: [2, 2, 2]}]
     - id: sheet
       meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}]
+    - id: brick
+      meshes: [{resource: cube.obj, dimensions: [3, 1, 1]}]
 )",
                            warnings.options());
   const auto& tetra = world.find("tetra")->parts[0];
@@ -135,12 +139,17 @@ world:
   EXPECT_EQ(tetra.world_from_shape.translation(), Eigen::Vector3d(5, 0, 0));
   const auto& cube = std::get<TriangleMesh>(world.find("cube")->parts[0].shape);
   EXPECT_TRUE(cube.encloses({1.5, 1.5, 1.5}));
+  const auto& brick = std::get<TriangleMesh>(world.find("brick")->parts[0].shape);
+  EXPECT_TRUE(brick.encloses({2.5, 0.5, 0.5}));
+  EXPECT_FALSE(brick.encloses({0.5, 1.5, 0.5}));
   ASSERT_EQ(warnings.lines.size(), 1u);
   EXPECT_THAT(warnings.lines[0],
               ::testing::EndsWith("s.yaml:12: warning: mesh 'sheet' is an open surface (1 open "
                                   "component): its interior is not solid"));
 }
 
+/// MoveIt keeps them the other way round than tf does: read as tf has them, objects stood on the
+/// wrong side of the robot.
 TEST(SceneYaml, FixedTransformsPlaceObjectsAndUnknownFramesAreNamedOnce) {
   test::Warnings warnings;
   const auto sphere = [](const std::string& id, const std::string& frame) {
@@ -151,28 +160,63 @@ TEST(SceneYaml, FixedTransformsPlaceObjectsAndUnknownFramesAreNamedOnce) {
       load("s.yaml",
            "fixed_frame_transforms:\n"
            "  - {header: {frame_id: base}, child_frame_id: base, transform: {}}\n"
-           "  - header: {frame_id: base}\n"
-           "    child_frame_id: table\n"
-           "    transform: {translation: [0, 0, 1], rotation: [0, 0, 0.6, 0.8]}\n"
            "  - header: {frame_id: table}\n"
-           "    child_frame_id: tray\n"
+           "    child_frame_id: base\n"
+           "    transform: {translation: [0, 0, 1], rotation: [0, 0, 0.6, 0.8]}\n"
+           "  - header: {frame_id: /tray}\n"
+           "    child_frame_id: base\n"
            "    transform: {translation: {x: 0, y: 3, z: 0}}\n"
            "world:\n  collision_objects:\n" +
                sphere("on_table", "table") + sphere("on_tray", "tray") + sphere("in_base", "base") +
                sphere("in_world", "world") + sphere("lost", "camera") + sphere("too", "camera"),
            warnings.options());
   const auto at = [&](const char* id) { return world.find(id)->parts[0].world_from_shape; };
-  const Eigen::Isometry3d table = pose({0, 0, 1}, kTurn);
-  EXPECT_LT(difference(at("on_table"), table * pose({1, 0, 0}, 0)), 1e-15);
-  EXPECT_LT(difference(at("on_tray"), table * pose({0, 3, 0}, 0) * pose({1, 0, 0}, 0)), 1e-15);
+  EXPECT_LT(difference(at("on_table"), pose({0, 0, 1}, kTurn) * pose({1, 0, 0}, 0)), 1e-15);
+  EXPECT_LT(difference(at("on_tray"), pose({1, 3, 0}, 0)), 1e-15);
   for (const char* id : {"in_base", "in_world", "lost"}) {
     EXPECT_LT(difference(at(id), pose({1, 0, 0}, 0)), 1e-15) << id;
   }
-  ASSERT_EQ(warnings.lines.size(), 1u);
-  EXPECT_THAT(warnings.lines[0],
-              ::testing::EndsWith(
-                  "s.yaml:15: warning: object 'lost': header.frame_id 'camera' is taken for "
-                  "the robot's model frame"));
+  EXPECT_THAT(
+      warnings.lines,
+      ElementsAre(EndsWith("s.yaml:4: warning: fixed_frame_transforms[1].child_frame_id 'base' is "
+                           "taken for the robot's model frame"),
+                  EndsWith("s.yaml:15: warning: object 'lost': header.frame_id 'camera' is taken "
+                           "for the robot's model frame")));
+}
+
+/// As MotionBenchMaker, Robowflex and MoveIt's own programs write them.
+TEST(SceneYaml, TransformsOfThePlanningFrameSayNothing) {
+  test::Warnings warnings;
+  LoadOptions options = warnings.options();
+  options.modelFrame = "base_link";
+  for (const char* transform :
+       {"{child_frame_id: base_link, transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}",
+        "{child_frame_id: world, transform: {translation: [0, 0, 0]}}",
+        "{header: {frame_id: odom}, child_frame_id: base_link, transform: {}}",
+        "{header: {frame_id: base_link}, child_frame_id: world, transform: {}}"}) {
+    const std::string text =
+        "fixed_frame_transforms: [" + std::string(transform) + "]\ncollision_objects:\n" +
+        "  - {id: ball, header: {frame_id: base_link}, pose: {position: [1, 0, 0]}, primitives: "
+        "[{type: sphere, dimensions: [1]}]}\n";
+    const World world = load("s.yaml", text, options);
+    EXPECT_EQ(world.find("ball")->parts[0].world_from_shape.translation(),
+              Eigen::Vector3d(1, 0, 0));
+  }
+  EXPECT_THAT(warnings.lines, IsEmpty());
+}
+
+/// `world` is where the robot is not, if the scene says so.
+TEST(SceneYaml, TheWorldMayBeElsewhereThanTheRobot) {
+  LoadOptions options;
+  options.modelFrame = "base_link";
+  const World world = load("s.yaml", R"(
+fixed_frame_transforms:
+  - {header: {frame_id: world}, child_frame_id: base_link, transform: {translation: [0, 0, -1]}}
+collision_objects:
+  - {id: ball, header: {frame_id: world}, primitives: [{type: sphere, dimensions: [1]}]}
+)",
+                           options);
+  EXPECT_EQ(world.find("ball")->parts[0].world_from_shape.translation(), Eigen::Vector3d(0, 0, -1));
 }
 
 TEST(SceneYaml, TheRobotsRootLinkIsAKnownFrame) {
@@ -198,6 +242,63 @@ TEST(SceneYaml, AttachedObjectsAreNamedAndEmptyWorldsAreWorlds) {
   EXPECT_THAT(world.bodies(), IsEmpty());
   ASSERT_EQ(warnings.lines.size(), 1u);
   EXPECT_THAT(warnings.lines[0], ::testing::HasSubstr("s.yaml:3: warning: "));
+}
+
+/// What messages that ROS prints have besides, down to the line that begins another one.
+TEST(SceneYaml, WhatMoveItWritesIsAllowed) {
+  test::Warnings warnings;
+  const World world = load("s.yaml", R"(
+name: ''
+robot_state:
+  joint_state: {header: {seq: 0, stamp: {secs: 0, nsecs: 0}, frame_id: ''}, name: [], position: [], velocity: [], effort: []}
+  multi_dof_joint_state: {header: {frame_id: ''}, joint_names: [], transforms: [], twist: [], wrench: []}
+  attached_collision_objects: []
+  is_diff: False
+robot_model_name: fetch
+fixed_frame_transforms: []
+allowed_collision_matrix: {entry_names: [], entry_values: [], default_entry_names: [], default_entry_values: []}
+link_padding: [{link_name: hand, padding: 0.0}]
+link_scale: [{link_name: hand, scale: 1.0}]
+object_colors: [{id: can, color: {r: 1, g: 0, b: 0, a: 1}}]
+world:
+  collision_objects:
+    - header: {seq: 0, stamp: {secs: 0, nsecs: 0}, frame_id: world}
+      pose: {position: {x: 0.0, y: 0.0, z: 0.0}, orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}}
+      id: can
+      type: {key: '', db: ''}
+      primitives: [{type: 3, dimensions: [0.4, 0.1], polygon: {points: []}}]
+      primitive_poses: [{position: {x: 0.0, y: 0.0, z: 0.0}, orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}}]
+      meshes: []
+      mesh_poses: []
+      planes: []
+      plane_poses: []
+      subframe_names: []
+      subframe_poses: []
+      operation: 0
+  octomap: {header: {frame_id: ''}, origin: {position: {x: 0, y: 0, z: 0}, orientation: {x: 0, y: 0, z: 0, w: 1}}, octomap: {header: {frame_id: ''}, binary: False, id: '', resolution: 0.0, data: []}}
+is_diff: False
+---
+)",
+                           warnings.options());
+  EXPECT_EQ(world.bodies().size(), 1u);
+  EXPECT_THAT(warnings.lines, IsEmpty());
+}
+
+TEST(SceneYaml, WhatWouldChangeAnswersIsNamed) {
+  test::Warnings warnings;
+  load("s.yaml", R"(
+robot_state:
+  multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0]}]}
+allowed_collision_matrix: {entry_names: [a], entry_values: [[true]]}
+collision_objects: []
+)",
+       warnings.options());
+  EXPECT_THAT(
+      warnings.lines,
+      ElementsAre(EndsWith("s.yaml:3: warning: robot_state.multi_dof_joint_state moves 'base' and "
+                           "is ignored: the robot is not part of the world"),
+                  EndsWith("s.yaml:4: warning: allowed_collision_matrix is ignored: pairs that may "
+                           "collide are those of the SRDF and of rules")));
 }
 
 TEST(SceneText, OlderFormatHasNoObjectPoses) {

@@ -79,10 +79,12 @@ PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& p
     goal.fail("its position is of link '" + link + "', its orientation of another");
   const Region region = readRegion(position);
   PlanningRequest::PoseGoal pose{.link = link,
-                                 .model_from_link = orientation.pose("none", "orientation"),
+                                 .model_from_link = Eigen::Isometry3d::Identity(),
                                  .positionTolerance = region.tolerance,
                                  .orientationTolerance = kOrientationTolerance};
   pose.model_from_link.translation() = region.middle;
+  if (const YamlPlace given = orientation.at("orientation"); given.present())
+    pose.model_from_link.linear() = given.rotation();
   double least = 4.0;  // more than any angle
   for (const char* axis : {"x", "y", "z"}) {
     const YamlPlace tolerance = orientation.at(std::string("absolute_") + axis + "_axis_tolerance");

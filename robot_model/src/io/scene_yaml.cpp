@@ -2,14 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <map>
-#include <optional>
-#include <set>
 #include <stdexcept>
 
 #include "io/mesh_store.hpp"
-#include "io/numbers.hpp"
 #include "io/scene.hpp"
+#include "io/scene_extras.hpp"
+#include "io/scene_frames.hpp"
 #include "io/yaml.hpp"
 
 namespace swept::detail {
@@ -51,6 +49,7 @@ std::vector<double> sizes(const YamlPlace& place, std::size_t count, const std::
 }
 
 Shape readPrimitive(const YamlPlace& place) {
+  place.allowOnly({"type", "dimensions", "polygon"});  // of prisms, which no type here is
   const YamlPlace dimensions = place.at("dimensions");
   switch (primitiveType(place.at("type"))) {
     case PrimitiveType::Box: {
@@ -72,7 +71,7 @@ Shape readPrimitive(const YamlPlace& place) {
 
 /// shape_msgs/Plane: the points with a x + b y + c z + d = 0.
 Shape readPlane(const YamlPlace& place) {
-  const YamlPlace coefficients = place.at("coef");
+  const YamlPlace coefficients = place.allowOnly({"coef"}).at("coef");
   const auto elements = coefficients.elements();
   if (elements.size() != 4) {
     coefficients.fail("has " + std::to_string(elements.size()) +
@@ -86,40 +85,45 @@ Shape readPlane(const YamlPlace& place) {
   }
 }
 
+/// A factor for each axis. Robowflex's name for it in scenes is `dimensions`.
+Eigen::Vector3d meshScale(const YamlPlace& place) {
+  const YamlPlace scale = place.at("scale");
+  const YamlPlace dimensions = place.at("dimensions");
+  if (scale.present() && dimensions.present())
+    dimensions.fail("and scale are two names for one thing; one is allowed");
+  const YamlPlace& given = scale.present() ? scale : dimensions;
+  if (!given.present()) return Eigen::Vector3d::Ones();
+  const Eigen::Vector3d factors = given.vector();
+  if (!(factors.cwiseAbs().minCoeff() > 0.0)) given.fail("must hold factors other than 0");
+  return factors;
+}
+
 class SceneReader {
  public:
-  explicit SceneReader(const InputSource& source) : source_(source), meshes_(source) {}
+  explicit SceneReader(const InputSource& source)
+      : source_(source), meshes_(source), frames_(source) {}
   World read(const YamlPlace& root);
 
  private:
-  void readTransforms(const YamlPlace& list);
   void readObject(const YamlPlace& unnamed);
-  Eigen::Isometry3d frameOf(const YamlPlace& object);
   void addShapes(const YamlPlace& object, const char* shapesKey, const char* posesKey,
                  const Eigen::Isometry3d& world_from_object, WorldBody& body);
   Shape readMesh(const YamlPlace& place, const std::string& id);
 
   const InputSource& source_;
   MeshStore meshes_;
+  SceneFrames frames_;
   World world_;
-  /// Pose of a named frame in the frame named beside it.
-  std::map<std::string, std::pair<std::string, Eigen::Isometry3d>> transforms_;
-  std::set<std::string> unknownFrames_;
 };
-
-void refuseOctomap(const YamlPlace& stamped) {
-  if (!stamped.present()) return;
-  const YamlPlace map = stamped.at("octomap");
-  if (!map.present()) return;
-  const YamlPlace data = map.at("data");  // scenes often carry an empty map
-  if (!data.present() || (data.isSequence() && data.elements().empty())) return;
-  data.fail("holds an octomap, which is not supported in a scene");
-}
 
 World SceneReader::read(const YamlPlace& root) {
   if (!root.isMap()) root.fail("a planning scene must be a mapping");
+  root.allowOnly({"name", "robot_state", "robot_model_name", "fixed_frame_transforms",
+                  "allowed_collision_matrix", "link_padding", "link_scale", "object_colors",
+                  "world", "collision_objects", "is_diff"});
   const YamlPlace world = root.at("world");
   const YamlPlace outer = root.at("collision_objects");
+  world.allowOnly({"collision_objects", "octomap"});
   const YamlPlace inner = world.present() ? world.at("collision_objects") : world;
   if (inner.present() && outer.present()) {
     outer.fail("stand at the top and in 'world' too; one place is allowed");
@@ -127,13 +131,8 @@ World SceneReader::read(const YamlPlace& root) {
   if (!world.present() && !outer.present()) {
     root.fail("a planning scene needs 'world' or 'collision_objects'");
   }
-  if (world.present()) refuseOctomap(world.at("octomap"));
-  if (const YamlPlace state = root.at("robot_state"); state.isMap()) {
-    for (const YamlPlace& attached : state.at("attached_collision_objects").elements()) {
-      attached.warn("is ignored: attached objects are not part of the world");
-    }
-  }
-  readTransforms(root.at("fixed_frame_transforms"));
+  checkSceneExtras(root);
+  frames_.read(root.at("fixed_frame_transforms"));
   for (const YamlPlace& object :
        (inner.present() ? inner.called("collision_objects") : outer).elements()) {
     readObject(object);
@@ -141,45 +140,14 @@ World SceneReader::read(const YamlPlace& root) {
   return std::move(world_);
 }
 
-void SceneReader::readTransforms(const YamlPlace& list) {
-  for (const YamlPlace& entry : list.elements()) {
-    const YamlPlace header = entry.at("header");
-    const YamlPlace frame = header.present() ? header.at("frame_id") : header;
-    const YamlPlace transform = entry.at("transform");
-    if (!transform.present()) transform.fail("is missing");
-    transforms_.emplace(
-        entry.at("child_frame_id").text(),
-        std::pair{frame.present() ? frame.text() : "", transform.pose("translation", "rotation")});
-  }
-}
-
-/// The frame an object's poses are given in, from the fixed transforms; the model frame otherwise.
-Eigen::Isometry3d SceneReader::frameOf(const YamlPlace& object) {
-  Eigen::Isometry3d model_from_frame = Eigen::Isometry3d::Identity();
-  const YamlPlace header = object.at("header");
-  const YamlPlace place = header.present() ? header.at("frame_id") : header;
-  std::string frame = place.present() ? place.text() : "";
-  if (!transforms_.contains(frame)) {
-    const bool known = frame.empty() || frame == "world" || frame == source_.options().modelFrame;
-    if (!known && unknownFrames_.insert(frame).second) {
-      place.warn("'" + frame + "' is taken for the robot's model frame");
-    }
-    return model_from_frame;
-  }
-  std::set<std::string> seen;
-  for (auto at = transforms_.find(frame); at != transforms_.end(); at = transforms_.find(frame)) {
-    if (!seen.insert(frame).second) break;  // a root frame is often listed as its own child
-    frame = at->second.first;
-    model_from_frame = at->second.second * model_from_frame;
-  }
-  return model_from_frame;
-}
-
 void SceneReader::readObject(const YamlPlace& unnamed) {
   const std::string id = unnamed.at("id").text();
   const YamlPlace object = unnamed.called("object '" + id + "':");
   if (id.empty()) unnamed.at("id").fail("must not be empty");
   if (world_.find(id) != nullptr) object.fail("a second object has this id");
+  object.allowOnly({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes",
+                    "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses",
+                    "operation"});
   if (const YamlPlace operation = object.at("operation"); operation.present()) {
     const std::string given = lowerCase(operation.text());
     if (given != "0" && given != "add" && !(given.size() == 1 && given[0] == '\0')) {
@@ -187,7 +155,7 @@ void SceneReader::readObject(const YamlPlace& unnamed) {
     }
   }
   const Eigen::Isometry3d world_from_object =
-      frameOf(object) * object.at("pose").pose("position", "orientation");
+      frames_.model_from(object.at("header")) * object.at("pose").pose("position", "orientation");
   WorldBody body;
   body.name = id;
   addShapes(object, "primitives", "primitive_poses", world_from_object, body);
@@ -223,16 +191,16 @@ void SceneReader::addShapes(const YamlPlace& object, const char* shapesKey, cons
 
 Shape SceneReader::readMesh(const YamlPlace& place, const std::string& id) {
   if (const YamlPlace resource = place.at("resource"); resource.present()) {
-    const YamlPlace given = place.at("scale");
-    const Eigen::Vector3d scale = given.present() ? given.vector() : Eigen::Vector3d::Ones();
-    if (!(scale.cwiseAbs().minCoeff() > 0.0)) given.fail("must hold factors other than 0");
-    return meshes_.mesh(resource.text(), scale, resource.line(), "object '" + id + "'");
+    place.allowOnly({"resource", "scale", "dimensions"});
+    return meshes_.mesh(resource.text(), meshScale(place), resource.line(), "object '" + id + "'");
   }
+  place.allowOnly({"vertices", "triangles"});
   std::vector<Eigen::Vector3d> vertices;
   for (const YamlPlace& vertex : place.at("vertices").elements())
     vertices.push_back(vertex.vector());
   std::vector<Eigen::Vector3i> triangles;
   for (const YamlPlace& entry : place.at("triangles").elements()) {
+    entry.allowOnly({"vertex_indices"});
     const YamlPlace indices = entry.isMap() ? entry.at("vertex_indices") : entry;
     const auto corners = indices.elements();
     if (corners.size() != 3) indices.fail("must hold 3 vertex indices");

@@ -3,12 +3,33 @@
 
 #include <yaml-cpp/depthguard.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "io/numbers.hpp"
 
 namespace swept::detail {
+
+namespace {
+
+std::string listed(YamlPlace::Keys keys) {
+  std::string text;
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    if (key != keys.begin()) text += key + 1 == keys.end() ? " and " : ", ";
+    text += *key;
+  }
+  return text;
+}
+
+/// 8 in YAML 1.1, 10 in YAML 1.2.
+bool mayBeOctal(std::string_view number) {
+  if (number.starts_with('+') || number.starts_with('-')) number.remove_prefix(1);
+  return number.size() > 1 && number.front() == '0' &&
+         number.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
 
 YamlPlace::YamlPlace(const YAML::Node& node, std::string name, int line, const InputSource* source)
     : node_(node), name_(std::move(name)), line_(line), source_(source) {
@@ -18,7 +39,13 @@ YamlPlace::YamlPlace(const YAML::Node& node, std::string name, int line, const I
 
 YamlPlace YamlPlace::parse(const std::string& text, const InputSource& source) {
   try {
-    return {YAML::Load(text), "", 1, &source};
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    // Messages that ROS prints end with the line that begins another one.
+    for (std::size_t i = 1; i < documents.size(); ++i) {
+      if (documents[i].IsNull()) continue;
+      source.fail(documents[i].Mark().line + 1, "a second document begins; one is allowed");
+    }
+    return {documents.empty() ? YAML::Node() : documents.front(), "", 1, &source};
   } catch (const YAML::DeepRecursion& error) {
     source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
   } catch (const YAML::Exception& error) {
@@ -32,6 +59,27 @@ void YamlPlace::fail(const std::string& message) const {
 
 void YamlPlace::warn(const std::string& message) const {
   source_->warn(line_, name_.empty() ? message : name_ + " " + message);
+}
+
+void YamlPlace::failAt(const YAML::Node& key, const std::string& message) const {
+  source_->fail(key.Mark().line + 1, (name_.empty() ? "the file" : name_) + " " + message);
+}
+
+const YamlPlace& YamlPlace::allowOnly(Keys keys) const {
+  if (!isMap()) return *this;
+  std::vector<bool> seen(keys.size());
+  for (const auto& entry : node_) {
+    const YAML::Node& key = entry.first;
+    if (!key.IsScalar()) failAt(key, "has a key that is not a single value");
+    const auto known = std::find(keys.begin(), keys.end(), key.Scalar());
+    if (known == keys.end()) {
+      failAt(key, "has the unknown key '" + key.Scalar() + "'; allowed are " + listed(keys));
+    }
+    std::vector<bool>::reference mark = seen[static_cast<std::size_t>(known - keys.begin())];
+    if (mark) failAt(key, "has the key '" + key.Scalar() + "' twice");
+    mark = true;
+  }
+  return *this;
 }
 
 YamlPlace YamlPlace::called(std::string name) const {
@@ -71,6 +119,7 @@ double YamlPlace::number() const {
   const std::string given = text();
   const auto value = parseNumber(given);
   if (!value) fail("is '" + given + "'; it must be a finite number");
+  if (mayBeOctal(given)) fail("is '" + given + "'; it must not begin with 0");
   return *value;
 }
 
@@ -82,15 +131,16 @@ int YamlPlace::integer() const {
   return static_cast<int>(value);
 }
 
-std::vector<double> YamlPlace::numbers(std::initializer_list<const char*> keys) const {
+std::vector<double> YamlPlace::numbers(Keys keys) const {
   std::vector<double> values;
   if (isMap()) {
-    for (const char* key : keys) values.push_back(at(key).number());
+    allowOnly(keys);
+    for (const std::string_view key : keys) values.push_back(at(std::string(key)).number());
     return values;
   }
   if (!isSequence() || node_.size() != keys.size()) {
     std::string names;
-    for (const char* key : keys) names += (names.empty() ? "" : ", ") + std::string(key);
+    for (const std::string_view key : keys) names += (names.empty() ? "" : ", ") + std::string(key);
     fail("must be " + std::to_string(keys.size()) + " numbers [" + names + "]");
   }
   for (const YamlPlace& element : elements()) values.push_back(element.number());
@@ -102,20 +152,23 @@ Eigen::Vector3d YamlPlace::vector() const {
   return {values[0], values[1], values[2]};
 }
 
+Eigen::Matrix3d YamlPlace::rotation() const {
+  const auto q = numbers({"x", "y", "z", "w"});
+  const auto unit = unitQuaternion({q[0], q[1], q[2], q[3]});
+  if (!unit) {
+    const double norm = Eigen::Vector4d(q[0], q[1], q[2], q[3]).norm();
+    fail("is a quaternion (x, y, z, w) of length " + formatNumber(norm) +
+         "; it must be 1 to within 0.01");
+  }
+  return unit->toRotationMatrix();
+}
+
 Eigen::Isometry3d YamlPlace::pose(const char* translation, const char* rotation) const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (!present()) return pose;
+  allowOnly({translation, rotation});
   if (const YamlPlace p = at(translation); p.present()) pose.translation() = p.vector();
-  if (const YamlPlace r = at(rotation); r.present()) {
-    const auto q = r.numbers({"x", "y", "z", "w"});
-    const auto unit = unitQuaternion({q[0], q[1], q[2], q[3]});
-    if (!unit) {
-      const double norm = Eigen::Vector4d(q[0], q[1], q[2], q[3]).norm();
-      r.fail("is a quaternion (x, y, z, w) of length " + formatNumber(norm) +
-             "; it must be 1 to within 0.01");
-    }
-    pose.linear() = unit->toRotationMatrix();
-  }
+  if (const YamlPlace r = at(rotation); r.present()) pose.linear() = r.rotation();
   return pose;
 }
 

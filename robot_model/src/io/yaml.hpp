@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/input_source.hpp"
@@ -17,7 +18,7 @@ namespace swept::detail {
 /// allowed. An absent or null place counts as absent.
 class YamlPlace {
  public:
-  /// The whole document. Throws InputError when the text is no YAML.
+  /// The whole document. Throws InputError when the text is no YAML, or has several documents.
   static YamlPlace parse(const std::string& text, const InputSource& source);
 
   // Assigning a YAML::Node rewires the document it belongs to; copies only refer to it.
@@ -31,6 +32,11 @@ class YamlPlace {
   [[noreturn]] void fail(const std::string& message) const;
   void warn(const std::string& message) const;
 
+  using Keys = std::initializer_list<std::string_view>;
+  /// Fails for a key of a mapping that is not among these, and for one that it has twice: what is
+  /// misspelt would be ignored without a word. This, for chains; any but a mapping passes.
+  const YamlPlace& allowOnly(Keys keys) const;
+
   /// Same place under another name for messages.
   YamlPlace called(std::string name) const;
   /// Entry `key` of a mapping; an error when this is none.
@@ -39,17 +45,22 @@ class YamlPlace {
   std::vector<YamlPlace> elements() const;
 
   std::string text() const;  ///< of a scalar
+  /// One that is finite and decimal. What YAML takes for a number besides (`.inf`, `0x10`, `1_000`,
+  /// `1:30`), and `010`, which is 8 to some readers, is refused.
   double number() const;
   int integer() const;
   /// `count` numbers from a list or from the `keys` of a mapping.
-  std::vector<double> numbers(std::initializer_list<const char*> keys) const;
+  std::vector<double> numbers(Keys keys) const;
   Eigen::Vector3d vector() const;
-  /// Rotation and translation by these keys; what is absent is identity.
+  /// A quaternion x, y, z, w of length 1 to within 0.01.
+  Eigen::Matrix3d rotation() const;
+  /// Rotation and translation by these keys, the only ones; what is absent is identity.
   Eigen::Isometry3d pose(const char* translation, const char* rotation) const;
 
  private:
   YamlPlace(const YAML::Node& node, std::string name, int line, const InputSource* source);
   std::string join(const std::string& part) const;
+  [[noreturn]] void failAt(const YAML::Node& key, const std::string& message) const;
 
   YAML::Node node_;  ///< null when absent
   std::string name_;
