@@ -141,6 +141,39 @@ TEST(MeshFiles, CracksOfSinglePrecisionAreNoHoles) {
   EXPECT_THAT(warnings.lines.front(), testing::HasSubstr("mesh 'open.stl' is an open surface"));
 }
 
+/// A face with two equal corners is dropped when the mesh is built, and with it the line that it
+/// is.
+TEST(MeshFiles, FacesThatAreLinesOfNoOtherFaceAreRefused) {
+  const test::TemporaryFolder folder;
+  const std::string cube = test::kCubeObj;
+  folder.write("edge.obj", cube + "f 1 1 2\nf 7 7 7\nf 3 4 3\n");
+  folder.write("line.obj", cube + "v 0.5 0.5 3\nv 0.5 0.5 3\nf 5 9 10\n");
+  folder.write("point.obj", cube + "v 0.5 0.5 3\nf 9 9 9\n");
+  folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n");
+  const auto error = [&](const std::string& name, const std::string& message) {
+    EXPECT_EQ(
+        test::inputError([&] { withMeshes(folder, {"filename='" + name + "' scale='1 1 2'"}); }),
+        (folder.path() / "m.urdf").string() + ":2: error: mesh '" + name +
+            "' of link 'a' has a face, its triangle " + message +
+            ", in m, and no edge of another; faces must have three distinct corners");
+  };
+  error("line.obj", "12 counted from 0, that is only the line from (0, 0, 2) to (0.5, 0.5, 6)");
+  error("point.obj",
+        "12 counted from 0, that is only the line from (0.5, 0.5, 6) to (0.5, 0.5, 6)");
+  error("lines.obj", "0 counted from 0, that is only the line from (0, 0, 0) to (1, 0, 0)");
+  EXPECT_TRUE(mesh(*withMeshes(folder, {"filename='edge.obj'"}), 0).isClosed());
+}
+
+TEST(MeshFiles, MirroredSolidsAreSolid) {
+  const test::TemporaryFolder folder;
+  folder.write("cube.obj", test::kCubeObj);
+  const auto robot = withMeshes(
+      folder, {"filename='cube.obj' scale='-1 1 1'", "filename='cube.obj' scale='-1 -2 -1'"});
+  EXPECT_TRUE(mesh(*robot, 0).encloses({-0.5, 0.5, 0.5}));
+  EXPECT_FALSE(mesh(*robot, 0).encloses({0.5, 0.5, 0.5}));
+  EXPECT_TRUE(mesh(*robot, 1).encloses({-0.5, -1.5, -0.5}));
+}
+
 /// At 10 km single precision has steps of 1 mm, and rounds by half of one.
 TEST(MeshFiles, CoordinatesThatSinglePrecisionMovesAreRefused) {
   const test::TemporaryFolder folder;
