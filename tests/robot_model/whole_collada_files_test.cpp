@@ -103,7 +103,11 @@ TEST(WholeColladaFiles, GroupsOfFaces) {
 
 TEST(WholeColladaFiles, Positions) {
   expectSaid("m.dae", kDae,
-             {{"<param name=\"X\" type=\"float\"/><param name=\"Y\"",
+             {{"source=\"#v\" offset=\"0\"/><p>", "source=\"#p\" offset=\"0\"/><p>",
+               kLine + "10: <input> does not name the <vertices> of its <mesh>"},
+              {"<vertices id=\"v\">", "<vertices>",
+               kLine + "9: <vertices> needs an 'id', and to be the only one"},
+              {"<param name=\"X\" type=\"float\"/><param name=\"Y\"",
                "<param name=\"Y\" type=\"float\"/><param name=\"X\"",
                kLine + "9: <input> needs a source whose <param> are X, Y and Z, in this order"},
               {">0 0 0 1 0 0 0 2", ">0 0 0 1 nan 0 0 2",
@@ -126,6 +130,8 @@ TEST(WholeColladaFiles, Scenes) {
         kLine + "14: <geometry> with the id 'h' has faces, and no node of the scene shows it"},
        {"<instance_node url=\"#square\"/>", "<instance_node url=\"#round\"/>",
         kLine + "26: <instance_node> has url=\"#round\"; it must be # and an id of this file"},
+       {"<node id=\"n\">", "<node id=\"n\" name=\"square\">",
+        kLine + "26: <instance_node> names the id of one node, which is the name of another"},
        {"<instance_node url=\"#square\"/>", "<instance_node url=\"#m\"/>",
         kLine +
             "26: <node> is one too many: 1000000 nodes are the most that are shown, 500 in each "

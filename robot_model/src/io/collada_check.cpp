@@ -44,6 +44,7 @@ class SceneReader {
   void collectGeometry(const XMLElement& element);
   double unit() const;
   const XMLElement* visualScene() const;
+  const XMLElement& instancedNode(const XMLElement& instance) const;
   const XMLElement& named(const XMLElement& element,
                           const std::map<std::string, const XMLElement*>& all) const;
   std::vector<double> numbers(const XMLElement& element, std::size_t count) const;
@@ -55,6 +56,7 @@ class SceneReader {
   const XMLElement& root_;
   const InputSource& source_;
   std::map<std::string, const XMLElement*> nodes_, scenes_;
+  std::multimap<std::string, const XMLElement*> nodesByName_;
   std::map<std::string, Geometry> geometries_;
   int nodesShown_ = 0;
   MeshClaim claim_;
@@ -86,6 +88,7 @@ void SceneReader::collect(const XMLElement& element) {
     }
     if (name == "node" || name == "visual_scene") {
       auto& all = name == "node" ? nodes_ : scenes_;
+      if (const char* label = e->Attribute("name")) nodesByName_.emplace(label, e);
       const char* id = e->Attribute("id");
       if (id != nullptr && !all.emplace(id, e).second)
         fail(*e, std::string("is a second one with the id '") + id + "'");
@@ -121,6 +124,15 @@ const XMLElement* SceneReader::visualScene() const {
   const XMLElement* instance =
       scene != nullptr ? scene->FirstChildElement("instance_visual_scene") : nullptr;
   return instance != nullptr ? &named(*instance, scenes_) : nullptr;
+}
+
+const XMLElement& SceneReader::instancedNode(const XMLElement& instance) const {
+  const XMLElement& node = named(instance, nodes_);
+  const auto [first, last] = nodesByName_.equal_range(colladaTarget(instance, "url"));
+  // Assimp takes either.
+  if (std::any_of(first, last, [&](const auto& other) { return other.second != &node; }))
+    fail(instance, "names the id of one node, which is the name of another");
+  return node;
 }
 
 std::vector<double> SceneReader::numbers(const XMLElement& element, std::size_t count) const {
@@ -197,7 +209,7 @@ void SceneReader::showChild(const XMLElement& child, Eigen::Matrix4d& file_from_
   if (name == "node") {
     showNode(child, file_from_node, depth + 1);
   } else if (name == "instance_node") {
-    showNode(named(child, nodes_), file_from_node, depth + 1);
+    showNode(instancedNode(child), file_from_node, depth + 1);
   } else if (name == "instance_geometry") {
     showGeometry(child, file_from_node);
   } else if (name == "instance_controller" || name == "skew" || name == "lookat") {

@@ -111,6 +111,7 @@ class MeshReader {
   std::map<std::string, Count> sizes_;  ///< entries of each <source> and <vertices>
   std::vector<Eigen::Vector3d> positions_;
   std::vector<bool> used_;
+  std::string vertices_;  ///< id of <vertices>
   MeshClaim numbers_;
   ColladaMesh mesh_;
 };
@@ -188,14 +189,16 @@ void MeshReader::readPositions(const XMLElement& input) {
 }
 
 void MeshReader::readVertices(const XMLElement& vertices) {
+  const char* id = vertices.Attribute("id");
+  if (id == nullptr || !vertices_.empty()) fail(vertices, "needs an 'id', and to be the only one");
+  vertices_ = id;
   Count size = std::numeric_limits<Count>::max();
   forEachChild(vertices, "input", [&](const XMLElement& input) {
     size = std::min(size, sizeOf(input));
     const char* semantic = input.Attribute("semantic");
     if (semantic != nullptr && std::string_view(semantic) == "POSITION") readPositions(input);
   });
-  if (const char* id = vertices.Attribute("id"))
-    sizes_[id] = std::min<Count>(size, positions_.size());
+  sizes_[vertices_] = std::min<Count>(size, positions_.size());
 }
 
 Layout MeshReader::layoutOf(const XMLElement& group) const {
@@ -209,6 +212,8 @@ Layout MeshReader::layoutOf(const XMLElement& group) const {
     layout.limits[offset] = std::min(layout.limits[offset], sizeOf(input));
     const char* semantic = input.Attribute("semantic");
     if (semantic == nullptr || std::string_view(semantic) != "VERTEX") return;
+    if (colladaTarget(input, "source") != vertices_)
+      fail(input, "does not name the <vertices> of its <mesh>");
     if (layout.hasVertex) fail(input, "is a second one of vertices; one is allowed");
     layout.hasVertex = true;
     layout.vertex = offset;
