@@ -242,6 +242,91 @@ TEST(BvTree, UserRulesAreRules) {
   EXPECT_GT(model.tree().node(0).volume.upper.x(), 1.2);
 }
 
+/// Refits used to be to the children, whatever the rule, and left out what a rule had added.
+TEST(BvhModel, RefitsKeepTheRuleOfItsOwn) {
+  const auto padded = [](const FitInput<Obb>& node) { return FitToPoints{}(node).inflated(0.5); };
+  for (const Refresh refresh : {Refresh::Refit, Refresh::Rebuild}) {
+    auto model = modelOf<Obb>(sample(), {MeanSplit{}, padded, 2});
+    const Soup after = deformed(sample(), 0.3);
+    model.beginUpdate();
+    model.updateVertices(0, after.vertices);
+    model.endUpdate(refresh);
+    checkTree(model);
+    for (const auto& node : model.tree().nodes()) {
+      for (int slot = node.first; slot < node.first + node.count; ++slot) {
+        for (const int vertex : model.triangles()[model.tree().order()[slot]]) {
+          for (int k = 0; k < 3; ++k) {
+            const Vector3d aside = 0.499 * Vector3d::Unit(k);
+            EXPECT_TRUE(node.volume.contains(model.vertices()[vertex] + aside));
+            EXPECT_TRUE(node.volume.contains(model.previousVertices()[vertex] - aside));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(BvTree, RulesThatLosePrimitivesAreRefused) {
+  const auto twice = [](std::span<SplitItem> items) {
+    items.front() = items.back();
+    return items.size() / 2;
+  };
+  EXPECT_THAT(messageOf([&] {
+                modelOf<Aabb>(sample(), {twice, FitToPoints{}, 1});
+              }),
+              HasSubstr("BvTree: the split rule has lost primitive 0 of 224; allowed: to reorder"));
+}
+
+TEST(BvTree, OtherPrimitivesThanAtBuildAreRefused) {
+  const std::vector<Vector3d> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  const std::vector<double> radii(4, 0.1);
+  const std::span<const Vector3d> four = std::span(points).first(4);
+  EXPECT_EQ(messageOf([&] {
+              BvTree<Aabb>::build({four, 0});
+            }),
+            "BvTree: 0 points per primitive; allowed: at least 1");
+  EXPECT_EQ(messageOf([&] {
+              BvTree<Aabb>::build({points, 1, radii});
+            }),
+            "BvTree: 4 radii of 5 primitives; allowed: as many, or none");
+  auto tree = BvTree<Aabb>::build({four, 1, radii});
+  EXPECT_EQ(messageOf([&] { tree.refit({points}); }),
+            "BvTree: refit to 5 primitives; allowed: 4, as at build");
+  EXPECT_EQ(messageOf([&] { tree.refit({four.first(3)}); }),
+            "BvTree: refit to 3 primitives; allowed: 4, as at build");
+  EXPECT_EQ(messageOf([&] {
+              tree.refit({four, 1, std::span(radii).first(2)});
+            }),
+            "BvTree: 2 radii of 4 primitives; allowed: as many, or none");
+  EXPECT_NO_THROW(tree.refit({four, 1}));
+}
+
+/// What is given may be what is overwritten, or lie in memory that has to grow.
+TEST(BvhModel, VerticesMayBeItsOwn) {
+  BvhModel<Aabb> model;
+  model.begin();
+  model.addMesh(sample().vertices, sample().triangles);
+  for (int i = 0; i < 4; ++i) model.addMesh(model.vertices(), model.triangles());
+  const std::vector<Vector3d> before = model.vertices();
+  const std::size_t count = sample().vertices.size();
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_EQ(before[i], before[i % count]) << i;
+  for (const Vector3i& t : model.triangles())
+    ASSERT_LT(static_cast<std::size_t>(t.maxCoeff()), before.size());
+  model.end();
+  EXPECT_EQ(model.triangles().size(), 16 * sample().triangles.size());
+  checkTree(model);
+  for (const bool later : {true, false}) {
+    const std::vector<Vector3d> old = model.vertices();
+    model.beginReplace();
+    const std::span<const Vector3d> own = model.vertices();
+    model.replaceVertices(later ? 1 : 0, later ? own.first(own.size() - 1) : own.subspan(1));
+    model.endReplace();
+    for (std::size_t i = 1; i < old.size(); ++i)
+      ASSERT_EQ(model.vertices()[later ? i : i - 1], old[later ? i - 1 : i]) << i;
+    checkTree(model);
+  }
+}
+
 TEST(BvhModel, MemoryIsCounted) {
   const auto small = modelOf<Aabb>(sample());
   const auto large = modelOf<Aabb>(test::torusSoup(64, 32, 1.0, 0.2));

@@ -169,5 +169,43 @@ TEST(FrontList, FollowsRefittedModels) {
   EXPECT_LT(touching, 42);
 }
 
+/// Pairs of nodes of trees that are gone: touching triangles were missed.
+TEST(FrontList, NoticesTreesThatAreNotItsOwn) {
+  std::mt19937 random(56);
+  test::Soup soup = test::blobSoup(random, 8, 12);
+  auto a = modelOf<Obb>(soup);
+  const auto b = modelOf<Obb>(test::blobSoup(random, 8, 12));
+  const auto small = modelOf<Obb>(test::blobSoup(random, 3, 4));
+  const auto copy = b;
+  FrontList front;
+  MeshCollisionResult scratch;
+  MeshCollisionResult warm;
+  const auto compare = [&](const BvhModel<Obb>& first, const BvhModel<Obb>& second) {
+    Isometry3d pose = Isometry3d::Identity();
+    pose.translation().x() = 0.7;
+    collideMeshes(first, second, pose, {kAll}, scratch);
+    collideMeshes(first, second, pose, {kAll}, warm, &front);
+    std::sort(scratch.pairs.begin(), scratch.pairs.end());
+    std::sort(warm.pairs.begin(), warm.pairs.end());
+    EXPECT_EQ(warm.pairs, scratch.pairs);
+    EXPECT_FALSE(warm.pairs.empty());
+  };
+  for (int i = 0; i < 10; ++i) {
+    std::rotate(soup.vertices.begin(), soup.vertices.begin() + 7, soup.vertices.end());
+    a.beginReplace();
+    a.replaceVertices(0, soup.vertices);
+    a.endReplace(i % 3 == 0 ? Refresh::Refit : Refresh::Rebuild);
+    compare(a, b);
+    if (i % 4 == 1) compare(b, a);
+    if (i % 4 == 2) compare(small, b);
+    if (i % 4 == 3) compare(a, small);
+  }
+  // Those of a copy are: the front stays, and spares tests.
+  compare(a, b);
+  compare(a, b);
+  compare(a, copy);
+  EXPECT_LT(warm.effort.bvTests, scratch.effort.bvTests);
+}
+
 }  // namespace
 }  // namespace swept

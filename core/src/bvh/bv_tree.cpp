@@ -1,9 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/bvh/bv_tree.hpp"
 
+#include <atomic>
+#include <stdexcept>
+#include <string>
+
 namespace swept {
 
 namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("BvTree: " + what);
+}
+
+void requireUsable(const PrimitivePoints& primitives) {
+  if (primitives.perPrimitive < 1) refuse("0 points per primitive; allowed: at least 1");
+  const std::size_t count = primitives.count();
+  const std::size_t radii = primitives.radii.size();
+  if (radii == 0 || radii == count) return;
+  refuse(std::to_string(radii) + " radii of " + std::to_string(count) +
+         " primitives; allowed: as many, or none");
+}
+
+/// Each primitive once, whatever a rule did to the items.
+void requireAll(const std::vector<int>& order) {
+  std::vector<bool> found(order.size(), false);
+  for (const int primitive : order) {
+    if (primitive >= 0 && static_cast<std::size_t>(primitive) < order.size())
+      found[static_cast<std::size_t>(primitive)] = true;
+  }
+  const auto lost = std::find(found.begin(), found.end(), false);
+  if (lost == found.end()) return;
+  refuse("the split rule has lost primitive " + std::to_string(lost - found.begin()) + " of " +
+         std::to_string(order.size()) + "; allowed: to reorder");
+}
 
 std::vector<SplitItem> itemsOf(const PrimitivePoints& primitives) {
   const std::size_t per = primitives.perPrimitive;
@@ -61,16 +91,32 @@ class TopologyBuilder {
 
 TreeTopology TreeTopology::build(const PrimitivePoints& primitives, const SplitFunction& split,
                                  int maxLeaf) {
-  if (maxLeaf < 1)
-    throw std::invalid_argument("BvTree: maxLeaf is " + std::to_string(maxLeaf) +
-                                "; allowed: at least 1");
+  if (maxLeaf < 1) refuse("maxLeaf is " + std::to_string(maxLeaf) + "; allowed: at least 1");
+  requireUsable(primitives);
   std::vector<SplitItem> items = itemsOf(primitives);
   TreeTopology topology;
   const TopologyBuilder builder(items, split, maxLeaf, topology);
   topology.order.reserve(items.size());
   for (const SplitItem& item : items) topology.order.push_back(item.primitive);
+  requireAll(topology.order);
   return topology;
 }
+
+namespace detail {
+
+std::uint64_t nextTreeShape() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+void requireAsAtBuild(const PrimitivePoints& primitives, std::size_t count) {
+  requireUsable(primitives);
+  if (primitives.count() == count) return;
+  refuse("refit to " + std::to_string(primitives.count()) +
+         " primitives; allowed: " + std::to_string(count) + ", as at build");
+}
+
+}  // namespace detail
 
 template class BvTree<Aabb>;
 template class BvTree<Obb>;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "geometry/point_text.hpp"
 
@@ -29,6 +31,20 @@ std::string stateMessage(std::string_view call, BvhState state,
 
 [[noreturn]] void refuse(std::string_view call, const std::string& what) {
   throw std::invalid_argument("BvhModel::" + std::string(call) + ": " + what);
+}
+
+/// Appends what `made` makes of each. The old memory stays until all are there: it may be theirs.
+template <typename Item, typename Make>
+void appendTo(std::vector<Item>& to, std::span<const Item> items, const Make& made) {
+  if (to.capacity() - to.size() >= items.size()) {
+    for (std::size_t i = 0; i < items.size(); ++i) to.push_back(made(items[i]));
+    return;
+  }
+  std::vector<Item> longer;
+  longer.reserve(std::max(to.size() + items.size(), 2 * to.capacity()));
+  longer.assign(to.begin(), to.end());
+  for (const Item& item : items) longer.push_back(made(item));
+  to = std::move(longer);
 }
 
 }  // namespace
@@ -144,10 +160,10 @@ int ModelGeometry::addMesh(std::span<const Vector3d> vertices,
   }
   const auto firstVertex = static_cast<int>(vertices_.size());
   const auto firstTriangle = static_cast<int>(triangles_.size());
-  vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
+  appendTo(vertices_, vertices, [](const Vector3d& v) { return v; });
   giveRadii();
-  triangles_.reserve(triangles_.size() + triangles.size());
-  for (const Vector3i& t : triangles) triangles_.emplace_back(t.array() + firstVertex);
+  appendTo(triangles_, triangles,
+           [=](const Vector3i& t) { return Vector3i(t.array() + firstVertex); });
   return firstTriangle;
 }
 
@@ -195,8 +211,14 @@ void ModelGeometry::overwrite(std::string_view call, std::size_t first,
                      " on of " + std::to_string(vertices_.size()) + "; allowed: those there are");
   }
   for (std::size_t i = 0; i < positions.size(); ++i) requireFinite(call, first + i, positions[i]);
-  std::copy(positions.begin(), positions.end(),
-            vertices_.begin() + static_cast<std::ptrdiff_t>(first));
+  const auto to = vertices_.begin() + static_cast<std::ptrdiff_t>(first);
+  // Positions of ours that are to move on are read from behind, before they are overwritten.
+  const bool isBefore = std::less<>()(positions.data(), vertices_.data() + first);
+  if (isBefore)
+    std::copy_backward(positions.begin(), positions.end(),
+                       to + static_cast<std::ptrdiff_t>(positions.size()));
+  else
+    std::copy(positions.begin(), positions.end(), to);
 }
 
 std::size_t ModelGeometry::pointsPerPrimitive() const {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -42,9 +43,19 @@ struct TreeTopology {
 
   /// Leaves hold at most `maxLeaf` primitives. Below half of the greatest depth nodes are halved
   /// whatever the rule, which bounds the depth for up to 2^30 primitives.
+  /// Throws std::invalid_argument as `BvTree::build` does.
   static TreeTopology build(const PrimitivePoints& primitives, const SplitFunction& split,
                             int maxLeaf);
 };
+
+namespace detail {
+
+/// A number that no call in this process has returned before, and not 0.
+std::uint64_t nextTreeShape();
+/// Throws std::invalid_argument unless a tree of `count` primitives fits these.
+void requireAsAtBuild(const PrimitivePoints& primitives, std::size_t count);
+
+}  // namespace detail
 
 /// Greatest depth of any tree in nodes, so that the depth of a recursion is known.
 inline constexpr int kMaxTreeDepth = 64;
@@ -69,12 +80,14 @@ class BvTree {
   BvTree() = default;  ///< no nodes
 
   /// Top-down. `primitives` are finite and at least one, at most 2^30. Throws std::invalid_argument
-  /// unless maxLeaf >= 1.
+  /// unless maxLeaf >= 1, perPrimitive >= 1 and there are as many radii as primitives or none, and
+  /// for a split rule that does more than reorder what it is given.
   static BvTree build(const PrimitivePoints& primitives, const SplitFunction& split = MeanSplit{},
                       const FitFunction<BV>& fit = defaultFit<BV>(), int maxLeaf = 1);
 
   /// New volumes, bottom-up in linear time, for primitives that moved; the tree keeps its shape.
-  /// `primitives` has as many as at build, in the same order; their points may be more each.
+  /// `primitives` has as many as at build, else std::invalid_argument, in the same order; their
+  /// points may be more each.
   void refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit = FitToChildren{});
 
   /// Depth first, the root first; none in an empty tree.
@@ -84,6 +97,8 @@ class BvTree {
   /// Primitive indices in the order of the leaves.
   const std::vector<int>& order() const { return order_; }
   int depth() const { return depth_; }  ///< nodes on the longest path from the root; <= kMaxDepth
+  /// Which build the tree is of: the same after refits and for copies, else another. 0: no nodes.
+  std::uint64_t shape() const { return shape_; }
   /// On the heap.
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(int);
@@ -95,6 +110,7 @@ class BvTree {
   std::vector<Node> nodes_;
   std::vector<int> order_;
   int depth_ = 0;
+  std::uint64_t shape_ = 0;
 };
 
 template <BoundingVolume BV>
@@ -104,6 +120,7 @@ BvTree<BV> BvTree<BV>::build(const PrimitivePoints& primitives, const SplitFunct
   BvTree tree;
   tree.order_ = std::move(topology.order);
   tree.depth_ = topology.depth;
+  tree.shape_ = detail::nextTreeShape();
   tree.nodes_.reserve(topology.nodes.size());
   const BV unknown = BV::fit({});
   for (const TreeTopology::Node& node : topology.nodes) {
@@ -115,6 +132,7 @@ BvTree<BV> BvTree<BV>::build(const PrimitivePoints& primitives, const SplitFunct
 
 template <BoundingVolume BV>
 void BvTree<BV>::refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit) {
+  detail::requireAsAtBuild(primitives, order_.size());
   const std::size_t per = primitives.perPrimitive;
   // In leaf order, so that the points of any node are one span.
   std::vector<Eigen::Vector3d> points(primitives.points.size());

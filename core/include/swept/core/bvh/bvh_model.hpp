@@ -22,8 +22,9 @@ namespace swept {
 /// How a model builds its hierarchy.
 template <BoundingVolume BV>
 struct BvhOptions {
-  SplitFunction split = MeanSplit{};       ///< how nodes are parted
-  FitFunction<BV> fit = defaultFit<BV>();  ///< how nodes are bounded
+  SplitFunction split = MeanSplit{};  ///< how nodes are parted
+  /// How nodes are bounded; a rule of one's own at refits too, else `FitToChildren` then.
+  FitFunction<BV> fit = defaultFit<BV>();
   int maxLeaf = 2;  ///< primitives per leaf, at least 1; 2: half the memory of 1 and faster queries
 };
 
@@ -98,7 +99,7 @@ void BvhModel<BV>::refresh(Refresh how) {
   if (how == Refresh::Rebuild) {
     tree_ = BvTree<BV>::build(primitives, options_.split, options_.fit, options_.maxLeaf);
   } else {
-    tree_.refit(primitives);
+    tree_.refit(primitives, refitOf(options_.fit));
   }
 }
 

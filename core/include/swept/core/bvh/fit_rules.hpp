@@ -18,7 +18,8 @@ struct FitInput {
   const BV* right = nullptr;                ///< likewise
 };
 
-/// Any callable that bounds a node: the result contains the hull of the points grown by the radius.
+/// Any callable that bounds a node: the result contains the hull of the points grown by the radius,
+/// and may contain more.
 template <BoundingVolume BV>
 using FitFunction = std::function<BV(const FitInput<BV>&)>;
 
@@ -50,6 +51,14 @@ FitFunction<BV> defaultFit() {
   } else {
     return FitToPoints{};
   }
+}
+
+/// At refits: one of the two above makes way for the linear one; a rule of one's own may bound more
+/// than the points, and stays.
+template <BoundingVolume BV>
+FitFunction<BV> refitOf(const FitFunction<BV>& fit) {
+  if (fit.template target<FitToPoints>() == nullptr) return fit;
+  return FitToChildren{};
 }
 
 }  // namespace swept

@@ -39,7 +39,7 @@ class BvhStateError : public std::logic_error {
 
 /// How a model brings its hierarchy up to date.
 enum class Refresh : std::uint8_t {
-  Refit,    ///< new volumes on the same tree: linear; for small changes
+  Refit,    ///< new volumes on the same tree: linear, as far as the fit rule is; for small changes
   Rebuild,  ///< a new tree
 };
 
@@ -47,7 +47,8 @@ enum class Refresh : std::uint8_t {
 /// state.
 ///
 /// Every call throws BvhStateError in a state that does not allow it, and std::invalid_argument,
-/// with the element and the value, for bad input; either leaves the model as it was.
+/// with the element and the value, for bad input; either leaves the model as it was. Spans may be
+/// of the model's own vertices and triangles.
 class ModelGeometry {
  public:
   /// Of the model, see BvhState.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace swept {
 /// Chitta, Manocha 2012, section III-D).
 ///
 /// Right for any motion between two traversals; cheaper from scratch when the motion is small,
-/// since the volumes above the front need no test. Belongs to one pair of hierarchies: clear() when
-/// the tree of either is rebuilt or the node's descent rule changes (new volumes on the same trees
-/// are fine).
+/// since the volumes above the front need no test. Belongs to one pair of hierarchies:
+/// `collideMeshes` sees by itself when it is asked about others, or either is rebuilt, and starts
+/// anew. For a traversal node of one's own belongTo() does so for trees, clear() for anything else,
+/// also when the node's descent rule changes (new volumes on the same trees are fine).
 ///
 /// Kept as the tree of pairs above the front, so that the front can move up again: two sibling
 /// pairs that are disjoint make way for their parent if that is disjoint too. Asking the parent
@@ -32,6 +34,13 @@ class FrontList {
   void clear() {
     pairs_.clear();
     free_.clear();
+  }
+  /// Forgets everything unless the last call was with the same two, each the `BvTree::shape()` of a
+  /// tree.
+  void belongTo(std::uint64_t first, std::uint64_t second) {
+    const std::array<std::uint64_t, 2> shapes{first, second};
+    if (shapes != shapes_) clear();
+    shapes_ = shapes;
   }
 
  private:
@@ -67,6 +76,7 @@ class FrontList {
 
   std::vector<Pair> pairs_;  ///< [0] is the pair of roots
   std::vector<int> free_;    ///< left children of pairs no longer used
+  std::array<std::uint64_t, 2> shapes_{};
   unsigned turn_ = 0;
 };
 

@@ -94,6 +94,7 @@ void collideMeshes(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Is
   if (!a_from_b.matrix().allFinite()) {
     result.touching = true;
   } else if (front != nullptr) {
+    front->belongTo(a.tree().shape(), b.tree().shape());
     collisionTraverse(node, *front);
   } else {
     collisionTraverse(node);
