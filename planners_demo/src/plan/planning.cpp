@@ -15,6 +15,7 @@
 #include <limits>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "output/text_output.hpp"
 #include "plan/planners.hpp"
@@ -75,12 +76,13 @@ StateSpaceOptions spaceAround(const Checker& checker, const Ends& ends,
     // How far from the link the base will be is not known: as far as both are from the origin.
     const double away = request.goalPose->model_from_link.translation().norm();
     for (const double value : {-away, away}) {
-      std::vector<double>& q = held.emplace_back(ends.start->q);
+      std::vector<double> q = ends.start->q;
       const std::vector<int>& variables = checker.group().variables;
       for (std::size_t i = 0; i < q.size(); ++i) {
         const Variable& variable = checker.robot().variables()[variables[i]];
         if (std::isinf(variable.lower) || std::isinf(variable.upper)) q[i] = value;
       }
+      held.push_back(std::move(q));
     }
   }
   return {.limits = limitsAround(checker.robot(), checker.group(), held)};
