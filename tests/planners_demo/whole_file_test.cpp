@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <climits>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
@@ -37,6 +39,12 @@ std::uintmax_t unfinishedBytes(const TemporaryFolder& folder) {
       if (!gone) return size;
     }
   return 0;
+}
+
+/// Hidden files in the folder.
+std::ptrdiff_t unfinishedNames(const TemporaryFolder& folder) {
+  return std::ranges::count_if(folder.names(),
+                               [](const std::string& name) { return name.starts_with('.'); });
 }
 
 /// The child's life: a file is written, and the signal sent as soon as there are bytes in the one
@@ -103,6 +111,52 @@ TEST(WholeFile, IsLeftAloneByTheSecondInterrupt) {
       ASSERT_TRUE(WIFEXITED(status));
       EXPECT_EQ(WEXITSTATUS(status), 130);
     });
+}
+
+/// Of two files that threads wrote at the same time, one was cleared away.
+TEST(WholeFile, OfSeveralThreadsAreAllLeftAloneByASignal) {
+  constexpr int kMany = 100;
+  bool met = false;
+  for (int i = 0; i < kMany && !met; ++i) {
+    const TemporaryFolder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+      const auto write = [&](const char* name) {
+        writeWholeFile(folder.path(name), std::string(kBytes, 'x'));
+      };
+      const std::thread first(write, "a"), second(write, "b");
+      while (folder.names().size() < 2) std::this_thread::yield();
+      kill(getpid(), SIGTERM);
+      for (;;) pause();
+    }
+    waitpid(child, nullptr, 0);
+    EXPECT_EQ(unfinishedNames(folder), 0);
+    met = folder.names().empty();
+  }
+  EXPECT_TRUE(met);
+}
+
+/// The name that it was written under had 8 bytes more, and was refused once the work was done.
+TEST(WholeFile, MayHaveTheLongestName) {
+  const TemporaryFolder folder;
+  const std::string name(NAME_MAX, 'n');
+  requireWritable(folder.path(name));
+  writeWholeFile(folder.path(name), "new");
+  EXPECT_EQ(folder.read(name), "new");
+  EXPECT_THAT(folder.names(), testing::ElementsAre(name));
+}
+
+TEST(WholeFile, IsRefusedBeforeTheWorkWhenItsNameIsTooLong) {
+  const TemporaryFolder folder;
+  std::string deep = folder.path("d");
+  while (deep.size() + 200 < PATH_MAX) deep += "/" + std::string(150, 'd');
+  deep += "/" + std::string(PATH_MAX - 20 - deep.size(), 'd');
+  std::filesystem::create_directories(deep);
+  deep += "/" + std::string(10, 'f');  // which would fit, without letters for the unfinished file
+  for (const std::string& file : {folder.path(std::string(NAME_MAX + 1, 'n')), deep}) {
+    const std::string refusal = "cannot write '" + file + "': File name too long";
+    EXPECT_THAT([&] { requireWritable(file); }, testing::ThrowsMessage<UsageError>(refusal));
+  }
 }
 
 TEST(WholeFile, IsLeftAloneWhereItMayNotBeWritten) {

@@ -30,7 +30,7 @@ std::array<struct sigaction, kSignals.size()> gBefore;
 
 void onSignal(int) {
   if (gRequests > 0) {
-    removeUnfinishedFile();
+    removeUnfinishedFiles();
     _exit(static_cast<int>(ExitCode::Interrupted));
   }
   gRequests = 1;

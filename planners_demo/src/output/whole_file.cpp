@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <climits>
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <utility>
 
 #include "command_line/exit_code.hpp"
 
@@ -24,48 +26,43 @@ namespace fs = std::filesystem;
 constexpr int kMostLinks = 40;  // in a row, as Linux has it
 constexpr std::array kEnding{SIGINT, SIGTERM, SIGHUP};
 
-// What a signal handler may touch.
-char gUnfinished[PATH_MAX];
-volatile std::sig_atomic_t gIsUnfinished = 0;
+/// Of the name of a file, in that of its unfinished one: names may have as many bytes as they like.
+constexpr std::size_t kNameShown = 100;
+constexpr std::ptrdiff_t kSlots = 16;
 
-std::mutex gUnfinishedMutex;
+struct Slot {
+  char name[PATH_MAX];
+  volatile std::sig_atomic_t used;
+};
+// What a signal handler may touch.
+std::array<Slot, kSlots> gUnfinished;
+
+std::mutex gUnfinishedMutex;  // what is below, and which slots are used
+std::size_t gUsed = 0;
+std::array<bool, kEnding.size()> gTaken;
 
 void onEnding(int signal) {
-  removeUnfinishedFile();
+  removeUnfinishedFiles();
   raise(signal);  // once this returns, with its usual effect
 }
 
-/// While it lives, signals that would end the program remove the file first. Of files that threads
-/// write at the same time, it is one.
-class Unfinished {
- public:
-  explicit Unfinished(const std::string& file) : lock_(gUnfinishedMutex, std::try_to_lock) {
-    if (!lock_ || file.size() >= sizeof gUnfinished) return;
-    std::memcpy(gUnfinished, file.c_str(), file.size() + 1);
-    gIsUnfinished = 1;
-    struct sigaction action = {};
-    action.sa_handler = onEnding;
-    action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
-    for (std::size_t i = 0; i < kEnding.size(); ++i) {
-      struct sigaction before = {};
-      sigaction(kEnding[i], nullptr, &before);
-      taken_[i] = before.sa_handler == SIG_DFL;
-      if (taken_[i]) sigaction(kEnding[i], &action, nullptr);
-    }
+/// Of signals that have another handler, who set it has to see to unfinished files.
+void takeSignals() {
+  struct sigaction action = {};
+  action.sa_handler = onEnding;
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+  for (std::size_t i = 0; i < kEnding.size(); ++i) {
+    struct sigaction before = {};
+    sigaction(kEnding[i], nullptr, &before);
+    gTaken[i] = before.sa_handler == SIG_DFL;
+    if (gTaken[i]) sigaction(kEnding[i], &action, nullptr);
   }
-  ~Unfinished() {
-    if (!lock_) return;
-    for (std::size_t i = 0; i < kEnding.size(); ++i)
-      if (taken_[i]) std::signal(kEnding[i], SIG_DFL);
-    gIsUnfinished = 0;
-  }
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
+}
 
- private:
-  std::unique_lock<std::mutex> lock_;
-  std::array<bool, kEnding.size()> taken_{};
-};
+void giveSignalsBack() {
+  for (std::size_t i = 0; i < kEnding.size(); ++i)
+    if (gTaken[i]) std::signal(kEnding[i], SIG_DFL);
+}
 
 [[noreturn]] void refuse(const fs::path& file, int error) {
   throw UsageError("cannot write '" + file.string() + "': " + std::strerror(error));
@@ -119,17 +116,21 @@ int writeBytes(const fs::path& file, const std::string& text) {
   return close(descriptor) != 0 && error == 0 ? errno : error;
 }
 
+/// Under which name `file` is written before it gets its own.
+std::string unfinishedName(const fs::path& file) {
+  const std::string name = file.filename().string().substr(0, kNameShown);
+  return (folderOf(file) / ("." + name + ".XXXXXX")).string();
+}
+
 int replaceFile(const fs::path& file, const std::string& text) {
-  // Under a name of its own first.
-  std::string temporary = (folderOf(file) / ("." + file.filename().string() + ".XXXXXX")).string();
-  const int descriptor = mkstemp(temporary.data());
+  UnfinishedFile unfinished(unfinishedName(file), 0);
+  const int descriptor = unfinished.descriptor();
   if (descriptor < 0) return errno;
-  const Unfinished unfinished(temporary);
   fchmod(descriptor, modeOf(file));
   int error = writeAll(descriptor, text);
-  if (close(descriptor) != 0 && error == 0) error = errno;
-  if (error == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
-  if (error != 0) unlink(temporary.c_str());
+  if (unfinished.close() != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(unfinished.name().c_str(), file.c_str()) != 0) error = errno;
+  if (error == 0) unfinished.keep();
   return error;
 }
 
@@ -147,8 +148,49 @@ fs::path endOfLinks(const fs::path& file) {
   return end;
 }
 
-void removeUnfinishedFile() {
-  if (gIsUnfinished != 0) unlink(gUnfinished);
+UnfinishedFile::UnfinishedFile(const std::string& pattern, int ending) : name_(pattern) {
+  char* name = name_.data();
+  if (name_.size() < PATH_MAX) {
+    const std::lock_guard lock(gUnfinishedMutex);
+    slot_ = std::ranges::find_if(gUnfinished, [](const Slot& slot) { return slot.used == 0; }) -
+            gUnfinished.begin();
+    if (hasSlot()) {
+      if (gUsed++ == 0) takeSignals();
+      name = std::strcpy(gUnfinished[static_cast<std::size_t>(slot_)].name, pattern.c_str());
+      gUnfinished[static_cast<std::size_t>(slot_)].used = 1;
+    }
+  }
+  // Its name is where handlers look for it before it is there.
+  descriptor_ = mkostemps(name, ending, O_CLOEXEC);
+  name_ = descriptor_ < 0 ? "" : name;
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  close();
+  if (!name_.empty()) unlink(name_.c_str());
+  keep();
+}
+
+int UnfinishedFile::close() {
+  return descriptor_ < 0 ? 0 : ::close(std::exchange(descriptor_, -1));
+}
+
+void UnfinishedFile::keep() {
+  name_.clear();
+  if (!hasSlot()) return;
+  const std::lock_guard lock(gUnfinishedMutex);
+  if (--gUsed == 0) giveSignalsBack();
+  gUnfinished[static_cast<std::size_t>(slot_)].used = 0;
+  slot_ = kSlots;
+}
+
+bool UnfinishedFile::hasSlot() const {
+  return slot_ < kSlots;
+}
+
+void removeUnfinishedFiles() {
+  for (const Slot& slot : gUnfinished)
+    if (slot.used != 0) unlink(slot.name);
 }
 
 void requireWritable(const fs::path& file) {
@@ -166,6 +208,9 @@ void requireWritable(const fs::path& file) {
   requireAccess(file, folder, W_OK | X_OK);
   // It is replaced, for which rights to its folder are enough; but it was protected for a reason.
   if (type == fs::file_type::regular) requireAccess(file, end, W_OK);
+  // Names that are too long, which without this are found out after the work.
+  for (const std::string& name : {end.string(), unfinishedName(end)})
+    if (access(name.c_str(), F_OK) != 0 && errno != ENOENT) refuse(file, errno);
 }
 
 void writeWholeFile(const fs::path& file, const std::string& text) {
