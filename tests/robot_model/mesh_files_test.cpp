@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "input_files.hpp"
+#include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -143,25 +144,36 @@ TEST(MeshFiles, CracksOfSinglePrecisionAreNoHoles) {
 
 /// A face with two equal corners is dropped when the mesh is built, and with it the line that it
 /// is.
-TEST(MeshFiles, FacesThatAreLinesOfNoOtherFaceAreRefused) {
+TEST(MeshFiles, FacesThatAreLinesOfNoOtherFaceAreKept) {
   const test::TemporaryFolder folder;
   const std::string cube = test::kCubeObj;
   folder.write("edge.obj", cube + "f 1 1 2\nf 7 7 7\nf 3 4 3\n");
   folder.write("line.obj", cube + "v 0.5 0.5 3\nv 0.5 0.5 3\nf 5 9 10\n");
-  folder.write("point.obj", cube + "v 0.5 0.5 3\nf 9 9 9\n");
   folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3\n");
-  const auto error = [&](const std::string& name, const std::string& message) {
-    EXPECT_EQ(
-        test::inputError([&] { withMeshes(folder, {"filename='" + name + "' scale='1 1 2'"}); }),
-        (folder.path() / "m.urdf").string() + ":2: error: mesh '" + name +
-            "' of link 'a' has a face, its triangle " + message +
-            ", in m, and no edge of another; faces must have three distinct corners");
+  const auto robot = withMeshes(
+      folder, {"filename='edge.obj'", "filename='line.obj' scale='1 1 2'", "filename='lines.obj'"});
+  EXPECT_TRUE(mesh(*robot, 0).isClosed());
+  const auto gap = [&](int index, double x, double y, double z) {
+    return distance(mesh(*robot, index), makeSphere(0.125),
+                    Eigen::Isometry3d(Eigen::Translation3d(x, y, z)))
+        .upper;
   };
-  error("line.obj", "12 counted from 0, that is only the line from (0, 0, 2) to (0.5, 0.5, 6)");
-  error("point.obj",
-        "12 counted from 0, that is only the line from (0.5, 0.5, 6) to (0.5, 0.5, 6)");
-  error("lines.obj", "0 counted from 0, that is only the line from (0, 0, 0) to (1, 0, 0)");
-  EXPECT_TRUE(mesh(*withMeshes(folder, {"filename='edge.obj'"}), 0).isClosed());
+  // From (0, 0, 2) to (0.5, 0.5, 6), above a cube that is a solid as before.
+  EXPECT_EQ(mesh(*robot, 1).report().openComponents, 1);
+  EXPECT_TRUE(mesh(*robot, 1).encloses({0.5, 0.5, 1.0}));
+  EXPECT_EQ(gap(1, 0.5, 0.5, 6.25), 0.125);
+  EXPECT_EQ(gap(1, 0.25, 0.25, 4.0), 0.0);
+  EXPECT_EQ(gap(2, 0.75, 0.25, 0.0), 0.125);
+}
+
+TEST(MeshFiles, FacesThatArePointsOfNoOtherFaceAreRefused) {
+  const test::TemporaryFolder folder;
+  folder.write("point.obj", std::string(test::kCubeObj) + "v 0.5 0.5 3\nf 9 9 9\n");
+  EXPECT_EQ(test::inputError([&] { withMeshes(folder, {"filename='point.obj' scale='1 1 2'"}); }),
+            (folder.path() / "m.urdf").string() +
+                ":2: error: mesh 'point.obj' of link 'a' has a face, its triangle 12 counted from "
+                "0, that is only the point (0.5, 0.5, 6), in m, and no corner of another; faces "
+                "must have distinct corners");
 }
 
 TEST(MeshFiles, MirroredSolidsAreSolid) {

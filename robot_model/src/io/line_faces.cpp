@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -86,15 +87,19 @@ std::map<Line, std::size_t> LineFaces::uncovered() const {
 
 }  // namespace
 
-void requireLinesCovered(std::span<const Eigen::Vector3d> vertices,
-                         std::span<const Eigen::Vector3i> triangles) {
-  const auto lines = LineFaces(vertices, triangles).uncovered();
-  if (lines.empty()) return;
-  const auto& [line, triangle] = *lines.begin();
-  throw MeshFileError("has a face, its triangle " + std::to_string(triangle) +
-                      " counted from 0, that is only the line from " + textOf(line.first) + " to " +
-                      textOf(line.second) +
-                      ", in m, and no edge of another; faces must have three distinct corners");
+void keepLines(std::vector<Eigen::Vector3d>& vertices, std::vector<Eigen::Vector3i>& triangles) {
+  for (const auto& [line, triangle] : LineFaces(vertices, triangles).uncovered()) {
+    const Eigen::Vector3d first(line.first.data()), second(line.second.data());
+    const Eigen::Vector3d middle = 0.5 * first + 0.5 * second;
+    if (middle == first || middle == second) {
+      throw MeshFileError("has a face, its triangle " + std::to_string(triangle) +
+                          " counted from 0, that is only the point " + textOf(line.first) +
+                          ", in m, and no corner of another; faces must have distinct corners");
+    }
+    const int next = static_cast<int>(vertices.size());
+    vertices.insert(vertices.end(), {first, middle, second});
+    triangles.emplace_back(next, next + 1, next + 2);
+  }
 }
 
 }  // namespace swept::detail
