@@ -166,58 +166,24 @@ Selection selectInPlane(Points points, const Spread& spread) {
   return selection;
 }
 
-/// Finds the face that the ray from an inner point through a given one leaves by, walking from face
-/// to face. Rounding may end the walk early: the answer is a guess.
-class FaceWalk {
- public:
-  FaceWalk(const detail::HullSurface& surface, Points points, const Eigen::Vector3d& inside)
-      : surface_(surface), points_(points), inside_(inside) {}
-
-  detail::Cone coneOf(int face) const {
-    const std::array<int, 3>& corners = surface_.faces[face];
-    return {points_[corners[0]] - inside_, points_[corners[1]] - inside_,
-            points_[corners[2]] - inside_};
-  }
-
-  detail::Cone towards(const Eigen::Vector3d& offset) {
-    for (std::size_t steps = 0, previous = surface_.faces.size(); steps < surface_.faces.size();
-         ++steps) {
-      int opposite = 0;
-      if (!(coneOf(face_).coordinates(offset).minCoeff(&opposite) < 0.0)) break;
-      const int next = surface_.neighbors[face_][(opposite + 1) % 3];
-      if (static_cast<std::size_t>(next) == previous) break;
-      previous = static_cast<std::size_t>(face_);
-      face_ = next;
-    }
-    return coneOf(face_);
-  }
-
- private:
-  const detail::HullSurface& surface_;
-  Points points_;
-  Eigen::Vector3d inside_;
-  int face_ = 0;
-};
-
 Selection selectInSpace(Points points, const Spread& spread) {
   const detail::Quickhull quickhull(points, spread.corners);
   if (!quickhull.consistent()) return Selection::all(points.size());
-  const detail::HullSurface surface = quickhull.surface();
-
   Selection selection(points.size());
-  for (const std::array<int, 3>& face : surface.faces) {
+  selection.faces = quickhull.surface();
+  for (const std::array<int, 3>& face : selection.faces) {
     for (int corner : face) selection.kept[corner] = true;
   }
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
   for (int corner : spread.corners) inside += 0.25 * points[corner];
-  FaceWalk walk(surface, points, inside);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (selection.kept[i]) continue;
     const Eigen::Vector3d offset = points[i] - inside;
-    selection.consider(i,
-                       walk.towards(offset).distanceBound(offset, detail::Cone::Part::Tetrahedron));
+    const std::array<int, 3> face = quickhull.exitOf(inside, offset).corners;
+    const detail::Cone cone{points[face[0]] - inside, points[face[1]] - inside,
+                            points[face[2]] - inside};
+    selection.consider(i, cone.distanceBound(offset, detail::Cone::Part::Tetrahedron));
   }
-  selection.faces = surface.faces;
   return selection;
 }
 

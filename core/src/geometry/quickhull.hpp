@@ -4,19 +4,20 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "geometry/convex_combination.hpp"
 #include "geometry/orientation.hpp"
 
 namespace swept::detail {
 
-/// Closed triangulated surface, outward oriented.
-struct HullSurface {
-  std::vector<std::array<int, 3>> faces;  ///< indices of points
-  std::vector<std::array<int, 3>>
-      neighbors;  ///< of each face, across the edge from corner i to i + 1
+/// A face that a ray from inside a hull leaves by.
+struct HullExit {
+  std::array<int, 3> corners;  ///< indices of points
+  int looks = 0;               ///< planes and faces that the ray was compared with
 };
 
 /// Quickhull (Barber, Dobkin, Huhdanpaa 1996). Where we deviate: which faces a new point sees is
@@ -40,19 +41,28 @@ class Quickhull {
   /// surface is then unusable.
   bool consistent() const { return consistent_; }
 
-  HullSurface surface() const {
-    std::vector<int> index(faces_.size(), kNone);
-    HullSurface out;
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      if (!faces_[i].alive) continue;
-      index[i] = static_cast<int>(out.faces.size());
-      out.faces.push_back(faces_[i].corners);
-      out.neighbors.push_back(faces_[i].neighbors);
-    }
-    for (std::array<int, 3>& neighbors : out.neighbors) {
-      for (int& neighbor : neighbors) neighbor = index[neighbor];
+  /// Closed triangulated surface, outward oriented: indices of points.
+  std::vector<std::array<int, 3>> surface() const {
+    std::vector<std::array<int, 3>> out;
+    for (const Face& face : faces_) {
+      if (face.alive) out.push_back(face.corners);
     }
     return out;
+  }
+
+  /// The face by which the ray from `inside`, a point within the start, along `offset` leaves the
+  /// surface. Rounding may mislead: the answer is a guess.
+  ///
+  /// From a face of the start on to what took its place, until a face is still there: a fan around
+  /// the point that was added, in whose order the ray's turn around that point is found by halving.
+  /// A walk from face to face takes the root of their number, or half of them in a fan.
+  HullExit exitOf(const Eigen::Vector3d& inside, const Eigen::Vector3d& offset) const {
+    HullExit found;
+    int face = startTowards(inside, offset);
+    found.looks = 4;
+    while (!faces_[face].alive) face = partTowards(faces_[face], inside, offset, found.looks);
+    found.corners = faces_[nearby(face, inside, offset, found.looks)].corners;
+    return found;
   }
 
  private:
@@ -65,6 +75,8 @@ class Quickhull {
     int firstAhead = kNone;  ///< points certainly ahead, linked through next_
     int farthest = kNone;    ///< of them
     double farthestHeight = 0.0;
+    int firstPart = kNone;  ///< of the fan that took its place
+    int partCount = 0;
     bool alive = true;
     bool seen = false;
   };
@@ -140,27 +152,30 @@ class Quickhull {
     }
   }
 
-  /// The horizon is one closed loop through distinct vertices when the decisions are exact.
-  bool horizonIsLoop() {
+  /// Puts the horizon's edges in order, one after the other. It is one closed loop through distinct
+  /// vertices when the decisions are exact.
+  bool orderHorizon() {
     for (const HorizonEdge& edge : horizon_) faceFrom_[edge.from] = kNone;
     for (std::size_t i = 0; i < horizon_.size(); ++i) {
       if (faceFrom_[horizon_[i].from] != kNone) return false;
       faceFrom_[horizon_[i].from] = static_cast<int>(i);
     }
-    std::size_t length = 0;
+    loop_.clear();
     int vertex = horizon_.front().from;
     do {
       const int edge = faceFrom_[vertex];
-      if (edge == kNone) return false;
+      if (edge == kNone || loop_.size() == horizon_.size()) return false;
+      loop_.push_back(horizon_[edge]);
       vertex = horizon_[edge].to;
-    } while (vertex != horizon_.front().from && ++length <= horizon_.size());
-    return length + 1 == horizon_.size();
+    } while (vertex != horizon_.front().from);
+    horizon_.swap(loop_);
+    return horizon_.size() == loop_.size();
   }
 
   void addFarthestOf(int firstFace) {
     const int apex = faces_[firstFace].farthest;
     collectHorizon(apex, firstFace);
-    consistent_ = horizon_.size() >= 3 && horizonIsLoop();
+    consistent_ = horizon_.size() >= 3 && orderHorizon();
     if (!consistent_) return;
 
     const std::size_t firstNew = faces_.size();
@@ -181,6 +196,8 @@ class Quickhull {
 
     for (int removed : visible_) {
       faces_[removed].alive = false;
+      faces_[removed].firstPart = static_cast<int>(firstNew);
+      faces_[removed].partCount = static_cast<int>(horizon_.size());
       for (int point = faces_[removed].firstAhead; point != kNone;) {
         const int following = next_[point];
         if (point != apex) assign(point, firstNew);
@@ -189,12 +206,68 @@ class Quickhull {
     }
   }
 
+  Cone coneOf(int face, const Eigen::Vector3d& inside) const {
+    const std::array<int, 3>& corners = faces_[face].corners;
+    return {points_[corners[0]] - inside, points_[corners[1]] - inside,
+            points_[corners[2]] - inside};
+  }
+
+  int startTowards(const Eigen::Vector3d& inside, const Eigen::Vector3d& offset) const {
+    int best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int face = 0; face < 4; ++face) {
+      const double least = coneOf(face, inside).coordinates(offset).minCoeff();
+      if (!(least > most)) continue;
+      most = least;
+      best = face;
+    }
+    return best;
+  }
+
+  /// The fan's faces are in the order in which their first corners turn around the apex, seen from
+  /// outside; the first corner of the first face is where turns begin.
+  int partTowards(const Face& gone, const Eigen::Vector3d& inside, const Eigen::Vector3d& offset,
+                  int& looks) const {
+    const Eigen::Vector3d apex = points_[faces_[gone.firstPart].corners[2]] - inside;
+    const auto corner = [&](int part) {
+      return Eigen::Vector3d(points_[faces_[gone.firstPart + part].corners[0]] - inside);
+    };
+    const Eigen::Vector3d fromFirst = apex.cross(corner(0));
+    const Eigen::Vector3d toRay = offset.cross(apex);
+    const bool rayBeyondHalf = fromFirst.dot(offset) < 0.0;
+    int least = 0;
+    for (int beyond = gone.partCount; beyond - least > 1; ++looks) {
+      const int middle = least + (beyond - least) / 2;
+      const Eigen::Vector3d there = corner(middle);
+      const bool beyondHalf = fromFirst.dot(there) < 0.0;
+      const bool passed = beyondHalf == rayBeyondHalf ? toRay.dot(there) >= 0.0 : rayBeyondHalf;
+      (passed ? least : beyond) = middle;
+    }
+    return gone.firstPart + least;
+  }
+
+  /// Where rounding led to a face beside the right one, a few steps lead there.
+  int nearby(int face, const Eigen::Vector3d& inside, const Eigen::Vector3d& offset,
+             int& looks) const {
+    constexpr int kMostSteps = 16;
+    for (int step = 0, previous = kNone; step < kMostSteps; ++step, ++looks) {
+      int opposite = 0;
+      if (!(coneOf(face, inside).coordinates(offset).minCoeff(&opposite) < 0.0)) break;
+      const int next = faces_[face].neighbors[(opposite + 1) % 3];
+      if (next == previous) break;
+      previous = face;
+      face = next;
+    }
+    return face;
+  }
+
   std::span<const Eigen::Vector3d> points_;
   std::vector<int> next_;
   std::vector<int> faceFrom_;  ///< scratch: the edge or face that leaves a horizon vertex
   std::vector<Face> faces_;
   std::vector<int> visible_;
   std::vector<HorizonEdge> horizon_;
+  std::vector<HorizonEdge> loop_;  ///< scratch: the horizon in order
   bool consistent_ = true;
 };
 
