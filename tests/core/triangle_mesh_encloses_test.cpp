@@ -179,6 +179,26 @@ TEST(TriangleMeshEncloses, WorksAtAllScales) {
   }
 }
 
+/// Products of three coordinates are out of range: no ray was sure, and the hole of a ring was
+/// inside, which made what lies in it a collision.
+TEST(TriangleMeshEncloses, KeepsTheHoleOfARingOpenAtAnyScale) {
+  for (const int exponent : {-1010, -900, -520, -345, -333, 333, 345, 520, 900, 1010}) {
+    const double scale = std::ldexp(1.0, exponent);
+    Soup ring = test::torusSoup(16, 12, 0.7, 0.25);
+    for (Vector3d& vertex : ring.vertices) vertex *= scale;
+    const TriangleMesh mesh = build(ring);
+    int astray = 0;
+    for (int i = 0; i < 100; ++i) {
+      const double angle = 0.7 * i;
+      const Vector3d around(std::cos(angle), std::sin(angle), 0.0);
+      const Vector3d up(0.0, 0.0, 0.03 * (i % 5));
+      astray += mesh.encloses(scale * (0.35 * around + up)) ? 1 : 0;
+      astray += mesh.encloses(scale * (0.7 * around + up)) ? 0 : 1;
+    }
+    EXPECT_EQ(astray, 0) << exponent;
+  }
+}
+
 TEST(TriangleMeshEncloses, ShellsThatTouchAlongAnEdgeAreClosed) {
   const Soup tetrahedron{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}},
                          {{0, 1, 3}, {0, 3, 2}, {0, 2, 1}, {1, 2, 3}}};

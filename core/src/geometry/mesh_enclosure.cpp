@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -86,12 +87,15 @@ class CrossingCounts {
 /// A ray against the triangles of one mesh.
 class RayCount {
  public:
+  /// `scale` is a power of two.
   RayCount(const TriangleMesh& mesh, std::span<const int> componentOf,
-           const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, CrossingCounts& counts)
+           const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double scale,
+           CrossingCounts& counts)
       : mesh_(mesh),
         componentOf_(componentOf),
         origin_(origin),
         direction_(direction),
+        scale_(scale),
         counts_(counts) {}
 
   /// False when the ray passes within rounding of the border of a triangle that matters.
@@ -121,9 +125,14 @@ class RayCount {
     int* const crossings = counts_.find(componentOf_[triangle]);
     if (crossings == nullptr) return true;
     const Eigen::Vector3i& corners = mesh_.triangles()[triangle];
-    const Eigen::Vector3d a = mesh_.vertices()[corners[0]] - origin_;
-    const Eigen::Vector3d b = mesh_.vertices()[corners[1]] - origin_;
-    const Eigen::Vector3d c = mesh_.vertices()[corners[2]] - origin_;
+    Eigen::Vector3d a = mesh_.vertices()[corners[0]] - origin_;
+    Eigen::Vector3d b = mesh_.vertices()[corners[1]] - origin_;
+    Eigen::Vector3d c = mesh_.vertices()[corners[2]] - origin_;
+    if (scale_ != 1.0) {
+      a *= scale_;
+      b *= scale_;
+      c *= scale_;
+    }
     switch (detail::rayCrossing(direction_, a, b, c)) {
       case detail::Crossing::Unsure:
         return false;
@@ -143,27 +152,39 @@ class RayCount {
   std::span<const int> componentOf_;
   const Eigen::Vector3d& origin_;
   const Eigen::Vector3d& direction_;
+  const double scale_;
   CrossingCounts& counts_;
 };
+
+/// What keeps the products of three coordinates of a component of this size (m) within the range of
+/// doubles: without, no ray is sure and all that the box holds would be inside.
+double scaleFor(double size) {
+  if (size > 1e-60 && size < 1e60) return 1.0;
+  return size > 0.0 && std::isfinite(size) ? std::ldexp(1.0, std::min(-std::ilogb(size), 1000))
+                                           : 1.0;
+}
 
 }  // namespace
 
 bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
   if (data_->interior == MeshInterior::Surface) return false;
   CrossingCounts counts;
+  double size = 0.0;
   for (std::size_t i = 0; i < data_->components.size(); ++i) {
     const Component& component = data_->components[i];
     if ((point.array() >= component.lower.array()).all() &&
         (point.array() <= component.upper.array()).all()) {
       counts.add(static_cast<int>(i));
+      size = std::max(size, (component.upper - component.lower).maxCoeff());
     }
   }
   if (counts.empty()) return false;
 
   static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
+  const double scale = scaleFor(size);
   for (const Eigen::Vector3d& direction : directions) {
     counts.reset();
-    if (!RayCount(*this, data_->componentOf, point, direction, counts).run()) continue;
+    if (!RayCount(*this, data_->componentOf, point, direction, scale, counts).run()) continue;
     return counts.any([&](int component, int crossings) {
       return data_->components[component].oriented ? crossings != 0 : crossings % 2 != 0;
     });
