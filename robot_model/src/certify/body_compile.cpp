@@ -214,8 +214,9 @@ class BodyCompiler {
     geometry.scale = scale;
     geometry.world_from_shape = part.world_from_shape;
     const Aabb box = boundingBox(geometry.shape);
-    const bool bounded = (box.upper - box.lower).allFinite();
-    const Vector3d middle = bounded ? Vector3d(0.5 * (box.lower + box.upper)) : Vector3d::Zero();
+    const bool bounded = box.lower.allFinite() && box.upper.allFinite();
+    const Vector3d middle =
+        bounded ? Vector3d(0.5 * box.lower + 0.5 * box.upper) : Vector3d::Zero();
     Isometry3d world_from_box = part.world_from_shape;
     world_from_box.translation() = part.world_from_shape * middle;
     geometry.box_from_world = world_from_box.inverse();

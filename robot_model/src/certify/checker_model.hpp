@@ -21,6 +21,10 @@
 
 namespace swept::detail {
 
+/// m. Far below where squares overflow: an infinite distance would prove bodies apart that are not.
+/// Of coordinates that may be larger nothing is proven.
+inline constexpr double kLargestNorm = 1e150;
+
 /// What pairs are made of, but for bodies of the world that stand still.
 struct Carrier {
   enum class Kind : std::uint8_t { Link, Attached, Obstacle };

@@ -36,7 +36,9 @@ class NearPairs {
   void forNearest(const Visitor& visit) {
     double least = std::numeric_limits<double>::infinity();
     const auto one = [&](std::uint32_t pair) {
-      if (query_.coarseDistance(model_.pairs[pair]) < least) least = std::min(least, visit(pair));
+      // What is no number says nothing.
+      const bool settled = query_.coarseDistance(model_.pairs[pair]) >= least;
+      if (!settled) least = std::min(least, visit(pair));
     };
     if (model_.boxes == nullptr) {
       for (std::uint32_t pair = 0; pair < model_.pairs.size(); ++pair) one(pair);

@@ -2,6 +2,7 @@
 #include "certify/pair_compile.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -19,6 +20,9 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+/// m. More than a norm is off by whose squares underflow, and than what is made of it.
+constexpr double kUnderflow = 1e-140;
 
 bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b) {
   return collide(a, b, a_from_b) != Contact::Separate;
@@ -85,7 +89,8 @@ class PairCompiler {
   /// Rounding of the relative pose of two geometries, in metres at their points: proportional to
   /// the coordinates and to the number of transforms that were multiplied.
   static double rounding(double magnitudes, double transforms) {
-    return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0);
+    if (!(magnitudes < kLargestNorm)) return std::numeric_limits<double>::infinity();
+    return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0) + kUnderflow;
   }
 
   static double magnitudeOf(const RobotGeometry& robot) {
@@ -113,7 +118,7 @@ class PairCompiler {
     const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
     const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
     const double slack = rounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
-    return outside.norm() > robot.levers.reachFromBase + margin + slack;
+    return outside.stableNorm() > robot.levers.reachFromBase + margin + slack;
   }
 
   void pairWithWorld() {

@@ -27,6 +27,7 @@ bool PairQuery::start(std::span<const double> from, std::span<const double> to) 
   ++workspace_.motionStamp;
   workspace_.wander = 0.0;
   for (const JointMotion& joint : workspace_.motion) workspace_.wander += joint.wander;
+  if (!(workspace_.wander < kLargestNorm)) return false;
   workspace_.angleError = angleError(workspace_.motion);
   workspace_.slideError = slideError(workspace_.motion);
   return true;
@@ -117,7 +118,13 @@ Aabb PairQuery::ballBox(int geometry, double half) {
   const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) +
                        model_.largestMargin + largestRounding();
   const Vector3d all = Vector3d::Constant(reach * (1.0 + kVelocityRounding));
-  return {center(geometry) - all, center(geometry) + all};
+  const Vector3d& middle = center(geometry);
+  // Of what is no number a box would meet nothing.
+  if (!(reach < kLargestNorm)) {
+    const Vector3d everywhere = Vector3d::Constant(std::numeric_limits<double>::infinity());
+    return {-everywhere, everywhere};
+  }
+  return {middle - all, middle + all};
 }
 
 Vector3d PairQuery::relativeVelocity(const GeometryPair& pair) {

@@ -17,6 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// m. Far below where squares overflow in single precision: an infinite one would be apart.
+constexpr double kLargestSquared = 1e15;
+
 class ObstacleCompiler {
  public:
   ObstacleCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
@@ -30,6 +33,8 @@ class ObstacleCompiler {
     // in at most eight roundings; so it is off by less than 32 kSingle of their sum. Each set is
     // grown by that.
     slack_ = 32.0 * kSingle * (reach_ + geometry.magnitude);
+    // Of a box no square is taken but of what lies outside it.
+    if (!(geometry.magnitude < kLargestSquared)) return addBox();
     std::visit([&](const auto& shape) { addShape(shape); }, geometry.shape);
   }
 
