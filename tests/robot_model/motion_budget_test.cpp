@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "swept/robot_model/checker.hpp"
 
@@ -13,6 +14,11 @@ namespace swept {
 namespace {
 
 constexpr double kTurns = 50.0;
+
+constexpr const char* kSlide = R"(<robot name="slide"><link name="base"/>
+  <link name="ball"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <joint name="z" type="prismatic"><parent link="base"/><child link="ball"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)";
 
 /// A ball that stands, and one that passes it 50 times, once a second, with a gap smaller than the
 /// tolerance (`gap` in m): which no number of intervals settles.
@@ -28,12 +34,7 @@ Checker grazing(int maxIntervals, double gap) {
   world->add(std::move(obstacle));
   CheckerOptions options;
   options.maxIntervals = maxIntervals;
-  return {Robot::parse(R"(<robot name="slide"><link name="base"/>
-  <link name="ball"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
-  <joint name="z" type="prismatic"><parent link="base"/><child link="ball"/><axis xyz="0 0 1"/>
-    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>)",
-                       "slide.urdf"),
-          "all", std::move(world), options};
+  return {Robot::parse(kSlide, "slide.urdf"), "all", std::move(world), options};
 }
 
 constexpr std::array<double, 2> kFrom{0.0, 0.0};
@@ -64,6 +65,47 @@ TEST_P(MotionBudget, ClearancesKeepToItAndStayBounds) {
   Workspace other(checker);
   const Eigen::VectorXd q = checker.interpolate(kFrom, kTo, found.t);
   EXPECT_LE(checker.clearance({q.data(), 2}, other), found.upper + 1e-12);
+}
+
+/// A ball that slides past as many others, closer to each than the tolerance (`gap` in m).
+Checker slidingPast(int others, int maxIntervals, double gap) {
+  World world;
+  for (int i = 0; i < others; ++i) {
+    const Eigen::Translation3d place(0.0, 0.1 + gap, 2.0 * i / others - 1.0);
+    world.add("ball" + std::to_string(i), makeSphere(0.05), Eigen::Isometry3d(place));
+  }
+  CheckerOptions options;
+  options.maxIntervals = maxIntervals;
+  return {Robot::parse(kSlide, "slide.urdf"), "all",
+          std::make_shared<const World>(std::move(world)), options};
+}
+
+/// Each interval looked at all pairs that were open: the work was the product of the two.
+TEST_P(MotionBudget, BoundsTheLooksAtPairs) {
+  constexpr int kOthers = 1500;
+  const Checker checker = slidingPast(kOthers, GetParam(), 2e-7);
+  Workspace workspace(checker);
+  for (const MotionQuery query : {MotionQuery::VerdictOnly, MotionQuery::FirstContact}) {
+    const MotionCertificate certificate =
+        checker.certifyMotion(std::array{-1.0}, std::array{1.0}, workspace, query);
+    EXPECT_NE(certificate.verdict, Verdict::Collision);
+    const Effort& effort = certificate.effort;
+    EXPECT_LE(effort.distances + effort.culled, 64 * GetParam() + 2 * kOthers);
+    EXPECT_LE(effort.lanes, 64 * GetParam() + 256);
+  }
+  const MotionClearance found =
+      checker.motionClearance(std::array{-1.0}, std::array{1.0}, 1e-9, workspace);
+  EXPECT_LE(found.lower, 2e-7);
+  // Whatever is dropped, an interval has at least the pair that is nearest in it.
+  EXPECT_LE(found.intervals, GetParam());
+}
+
+/// An obstacle that turns often: what is past the cap is not looked at, turn by turn.
+TEST_P(MotionBudget, BoundsTheSubIntervalsOfAllParts) {
+  const Checker checker = grazing(GetParam(), 2e-7);
+  Workspace workspace(checker);
+  const MotionCertificate certificate = checker.certifyMotion(kFrom, kTo, workspace);
+  EXPECT_LE(certificate.effort.lanes, 64 * GetParam() + 256);
 }
 
 INSTANTIATE_TEST_SUITE_P(Caps, MotionBudget, testing::Values(1, 2, 7, 8, 10, 60, 300));

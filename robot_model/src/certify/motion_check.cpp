@@ -7,6 +7,7 @@
 #include "certify/exact_judge.hpp"
 #include "certify/obstacle_clock.hpp"
 #include "certify/pending_intervals.hpp"
+#include "certify/work_limits.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
 
@@ -58,13 +59,16 @@ class MotionProver {
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
   bool settleInLanes(std::span<const double> from, std::span<const double> to) {
+    const int lanes = lanesLeft(model_, certificate_.effort);
     const bool fits =
-        model_.lanes.usable && model_.options.maxIntervals >= kLanes &&
+        model_.lanes.usable && model_.options.maxIntervals >= kLanes && lanes > 0 &&
         compileLaneMotion(model_.lanes, model_.kinematics, from, to, workspace_.lanes);
     if (!fits) {
       if (judge_.start()) takeAll(model_, query_, workspace_);
       return false;
     }
+    workspace_.lanes.mostIntervals = lanes;
+    workspace_.lanes.mostWaiting = kMostWaiting;
     const LaneGoal goal =
         wanted_ == MotionQuery::VerdictOnly ? LaneGoal::Verdict : LaneGoal::Prefix;
     const LaneAnswer answer = searchMotion(model_.lanes, judge_, goal, workspace_.lanes);
@@ -79,7 +83,11 @@ class MotionProver {
       certificate_.freeUntil = 1.0;
       return true;
     }
-    takeRest(workspace_);
+    if (answer.kind == LaneAnswer::Kind::Open) {
+      takeRest(workspace_);
+    } else if (judge_.start()) {
+      takeAll(model_, query_, workspace_);
+    }
     return false;
   }
 
@@ -92,7 +100,7 @@ class MotionProver {
 
   bool isEarliest(double t) const { return !certificate_.witness || t < certificate_.witness->t; }
 
-  bool budgetLeft() const { return certificate_.effort.intervals < model_.options.maxIntervals; }
+  bool budgetLeft() const { return workLeft(model_, certificate_.effort); }
 
   Outcome examine(const PendingInterval& interval, const std::vector<std::uint32_t>& arena,
                   bool dropResolved) {
@@ -152,6 +160,7 @@ class MotionProver {
                                     workspace_.failed.end());
         next.push_back({interval.begin, middle, first, count});
         next.push_back({middle, interval.end, first, count});
+        if (workspace_.nextArena.size() > kMostWaiting) return giveUp(next.front().begin);
       }
       if (undecidedAt_) return;
       std::swap(now, next);
@@ -189,7 +198,8 @@ class MotionProver {
                                waiting + static_cast<std::ptrdiff_t>(open.onAll + open.onPart));
       arena.resize(interval.first);
       if (workspace_.failed.empty()) continue;
-      if (outcome.resolved) return stopAt(interval.begin);
+      const bool tooMany = arena.size() + 2 * workspace_.failed.size() > kMostWaiting;
+      if (outcome.resolved || tooMany) return stopAt(interval.begin);
       if (outcome.contact) {
         stack.clear();
         arena.clear();
@@ -253,6 +263,8 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
     own.effort = certificate.effort;  // the cap on intervals is for all parts together
     MotionProver(model, part.from, part.to, wanted, workspace, own).run(part.from, part.to);
     addPart(part, std::move(own), certificate);
+    const bool settled = certificate.verdict == Verdict::Free;
+    if (!settled && !workLeft(model, certificate.effort)) return false;
     return certificate.verdict != Verdict::Collision;
   });
   if (wanted == MotionQuery::VerdictOnly && certificate.verdict != Verdict::Free)

@@ -4,6 +4,7 @@
 
 #include "certify/motion_check.hpp"
 #include "certify/obstacle_clock.hpp"
+#include "certify/work_limits.hpp"
 
 namespace swept::detail {
 
@@ -16,13 +17,16 @@ namespace {
 /// along others.
 class ClearanceSearch {
  public:
-  /// `budget`: intervals that may be examined, at least 1.
-  ClearanceSearch(const CheckerModel& model, double accuracy, int budget, WorkspaceData& workspace)
+  /// `budget`: intervals that may be examined, at least 1. `queries`: pairs that may be looked at,
+  /// but for the first interval's.
+  ClearanceSearch(const CheckerModel& model, double accuracy, int budget, std::int64_t queries,
+                  WorkspaceData& workspace)
       : model_(model),
         workspace_(workspace),
         query_(model, workspace),
         accuracy_(accuracy),
-        budget_(budget) {
+        budget_(budget),
+        queriesLeft_(queries) {
     found_.lower = std::numeric_limits<double>::infinity();
     found_.upper = std::numeric_limits<double>::infinity();
   }
@@ -34,6 +38,7 @@ class ClearanceSearch {
     workspace_.arena.resize(model_.pairs.size());
     std::iota(workspace_.arena.begin(), workspace_.arena.end(), 0U);
     now.assign(1, {0.0, 1.0, 0, model_.pairs.size()});
+    queriesLeft_ -= static_cast<std::int64_t>(model_.pairs.size());
     while (!now.empty() && found_.upper > 0.0) {
       next.clear();
       workspace_.nextArena.clear();
@@ -45,6 +50,8 @@ class ClearanceSearch {
     return found_;
   }
 
+  std::int64_t queriesLeft() const { return queriesLeft_; }
+
  private:
   void split(const PendingInterval& interval) {
     const double middle = 0.5 * (interval.begin + interval.end);
@@ -53,8 +60,10 @@ class ClearanceSearch {
     ++found_.intervals;
     --waiting_;
     // What waits has to be looked at: without a bound on it there is none on the motion.
-    const bool last = waiting_ > budget_ - found_.intervals - 2;
     const std::size_t first = workspace_.nextArena.size();
+    const auto halves = 2 * static_cast<std::int64_t>(interval.count);
+    const bool last = waiting_ > budget_ - found_.intervals - 2 || halves > queriesLeft_ ||
+                      first + interval.count > kMostWaiting;
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
       const double bound = boundPair(workspace_.arena[i], middle, half);
       if (last || bound >= found_.upper - slack()) {
@@ -68,6 +77,7 @@ class ClearanceSearch {
     workspace_.nextGeneration.push_back({interval.begin, middle, first, count});
     workspace_.nextGeneration.push_back({middle, interval.end, first, count});
     waiting_ += 2;
+    queriesLeft_ -= 2 * static_cast<std::int64_t>(count);
   }
 
   /// m. The accuracy, or half of a clearance that is small against it: what is free is shown to be.
@@ -98,7 +108,8 @@ class ClearanceSearch {
   PairQuery query_;
   double accuracy_;
   int budget_;
-  int waiting_ = 1;  ///< intervals that are to be examined yet
+  int waiting_ = 1;           ///< intervals that are to be examined yet
+  std::int64_t queriesLeft_;  ///< less those of the intervals that are to be examined
   MotionClearance found_;
 };
 
@@ -109,14 +120,16 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
                                 WorkspaceData& workspace) {
   MotionClearance all;
   all.lower = all.upper = std::numeric_limits<double>::infinity();
+  std::int64_t queries = mostQueries(model);
   EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
     const int budget = model.options.maxIntervals - all.intervals;
-    if (budget == 0) {  // nothing is known of what is left
+    if (budget == 0 || queries <= 0) {  // nothing is known of what is left
       all.lower = 0.0;
       return false;
     }
-    ClearanceSearch search(model, accuracy, budget, workspace);
+    ClearanceSearch search(model, accuracy, budget, queries, workspace);
     const MotionClearance own = search.run(part.from, part.to);
+    queries = search.queriesLeft();
     if (own.upper < all.upper) {
       all.upper = own.upper;
       all.t = part.timeOf(own.t);

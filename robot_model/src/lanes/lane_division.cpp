@@ -37,7 +37,7 @@ class Division {
       scratch_.waiting.assign(parts.begin() + static_cast<std::ptrdiff_t>(first),
                               parts.begin() + static_cast<std::ptrdiff_t>(last));
       first = last;
-      if (!canDivide(model_, scratch_.waiting.front().pair)) {
+      if (isSpent() || !canDivide(model_, scratch_.waiting.front().pair)) {
         for (const Part& part : scratch_.waiting) leave(part);
       } else if (dividePair()) {
         return true;
@@ -48,6 +48,8 @@ class Division {
 
  private:
   using Part = LaneScratch::Part;
+
+  bool isSpent() const { return answer_.intervals >= scratch_.mostIntervals; }
 
   void sortByPair() {
     auto& parts = scratch_.parts;
@@ -187,7 +189,7 @@ class Division {
   /// In halves, or to the exact tier.
   void handOn(Part part) {
     const bool enough = scratch_.waiting.size() >= kMostParts || looks_ >= kMostLooks;
-    if (enough || inContact_ || isFine(part)) {
+    if (enough || inContact_ || isSpent() || isFine(part)) {
       leave(part);
       return;
     }

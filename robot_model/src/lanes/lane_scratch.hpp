@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "lanes/row.hpp"
@@ -160,6 +162,9 @@ struct LaneScratch {
     std::size_t count = 0;
   };
   std::vector<Item> now, next, rest;
+  int mostIntervals = std::numeric_limits<int>::max();  ///< to be examined
+  /// Pairs that may wait for shorter sub-intervals, or for the exact tier.
+  std::size_t mostWaiting = std::numeric_limits<std::size_t>::max();
   /// One pair on one sub-interval.
   struct Part {
     std::uint32_t pair = 0;

@@ -48,17 +48,22 @@ class MotionSearch {
     forgetOpen(block);
     if (first()) return contact();
     collect();
-    for (int generation = 0; !scratch_.next.empty(); ++generation) {
+    for (int generation = 0; !scratch_.next.empty() && !tooMany(); ++generation) {
       std::swap(scratch_.now, scratch_.next);
       std::swap(scratch_.arena, scratch_.nextArena);
       scratch_.next.clear();
       scratch_.nextArena.clear();
       forgetBehind(scratch_.now);
-      last_ = generation + 1 >= kMostGenerations || scratch_.now.size() > kMostItems / 2;
-      for (std::size_t i = 0; i < scratch_.now.size(); i += kLanes) {
+      last_ = generation + 1 >= kMostGenerations || scratch_.now.size() > kMostItems / 2 ||
+              answer_.intervals >= scratch_.mostIntervals;
+      for (std::size_t i = 0; i < scratch_.now.size() && !tooMany(); i += kLanes) {
         if (examine(i)) return contact();
         collect();
       }
+    }
+    if (tooMany()) {
+      answer_.kind = LaneAnswer::Kind::TooMany;
+      return answer_;
     }
     forgetBehind(scratch_.rest);
     if (!scratch_.rest.empty() && dividePairs(model_, judge_, goal_, scratch_, answer_))
@@ -76,6 +81,10 @@ class MotionSearch {
   LaneAnswer contact() {
     answer_.kind = LaneAnswer::Kind::Contact;
     return answer_;
+  }
+
+  bool tooMany() const {
+    return scratch_.nextArena.size() + scratch_.restArena.size() > scratch_.mostWaiting;
   }
 
   double timeOf(int lane) const { return static_cast<double>(scratch_.block.time.lane[lane]); }

@@ -14,6 +14,7 @@ struct LaneAnswer {
     Free,     ///< all pairs, on all of [0, 1]
     Contact,  ///< the judge said so; with LaneGoal::Prefix, and all before it is proven
     Open,     ///< scratch.rest is what is left
+    TooMany,  ///< pairs would have to wait: nothing is known of those not in contact
   };
   Kind kind = Kind::Open;
   /// Of the earliest contact that the judge confirmed; what begins there or later is not in `rest`.

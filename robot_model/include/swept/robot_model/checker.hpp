@@ -35,7 +35,10 @@ struct CheckerOptions {
   /// All of the robot's variables; those outside the group keep these values. Default:
   /// Robot::defaultState().
   std::optional<Eigen::VectorXd> reference = {};
-  /// Cap on the intervals examined per motion; a motion that needs more is Undecided.
+  /// Cap on the intervals examined per motion; a motion that needs more is Undecided. So is one
+  /// that needs more than 64 times as many looks at a pair of shapes, beyond the first at each, or
+  /// as many sub-intervals in single precision; and one of which more than 2^24 pairs would have to
+  /// wait for shorter intervals.
   int maxIntervals = tolerance::kMaxIntervals;
   /// Cap on the pairs of shapes that are checked, some 300 bytes each, and on the pairs of bodies.
   std::size_t maxPairs = 10'000'000;
