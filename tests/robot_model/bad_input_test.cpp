@@ -626,6 +626,16 @@ std::vector<BadInput> problems() {
        "@/p.json: error: set 's' problem 4: world has the unknown key 'cone'; allowed are sphere, "
        "cylinder "
        "and box"},
+      {"BodyKey", "p.json",
+       body("sphere", R"({"name": "a", "radius": 1, "position": [0, 0, 0], "lenght": 1})"),
+       "@/p.json: error: set 's' problem 4: world.sphere[0] has the unknown key 'lenght'; allowed "
+       "are name, position, orientation, object_pose, primitive_pose and radius"},
+      {"ProblemKey", "p.json", problem("{}", kGoodRest + ", \"padding\": 0.1"),
+       "@/p.json: error: set 's' problem 4: has the unknown key 'padding'; allowed are index, "
+       "world, joint_names, start, goals and valid"},
+      {"KeyTwice", "p.json", body("sphere", R"({"name": "a", "radius": 1, "radius": 2})"),
+       "@/p.json: error: s.world.sphere.radius is given twice"},
+      {"SetTwice", "p.json", R"({"s": [], "s": []})", "@/p.json: error: s is given twice"},
       {"BodyWithoutName", "p.json", body("sphere", "{\"radius\": 1}"),
        "@/p.json: error: set 's' problem 4: world.sphere[0].name is missing"},
       {"NegativeRadius", "p.json",

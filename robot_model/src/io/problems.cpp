@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 
 #include "io/input_source.hpp"
@@ -37,6 +41,18 @@ struct Place {
     const auto found = value.find(key);
     if (found == value.end()) throw InputError(file, 0, join(key) + " is missing");
     return {*found, join(key), file};
+  }
+  void allowOnly(std::initializer_list<std::string_view> keys) const {
+    if (!value.is_object()) return;
+    for (const auto& [key, ignored] : value.items()) {
+      if (std::ranges::find(keys, key) != keys.end()) continue;
+      std::string allowed;
+      for (const std::string_view known : keys) {
+        if (!allowed.empty()) allowed += known == *(keys.end() - 1) ? " and " : ", ";
+        allowed += known;
+      }
+      fail("has the unknown key '" + key + "'; allowed are " + allowed);
+    }
   }
   std::vector<Place> elements() const {
     if (!value.is_array()) fail("must be a list");
@@ -89,15 +105,20 @@ Eigen::Isometry3d readPose(const Place& body, bool oriented) {
 }
 
 Shape readSphere(const Place& body) {
+  body.allowOnly({"name", "position", "orientation", "object_pose", "primitive_pose", "radius"});
   return makeSphere(body.at("radius").positive());
 }
 
 Shape readCylinder(const Place& body) {
+  body.allowOnly(
+      {"name", "position", "orientation", "object_pose", "primitive_pose", "radius", "length"});
   const double radius = body.at("radius").positive();
   return makeCylinder(radius, body.at("length").positive());
 }
 
 Shape readBox(const Place& body) {
+  body.allowOnly(
+      {"name", "position", "orientation", "object_pose", "primitive_pose", "half_extents"});
   const Place place = body.at("half_extents");
   const auto halves = place.elements();
   if (halves.size() != 3) place.fail("must hold 3 values");
@@ -123,11 +144,7 @@ World readWorld(const Place& place) {
       world.add(name, shape, readPose(body, kind.oriented));
     }
   }
-  for (const auto& [key, ignored] : place.value.items()) {
-    if (key != "sphere" && key != "cylinder" && key != "box") {
-      place.fail("has the unknown key '" + key + "'; allowed are sphere, cylinder and box");
-    }
-  }
+  place.allowOnly({"sphere", "cylinder", "box"});
   return world;
 }
 
@@ -142,6 +159,7 @@ PlanningProblem readProblem(const std::string& set, const Place& entry) {
   problem.index = static_cast<int>(number);
   const Place place{entry.value, "set '" + set + "' problem " + std::to_string(problem.index) + ":",
                     entry.file};
+  place.allowOnly({"index", "world", "joint_names", "start", "goals", "valid"});
   const Place world = place.at("world");
   if (!world.value.is_object()) world.fail("must be an object");
   problem.world = readWorld(world);
@@ -163,10 +181,39 @@ std::string reasonOf(const json::exception& error, const char* front) {
   return at == std::string::npos ? what : what.substr(at + std::string_view(front).size());
 }
 
+/// Of two values of one key in an object the library would keep one, in silence.
+class KeysOnce {
+ public:
+  explicit KeysOnce(const std::string& file) : file_(file) {}
+
+  bool operator()(int /*depth*/, json::parse_event_t event, const json& parsed) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event != json::parse_event_t::key) return true;
+    Object& object = open_.back();
+    object.key = parsed.get<std::string>();
+    if (!object.known.insert(object.key).second) {
+      std::string name;
+      for (const Object& outer : open_) name += (name.empty() ? "" : ".") + outer.key;
+      throw InputError(file_, 0, name + " is given twice");
+    }
+    return true;
+  }
+
+ private:
+  struct Object {
+    std::set<std::string> known;
+    std::string key;  ///< whose value is read
+  };
+  const std::string& file_;
+  std::vector<Object> open_;
+};
+
 json parseJson(const std::string& text, const std::string& file) {
   requireModestJson(text, file);
+  KeysOnce once(file);
   try {
-    return json::parse(text);
+    return json::parse(text, std::ref(once));
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = 1 + std::count(text.begin(), end, '\n');
