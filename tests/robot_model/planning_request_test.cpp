@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "input_files.hpp"
+#include "message_of.hpp"
+#include "swept/robot_model/robot.hpp"
 
 namespace swept {
 namespace {
@@ -70,13 +75,138 @@ TEST(PlanningRequest, ReadsAPoseGoal) {
                                                           "frame"));
 }
 
-TEST(PlanningRequest, WhatIsMissingIsNamed) {
+TEST(PlanningRequest, ReadsBasesOfTheStart) {
   const test::TemporaryFolder folder;
-  const auto message = [&](const std::string& text) {
-    const auto file = folder.write("r.yaml", text);
-    const std::string error = test::inputError([&] { PlanningRequest::load(file); });
-    return error.starts_with(file.string()) ? error.substr(file.string().size()) : error;
+  const PlanningRequest request = PlanningRequest::load(folder.write("r.yaml", R"(start_state:
+  multi_dof_joint_state:
+    header: {frame_id: world}
+    joint_names: [base]
+    transforms: [{translation: [1, 2, 3], rotation: [0, 0, 1, 0]}]
+goal_constraints: [{joint_constraints: [{joint_name: base/x, position: 1}]}]
+)"));
+  EXPECT_THAT(request.start, ElementsAre());
+  ASSERT_EQ(request.bases.size(), 1u);
+  EXPECT_EQ(request.bases[0].joint, "base");
+  EXPECT_EQ(request.bases[0].parent_from_child.translation(), Eigen::Vector3d(1, 2, 3));
+  const Eigen::Matrix3d halfTurn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  EXPECT_LE((request.bases[0].parent_from_child.linear() - halfTurn).norm(), 1e-15);
+}
+
+/// A base stood at the origin whatever the request said.
+TEST(PlanningRequest, BasesAreValuesOfTheRobotsJoints) {
+  const auto robotOn = [](const std::string& type) {
+    return Robot::parse("<robot name='r'><link name='a'/></robot>", "r.urdf",
+                        "<robot name='r'><virtual_joint name='base' type='" + type +
+                            "' parent_frame='odom' child_link='a'/></robot>",
+                        "r.srdf");
   };
+  PlanningRequest request;
+  request.start = {{"a", 1.0}};
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() << 1, 2, 0;
+  pose.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  request.bases.push_back({"base", pose});
+  const auto planar = request.startOf(*robotOn("planar"));
+  EXPECT_THAT(planar, ElementsAre(Pair("a", 1.0), Pair("base/x", 1.0), Pair("base/y", 2.0),
+                                  Pair("base/theta", std::numbers::pi / 2.0)));
+  const auto floating = request.startOf(*robotOn("floating"));
+  ASSERT_EQ(floating.size(), 8u);
+  EXPECT_EQ(floating[2], std::pair(std::string("base/trans_y"), 2.0));
+  EXPECT_EQ(floating[7].first, "base/rot_w");
+  EXPECT_NEAR(floating[7].second, std::sqrt(0.5), 1e-15);
+  const auto refused = [&](const std::string& type) {
+    return test::messageOf([&] { (void)request.startOf(*robotOn(type)); });
+  };
+  EXPECT_EQ(refused("fixed"),
+            "multi_dof_joint_state of 'base': the joint is neither planar nor floating");
+  request.bases[0].parent_from_child.translation().z() = 0.1;
+  EXPECT_EQ(
+      refused("planar"),
+      "multi_dof_joint_state of 'base': the joint is planar, and the pose is not in its plane");
+  request.bases[0].joint = "cart";
+  EXPECT_EQ(refused("planar"), "multi_dof_joint_state of 'cart': robot 'r' has no such joint");
+  request.bases[0].parent_from_child.setIdentity();
+  EXPECT_EQ(request.startOf(*robotOn("planar")).size(), 1u);
+}
+
+/// As MoveIt and Robowflex write it.
+TEST(PlanningRequest, WhatMoveItWritesIsAllowed) {
+  const test::TemporaryFolder folder;
+  test::Warnings warnings;
+  const auto file = folder.write("r.yaml", R"(workspace_parameters:
+  header: {frame_id: ''}
+  min_corner: [-1, -1, -1]
+  max_corner: {x: 1, y: 1, z: 1}
+start_state:
+  joint_state: {header: {seq: 0, stamp: 0, frame_id: base}, name: [a], position: [0], velocity: [], effort: []}
+  multi_dof_joint_state: {header: {frame_id: ''}, joint_names: [], transforms: [], twist: [], wrench: []}
+  attached_collision_objects: []
+  is_diff: False
+goal_constraints:
+  - name: ''
+    joint_constraints: [{joint_name: a, position: 1, tolerance_above: 1, tolerance_below: 1, weight: 1}]
+    position_constraints: []
+    orientation_constraints: []
+    visibility_constraints: []
+path_constraints: {name: '', joint_constraints: [], position_constraints: [], orientation_constraints: [], visibility_constraints: []}
+trajectory_constraints: {constraints: []}
+reference_trajectories: []
+pipeline_id: ''
+planner_id: RRTConnect
+group_name: arm
+num_planning_attempts: 2
+allowed_planning_time: 60
+max_velocity_scaling_factor: 0
+max_acceleration_scaling_factor: 0
+cartesian_speed_end_effector_link: ''
+cartesian_speed_limited_link: ''
+max_cartesian_speed: 0
+)");
+  EXPECT_EQ(PlanningRequest::load(file, warnings.options()).goals.size(), 1u);
+  EXPECT_THAT(warnings.lines,
+              ElementsAre(file.string() + ":2: warning: workspace_parameters is ignored: it bounds "
+                                          "where a base may go, and nothing else"));
+}
+
+/// The message without the name of the file.
+std::string message(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("r.yaml", text);
+  const std::string error = test::inputError([&] { PlanningRequest::load(file); });
+  return error.starts_with(file.string()) ? error.substr(file.string().size()) : error;
+}
+
+/// A path was planned and proven as if it were not there.
+TEST(PlanningRequest, NothingIsLeftOutInSilence) {
+  const std::string goal =
+      "goal_constraints: [{joint_constraints: [{joint_name: a, position: 1}]}]\n";
+  EXPECT_EQ(message(kStart + goal + "path_constraints:\n  orientation_constraints: [{}]\n"),
+            ":8: error: path_constraints.orientation_constraints[0] cannot be kept: a path's ends "
+            "alone are constrained");
+  EXPECT_EQ(message(kStart + goal + "trajectory_constraints: {constraints: [{}]}\n"),
+            ":7: error: trajectory_constraints.constraints[0] cannot be kept: a path's ends alone "
+            "are constrained");
+  EXPECT_EQ(message(kStart + "goal_constraints:\n  - visibility_constraints: [{}]\n"),
+            ":7: error: goal_constraints[0].visibility_constraints[0] is not supported");
+  EXPECT_EQ(message(kStart + "  attached_collision_objects: [{link_name: hand}]\n" + goal),
+            ":6: error: start_state.attached_collision_objects[0] is not read from a request; "
+            "attach it to the robot instead");
+  EXPECT_EQ(message(kStart + "  multi_dof_joint_state: {joint_names: [base]}\n" + goal),
+            ":6: error: start_state.multi_dof_joint_state has 1 names and 0 transforms");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [a, a], position: [0, 1]}}\n" + goal),
+            ":1: error: start_state.joint_state.name[1] is 'a' a second time");
+  EXPECT_EQ(message(kStart + goal + "group: arm\n").substr(0, 55),
+            ":7: error: the file has the unknown key 'group'; allowe");
+  EXPECT_EQ(message(kStart + goal + goal),
+            ":7: error: the file has the key 'goal_constraints' twice");
+  EXPECT_EQ(message(kStart + "goal_constraints: [{joint_constraint: []}]\n"),
+            ":6: error: goal_constraints[0] has the unknown key 'joint_constraint'; allowed are "
+            "name, joint_constraints, position_constraints, orientation_constraints and "
+            "visibility_constraints");
+  EXPECT_EQ(message("[]\n"), ":1: error: a planning request must be a mapping");
+}
+
+TEST(PlanningRequest, WhatIsMissingIsNamed) {
   EXPECT_EQ(message("group_name: arm\n"), ":1: error: start_state must be a mapping");
   EXPECT_EQ(message("start_state: {joint_state: {name: [a], position: [1, 2]}}\n"),
             ":1: error: start_state.joint_state it has 1 names and 2 positions");

@@ -84,11 +84,21 @@ std::vector<double> requestState(const Robot& robot, const Group& group,
   return readState(robot, group, text, label);
 }
 
+/// With those of bases. Throws UsageError.
+PlanningRequest::JointValues startOf(const Robot& robot, const PlanningRequest& request,
+                                     const std::string& file) {
+  try {
+    return request.startOf(robot);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(file + ", start: " + error.what());
+  }
+}
+
 /// The start's values of all joints, those outside the group too.
-Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest& request,
+Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest::JointValues& start,
                             const std::string& file) {
   Eigen::VectorXd reference = robot.defaultState();
-  for (const auto& [name, value] : request.start) {
+  for (const auto& [name, value] : start) {
     const std::optional<int> variable = robot.findVariable(name);
     if (!variable && !robot.findJoint(name))
       throw UsageError(file + ", start: robot '" + robot.name() + "' has no joint '" + name + "'");
@@ -104,12 +114,13 @@ Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) 
   const Group& group = chooseGroup(robot, wanted);
   if (request.goals.size() + request.poseGoals.size() > 1 && !request.poseGoals.empty())
     throw UsageError(args.request + ": a goal pose has to be its only goal");
+  const PlanningRequest::JointValues start = startOf(robot, request, args.request);
   Task task;
   task.alternatives = true;
   task.checker = makeChecker(args, model, group, model.world, warnings,
-                             referenceOf(robot, request, args.request));
+                             referenceOf(robot, start, args.request));
   task.states.push_back(
-      {.label = "start", .q = requestState(robot, group, request.start, args.request + ", start")});
+      {.label = "start", .q = requestState(robot, group, start, args.request + ", start")});
   for (std::size_t i = 0; i < request.goals.size(); ++i) {
     const std::string goal =
         request.goals.size() > 1 ? "goal " + std::to_string(i + 1) : std::string("goal");

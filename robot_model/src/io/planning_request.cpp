@@ -2,8 +2,11 @@
 #include "swept/robot_model/planning_request.hpp"
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include "io/input_source.hpp"
+#include "io/robot_state_yaml.hpp"
 #include "io/yaml.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -15,24 +18,42 @@ using detail::YamlPlace;
 constexpr double kPositionTolerance = 1e-3;     // m, where the request has none
 constexpr double kOrientationTolerance = 1e-2;  // rad, likewise
 
-PlanningRequest::JointValues readStart(const YamlPlace& state) {
+/// A joint's name, which is none of the `known`, to which it is added.
+std::string newName(const YamlPlace& place, std::set<std::string>& known) {
+  std::string name = place.text();
+  if (!known.insert(name).second) place.fail("is '" + name + "' a second time");
+  return name;
+}
+
+void readStart(const YamlPlace& state, PlanningRequest& request) {
+  detail::allowRobotState(state);
+  const YamlPlace bases = state.at("multi_dof_joint_state");
+  for (const detail::BasePose& base : detail::readBasePoses(bases))
+    request.bases.push_back({base.joint, base.parent_from_child});
+  if (const auto attached = state.at("attached_collision_objects").elements(); !attached.empty())
+    attached[0].fail("is not read from a request; attach it to the robot instead");
   const YamlPlace joints = state.at("joint_state");
+  if (!joints.present() && !request.bases.empty()) return;
   const std::vector<YamlPlace> names = joints.at("name").elements();
   const std::vector<YamlPlace> positions = joints.at("position").elements();
-  if (names.empty()) joints.fail("it names no joint");
+  if (names.empty() && request.bases.empty()) joints.fail("it names no joint");
   if (names.size() != positions.size())
     joints.fail("it has " + std::to_string(names.size()) + " names and " +
                 std::to_string(positions.size()) + " positions");
-  PlanningRequest::JointValues values;
+  std::set<std::string> known;
   for (std::size_t i = 0; i < names.size(); ++i)
-    values.emplace_back(names[i].text(), positions[i].number());
-  return values;
+    request.start.emplace_back(newName(names[i], known), positions[i].number());
 }
 
 PlanningRequest::JointValues readJointGoal(const std::vector<YamlPlace>& constraints) {
   PlanningRequest::JointValues values;
-  for (const YamlPlace& constraint : constraints)
-    values.emplace_back(constraint.at("joint_name").text(), constraint.at("position").number());
+  std::set<std::string> known;
+  for (const YamlPlace& constraint : constraints) {
+    constraint.allowOnly(
+        {"joint_name", "position", "tolerance_above", "tolerance_below", "weight"});
+    values.emplace_back(newName(constraint.at("joint_name"), known),
+                        constraint.at("position").number());
+  }
   return values;
 }
 
@@ -44,6 +65,9 @@ struct Region {
 
 Region readRegion(const YamlPlace& constraint) {
   const YamlPlace region = constraint.at("constraint_region");
+  region.allowOnly({"primitives", "primitive_poses", "meshes", "mesh_poses"});
+  if (const auto meshes = region.at("meshes").elements(); !meshes.empty())
+    meshes[0].fail("is not supported; a region is a primitive");
   const std::vector<YamlPlace> primitives = region.at("primitives").elements();
   const std::vector<YamlPlace> poses = region.at("primitive_poses").elements();
   if (primitives.size() != 1 || poses.size() != 1)
@@ -51,6 +75,7 @@ Region readRegion(const YamlPlace& constraint) {
   if (const YamlPlace offset = constraint.at("target_point_offset");
       offset.present() && !offset.vector().isZero())
     offset.fail("is not 0: only a link's own origin can be placed");
+  primitives[0].allowOnly({"type", "dimensions", "polygon"});
   double least = kPositionTolerance;
   const std::vector<YamlPlace> sizes = primitives[0].at("dimensions").elements();
   if (!sizes.empty()) {
@@ -64,6 +89,7 @@ Region readRegion(const YamlPlace& constraint) {
 
 void warnOfFrame(const YamlPlace& constraint, const LoadOptions& options) {
   const YamlPlace header = constraint.at("header");
+  header.allowOnly({"seq", "stamp", "frame_id"});
   if (!header.present() || !header.at("frame_id").present()) return;
   const std::string frame = header.at("frame_id").text();
   if (!frame.empty() && frame != "world" && frame != options.modelFrame)
@@ -72,6 +98,10 @@ void warnOfFrame(const YamlPlace& constraint, const LoadOptions& options) {
 
 PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& position,
                                        const YamlPlace& orientation, const LoadOptions& options) {
+  position.allowOnly({"header", "link_name", "target_point_offset", "constraint_region", "weight"});
+  orientation.allowOnly({"header", "orientation", "link_name", "absolute_x_axis_tolerance",
+                         "absolute_y_axis_tolerance", "absolute_z_axis_tolerance",
+                         "parameterization", "weight"});
   warnOfFrame(position, options);
   warnOfFrame(orientation, options);
   const std::string link = position.at("link_name").text();
@@ -95,7 +125,18 @@ PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& p
   return pose;
 }
 
+/// Of moveit_msgs/Constraints.
+constexpr std::array<const char*, 4> kKinds{"joint_constraints", "position_constraints",
+                                            "orientation_constraints", "visibility_constraints"};
+
+void allowConstraints(const YamlPlace& place) {
+  place.allowOnly({"name", kKinds[0], kKinds[1], kKinds[2], kKinds[3]});
+}
+
 void readGoal(const YamlPlace& goal, const LoadOptions& options, PlanningRequest& request) {
+  allowConstraints(goal);
+  if (const auto views = goal.at(kKinds[3]).elements(); !views.empty())
+    views[0].fail("is not supported");
   const std::vector<YamlPlace> joints = goal.at("joint_constraints").elements();
   const std::vector<YamlPlace> positions = goal.at("position_constraints").elements();
   const std::vector<YamlPlace> orientations = goal.at("orientation_constraints").elements();
@@ -109,19 +150,65 @@ void readGoal(const YamlPlace& goal, const LoadOptions& options, PlanningRequest
         "orientation_constraints");
 }
 
+void refuseAlongPath(const YamlPlace& root) {
+  const char* const kReason = "cannot be kept: a path's ends alone are constrained";
+  if (const YamlPlace path = root.at("path_constraints"); path.present()) {
+    allowConstraints(path);
+    for (const char* kind : kKinds)
+      if (const auto given = path.at(kind).elements(); !given.empty()) given[0].fail(kReason);
+  }
+  if (const YamlPlace trajectory = root.at("trajectory_constraints"); trajectory.present()) {
+    trajectory.allowOnly({"constraints"});
+    if (const auto given = trajectory.at("constraints").elements(); !given.empty())
+      given[0].fail(kReason);
+  }
+}
+
+void warnOfWorkspace(const YamlPlace& workspace) {
+  if (!workspace.present()) return;
+  workspace.allowOnly({"header", "min_corner", "max_corner"});
+  for (const char* key : {"min_corner", "max_corner"}) {
+    const YamlPlace corner = workspace.at(key);
+    if (!corner.present() || corner.vector().isZero(0.0)) continue;
+    workspace.warn("is ignored: it bounds where a base may go, and nothing else");
+    return;
+  }
+}
+
+void allowRequest(const YamlPlace& root) {
+  root.allowOnly({"workspace_parameters", "start_state", "goal_constraints", "path_constraints",
+                  "trajectory_constraints", "reference_trajectories", "pipeline_id", "planner_id",
+                  "group_name", "num_planning_attempts", "allowed_planning_time",
+                  "max_velocity_scaling_factor", "max_acceleration_scaling_factor",
+                  "cartesian_speed_end_effector_link", "cartesian_speed_limited_link",
+                  "max_cartesian_speed"});
+}
+
+PlanningRequest readRequest(const YamlPlace& root, const LoadOptions& options) {
+  PlanningRequest request;
+  if (!root.isMap()) root.fail("a planning request must be a mapping");
+  allowRequest(root);
+  if (const YamlPlace group = root.at("group_name"); group.present()) request.group = group.text();
+  warnOfWorkspace(root.at("workspace_parameters"));
+  refuseAlongPath(root);
+  readStart(root.at("start_state"), request);
+  const YamlPlace goals = root.at("goal_constraints");
+  for (const YamlPlace& goal : goals.elements()) readGoal(goal, options, request);
+  if (request.goals.empty() && request.poseGoals.empty()) goals.fail("there is no goal");
+  return request;
+}
+
 }  // namespace
 
 PlanningRequest PlanningRequest::load(const std::filesystem::path& yaml,
                                       const LoadOptions& options) {
   const detail::InputSource source(yaml.string(), options);
   const YamlPlace root = YamlPlace::parse(readTextFile(yaml), source);
-  PlanningRequest request;
-  if (const YamlPlace group = root.at("group_name"); group.present()) request.group = group.text();
-  request.start = readStart(root.at("start_state"));
-  const YamlPlace goals = root.at("goal_constraints");
-  for (const YamlPlace& goal : goals.elements()) readGoal(goal, options, request);
-  if (request.goals.empty() && request.poseGoals.empty()) goals.fail("there is no goal");
-  return request;
+  try {
+    return readRequest(root, options);
+  } catch (const YAML::Exception& error) {
+    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+  }
 }
 
 }  // namespace swept

@@ -11,6 +11,8 @@
 
 namespace swept {
 
+class Robot;
+
 /// From where to where, in the layout of moveit_msgs/MotionPlanRequest.
 struct PlanningRequest {
   using JointValues = std::vector<std::pair<std::string, double>>;  ///< rad or m, by joint
@@ -21,15 +23,28 @@ struct PlanningRequest {
     double positionTolerance;           ///< m: radius of a ball, or half the least side of a box
     double orientationTolerance;        ///< rad: the least of the three about the axes
   };
+  /// Where a joint of several values, such as a mobile base's virtual joint, has its child.
+  struct BasePose {
+    std::string joint;                    ///< planar or floating
+    Eigen::Isometry3d parent_from_child;  ///< in the frame that the joint hangs on
+  };
   std::string group;                ///< empty: the request does not say
   JointValues start;                ///< of the start state; may have joints outside the group
+  std::vector<BasePose> bases;      ///< of the start state: its `multi_dof_joint_state`
   std::vector<JointValues> goals;   ///< each may be reached
   std::vector<PoseGoal> poseGoals;  ///< likewise
 
   /// Reads a YAML file. Tolerances of joint goals are left out: their values are reached. Throws
-  /// InputError for what it lacks (a start, a goal), and for a goal that is neither joint values
-  /// nor a link's position and orientation.
+  /// InputError for what it lacks (a start, a goal), for a goal that is neither joint values nor a
+  /// link's position and orientation, for keys that are unknown or given twice, and for what would
+  /// be left out: constraints of the path, attached objects. Warns of a workspace, which only
+  /// bounds bases in MoveIt and is not read.
   static PlanningRequest load(const std::filesystem::path& yaml, const LoadOptions& options = {});
+
+  /// `start` with the values of `bases`, by the robot's names (`base/x`, `base/rot_w`). Throws
+  /// std::invalid_argument for a base that is moved and that the robot does not have, or not as a
+  /// planar or floating joint; and for one that leaves its plane.
+  JointValues startOf(const Robot& robot) const;
 };
 
 }  // namespace swept
