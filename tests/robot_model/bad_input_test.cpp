@@ -265,12 +265,12 @@ std::vector<BadInput> meshes() {
        "model:// "
        "or file://"},
       {"MeshUnreadable", "r.urdf", shaped("<mesh filename='garbage.stl'/>"),
-       "@/r.urdf:4: error: mesh 'garbage.stl' of link 'a' cannot be read: Failed to determine STL "
-       "storage representation for garbage.stl."},
+       "@/r.urdf:4: error: mesh 'garbage.stl' of link 'a' cannot be read: neither STL as text, "
+       "which starts with 'solid', nor a binary one: it has 12 bytes, less than the 84 of a "
+       "header"},
       {"MeshOfUnknownKind", "r.urdf", shaped("<mesh filename='notes.txt'/>"),
-       "@/r.urdf:4: error: mesh 'notes.txt' of link 'a' cannot be read: No suitable reader found "
-       "for the "
-       "file format of file \"notes.txt\"."},
+       "@/r.urdf:4: error: mesh 'notes.txt' of link 'a' has the ending '.txt'; allowed are .stl, "
+       ".obj, .dae and .ply"},
       {"MeshWithoutTriangles", "r.urdf", shaped("<mesh filename='lines.obj'/>"),
        "@/r.urdf:4: error: mesh 'lines.obj' of link 'a' has no triangles"},
       {"MeshAllDegenerate", "r.urdf", shaped("<mesh filename='needle.obj'/>"),

@@ -79,7 +79,12 @@ std::map<Line, std::size_t> LineFaces::uncovered() const {
     const auto [least, most] = std::ranges::minmax(corners);
     lines.emplace(lineOf(least, most), i);
   }
-  if (lines.empty()) return lines;
+  // build() has a message for no other faces at all.
+  if (lines.empty() || std::ranges::all_of(triangles_, [&](const Eigen::Vector3i& triangle) {
+        return inRange(triangle) && isLine(triangle);
+      })) {
+    return {};
+  }
   for (const Eigen::Vector3i& triangle : triangles_)
     if (inRange(triangle) && !isLine(triangle)) erase(triangle, lines);
   return lines;
