@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "clearance_grid_samples.hpp"
@@ -365,6 +367,28 @@ TEST(ClearanceGrid, RefusesWhatItCannotBuild) {
   EXPECT_EQ(messageOf(huge, {}),
             "clearance grid: the shape reaches 2e+30 m within the window; allowed: 1e+30");
   EXPECT_EQ(messageOf(huge, {.window = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)}}), "");
+}
+
+/// Voxels grow with the shape, also where the window is small: they became infinite, and a query
+/// read at an index that was no number.
+TEST(ClearanceGrid, ReachesFarBeyondTheWindowOrSaysThatItDoesNot) {
+  const ClearanceGridOptions near{.window = {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)}};
+  for (const double reach : {1e20, 1e31, 1e39, 1e50, 1e100, 1e155, 1e300}) {
+    const std::vector<Vector3d> points{Vector3d(0.5, 0.0, 0.0), Vector3d(reach, 0.0, 0.0)};
+    const Shape cloud = PointCloud::build(points, 0.1);
+    std::ostringstream refusal;
+    if (reach > 1e40)
+      refusal << "clearance grid: the shape reaches " << reach
+              << " m; allowed: 1e+40, and within the window 1e+30";
+    EXPECT_EQ(messageOf(cloud, near), refusal.str());
+    if (reach > 1e40) continue;
+    const ClearanceGrid grid = ClearanceGrid::build(cloud, near);
+    for (const double x : {-1e151, -reach, -5.0, 0.0, 0.5, 1.0, reach, 1e151}) {
+      const double clearance = grid.clearance(Vector3d(x, 0.0, 0.0));
+      EXPECT_GE(clearance, 0.0);
+      EXPECT_LE(clearance, std::max(0.0, std::min(std::abs(x - 0.5), std::abs(x - reach)) - 0.1));
+    }
+  }
 }
 
 TEST(ClearanceGrid, QueriesAllocateNothingAndCopiesShare) {

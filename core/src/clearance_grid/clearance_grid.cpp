@@ -209,6 +209,7 @@ namespace {
 constexpr std::size_t kFewestCells = 1000;
 constexpr std::size_t kMostCells = std::size_t{1} << 27;
 constexpr double kLargestCoordinate = 1e30;  // m; above, voxels are no numbers of single precision
+constexpr double kLargestBeyond = 1e40;      // m, out of the window; voxels grow with that too
 
 void requireUsable(const ClearanceGridOptions& options) {
   std::ostringstream message;
@@ -229,8 +230,14 @@ void requireNear(const Aabb& box, const Aabb& window) {
   const Vector3d lower = box.lower.cwiseMax(window.lower);
   const Vector3d upper = box.upper.cwiseMin(window.upper);
   const double reach = lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff();
-  if (reach <= kLargestCoordinate) return;
+  const double beyond = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff();
   std::ostringstream message;
+  if (!(beyond <= kLargestBeyond)) {
+    message << "clearance grid: the shape reaches " << beyond << " m; allowed: " << kLargestBeyond
+            << ", and within the window " << kLargestCoordinate;
+    throw std::invalid_argument(message.str());
+  }
+  if (reach <= kLargestCoordinate) return;
   message << "clearance grid: the shape reaches " << reach
           << " m within the window; allowed: " << kLargestCoordinate;
   throw std::invalid_argument(message.str());

@@ -35,7 +35,7 @@ class ClearanceGrid {
  public:
   /// Throws std::invalid_argument for a shape of another kind, for a window whose lower corner is
   /// not below the upper one or the same, for a number of cells out of range, and for a shape that
-  /// reaches beyond 1e30 m within the window.
+  /// reaches beyond 1e30 m within the window, or 1e40 m at all.
   static ClearanceGrid build(const Shape& shape, const ClearanceGridOptions& options = {});
 
   /// m; the point (m, the shape's frame) is at least this far from the shape, all roundings
