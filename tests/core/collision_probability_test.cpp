@@ -138,6 +138,36 @@ TEST(CollisionProbability, OfTwoBallsIsANoncentralChiDistribution) {
   EXPECT_GT(open, 20);
 }
 
+/// Below 1e-150 m squares of distances underflow: balls apart were taken for one in the other.
+TEST(CollisionProbability, HoldsForNoiseOfAnySize) {
+  std::mt19937 random(12);
+  for (const double exponent : {-310.0, -300.0, -170.0, -162.0, -161.0, -160.0, -150.0, -100.0,
+                                -12.0, 6.0, 100.0, 150.0, 155.0, 200.0, 300.0}) {
+    const double s = std::pow(10.0, exponent);
+    for (int i = 0; i < 12; ++i) {
+      const double radius = uniform(random, 0.2, 2.0);
+      const double apart = uniform(random, 0.1, 2.0) * radius;
+      const double truth = noncentralChi(apart, radius, 1.0);
+      const Vector3d away = apart * s * test::unitVector(random);
+      const auto a = NoisyPointCloud::build({{Vector3d::Zero()}}, 0.3 * radius * s, 0.6 * s);
+      const auto b = NoisyPointCloud::build({{away}}, 0.7 * radius * s, 0.8 * s);
+      const auto pair = collisionProbability(a, b, Isometry3d::Identity(), accurateTo(1e-9));
+      EXPECT_LE(pair.lower, truth + 1e-11) << exponent;
+      EXPECT_GE(pair.upper, truth - 1e-11) << exponent;
+      if (std::abs(exponent) <= 100.0) {
+        EXPECT_LE(pair.upper - pair.lower, 1e-9);
+      }
+      const auto alone = NoisyPointCloud::build({{Vector3d::Zero()}}, 0.3 * radius * s, s);
+      Isometry3d pose = Isometry3d::Identity();
+      pose.translation() = away;
+      const auto ball =
+          collisionProbability(alone, makeSphere(0.7 * radius * s), pose, accurateTo(0.03));
+      EXPECT_LE(ball.lower, truth + 1e-11) << exponent;
+      EXPECT_GE(ball.upper, truth - 1e-11) << exponent;
+    }
+  }
+}
+
 /// With noise that is not the same in all directions, by a series; singular, by an integral.
 TEST(CollisionProbability, OfTwoBallsWithUnevenNoise) {
   std::mt19937 random(3);

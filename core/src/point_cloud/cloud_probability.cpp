@@ -109,9 +109,10 @@ class CloudQuery {
     return a_.points[i] - a_from_b_ * b_.points[j];
   }
   double roundingOf(std::size_t i, std::size_t j) const {
-    return 4.0 * tolerance::kSupportRounding *
-           (a_.points[i].norm() + b_.points[j].norm() + a_from_b_.translation().norm() +
-            a_.radii[i] + b_.radii[j] + kFarthestLook * std::hypot(a_.spreads[i], b_.spreads[j]));
+    const double size = a_.points[i].norm() + b_.points[j].norm() + a_from_b_.translation().norm() +
+                        a_.radii[i] + b_.radii[j] +
+                        kFarthestLook * std::hypot(a_.spreads[i], b_.spreads[j]);
+    return 4.0 * tolerance::kSupportRounding * size + kPositionUnderflow;
   }
 
   /// By the closed form; positions off by a rounding move it by the density of the distance, which
@@ -125,6 +126,7 @@ class CloudQuery {
 
   /// By a series, or where that is too long by an integral that is left open.
   ProbabilityRange anisotropic(std::size_t i, std::size_t j) {
+    if (!hasDigits(std::hypot(a_.spreads[i], b_.spreads[j]))) return {};
     const Matrix3d one = a_.factor(i);
     const Matrix3d other = a_from_b_.linear() * b_.factor(j);
     const Matrix3d covariance = one * one.transpose() + other * other.transpose();

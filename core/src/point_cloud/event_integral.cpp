@@ -40,6 +40,7 @@ EventIntegral::EventIntegral(const Noise& noise, Look look)
 }
 
 bool EventIntegral::refine() {
+  if (!hasDigits(noise_.spread)) return false;
   if (cells_.empty()) makeCells();
   LineCell cell = pop();
   if (!(cell.gap() > 0.0) || cells_.size() >= kMostCells) {
@@ -79,7 +80,8 @@ void EventIntegral::boundByFirst(const Finding& first) {
     const Certificate& proof = common_.front();
     double tail = 1.0;
     if (proof.form == Certificate::Form::HalfSpace) {
-      const double along = (noise_.factor.transpose() * proof.vector).norm();
+      const Vector3d normal = noise_.factor.transpose() * proof.vector;
+      const double along = std::hypot(normal.x(), normal.y(), normal.z());
       const double beyond = proof.vector.dot(noise_.mean) - proof.number;
       tail = along > 0.0 ? normalCdf(-beyond / along) : (beyond >= 0.0 ? 0.0 : 1.0);
     } else {

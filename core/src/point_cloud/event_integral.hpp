@@ -12,6 +12,16 @@ namespace swept::detail {
 /// Standard deviations of the noise: no look of an EventIntegral goes so far.
 inline constexpr double kFarthestLook = 32.0;
 
+/// m. What positions and distances may be off by, besides their rounding, where squares of small
+/// numbers underflow: far above the root of the least one.
+inline constexpr double kPositionUnderflow = 1e-140;
+
+/// Whether the square of a spread (m) keeps its digits. Of others only far and deep positions are
+/// told apart.
+inline bool hasDigits(double spread) {
+  return spread > 1e-140 && spread < 1e140;
+}
+
 /// A probability: proven bounds and an estimate.
 struct ProbabilityRange {
   double lower = 0.0;

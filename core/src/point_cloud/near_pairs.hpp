@@ -81,7 +81,8 @@ class NearPairs {
         const auto j = static_cast<std::size_t>(b_.tree.order()[static_cast<std::size_t>(n)]);
         const Eigen::Vector3d other = a_from_b_ * b_.points[j];
         const double rounding = 4.0 * tolerance::kSupportRounding *
-                                (a_.points[i].norm() + b_.points[j].norm() + other.norm());
+                                    (a_.points[i].norm() + b_.points[j].norm() + other.norm()) +
+                                kPositionUnderflow;
         const double apart = (a_.points[i] - other).norm() - rounding;
         if (isFar(apart, a_.radii[i] + b_.radii[j], std::hypot(a_.spreads[i], b_.spreads[j]), 1.0))
           continue;

@@ -67,7 +67,7 @@ class ShapeQuery {
   /// m, what positions around `center` may be off by.
   double roundingAt(const Vector3d& center, double reach) const {
     const double size = center.norm() + reach + extent_ + cloud_from_shape_.translation().norm();
-    return 4.0 * tolerance::kSupportRounding * size;
+    return 4.0 * tolerance::kSupportRounding * size + kPositionUnderflow;
   }
 
   /// False once the goal is reached: the rest need not be looked at.
