@@ -11,6 +11,7 @@
 
 #include "broadphase/world_box.hpp"
 #include "bv/box_pair.hpp"
+#include "geometry/nearest_rotation.hpp"
 
 namespace swept {
 namespace {
@@ -175,7 +176,8 @@ BodyTree::BodyTree(std::vector<Body> bodies) : bodies_(std::move(bodies)) {
   std::vector<Aabb> boxes;
   std::vector<int> order;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
+    Body& body = bodies_[i];
+    body.world_from_body = detail::rigidPose(body.world_from_body);
     boxes.push_back(detail::worldBox(body.shape, body.world_from_body, detail::BoxFit::Tight));
     boxes_.push_back(localBox(body.shape));
     extents_.push_back(extentOf(body.shape));
@@ -219,7 +221,8 @@ bool BodyTree::apart(const LocalBox& a, const LocalBox& b, const Isometry3d& a_f
   return detail::separatedByFaces(pair) || detail::separatedByEdges(pair);
 }
 
-BodyTree::Hit BodyTree::collides(const Shape& shape, const Isometry3d& world_from_shape) const {
+BodyTree::Hit BodyTree::collides(const Shape& shape, const Isometry3d& given) const {
+  const Isometry3d world_from_shape = detail::rigidPose(given);
   Hit result{Contact::Separate, -1};
   const Aabb box = detail::worldBox(shape, world_from_shape, detail::BoxFit::Quick);
   const LocalBox local = localBox(shape);
@@ -283,8 +286,9 @@ void BodyTree::descend(std::size_t index, const Aabb& box, const Shape& shape, d
   }
 }
 
-BodyTree::Nearest BodyTree::nearest(const Shape& shape, const Isometry3d& world_from_shape,
+BodyTree::Nearest BodyTree::nearest(const Shape& shape, const Isometry3d& given,
                                     double tolerance) const {
+  const Isometry3d world_from_shape = detail::rigidPose(given);
   Nearest best;
   if (!world_from_shape.matrix().allFinite()) return best;
   best.lower = kInfinity;

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/nearest_rotation.hpp"
 #include "point_cloud/any_of.hpp"
 #include "point_cloud/gaussian.hpp"
 #include "point_cloud/group_samples.hpp"
@@ -263,8 +264,9 @@ class CloudQuery {
 
 CollisionProbability cloudProbability(const NoisyCloudData& a, const NoisyCloudData& b,
                                       const Isometry3d& a_from_b, const ProbabilityGoal& goal) {
-  if (!a_from_b.matrix().allFinite()) return {};
-  return CloudQuery(a, b, a_from_b, goal).run();
+  const Isometry3d rigid = rigidPose(a_from_b);
+  if (!rigid.matrix().allFinite()) return {};
+  return CloudQuery(a, b, rigid, goal).run();
 }
 
 }  // namespace swept::detail

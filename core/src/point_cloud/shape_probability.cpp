@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/nearest_rotation.hpp"
 #include "point_cloud/any_of.hpp"
 #include "point_cloud/gaussian.hpp"
 #include "point_cloud/looks.hpp"
@@ -217,8 +218,9 @@ class ShapeQuery {
 
 CollisionProbability shapeProbability(const NoisyCloudData& a, const Shape& b,
                                       const Isometry3d& a_from_b, const ProbabilityGoal& goal) {
-  if (!a_from_b.matrix().allFinite()) return {};
-  return ShapeQuery(a, b, a_from_b, goal).run();
+  const Isometry3d rigid = rigidPose(a_from_b);
+  if (!rigid.matrix().allFinite()) return {};
+  return ShapeQuery(a, b, rigid, goal).run();
 }
 
 }  // namespace swept::detail

@@ -20,7 +20,8 @@ namespace swept {
 /// order give the same tree. Queries allocate nothing.
 ///
 /// Pairs are measured at the relative pose rounded to double: `collides` tells about that pose, and
-/// `nearest` widens its lower bound by the rounding. World poses are taken as orthonormal to 1e-15.
+/// `nearest` widens its lower bound by the rounding. World poses stand for the nearest rigid ones
+/// (`distance.hpp`), and so bodies() has them.
 class BodyTree {
  public:
   /// A shape where it is in the world; `id` comes back in the answers.

@@ -84,14 +84,14 @@ class MeshCollisionNode : public MeshPair<BV> {
 /// Which triangles of two models touch; `a_from_b` is the pose of b in a's frame. With a `front`
 /// the traversal starts where it ended last time (FrontList says what that needs). Throws
 /// BvhStateError or std::invalid_argument for models that are not built or have no triangles, never
-/// for a pose: one that is not finite touches, without pairs.
+/// for a pose: one that is not finite, or far from rigid, touches, without pairs.
 template <BoundingVolume BV>
 void collideMeshes(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                    const MeshCollisionOptions& options, MeshCollisionResult& result,
                    FrontList* front = nullptr) {
   result.reset();
   MeshCollisionNode<BV> node(a, b, a_from_b, options, result);
-  if (!a_from_b.matrix().allFinite()) {
+  if (!node.pose().matrix().allFinite()) {
     result.touching = true;
   } else if (front != nullptr) {
     front->belongTo(a.tree().shape(), b.tree().shape());

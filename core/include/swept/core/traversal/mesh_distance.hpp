@@ -128,7 +128,7 @@ MeshDistanceResult meshDistance(const BvhModel<BV>& a, const BvhModel<BV>& b,
                                 const MeshDistanceOptions& options = {}) {
   MeshDistanceResult result;
   MeshDistanceNode<BV> node(a, b, a_from_b, options, result);
-  if (!a_from_b.matrix().allFinite()) return result;
+  if (!node.pose().matrix().allFinite()) return result;
   distanceTraverse(node);
   node.finish();
   return result;

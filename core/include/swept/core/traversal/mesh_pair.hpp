@@ -13,6 +13,14 @@
 
 namespace swept {
 
+namespace detail {
+
+/// What a pose means (`distance.hpp`): itself where it is as good as rigid, else the nearest rigid
+/// one; NaN if there is none.
+Eigen::Isometry3d rigidPose(const Eigen::Isometry3d& pose);
+
+}  // namespace detail
+
 /// Two models and the pose between them: the part of a traversal node that walks their trees. Keeps
 /// references to the models.
 template <BoundingVolume BV>
@@ -28,12 +36,14 @@ class MeshPair {
   std::array<int, 2> firstChildren(int i) const { return {i + 1, first(i).rightChild}; }
   std::array<int, 2> secondChildren(int j) const { return {j + 1, second(j).rightChild}; }
   ///@}
+  /// Of the second model, as `distance.hpp` takes what was given; NaN for what is not a pose.
+  const Eigen::Isometry3d& pose() const { return a_from_b_; }
 
  protected:
   /// Throws, naming `call`, unless both models can be queried and have triangles.
   MeshPair(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
            std::string_view call)
-      : a_(a), b_(b), a_from_b_(a_from_b) {
+      : a_(a), b_(b), a_from_b_(detail::rigidPose(a_from_b)) {
     a.requireTriangles(call);
     b.requireTriangles(call);
   }

@@ -16,6 +16,7 @@
 #include "swept/core/distance.hpp"
 #include "swept/core/shapes.hpp"
 #include "swept/core/traversal/mesh_distance.hpp"
+#include "swept/core/traversal/mesh_pair.hpp"
 #include "swept/core/traversal/traversal.hpp"
 #include "swept/core/triangle_pair.hpp"
 
@@ -185,10 +186,11 @@ template <BoundingVolume BV>
 MeshShapeCollisionResult collideMeshShape(const BvhModel<BV>& mesh, const Shape& shape,
                                           const Eigen::Isometry3d& mesh_from_shape) {
   MeshShapeCollisionResult result;
-  ShapeLeaf leaf(shape, mesh_from_shape);
-  const BV volume = BV::fit(boxCorners(shape, mesh_from_shape));
+  const Eigen::Isometry3d rigid = detail::rigidPose(mesh_from_shape);
+  ShapeLeaf leaf(shape, rigid);
+  const BV volume = BV::fit(boxCorners(shape, rigid));
   MeshShapeCollisionNode<BV> node(mesh, volume, leaf, result);
-  if (mesh_from_shape.matrix().allFinite()) {
+  if (rigid.matrix().allFinite()) {
     collisionTraverse(node);
   } else {
     result.contact = Contact::Unknown;
@@ -203,10 +205,11 @@ MeshDistanceResult meshShapeDistance(const BvhModel<BV>& mesh, const Shape& shap
                                      const Eigen::Isometry3d& mesh_from_shape,
                                      const MeshDistanceOptions& options = {}) {
   MeshDistanceResult result;
-  ShapeLeaf leaf(shape, mesh_from_shape);
-  const BV volume = BV::fit(boxCorners(shape, mesh_from_shape));
+  const Eigen::Isometry3d rigid = detail::rigidPose(mesh_from_shape);
+  ShapeLeaf leaf(shape, rigid);
+  const BV volume = BV::fit(boxCorners(shape, rigid));
   MeshShapeDistanceNode<BV> node(mesh, volume, leaf, options, result);
-  if (!mesh_from_shape.matrix().allFinite()) return result;
+  if (!rigid.matrix().allFinite()) return result;
   distanceTraverse(node);
   node.finish();
   return result;
