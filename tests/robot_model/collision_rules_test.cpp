@@ -69,6 +69,14 @@ TEST(CollisionRules, WithoutABodyItsOwnRulesAreGone) {
   EXPECT_EQ(rules.rules().size(), 4U);
 }
 
+/// The paddings of all bodies were gone with one whose name was that of a pattern.
+TEST(CollisionRules, APatternIsNoBodysOwn) {
+  CollisionRules rules;
+  rules.pad("*", 0.01).pad("c*", 0.02);
+  EXPECT_EQ(rules.without("*").padding("hand"), 0.01);
+  EXPECT_EQ(rules.without("c*").padding("cup"), 0.02);
+}
+
 TEST(CollisionRules, ImpossibleValuesAreErrors) {
   CollisionRules rules;
   EXPECT_EQ(messageOf([&] { rules.pad("hand", -1e-9); }),

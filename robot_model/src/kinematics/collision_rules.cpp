@@ -105,6 +105,8 @@ double CollisionRules::scale(std::string_view body) const {
 }
 
 CollisionRules CollisionRules::without(std::string_view body) const {
+  // A body may be called `*`: what is said of all is not gone with it.
+  if (detail::isPattern(body)) return *this;
   CollisionRules result;
   std::ranges::copy_if(rules_, std::back_inserter(result.rules_), [body](const Rule& rule) {
     return rule.bodyA != body && rule.bodyB != body;
