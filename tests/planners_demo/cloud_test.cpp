@@ -122,6 +122,54 @@ TEST(Cloud, WhatPointsHideIsOccupied) {
   EXPECT_THAT(run.out, HasSubstr(" - wall: "));
 }
 
+/// What the robot hid from the sensor was free.
+TEST(Cloud, WhatTheRobotHidesIsOccupied) {
+  const TemporaryFolder folder;
+  // The arm, which stands straight up, as a sensor sees it from 2 m behind; a point far away.
+  std::string seen = "0 8 8\n";
+  for (int z = 1; z <= 50; ++z) seen.append("2 0 " + std::to_string(0.02 * z) + "\n");
+  const std::string cloud = folder.write("seen.xyz", seen);
+  Words words = rook7("check", {"upright", "0,0.8,0,0.8,0,0,0", "--cloud", cloud, "--point-radius",
+                                "0.03", "--self-filter", "0.05", "--cloud-pose", "-2,0,0,0,0,0,1"});
+  const Outcome open = runSwept(words);
+  EXPECT_EQ(open.exitCode, 0) << open.out;
+  EXPECT_EQ(open.err,
+            cloud + ": warning: 50 of 51 points are within 0.05 m of the robot and left out\n");
+  words.insert(words.end(), {"--occluded", "4"});
+  const Outcome run = runSwept(words);
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_THAT(run.out, testing::StartsWith("state 1 (upright): free"));
+  EXPECT_THAT(run.out, HasSubstr("\nstate 2: collision"));
+  EXPECT_THAT(run.out, HasSubstr(" - seen: "));
+  EXPECT_THAT(run.err, testing::ContainsRegex(
+                           "seen.xyz: warning: [0-9]+ of [0-9]+ balls of what the robot hides are "
+                           "within 0.05 m of the robot and left out\n"));
+}
+
+/// As large as this: the points' balls, but not the cubes of a map beside them.
+TEST(Cloud, PointRadiusIsForPoints) {
+  const TemporaryFolder folder;
+  const std::string far = folder.write("far.xyz", "8 8 8\n");
+  const auto json = jsonOf(runSwept(rook7("plan", {"home", "home", "--cloud", far, "--cloud", kMap,
+                                                   "--point-radius", "0.005", "--json"})));
+  ASSERT_EQ(json["clouds"].size(), 2u);
+  EXPECT_EQ(json["clouds"][0]["least_radius"], 0.005);
+  EXPECT_NEAR(json["clouds"][1]["least_radius"], 0.01 * std::sqrt(3.0), 1e-12);
+}
+
+TEST(Cloud, RulesAreForItsBallsAndCubes) {
+  for (const Words& world :
+       {Words{"--cloud", kCloud, "--point-radius", "0.015"}, {"--cloud", kMap}}) {
+    Words words = rook7("check", {"home", "--pad", "shelf=0.05"});
+    words.insert(words.end(), world.begin(), world.end());
+    EXPECT_EQ(runSwept(words).exitCode, 0);
+    words.insert(words.end(), {"--pad", "shelf=1"});
+    EXPECT_EQ(runSwept(words).exitCode, 1);
+    words.insert(words.end(), {"--allow", "*,shelf"});
+    EXPECT_EQ(runSwept(words).exitCode, 0);
+  }
+}
+
 TEST(Cloud, InfoListsIt) {
   const auto json = jsonOf(runSwept({"info", kRobot, "--cloud", kMap, "--json"}));
   ASSERT_EQ(json["world"].size(), 1u);
@@ -147,6 +195,10 @@ TEST(Cloud, WhatItCannotUseIsNamed) {
       {{"--cloud", kMap, "--occluded", "2"},
        std::string("swept: error: --occluded is for points; an OctoMap says itself what is "
                    "occupied: ") +
+           kMap},
+      {{"--cloud", kMap, "--point-radius", "0.01"},
+       std::string("swept: error: --point-radius is for points; the cubes of an OctoMap are as "
+                   "large as it says: ") +
            kMap},
       {{"--cloud", one, "--point-radius", "0", "--occluded", "2"},
        one + ": error: radius of the occluded space is 0; allowed: finite and above zero"},

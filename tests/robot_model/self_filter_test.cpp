@@ -14,6 +14,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "message_of.hpp"
 #include "swept/core/signed_distance.hpp"
 
 namespace swept {
@@ -199,6 +200,68 @@ TEST_F(Ball, PointsThatAreNotFiniteAreKept) {
   const auto arm = test::modelRobot("rook7");
   const std::vector<double> state(arm->variables().size(), 0.0);
   EXPECT_EQ(withoutRobot(points, *arm, state, 0.1).size(), 4u);
+}
+
+TEST_F(Ball, BallsKeepMoreThanTheMarginToo) {
+  const Balls all{.centers = {{0, 0, 1}, {0, 0, 1}, {0, 0, 2}, {0.75, 0, 2}, {9, 9, 9}},
+                  .radii = {0.25, 0.5, 0.0, 0.25, 4.0}};
+  const auto centersAt = [&](double margin) {
+    return ballsWithoutRobot(all, *robot_, state_, margin).centers;
+  };
+  EXPECT_EQ(centersAt(0.0), (Points{{0, 0, 1}, {9, 9, 9}}));
+  EXPECT_EQ(ballsWithoutRobot(all, *robot_, state_, 0.0).radii, (std::vector<double>{0.25, 4.0}));
+  EXPECT_EQ(centersAt(0.25), (Points{{9, 9, 9}}));
+  const Balls broken{.centers = {{0, 0, 1}}, .radii = {}};
+  EXPECT_EQ(test::messageOf([&] { ballsWithoutRobot(broken, *robot_, state_, 0.0); }),
+            "withoutRobot: 1 balls have 0 radii");
+}
+
+/// Large cubes whose middles were near the robot were left out whole: walls around it were free.
+TEST_F(Ball, OfLargeCubesOnlyWhatIsNearIsLeftOut) {
+  // In the ball is the middle of the first; 8 m beside it the second; the third is all in the
+  // plate.
+  const OccupancyMap map{.resolution = 0.125,
+                         .occupied = {{.center = {0, 0, 2}, .side = 4.0},
+                                      {.center = {8, 0, 2}, .side = 4.0},
+                                      {.center = {0.25, 0.25, 0}, .side = 0.125}}};
+  const Eigen::Isometry3d world_from_map(Eigen::Translation3d(0.0, 0.0, 0.0));
+  const double margin = 0.03125;
+  const OccupancyMap kept = mapWithoutRobot(map, world_from_map, *robot_, state_, margin);
+  EXPECT_EQ(kept.resolution, map.resolution);
+  double volume = 0.0;
+  for (const OccupancyMap::Cube& cube : kept.occupied) volume += std::pow(cube.side, 3);
+  const double ball = 4.0 / 3.0 * 3.14159 * std::pow(0.5 + margin, 3);
+  const double plate = 0.125 * 1.0 * 1.0;  // of it, in the first cube
+  EXPECT_NEAR(volume, 2 * 64.0 - ball - plate, 0.2);
+  // Every smallest cube of the map is kept exactly if its middle is not near.
+  Points middles;
+  for (double x = -1.9375; x < 2.0; x += 0.125)
+    for (double y = -1.9375; y < 2.0; y += 0.125)
+      for (double z = 0.0625; z < 4.0; z += 0.125) middles.emplace_back(x, y, z);
+  const Points far = withoutRobot(middles, *robot_, state_, margin);
+  ASSERT_LT(far.size(), middles.size());
+  for (const Vector3d& middle : middles) {
+    const auto contains = [&](const OccupancyMap::Cube& cube) {
+      return (middle - cube.center).lpNorm<Eigen::Infinity>() < 0.5 * cube.side;
+    };
+    ASSERT_EQ(std::ranges::count_if(kept.occupied, contains), std::ranges::count(far, middle))
+        << middle.transpose();
+  }
+  // Whole where it can be: most of it is in few cubes.
+  EXPECT_LT(kept.occupied.size(), 4000u);
+  EXPECT_EQ(std::ranges::count(kept.occupied, 4.0, &OccupancyMap::Cube::side), 1);
+}
+
+TEST_F(Ball, AMapIsFilteredWhereItStands) {
+  const OccupancyMap map{.resolution = 0.125,
+                         .occupied = {{.center = {0.0625, 0.0625, 0.0625}, .side = 0.125}}};
+  const Eigen::Isometry3d away(Eigen::Translation3d(0.0, 0.0, 1.0));
+  EXPECT_EQ(mapWithoutRobot(map, away, *robot_, state_, 0.0).occupied.size(), 1u);
+  EXPECT_EQ(mapWithoutRobot(map, away, *robot_, state_, 1.0).occupied.size(), 0u);
+  const Eigen::Isometry3d there(Eigen::Translation3d(0.0, 0.0, 2.0));
+  EXPECT_EQ(mapWithoutRobot(map, there, *robot_, state_, 0.0).occupied.size(), 0u);
+  EXPECT_EQ(test::messageOf([&] { mapWithoutRobot({}, there, *robot_, state_, 0.0); }),
+            "withoutRobot: the map's resolution is 0; it must be above 0");
 }
 
 TEST_F(Ball, RefusesWhatIsNoStateOrMargin) {

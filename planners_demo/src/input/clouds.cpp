@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -21,7 +22,7 @@
 namespace swept {
 namespace {
 
-/// What --self-filter leaves of the points (m, world).
+/// What --self-filter leaves of what was seen (m, world).
 class SelfFilter {
  public:
   SelfFilter(const Arguments& args, const Robot& robot, const LoadOptions& options)
@@ -42,13 +43,35 @@ class SelfFilter {
   std::vector<Eigen::Vector3d> left(const std::vector<Eigen::Vector3d>& points,
                                     const std::string& file) const {
     std::vector<Eigen::Vector3d> kept = withoutRobot(points, robot_, state_, *margin_);
-    warn_(file + ": warning: " + std::to_string(points.size() - kept.size()) + " of " +
-          std::to_string(points.size()) + " points are within " + shortNumber(*margin_) +
-          " m of the robot and left out");
+    say(file, points.size(), kept.size(), "points");
+    return kept;
+  }
+  OccupancyMap left(const OccupancyMap& map, const Eigen::Isometry3d& pose,
+                    const std::string& file) const {
+    OccupancyMap kept = mapWithoutRobot(map, pose, robot_, state_, *margin_);
+    say(file, smallestCubes(map), smallestCubes(kept), "smallest cubes");
+    return kept;
+  }
+  /// What the robot hides begins in the robot.
+  Balls leftOfShadow(const Balls& balls, const std::string& file) const {
+    Balls kept = ballsWithoutRobot(balls, robot_, state_, *margin_);
+    say(file, balls.centers.size(), kept.centers.size(), "balls of what the robot hides");
     return kept;
   }
 
  private:
+  /// As many as the map's cubes are made of.
+  static std::size_t smallestCubes(const OccupancyMap& map) {
+    double count = 0.0;
+    for (const OccupancyMap::Cube& cube : map.occupied)
+      count += std::pow(std::round(cube.side / map.resolution), 3);
+    return static_cast<std::size_t>(count);
+  }
+  void say(const std::string& file, std::size_t all, std::size_t kept, const char* what) const {
+    warn_(file + ": warning: " + std::to_string(all - kept) + " of " + std::to_string(all) + " " +
+          what + " are within " + shortNumber(*margin_) + " m of the robot and left out");
+  }
+
   const Robot& robot_;
   std::optional<double> margin_;
   std::function<void(const std::string&)> warn_;
@@ -72,21 +95,29 @@ WorldBody mapBody(const Arguments& args, const std::string& file, const std::str
     throw UsageError("--occluded is for points; an OctoMap says itself what is occupied: " + file);
   OccupancyMap map = loadOctomap(file, options);
   if (filter.isOn()) {
-    std::vector<Eigen::Vector3d> middles;
-    for (const OccupancyMap::Cube& cube : map.occupied) middles.push_back(pose * cube.center);
-    const std::vector<Eigen::Vector3d> kept = filter.left(middles, file);
-    // Both are in the same order.
-    std::size_t next = 0;
-    std::vector<OccupancyMap::Cube> cubes;
-    for (std::size_t i = 0; i < middles.size() && next < kept.size(); ++i) {
-      if (middles[i] != kept[next]) continue;
-      cubes.push_back(map.occupied[i]);
-      ++next;
-    }
-    map.occupied = std::move(cubes);
+    map = filter.left(map, pose, file);
     requireSomething(file, !map.occupied.empty());
   }
   return occupiedBody(name, map, pose);
+}
+
+/// Of `all` those that are not in `kept`, which is in the same order.
+std::vector<Eigen::Vector3d> leftOut(const std::vector<Eigen::Vector3d>& all,
+                                     const std::vector<Eigen::Vector3d>& kept) {
+  std::vector<Eigen::Vector3d> rest;
+  auto next = kept.begin();
+  for (const Eigen::Vector3d& point : all) {
+    if (next != kept.end() && *next == point)
+      ++next;
+    else
+      rest.push_back(point);
+  }
+  return rest;
+}
+
+void append(const Balls& more, Balls& balls) {
+  balls.centers.insert(balls.centers.end(), more.centers.begin(), more.centers.end());
+  balls.radii.insert(balls.radii.end(), more.radii.begin(), more.radii.end());
 }
 
 WorldBody cloudBody(const Arguments& args, const std::string& file, const std::string& name,
@@ -95,21 +126,22 @@ WorldBody cloudBody(const Arguments& args, const std::string& file, const std::s
   if (!args.pointRadius)
     throw UsageError("--cloud " + file +
                      " needs --point-radius: how many metres the surface may be from a point");
-  std::vector<Eigen::Vector3d> points = loadPoints(file, options);
-  for (Eigen::Vector3d& point : points) point = pose * point;
-  if (filter.isOn()) {
-    points = filter.left(points, file);
-    requireSomething(file, !points.empty());
-  }
-  std::vector<double> radii(points.size(), *args.pointRadius);
+  std::vector<Eigen::Vector3d> seen = loadPoints(file, options);
+  for (Eigen::Vector3d& point : seen) point = pose * point;
+  Balls balls{.centers = filter.isOn() ? filter.left(seen, file) : seen, .radii = {}};
+  requireSomething(file, !balls.centers.empty());
+  balls.radii.assign(balls.centers.size(), *args.pointRadius);
   if (args.occluded) {
-    const Balls hidden =
-        occludedBalls(points, *args.pointRadius, pose.translation(), *args.occluded);
-    points.insert(points.end(), hidden.centers.begin(), hidden.centers.end());
-    radii.insert(radii.end(), hidden.radii.begin(), hidden.radii.end());
+    const auto hiddenBy = [&](const std::vector<Eigen::Vector3d>& points) {
+      return occludedBalls(points, *args.pointRadius, pose.translation(), *args.occluded);
+    };
+    const std::vector<Eigen::Vector3d> robot = leftOut(seen, balls.centers);
+    append(hiddenBy(balls.centers), balls);
+    if (!robot.empty()) append(filter.leftOfShadow(hiddenBy(robot), file), balls);
   }
-  return {.name = name,
-          .parts = {{PointCloud::build(points, radii), Eigen::Isometry3d::Identity()}}};
+  return {
+      .name = name,
+      .parts = {{PointCloud::build(balls.centers, balls.radii), Eigen::Isometry3d::Identity()}}};
 }
 
 /// Calls `visit` with each body of the world that has a cloud, and the cloud.
@@ -138,6 +170,10 @@ void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& opt
   }
   const Eigen::Isometry3d pose = args.cloudPose.empty() ? Eigen::Isometry3d::Identity()
                                                         : readPose(args.cloudPose, "--cloud-pose");
+  if (args.pointRadius && std::ranges::all_of(args.clouds, isOctomap))
+    throw UsageError(
+        "--point-radius is for points; the cubes of an OctoMap are as large as it says: " +
+        args.clouds.front());
   const SelfFilter filter(args, robot, options);
   for (const std::string& file : args.clouds) {
     const std::string name = std::filesystem::path(file).stem().string();

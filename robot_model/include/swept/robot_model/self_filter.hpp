@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <vector>
 
+#include "swept/core/sensed_space.hpp"
+#include "swept/robot_model/cloud_file.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -22,5 +25,20 @@ namespace swept {
 std::vector<Eigen::Vector3d> withoutRobot(std::span<const Eigen::Vector3d> points,
                                           const Robot& robot, std::span<const double> state,
                                           double margin);
+
+/// Those of `balls` (m, model frame), in their order, that keep more than `margin` (m) from the
+/// robot; what else is as for points. Of the space that the robot hides from a sensor
+/// (occludedBalls() of the points that withoutRobot() leaves out) they are what the robot is not in
+/// contact with at `state`. Throws likewise, and std::invalid_argument unless each ball has a
+/// radius.
+Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const double> state,
+                        double margin);
+
+/// The map without its smallest cubes whose middles are within `margin` (m) of the robot; what else
+/// is as for points. Of a larger cube that comes as near, the part that does not is left, in
+/// smaller ones. Throws likewise, and std::invalid_argument for a map whose resolution is not above
+/// zero.
+OccupancyMap mapWithoutRobot(const OccupancyMap& map, const Eigen::Isometry3d& world_from_map,
+                             const Robot& robot, std::span<const double> state, double margin);
 
 }  // namespace swept
