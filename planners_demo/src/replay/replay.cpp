@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <iostream>
-#include <utility>
 
 #include "command_line/commands.hpp"
 #include "output/text_output.hpp"
@@ -62,14 +61,6 @@ Json jsonOf(const ReplayCase& item, const Answer& answer) {
   return json;
 }
 
-/// Of all files, before the first is asked: a bad one costs no time.
-std::vector<ReplayCase> casesOf(const std::vector<std::string>& files) {
-  std::vector<ReplayCase> cases;
-  for (const std::string& file : files)
-    for (ReplayCase& item : readReplayCases(file)) cases.push_back(std::move(item));
-  return cases;
-}
-
 }  // namespace
 
 ExitCode runReplay(const Arguments& args) {
@@ -77,7 +68,7 @@ ExitCode runReplay(const Arguments& args) {
       {{"id"}, {"query"}, {"answer", true}, {"expected", true}, {"error", true}, {"result"}});
   Json json = {{"cases", Json::array()}};
   int passed = 0, failed = 0, skipped = 0;
-  for (const ReplayCase& item : casesOf(args.cases)) {
+  const auto ask = [&](const ReplayCase& item) {
     const Answer answer = answerTo(item);
     ++(answer.result == Answer::Result::Passed   ? passed
        : answer.result == Answer::Result::Failed ? failed
@@ -86,7 +77,10 @@ ExitCode runReplay(const Arguments& args) {
       json["cases"].push_back(jsonOf(item, answer));
     else
       table.add(rowOf(item, answer));
-  }
+  };
+  // All of them before the first is asked: a bad one costs no time.
+  for (const std::string& file : args.cases) forEachReplayCase(file, [](const ReplayCase&) {});
+  for (const std::string& file : args.cases) forEachReplayCase(file, ask);
   if (args.json) {
     json["passed"] = passed;
     json["failed"] = failed;

@@ -180,19 +180,18 @@ ReplayCase readCase(const JsonValue& entry) {
 
 }  // namespace
 
-std::vector<ReplayCase> readReplayCases(const std::string& file) {
+void forEachReplayCase(const std::string& file,
+                       const std::function<void(const ReplayCase&)>& visit) {
   const nlohmann::json root = JsonValue::parseFile(file);
   const JsonValue top(root, "", file);
   if (!root.is_object()) top.renamed("the file").fail("must be an object with the key 'cases'");
   if (top.has("version") && root["version"] != 1) top.at("version").refuse("1");
   std::set<std::string> ids;
-  std::vector<ReplayCase> cases;
   for (const JsonValue& entry : top.at("cases").elements()) {
-    cases.push_back(readCase(entry));
-    if (!ids.insert(cases.back().id).second)
-      entry.at("id").fail("repeats '" + cases.back().id + "'");
+    const ReplayCase item = readCase(entry);
+    if (!ids.insert(item.id).second) entry.at("id").fail("repeats '" + item.id + "'");
+    visit(item);
   }
-  return cases;
 }
 
 }  // namespace swept

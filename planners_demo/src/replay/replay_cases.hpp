@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,7 +48,9 @@ struct ReplayCase {
   std::string skipReason;              ///< `query ccd_robot`, `shape robot`; empty with a question
 };
 
-/// Throws InputError, which names the case, the key, its value and what is allowed.
-std::vector<ReplayCase> readReplayCases(const std::string& file);
+/// Calls `visit` with one case after the other; none is kept, so that files may have many, and
+/// large ones. Throws InputError, which names the case, the key, its value and what is allowed.
+void forEachReplayCase(const std::string& file,
+                       const std::function<void(const ReplayCase&)>& visit);
 
 }  // namespace swept

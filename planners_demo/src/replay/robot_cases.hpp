@@ -27,7 +27,7 @@ bool isRobotQuery(const std::string& query);
 /// A case of such a query; planners_demo/README.md has the format. Throws InputError.
 RobotQuestion readRobotQuestion(const std::string& query, const JsonValue& entry);
 
-/// A file of one case, as readReplayCases() reads it, which will be `file`.
+/// A file of one case, as forEachReplayCase() reads it, which will be `file`.
 std::string robotCaseText(const std::string& id, const RobotQuestion& question,
                           const std::filesystem::path& file);
 
