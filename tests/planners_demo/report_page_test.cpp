@@ -44,6 +44,26 @@ class ReportFiles : public testing::Test {
   const std::string& page_ = made().page;
 };
 
+/// What the numbers are of was not said.
+TEST(ReportClouds, AreListed) {
+  const TemporaryFolder folder;
+  const std::string cloud = folder.write("far.xyz", "0.9 0 0.5\n8 8 8\n");
+  const auto report = [&](const Words& more) {
+    Words words{"--cloud",       cloud, "--point-radius", "0.01",
+                "--motions",     "2",   "--html",         folder.path("r.html"),
+                "--resolutions", "0.2", "--tolerances",   "0.01"};
+    words.insert(words.end(), more.begin(), more.end());
+    return runSwept(rook7In(words));
+  };
+  EXPECT_THAT(report({}).out,
+              HasSubstr(" passes\nbody far is 2 balls of radius 0.01 m\n\nmotions."));
+  EXPECT_THAT(folder.read("r.html"), HasSubstr("body far is 2 balls of radius 0.01 m"));
+  const auto json = jsonOf(report({"--json"}));
+  ASSERT_EQ(json["clouds"].size(), 1u);
+  EXPECT_EQ(json["clouds"][0]["body"], "far");
+  EXPECT_EQ(json["clouds"][0]["balls"], 2);
+}
+
 TEST_F(ReportFiles, CsvSaysWhatTheJsonSays) {
   const std::string text = folder_.read("r.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "batch/validator.hpp"
+#include "output/text_output.hpp"
 
 namespace swept {
 
@@ -85,6 +86,8 @@ struct JudgedMotion {
 struct ErrorReport {
   std::string robot, group;
   std::vector<std::string> worlds;  ///< names
+  std::string cloudsText;           ///< as cloudsText() says it
+  Json clouds;                      ///< of cloudsJson()
   double margin = 0.0;              ///< m
   std::uint32_t seed = 1;
   int passes = 1;

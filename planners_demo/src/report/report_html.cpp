@@ -62,6 +62,7 @@ std::string factsHtml(const ErrorReport& report, const std::string& commandLine)
   html += element("dt", "command") + "<dd>" + element("code", commandLine) + "</dd>\n";
   for (const auto& [name, value] : machineFacts()) add(name, value);
   add("worlds", joined(report.worlds));
+  if (!report.cloudsText.empty()) add("clouds", report.cloudsText);
   add("margin", exactNumber(report.margin) + " m");
   add("seed", std::to_string(report.seed));
   add("times", "on one thread, the least of " + std::to_string(report.passes) +

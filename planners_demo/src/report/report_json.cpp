@@ -43,6 +43,7 @@ Json reportJson(const ErrorReport& report, const std::string& commandLine) {
   Json json = {{"robot", report.robot},   {"group", report.group}, {"worlds", report.worlds},
                {"margin", report.margin}, {"seed", report.seed},   {"passes", report.passes},
                {"command", commandLine}};
+  json["clouds"] = report.clouds;
   json["motions"] = {{"count", counts.motions},
                      {"free", counts.free},
                      {"collision", counts.collision},

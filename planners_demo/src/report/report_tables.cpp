@@ -123,7 +123,7 @@ std::string reportText(const ErrorReport& report) {
                      "lengths " + shortNumber(report.counts.shortest) + " to " +
                      shortNumber(report.counts.longest) + ", median " +
                      shortNumber(report.counts.median) + " (rad, m); times: the least of " +
-                     std::to_string(report.passes) + " passes\n";
+                     std::to_string(report.passes) + " passes\n" + report.cloudsText;
   for (const ReportTable& table : reportTables(report)) {
     TextTable lines(table.columns);
     for (const std::vector<std::string>& row : table.rows) lines.add(row);
