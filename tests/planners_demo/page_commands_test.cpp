@@ -218,6 +218,17 @@ TEST_F(Page, ViewWritesOrOpens) {
   EXPECT_EQ(pageData(folder_.read(file))["states"][0]["label"], "state 1 (ready)");
 }
 
+/// An empty page stayed behind.
+TEST_F(Page, ViewThatCannotWriteLeavesNoPage) {
+  const std::string temporary = folder_.path("temporary");
+  std::filesystem::create_directory(temporary);
+  const Outcome run = runShell("ulimit -f 1; TMPDIR='" + temporary + "' swept view " + kRook);
+  EXPECT_EQ(run.exitCode, 3);
+  EXPECT_THAT(run.err, testing::MatchesRegex("swept: error: cannot write '" + temporary +
+                                             "/swept-......\\.html': File too large\n"));
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+}
+
 TEST_F(Page, WhatCannotBeAPageIsRefusedAtOnce) {
   const auto errorOf = [](const std::vector<std::string>& arguments) {
     const Outcome run = runSwept(arguments);

@@ -10,22 +10,20 @@
 #include <cstring>
 #include <filesystem>
 
+#include "output/whole_file.hpp"
 #include "page/pages.hpp"
 
 namespace swept {
 namespace {
 
-/// An empty file of its own in the folder for such.
-std::string temporaryPage() {
+constexpr int kEnding = 5;  // characters of .html
+
+/// `swept-XXXXXX.html` in the folder for such.
+std::string temporaryPattern() {
   std::error_code noFolder;
   const std::filesystem::path folder = std::filesystem::temp_directory_path(noFolder);
   if (noFolder) throw UsageError("no folder for temporary files: " + noFolder.message());
-  std::string name = (folder / "swept-XXXXXX.html").string();
-  constexpr int kEnding = 5;
-  const int descriptor = mkstemps(name.data(), kEnding);
-  if (descriptor < 0) throw UsageError("cannot write '" + name + "': " + std::strerror(errno));
-  close(descriptor);
-  return name;
+  return (folder / "swept-XXXXXX.html").string();
 }
 
 /// What it says is of no interest: without a desktop the name is on stdout all the same.
@@ -44,6 +42,14 @@ bool showsStates(const Arguments& args) {
   return !args.states.empty() || !args.problems.empty();
 }
 
+void writePage(const Arguments& args, const Model& model, const Task& task,
+               const Checker* checker) {
+  if (showsStates(args))
+    writeCheckPage(args, model, task);
+  else
+    writeInfoPage(args, model, checker);
+}
+
 }  // namespace
 
 ExitCode runView(const Arguments& given) {
@@ -53,12 +59,18 @@ ExitCode runView(const Arguments& given) {
   const Model model = loadModel(args, warnings);
   const Task task = showsStates(args) ? loadTask(args, model, warnings) : Task{};
   const auto checker = showsStates(args) ? task.checker : makeCheckerOfGroup(args, model, warnings);
-  if (given.page.file.empty()) args.page.file = temporaryPage();
-  if (showsStates(args))
-    writeCheckPage(args, model, task);
-  else
-    writeInfoPage(args, model, checker.get());
-  if (given.page.file.empty()) openInBrowser(args.page.file);
+  if (!given.page.file.empty()) {
+    writePage(args, model, task, checker.get());
+    return ExitCode::Free;
+  }
+  const std::string pattern = temporaryPattern();
+  UnfinishedFile page(pattern, kEnding);
+  if (page.descriptor() < 0)
+    throw UsageError("cannot write '" + pattern + "': " + std::strerror(errno));
+  args.page.file = page.name();
+  writePage(args, model, task, checker.get());
+  page.keep();
+  openInBrowser(args.page.file);
   return ExitCode::Free;
 }
 
