@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "gantry.hpp"
 #include "page_data.hpp"
 
@@ -66,6 +68,36 @@ TEST_F(SameNames, ScaleAndAllowedPairsAreInTheProof) {
   ASSERT_EQ(allowed.size(), 1u);
   EXPECT_EQ(allowed[0][0], "cube");
   EXPECT_EQ(allowed[0][1], "cube (world)");
+}
+
+/// `cube (world)` was the name of both bodies, and no proof was written once the path was found.
+TEST_F(SameNames, AreToldApartWhereTheNameOfTheProofIsTaken) {
+  const std::string far = gantry_.folder().read("cube.yaml");
+  std::string second = far.substr(far.find("    - id:"));
+  second.replace(second.find("id: cube"), 8, "id: cube (world)");
+  second.replace(second.find("[1, 0, 0]"), 9, "[1, 0, 5]");
+  gantry_.folder().write("cube.yaml", far + second);
+  const json bodies = model({"--allow", "cube,cube (world)"})["bodies"];
+  ASSERT_EQ(bodies.size(), 3u);
+  EXPECT_EQ(bodies[0]["name"], "cube");
+  EXPECT_EQ(bodies[1]["name"], "cube (world) (world)") << "that of the link's name";
+  EXPECT_EQ(bodies[1]["shapes"][0]["pose"][9], 1.0);
+  EXPECT_EQ(bodies[2]["name"], "cube (world)");
+  EXPECT_EQ(bodies[2]["shapes"][0]["pose"][11], 5.0);
+}
+
+/// Here `cube (world)` is a link, below the rail.
+TEST_F(SameNames, AreToldApartWhereALinkHasTheNameOfTheProof) {
+  std::string urdf = gantry_.folder().read("gantry.urdf");
+  urdf.replace(urdf.find("</robot>"), 8,
+               R"x(<link name="cube (world)"><collision><origin xyz="0 0 -5"/>
+<geometry><sphere radius="0.1"/></geometry></collision></link><joint name="fixed" type="fixed">
+<parent link="rail"/><child link="cube (world)"/></joint></robot>)x");
+  gantry_.folder().write("gantry.urdf", urdf);
+  std::set<std::string> names;
+  const json proven = model({});
+  for (const json& body : proven["bodies"]) names.insert(body["name"]);
+  EXPECT_EQ(names, (std::set<std::string>{"cube", "cube (world)", "cube (world) (world)"}));
 }
 
 /// The depth was that of the link in itself, 0.2 m.

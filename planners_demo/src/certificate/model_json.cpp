@@ -3,6 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string>
 
 #include "certificate/shape_json.hpp"
 #include "command_line/exit_code.hpp"
@@ -14,9 +17,22 @@ namespace {
 
 using Eigen::Isometry3d;
 
-/// What a proof calls a body of the world, which may have the name of a link.
-std::string proofNameInWorld(const Checker& checker, const std::string& name) {
-  return checker.robot().findLink(name) ? name + " (world)" : name;
+using Names = std::map<std::string, std::string>;
+
+/// What a proof calls the bodies of the world, which may have the names of links, by their names.
+Names proofNamesInWorld(const Checker& checker) {
+  std::set<std::string> taken;
+  for (const Link& link : checker.robot().links()) taken.insert(link.name);
+  for (const AttachedBody& body : checker.options().attached) taken.insert(body.name);
+  for (const WorldBody& body : checker.world().bodies()) taken.insert(body.name);
+  Names names;
+  for (const WorldBody& body : checker.world().bodies()) {
+    std::string name = body.name;
+    if (checker.robot().findLink(name))
+      while (!taken.insert(name).second) name += " (world)";
+    names[body.name] = name;
+  }
+  return names;
 }
 
 Json poseJson(const Isometry3d& pose) {
@@ -95,12 +111,12 @@ bool isAllowed(const Checker::Pair& pair) {
 }
 
 Json allowedJson(const Checker& checker) {
+  const Names namesInWorld = proofNamesInWorld(checker);
   Json allowed = Json::array();
   for (const Checker::Pair& pair : checker.skippedPairs()) {
     if (!isAllowed(pair)) continue;
-    allowed.push_back({pair.bodyA,
-                       pair.selfPair ? pair.bodyB : proofNameInWorld(checker, pair.bodyB),
-                       pair.reason});
+    allowed.push_back(
+        {pair.bodyA, pair.selfPair ? pair.bodyB : namesInWorld.at(pair.bodyB), pair.reason});
   }
   return allowed;
 }
@@ -109,11 +125,12 @@ Json allowedJson(const Checker& checker) {
 
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
   const CollisionRules& rules = checker.options().rules;
+  const Names namesInWorld = proofNamesInWorld(checker);
   std::vector<CertifiedBody> bodies;
   const auto add = [&](const std::string& name, int link, const auto& parts, auto&& poseOf) {
     if (parts.empty()) return;
     CertifiedBody body{.name = name,
-                       .proofName = link < 0 ? proofNameInWorld(checker, name) : name,
+                       .proofName = link < 0 ? namesInWorld.at(name) : name,
                        .link = link,
                        .parts = {}};
     for (const auto& part : parts) {

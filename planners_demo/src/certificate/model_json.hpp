@@ -23,7 +23,8 @@ struct CertifiedBody {
 };
 
 /// Those with geometry, the robot's first: in the order of modelJson()'s bodies. In a proof, a body
-/// of the world that has the name of a link has ` (world)` behind its own.
+/// of the world that has the name of a link has ` (world)` behind its own, as often as it takes for
+/// no other to have that name.
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 
 /// What a proof is about, in the form that planners_demo/verify reads: kinematics, geometry bit for
