@@ -4,6 +4,7 @@
 
 #include "acm/acm_output.hpp"
 #include "command_line/commands.hpp"
+#include "input/read_again.hpp"
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
@@ -38,6 +39,8 @@ ExitCode exitCodeOf(const std::vector<AcmDisagreement>& differences) {
 ExitCode runAcm(const Arguments& args) {
   Warnings warnings(args.quiet);
   if (!args.output.empty()) requireWritable(args.output);
+  const std::string srdfFile = chooseSrdf(args).file;
+  if (!srdfFile.empty()) requireReadAgain(srdfFile);
   const Model model = loadModel(args, warnings);
   const std::string srdf = model.srdf.file.empty() ? "" : readTextFile(model.srdf.file);
   CollisionMatrixOptions options;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "input/read_again.hpp"
 #include "swept/robot_model/input.hpp"
 #include "verify/encoding.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 /// SHA-256 of a file's bytes.
 std::string fileDigest(const std::string& file) {
+  requireReadAgain(file);
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream) throw InputError(file, 0, "file cannot be read");

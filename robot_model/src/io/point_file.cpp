@@ -13,15 +13,16 @@ namespace swept::detail {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
+constexpr std::size_t kLeastRoom = std::size_t{1} << 16;
 constexpr std::size_t kShown = 40;  ///< bytes of a file's text in a message
 
-std::size_t sizeOfFile(const std::filesystem::path& file, const InputSource& source) {
-  const std::string reason = whyUnreadable(file);
+/// What the file system says: 0 of pipes, and of files that are made as they are read.
+std::size_t statedSize(const std::filesystem::path& file, const InputSource& source) {
+  const std::string reason = whyNoBytes(file);
   if (!reason.empty()) source.fail(0, reason);
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) source.fail(0, "file cannot be read");
-  if (size == 0) source.fail(0, "the file is empty");
+  std::error_code noSize;
+  const std::uintmax_t size = std::filesystem::file_size(file, noSize);
+  if (noSize) return 0;
   if (size > kMaxFileBytes) {
     source.fail(0, "the file has " + std::to_string(size) + " bytes; at most " +
                        std::to_string(kMaxFileBytes) + " are allowed");
@@ -32,11 +33,27 @@ std::size_t sizeOfFile(const std::filesystem::path& file, const InputSource& sou
 }  // namespace
 
 PointFile::PointFile(const std::filesystem::path& file, const LoadOptions& options)
-    : source_(file.string(), options), size_(sizeOfFile(file, source_)) {
-  bytes_ = std::make_unique_for_overwrite<char[]>(size_);
+    : source_(file.string(), options) {
+  // With one byte more, the end is met without another room.
+  std::size_t room = std::max(statedSize(file, source_) + 1, kLeastRoom);
+  bytes_ = std::make_unique_for_overwrite<char[]>(room);
   std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes_.get(), static_cast<std::streamsize>(size_));
-  if (!stream) source_.fail(0, "file cannot be read");
+  const auto readOn = [&] {
+    stream.read(bytes_.get() + size_, static_cast<std::streamsize>(room - size_));
+    size_ += static_cast<std::size_t>(stream.gcount());
+  };
+  for (readOn(); size_ == room && size_ <= kMaxFileBytes; readOn()) {
+    room *= 2;
+    auto larger = std::make_unique_for_overwrite<char[]>(room);
+    std::copy_n(bytes_.get(), size_, larger.get());
+    bytes_ = std::move(larger);
+  }
+  if (size_ > kMaxFileBytes) {
+    source_.fail(0, "the file has more than " + std::to_string(kMaxFileBytes) +
+                        " bytes, which are the most allowed");
+  }
+  if (!stream.eof()) source_.fail(0, "file cannot be read");
+  if (size_ == 0) source_.fail(0, "the file is empty");
 }
 
 void PointFile::failAt(std::size_t offset, const std::string& message) const {

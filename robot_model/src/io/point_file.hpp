@@ -32,8 +32,8 @@ inline constexpr std::size_t kMaxLine = std::size_t{1} << 20;
 /// A file of sensed points or cubes, whole in memory.
 class PointFile {
  public:
-  /// Throws InputError (line 0) for a file that is not there, not regular, empty, too large, or
-  /// cannot be read.
+  /// Throws InputError (line 0) for a file that is not there, neither regular nor a pipe or the
+  /// like, empty, too large, or cannot be read.
   PointFile(const std::filesystem::path& file, const LoadOptions& options);
 
   const InputSource& source() const { return source_; }

@@ -14,4 +14,8 @@ inline constexpr std::string_view kNoSuchFile = "file not found";
 /// lead in a circle, a name that is too long, a folder that may not be looked into.
 std::string whyUnreadable(const std::filesystem::path& file);
 
+/// The same for who reads a file once, from its front to its end: a pipe, or a device such as
+/// /dev/stdin, will do.
+std::string whyNoBytes(const std::filesystem::path& file);
+
 }  // namespace swept::detail

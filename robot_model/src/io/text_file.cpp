@@ -11,7 +11,7 @@
 namespace swept {
 
 std::string readTextFile(const std::filesystem::path& file) {
-  const std::string reason = detail::whyUnreadable(file);
+  const std::string reason = detail::whyNoBytes(file);
   if (!reason.empty()) throw InputError(file.string(), 0, reason);
   // Read, not asked for: the file may grow meanwhile.
   std::ifstream stream(file, std::ios::binary);
