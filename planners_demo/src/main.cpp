@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include "command_line/arguments.hpp"
@@ -12,6 +13,7 @@
 #include "command_line/distinct_files.hpp"
 #include "command_line/exit_code.hpp"
 #include "command_line/last_resort.hpp"
+#include "output/terminal_text.hpp"
 #include "swept/robot_model/input.hpp"
 
 namespace {
@@ -26,6 +28,7 @@ void openStandardStreams() {
 }
 
 int guardedMain(int argc, char** argv) {
+  const swept::EscapedOutput escaped;
   const swept::ParsedArguments parsed = swept::parseArguments(argc, argv);
   if (parsed.run) swept::requireDistinctFiles(*parsed.run);
   const int code =
@@ -43,16 +46,16 @@ int main(int argc, char** argv) {
   try {
     return guardedMain(argc, argv);
   } catch (const swept::InputError& error) {
-    std::cerr << error.what() << '\n';
+    swept::printMessage(error.what());
   } catch (const std::bad_alloc&) {
     std::cerr << "swept: error: out of memory\n";
   } catch (const std::system_error& error) {
     // What a thread that cannot be started throws.
     const bool threads = error.code() == std::errc::resource_unavailable_try_again;
-    std::cerr << "swept: error: " << (threads ? "out of memory, or of threads" : error.what())
-              << '\n';
+    swept::printMessage(std::string("swept: error: ") +
+                        (threads ? "out of memory, or of threads" : error.what()));
   } catch (const std::exception& error) {
-    std::cerr << "swept: error: " << error.what() << '\n';
+    swept::printMessage(std::string("swept: error: ") + error.what());
   } catch (...) {
     std::cerr << "swept: error: unknown exception\n";
   }

@@ -121,5 +121,41 @@ TEST_F(OddNames, WithCommasAndQuotesAreQuotedInCsv) {
   EXPECT_THAT(folder().read("path.csv"), testing::StartsWith("\"sl,id\"\"e\",lift\n0,0\n"));
 }
 
+/// A file's name made up a second line of stderr, and moved the terminal's cursor.
+TEST(ControlCharacters, OfArgumentsAreEscapedInMessages) {
+  const std::string odd = "no\x1b[2J\nfree: all\xc2\x9b\x9b\x7f";
+  const std::string shown = "no\\u001b[2J\\nfree: all\\u009b\\u009b\\u007f";
+  EXPECT_EQ(runSwept({"check", odd, "0"}).err, shown + ": error: file not found\n");
+  EXPECT_THAT(runSwept({odd}).err,
+              testing::StartsWith("swept: error: no subcommand '" + shown + "'; there are "));
+  const Gantry gantry;
+  EXPECT_THAT(gantry.run("check", {odd}).err, HasSubstr("no named state '" + shown + "' in group"));
+  EXPECT_EQ(gantry.run("check", {"left", "--pad", "\xc3\xa4\xe2\x82\xac=-1"}).err.find("\\u"),
+            std::string::npos)
+      << "letters are none";
+}
+
+TEST(ControlCharacters, OfBodiesAreEscapedInResults) {
+  const Gantry gantry;
+  const std::string text =
+      replaced(gantry.folder().read("post.yaml"), "id: post", R"(id: "po\e[2J\nst\u009b")");
+  gantry.folder().write("post.yaml", text);
+  const std::string shown = R"(po\u001b[2J\nst\u009b)";
+  EXPECT_EQ(gantry.run("check", {"left"}).out,
+            "state 1 (left): free, clearance 0.8 m, nearest cube - " + shown + "\n");
+  for (const Words& words :
+       {Words{"check", "inside"}, Words{"motion", "left", "right"}, Words{"info"}}) {
+    const Outcome run = gantry.run(words[0], {words.begin() + 1, words.end()});
+    EXPECT_THAT(run.out, HasSubstr(shown));
+    EXPECT_EQ(run.out.find_first_of("\x1b\x9b"), std::string::npos) << words[0];
+    EXPECT_EQ(run.out.find("\nst"), std::string::npos) << words[0];
+  }
+  const json report = jsonOf(gantry.run("check", {"inside", "--json"}));
+  EXPECT_EQ(report["states"][0]["contacts"][0]["body_b"], "po\x1b[2J\nst\xc2\x9b");
+  const std::string file = gantry.folder().path("path.json");
+  ASSERT_EQ(gantry.run("plan", {"left", "right", "-o", file}).exitCode, 0);
+  EXPECT_EQ(runSwept({"verify", file}).exitCode, 0);
+}
+
 }  // namespace
 }  // namespace swept::test

@@ -4,12 +4,12 @@
 
 #include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
 #include "batch/ranks.hpp"
 #include "command_line/exit_code.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -34,8 +34,7 @@ class Job {
   int size() const { return size_; }
 
   [[noreturn]] void fail(const std::string& message) const {
-    std::fprintf(stderr, "swept: error: rank %d: %s\n", rank_, message.c_str());
-    std::fflush(stderr);
+    printMessage("swept: error: rank " + std::to_string(rank_) + ": " + message);
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::BadInput));
     std::abort();
   }

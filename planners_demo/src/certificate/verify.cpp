@@ -10,6 +10,7 @@
 #include "input/json_value.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "swept/robot_model/input.hpp"
@@ -70,7 +71,7 @@ std::string summaryText(const verify::Summary& summary) {
                      std::to_string(summary.planes) + " planes\n" +
                      clearanceText(summary.clearance) + "\n";
   for (const auto& [reason, pairs] : summary.allowed)
-    text += "not checked (" + reason + "): " + joined(pairs) + "\n";
+    text += escapedLine("not checked (" + reason + "): " + joined(pairs)) + "\n";
   return text;
 }
 
@@ -108,7 +109,7 @@ ExitCode runVerify(const Arguments& args) {
     std::cout << dumped(outcomeJson(outcome)) << '\n';
   else
     std::cout << (outcome.holds() ? summaryText(outcome.summary)
-                                  : "refused: " + outcome.refusal + "\n");
+                                  : "refused: " + escapedLine(outcome.refusal) + "\n");
   if (files) writeVerifyPage(args, files->model, files->task, path, outcome);
   return outcome.holds() ? ExitCode::Free : ExitCode::Collision;
 }

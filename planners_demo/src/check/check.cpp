@@ -5,6 +5,7 @@
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "replay/query_dump.hpp"
@@ -14,12 +15,12 @@ namespace {
 
 std::string clearanceText(const StateReport& report) {
   if (std::isinf(report.clearance)) return "no pair to check";
-  return "clearance " + shortNumber(report.clearance) + " m, nearest " + report.nearestA + " - " +
-         report.nearestB;
+  return "clearance " + shortNumber(report.clearance) + " m, nearest " +
+         escapedLine(report.nearestA + " - " + report.nearestB);
 }
 
 std::string stateText(const std::string& label, const StateReport& report) {
-  std::string text = label + ": " + std::string(toString(report.verdict));
+  std::string text = escapedLine(label) + ": " + std::string(toString(report.verdict));
   if (report.verdict != Verdict::Collision) text.append(", ").append(clearanceText(report));
   text += "\n";
   for (const Witness& contact : report.contacts) text += "  " + witnessText(contact) + "\n";

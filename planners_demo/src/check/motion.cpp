@@ -6,6 +6,7 @@
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "replay/query_dump.hpp"
@@ -37,8 +38,8 @@ std::string clearanceText(const MotionClearance& clearance) {
 
 std::string segmentText(const Segment& segment) {
   const MotionCertificate& certificate = segment.certificate;
-  std::string text =
-      segment.from + " to " + segment.to + ": " + std::string(toString(certificate.verdict)) + "\n";
+  std::string text = escapedLine(segment.from + " to " + segment.to) + ": " +
+                     std::string(toString(certificate.verdict)) + "\n";
   if (certificate.verdict != Verdict::Free)
     text += "  free until  t = " + shortNumber(certificate.freeUntil) + "\n";
   if (certificate.witness)

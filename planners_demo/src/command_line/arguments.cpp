@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <iostream>
 #include <vector>
 
 #include "command_line/command.hpp"
 #include "command_line/program_options.hpp"
 #include "command_line/shell_word.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -139,7 +139,7 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
     refuseEmptyValues(program);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return {.run = {}, .exitCode = program.exit(error)};
-    std::cerr << "swept: error: " << messageOf(error, argc, argv) << " (try --help)\n";
+    printMessage("swept: error: " + messageOf(error, argc, argv) + " (try --help)");
     return {.run = {}, .exitCode = static_cast<int>(ExitCode::BadInput)};
   }
   restore(args.cloudPose);

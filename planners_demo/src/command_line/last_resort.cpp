@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
 #include <string_view>
 
 #include "command_line/exit_code.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -28,7 +30,7 @@ void onAbort(int) {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
     std::fputs("swept: error: terminated\n", stderr);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "swept: error: %s\n", error.what());
+    printMessage(std::string("swept: error: ") + error.what());
   } catch (...) {
     std::fputs("swept: error: unknown exception\n", stderr);
   }

@@ -9,6 +9,7 @@
 #include "input/states.hpp"
 #include "output/robot_json.hpp"
 #include "output/shape_summary.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -118,26 +119,26 @@ std::string shortReason(const std::string& reason) {
 std::string pairText(const Checker& checker) {
   std::size_t selfPairs = 0;
   for (const Checker::Pair& pair : checker.checkedPairs()) selfPairs += pair.selfPair ? 1 : 0;
-  std::string text = "group " + checker.group().name + " checks " +
+  std::string text = "group " + escapedLine(checker.group().name) + " checks " +
                      count(checker.checkedPairs().size(), "pair", "pairs") + ": " +
                      std::to_string(checker.checkedPairs().size() - selfPairs) +
                      " of a link with a world body, " + std::to_string(selfPairs) +
                      " of two links\n";
   std::map<std::pair<double, std::string>, std::vector<std::string>> byMargin;
   for (const Checker::Pair& pair : checker.checkedPairs())
-    byMargin[{pair.margin, pair.reason}].push_back(pair.bodyA + " - " + pair.bodyB);
+    byMargin[{pair.margin, pair.reason}].push_back(escapedLine(pair.bodyA + " - " + pair.bodyB));
   for (const auto& [how, pairs] : byMargin)
     text += "checked, more than " + shortNumber(how.first) + " m apart" +
             (how.second.empty() ? "" : ", " + how.second) + " (" + std::to_string(pairs.size()) +
             "): " + joined(pairs) + "\n";
   std::map<std::string, std::vector<std::string>> byReason;
   for (const Checker::Pair& pair : checker.skippedPairs())
-    byReason[shortReason(pair.reason)].push_back(pair.bodyA + " - " + pair.bodyB);
+    byReason[shortReason(pair.reason)].push_back(escapedLine(pair.bodyA + " - " + pair.bodyB));
   for (const auto& [reason, pairs] : byReason)
     text += "not checked, " + reason + " (" + std::to_string(pairs.size()) + "): " + joined(pairs) +
             "\n";
   for (const Checker::Pair& pair : checker.standingContacts())
-    text += "standing contact: " + pair.bodyA + " - " + pair.bodyB + "\n";
+    text += "standing contact: " + escapedLine(pair.bodyA + " - " + pair.bodyB) + "\n";
   return text;
 }
 

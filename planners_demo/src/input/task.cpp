@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "input/problem_choice.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 
 namespace swept {
@@ -141,7 +141,7 @@ void Warnings::operator()(const std::string& line) {
   if (taker_)
     taker_(line);
   else
-    std::cerr << line << '\n';
+    printMessage(line);
 }
 
 SrdfChoice chooseSrdf(const Arguments& args) {

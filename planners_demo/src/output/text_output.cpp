@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "command_line/exit_code.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -63,8 +64,9 @@ std::string csvCell(const std::string& text) {
 }
 
 std::string witnessText(const Witness& witness) {
-  return witness.bodyA + " - " + witness.bodyB + ": distance " + lengthText(witness.distance) +
-         " m, at " + pointText(witness.pointA) + " and " + pointText(witness.pointB);
+  return escapedLine(witness.bodyA + " - " + witness.bodyB) + ": distance " +
+         lengthText(witness.distance) + " m, at " + pointText(witness.pointA) + " and " +
+         pointText(witness.pointB);
 }
 
 Json finiteOrNull(double value) {
@@ -116,7 +118,7 @@ std::string TextTable::text() const {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     widths.push_back(columns_[c].title.size());
-    for (const auto& row : rows_) widths[c] = std::max(widths[c], row.at(c).size());
+    for (const auto& row : rows_) widths[c] = std::max(widths[c], escapedLine(row.at(c)).size());
   }
   std::string result;
   const auto addLine = [&](auto cellOf) {
@@ -130,7 +132,7 @@ std::string TextTable::text() const {
     result += line + "\n";
   };
   addLine([&](std::size_t c) { return columns_[c].title; });
-  for (const auto& row : rows_) addLine([&](std::size_t c) { return row[c]; });
+  for (const auto& row : rows_) addLine([&](std::size_t c) { return escapedLine(row[c]); });
   return result;
 }
 

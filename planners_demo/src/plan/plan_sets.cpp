@@ -10,6 +10,7 @@
 #include "input/states.hpp"
 #include "output/progress.hpp"
 #include "output/quantile.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "plan/plan_dump.hpp"
 #include "plan/plan_sets.hpp"
@@ -183,7 +184,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   for (const Entry& entry : entries) {
     code = worse(code, entry.outcome.code);
     if (entry.outcome.code == ExitCode::BadInput)
-      std::cerr << "swept: error: " << entry.outcome.failure << '\n';
+      printMessage("swept: error: " + entry.outcome.failure);
     dump.setProblem(entry.set, entry.index);
     dumpFailures(dump, *like, entry.outcome);
   }

@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "plan/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
@@ -30,7 +30,7 @@ namespace og = ompl::geometric;
 class StderrMessages : public ompl::msg::OutputHandler {
  public:
   void log(const std::string& text, ompl::msg::LogLevel, const char*, int) override {
-    std::fprintf(stderr, "ompl: %s\n", text.c_str());
+    printMessage("ompl: " + text);
   }
 };
 

@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 
 #include "command_line/exit_code.hpp"
 #include "input/inputs.hpp"
 #include "input/states.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "replay/robot_cases.hpp"
@@ -101,9 +101,10 @@ void QueryDump::write(const Checker& checker, const std::string& label,
 
 void QueryDump::announce() const {
   if (written_ == 0 || args_.quiet) return;
-  std::cerr << "swept: wrote " << written_ << (written_ == 1 ? " query" : " queries") << " that "
-            << (written_ == 1 ? "is" : "are") << " not free to '" << folder_
-            << "'; 'swept replay' asks " << (written_ == 1 ? "it" : "them") << " again\n";
+  const bool one = written_ == 1;
+  printMessage("swept: wrote " + std::to_string(written_) + (one ? " query" : " queries") +
+               " that " + (one ? "is" : "are") + " not free to '" + folder_ +
+               "'; 'swept replay' asks " + (one ? "it" : "them") + " again");
 }
 
 }  // namespace swept
