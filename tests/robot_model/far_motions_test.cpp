@@ -80,7 +80,6 @@ class RandomRobot {
     if (random_.chance(0.3)) text_ << " rpy='" << three(random_.vector(3.0)) << "'";
     text_ << "/>";
     Eigen::Vector3d along = axis();
-    if (type == "planar") along.z() = std::abs(along.z());  // down, the frame itself is rounded
     if (type != "floating") text_ << "<axis xyz='" << three(along) << "'/>";
     if (type == "revolute") text_ << "<limit lower='-400' upper='400' effort='1' velocity='1'/>";
     if (type == "prismatic") {
