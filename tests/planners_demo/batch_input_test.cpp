@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "batch.hpp"
 #include "gantry.hpp"
@@ -170,6 +175,28 @@ TEST(BatchInput, OtherFilesAreRefusedAndStayAsTheyAre) {
   }
   expectRefused(runSwept({"bench", "summary", folder.path("none")}),
                 folder.path("none") + ": error: file not found");
+}
+
+/// They were read for earlier results, and as they never end, this never did.
+TEST(BatchInput, PipesAndDevicesTakeResultsAndAreNotRead) {
+  const Gantry gantry;
+  const TemporaryFolder folder;
+  const std::string file = folder.path("r"), pipe = folder.path("pipe");
+  ASSERT_EQ(gantryBatch(gantry, {"-o", file}).exitCode, 0);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  // Open for both, so that neither end waits for the other; what is written fits into the pipe.
+  const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(end, 0);
+  const Outcome run = gantryBatch(gantry, {"-o", pipe});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  std::string text(65536, '\0');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read(end, text.data(), text.size()))));
+  close(end);
+  EXPECT_EQ(sortedLines(text), sortedLines(folder.read("r")));
+  expectRefused(gantryBatch(gantry, {"-o", "/dev/full"}),
+                kError + "cannot write '/dev/full': No space left on device");
+  expectRefused(gantryBatch(gantry, {"-o", folder.path()}),
+                kError + "cannot write '" + folder.path() + "': Is a directory");
 }
 
 TEST(BatchInput, SummariesAreOfOneBatch) {

@@ -112,6 +112,10 @@ ResultsFile::ResultsFile(const std::string& file, const Json& header, Warnings& 
     requireWritable(file);
     return;
   }
+  if (!std::filesystem::is_regular_file(file)) {
+    openPipe();
+    return;
+  }
   openForWriting(0);
   results_ = parseResults(allOf(descriptor_, file), file);
   if (!results_.header.is_null())
@@ -141,6 +145,12 @@ void ResultsFile::openForWriting(int flags) {
   if (fcntl(descriptor_, F_SETLK, &whole) == 0) return;
   if (errno == EACCES || errno == EAGAIN) refuse("another process is writing to it");
   refuse(std::strerror(errno));
+}
+
+void ResultsFile::openPipe() {
+  requireWritable(file_);
+  descriptor_ = open(file_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (descriptor_ < 0) refuse(std::strerror(errno));
 }
 
 void ResultsFile::writeLine(const std::string& line) {

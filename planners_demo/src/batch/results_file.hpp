@@ -27,7 +27,8 @@ Results readResults(const std::string& file, Warnings& warnings);
 /// A results file that grows. Each line is on the disk before the next is written.
 class ResultsFile {
  public:
-  /// Reads what is there; drops a torn line, with a warning. Nothing is written to a file that is
+  /// Reads what is there; drops a torn line, with a warning. A pipe or a device, which has no lines
+  /// to be read again, takes the header and the results. Nothing is written to a file that is
   /// refused. Throws InputError or UsageError: as parseResults, for a header that is not
   /// `header`, a file that cannot be written or that another process writes to.
   ResultsFile(const std::string& file, const Json& header, Warnings& warnings);
@@ -43,6 +44,7 @@ class ResultsFile {
 
  private:
   void openForWriting(int flags);
+  void openPipe();
   void writeLine(const std::string& line);
   [[noreturn]] void refuse(const std::string& reason) const;
 
