@@ -169,5 +169,24 @@ TEST_F(OutputFiles, WhatIsReadOrWrittenOtherwiseIsNotReplaced) {
   EXPECT_EQ(gantry_.folder().read("out/r"), lines);
 }
 
+/// What was printed was lost, or took the place of the first results.
+TEST_F(OutputFiles, WhatIsPrintedIsNotReplaced) {
+  const std::string file = path("out/printed.csv"), urdf = "'" + gantry_.urdf + "'";
+  const auto expectKept = [&](const std::string& command, const std::string& message) {
+    EXPECT_EQ(runShell("swept " + command).exitCode, 3) << command;
+    EXPECT_EQ(gantry_.folder().read("out/printed.csv"), message) << command;
+  };
+  const std::string batch = "bench planners " + urdf + " --group both --problems '" +
+                            gantry_.problems + "' --set over -o ";
+  const std::string output = " >'" + file + "'", both = output + " 2>&1";
+  for (const std::string& command :
+       {"plan " + urdf + " left right --group both -o ", "acm " + urdf + " -o ", batch})
+    expectKept(command + "'" + file + "'" + both,
+               "swept: error: -o '" + file + "' is the file that standard output goes to\n");
+  expectKept(batch + "/dev/stdout" + output, "");
+  expectKept(batch + "/dev/stderr 2>'" + file + "'",
+             "swept: error: -o '/dev/stderr' is the file that standard error goes to\n");
+}
+
 }  // namespace
 }  // namespace swept::test

@@ -258,5 +258,13 @@ TEST_F(Page, JsonOutputStaysJson) {
   EXPECT_THAT(folder_.names(), testing::ElementsAre("p.html"));
 }
 
+TEST_F(Page, IsNotWhereStandardOutputGoes) {
+  const std::string page = folder_.path("p.html");
+  runShell(std::string("swept check ") + kRook + " ready --group arm --html '" + page + "' >'" +
+           page + "' 2>&1");
+  EXPECT_EQ(folder_.read("p.html"),
+            "swept: error: page '" + page + "' is the file that standard output goes to\n");
+}
+
 }  // namespace
 }  // namespace swept::test

@@ -79,8 +79,7 @@ class RandomRobot {
           << "'/><child link='l" << index << "'/><origin xyz='" << three(offset()) << "'";
     if (random_.chance(0.3)) text_ << " rpy='" << three(random_.vector(3.0)) << "'";
     text_ << "/>";
-    Eigen::Vector3d along = axis();
-    if (type != "floating") text_ << "<axis xyz='" << three(along) << "'/>";
+    if (type != "floating") text_ << "<axis xyz='" << three(axis()) << "'/>";
     if (type == "revolute") text_ << "<limit lower='-400' upper='400' effort='1' velocity='1'/>";
     if (type == "prismatic") {
       const double limit = std::pow(10.0, random_.below(7));

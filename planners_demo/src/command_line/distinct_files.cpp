@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/distinct_files.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line/exit_code.hpp"
@@ -23,7 +27,8 @@ std::vector<NamedFile> written(const Arguments& args) {
   return {{"-o", args.output},
           {"--csv", args.batch.csv},
           {"--csv", args.report.csv},
-          {"--html", args.report.html}};
+          {"--html", args.report.html},
+          {"page", args.page.file}};
 }
 
 std::vector<NamedFile> read(const Arguments& args) {
@@ -46,11 +51,24 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
          place == fs::weakly_canonical(fs::absolute(b), error);
 }
 
+/// What goes to a stream that leads to the file would be lost, or take the place of its beginning.
+void requireNoStream(const NamedFile& one) {
+  struct stat file {};
+  if (one.file.empty() || stat(one.file.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return;
+  for (const auto& [stream, name] :
+       {std::pair{STDOUT_FILENO, "standard output"}, std::pair{STDERR_FILENO, "standard error"}}) {
+    struct stat open {};
+    if (fstat(stream, &open) == 0 && open.st_dev == file.st_dev && open.st_ino == file.st_ino)
+      throw UsageError(one.text() + " is the file that " + name + " goes to");
+  }
+}
+
 }  // namespace
 
 void requireDistinctFiles(const Arguments& args) {
   std::vector<NamedFile> others = read(args);
   for (const NamedFile& one : written(args)) {
+    requireNoStream(one);
     for (const NamedFile& other : others)
       if (isSameFile(one.file, other.file))
         throw UsageError(one.text() + " would replace the file of " + other.text());
