@@ -9,6 +9,7 @@
 #include "batch/results_output.hpp"
 #include "batch/worker_pool.hpp"
 #include "command_line/commands.hpp"
+#include "input/problem_choice.hpp"
 #include "output/progress.hpp"
 #include "plan/planning.hpp"
 
@@ -26,6 +27,9 @@ class BatchRun {
     batch_.problems = std::make_shared<const ProblemFile>(ProblemFile::load(args.problems));
     keys_ = args.batch.fromStdin ? readRuns(std::cin, "<stdin>", *batch_.problems, args)
                                  : listRuns(*batch_.problems, args);
+    std::vector<ProblemChoice> chosen;
+    for (const RunKey& key : keys_) chosen.push_back({.set = key.set, .index = key.index});
+    requireBodiesOfRules(args, batch_.model, *batch_.problems, chosen);
     header_ = resultsHeader(batch_);
   }
 

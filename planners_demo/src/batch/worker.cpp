@@ -49,14 +49,15 @@ Worker::Worker(const Batch& batch, Warnings::Taker warnings)
       group_(chooseGroup(*batch.model.robot, batch.group)),
       warnings_(std::move(warnings)),
       dump_(*batch.args),
-      like_(makeChecker(*batch.args, batch.model, group_, std::make_shared<const World>(),
-                        warnings_)) {
+      like_(makeFirstChecker(*batch.args, batch.model, group_, std::make_shared<const World>(),
+                             warnings_)) {
   dump_.requireNames(*like_);
 }
 
 const std::shared_ptr<const Checker>& Worker::checkerOf(const PlanningProblem& problem) {
   if (!checker_ || set_ != problem.set || index_ != problem.index) {
-    checker_ = makeChecker(*like_, std::make_shared<const World>(problem.world), warnings_);
+    checker_ = makeNextChecker(*batch_.args, *like_, std::make_shared<const World>(problem.world),
+                               warnings_);
     set_ = problem.set;
     index_ = problem.index;
   }

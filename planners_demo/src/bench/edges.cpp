@@ -10,6 +10,7 @@
 #include "bench/edges_output.hpp"
 #include "bench/peer.hpp"
 #include "command_line/commands.hpp"
+#include "input/problem_choice.hpp"
 #include "input/states.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
@@ -123,6 +124,10 @@ class EdgeRun {
     const auto edges = chosenEdges(args_, problems, static_cast<int>(group.variables.size()));
     bench_.results.resize(edges.size());
     const std::vector<EdgesOfProblem> parts = byProblem(edges);
+    std::vector<ProblemChoice> chosen;
+    for (const EdgesOfProblem& part : parts)
+      chosen.push_back({.set = part.set, .index = part.index});
+    requireBodiesOfRules(args_, model_, problems, chosen);
     Progress progress("measuring", args_.quiet);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       progress.setLabel(std::to_string(i) + " of " + std::to_string(parts.size()) +
@@ -140,8 +145,8 @@ class EdgeRun {
     const auto world = std::make_shared<const World>(problem.world);
     std::shared_ptr<const Checker> checker;
     bench_.checkerTimes.push_back(secondsOf([&] {
-      checker = like_ ? makeChecker(*like_, world, warnings_)
-                      : makeChecker(args_, model_, group, world, warnings_);
+      checker = like_ ? makeNextChecker(args_, *like_, world, warnings_)
+                      : makeFirstChecker(args_, model_, group, world, warnings_);
     }));
     like_ = checker;
     std::vector<BenchMotion> motions;

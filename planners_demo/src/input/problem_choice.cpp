@@ -2,6 +2,7 @@
 #include "input/problem_choice.hpp"
 
 #include "command_line/exit_code.hpp"
+#include "input/rules.hpp"
 
 namespace swept {
 
@@ -19,6 +20,16 @@ std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Argumen
   if (args.limit && chosen.size() > static_cast<std::size_t>(*args.limit))
     chosen.resize(static_cast<std::size_t>(*args.limit));
   return chosen;
+}
+
+void requireBodiesOfRules(const Arguments& args, const Model& model, const ProblemFile& file,
+                          const std::vector<ProblemChoice>& chosen) {
+  NamesOfBodies names(rulesOf(args), *model.robot, model.attached);
+  for (const ProblemChoice& choice : chosen) {
+    if (names.empty()) return;
+    names.find(file.problem(choice.set, choice.index).world);
+  }
+  names.requireFound("the world of any chosen problem");
 }
 
 void requireOneSource(const Arguments& args) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/rules.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -18,6 +19,17 @@ std::pair<std::string, double> numberOf(const std::string& option, const std::st
   if (equals == 0 || number.empty() || *end != '\0')
     throw UsageError(option + " '" + text + "': expected NAME=NUMBER");
   return {text.substr(0, equals), value};
+}
+
+/// Whatever the world is.
+bool isOfTheRobot(const std::string& name, const Robot& robot,
+                  const std::vector<AttachedBody>& attached) {
+  return name.empty() || name.find('*') != std::string::npos || robot.findLink(name) ||
+         std::ranges::find(attached, name, &AttachedBody::name) != attached.end();
+}
+
+bool isIn(const World& world, const std::string& name) {
+  return world.find(name) != nullptr || world.findObstacle(name) != nullptr;
 }
 
 }  // namespace
@@ -50,6 +62,32 @@ CollisionRules rulesOf(const Arguments& args) {
     rules.allow(a, b, "--allow");
   }
   return rules;
+}
+
+CollisionRules rulesIn(const World& world, const CollisionRules& rules, const Robot& robot,
+                       const std::vector<AttachedBody>& attached) {
+  CollisionRules result = rules;
+  for (const CollisionRules::Rule& rule : rules.rules())
+    for (const std::string& name : {rule.bodyA, rule.bodyB})
+      if (!isOfTheRobot(name, robot, attached) && !isIn(world, name)) result = result.without(name);
+  return result;
+}
+
+NamesOfBodies::NamesOfBodies(const CollisionRules& rules, const Robot& robot,
+                             const std::vector<AttachedBody>& attached) {
+  for (const CollisionRules::Rule& rule : rules.rules())
+    for (const std::string& name : {rule.bodyA, rule.bodyB})
+      if (!isOfTheRobot(name, robot, attached)) names_.push_back(name);
+}
+
+void NamesOfBodies::find(const World& world) {
+  std::erase_if(names_, [&](const std::string& name) { return isIn(world, name); });
+}
+
+void NamesOfBodies::requireFound(const std::string& worlds) const {
+  if (names_.empty()) return;
+  throw UsageError("a rule names '" + names_.front() +
+                   "', which is no link, attached body or body of " + worlds);
 }
 
 }  // namespace swept

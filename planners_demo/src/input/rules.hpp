@@ -3,14 +3,35 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "command_line/arguments.hpp"
-#include "swept/robot_model/collision_rules.hpp"
+#include "swept/robot_model/checker.hpp"
 
 namespace swept {
 
 /// What --allow, --pad and --scale say. Throws UsageError.
 CollisionRules rulesOf(const Arguments& args);
+
+/// Those rules that a checker in this world can have: they name links, bodies that `robot` carries,
+/// bodies of the world or, by a `*`, whatever there is.
+CollisionRules rulesIn(const World& world, const CollisionRules& rules, const Robot& robot,
+                       const std::vector<AttachedBody>& attached);
+
+/// Names in rules that are neither a link's nor an attached body's, until a world has a body of
+/// that name.
+class NamesOfBodies {
+ public:
+  NamesOfBodies(const CollisionRules& rules, const Robot& robot,
+                const std::vector<AttachedBody>& attached);
+  void find(const World& world);
+  bool empty() const { return names_.empty(); }
+  /// Throws UsageError for a name that no world had; `worlds` says which there were.
+  void requireFound(const std::string& worlds) const;
+
+ private:
+  std::vector<std::string> names_;
+};
 
 /// The two names of `A,B`. Throws UsageError.
 std::pair<std::string, std::string> namesOfPair(const std::string& option, const std::string& text);

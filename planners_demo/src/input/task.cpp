@@ -56,11 +56,19 @@ void checkStateSource(const Arguments& args) {
 
 Task problemTask(const Arguments& args, const Model& model, const Group& group,
                  Warnings& warnings) {
-  const PlanningProblem problem = ProblemFile::load(args.problems).problem(args.set, *args.index);
+  const ProblemFile file = ProblemFile::load(args.problems);
+  const PlanningProblem problem = file.problem(args.set, *args.index);
   const ProblemStates states = problemStates(*model.robot, group, problem);
   Task task;
   task.alternatives = true;
-  task.checker = makeChecker(args, model, group, std::make_shared<World>(problem.world), warnings);
+  const auto world = std::make_shared<const World>(problem.world);
+  if (args.command == &kReplayCommand) {
+    // The rules are those of a run over many problems.
+    requireBodiesOfRules(args, model, file, chosenProblems(file, {}));
+    task.checker = makeFirstChecker(args, model, group, world, warnings);
+  } else {
+    task.checker = makeChecker(args, model, group, world, warnings);
+  }
   task.states.push_back({.label = "start", .q = states.start});
   for (std::size_t i = 0; i < states.goals.size(); ++i) {
     const std::string number = states.goals.size() > 1 ? " " + std::to_string(i + 1) : "";
@@ -180,16 +188,18 @@ const Group& chooseGroup(const Robot& robot, const std::string& name) {
                    joined(names));
 }
 
-std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
-                                           const Group& group, std::shared_ptr<const World> world,
-                                           Warnings& warnings,
-                                           const std::optional<Eigen::VectorXd>& reference) {
+namespace {
+
+std::shared_ptr<const Checker> makeCheckerWith(
+    const CollisionRules& rules, const Arguments& args, const Model& model, const Group& group,
+    std::shared_ptr<const World> world, Warnings& warnings,
+    const std::optional<Eigen::VectorXd>& reference = {}) {
   if (group.variables.empty())
     throw UsageError("group '" + group.name + "' has no joint that moves");
   CheckerOptions options;
   options.margin = args.margin;
   options.tolerance = args.tolerance;
-  options.rules = rulesOf(args);
+  options.rules = rules;
   options.attached = model.attached;
   options.reference = reference;
   std::shared_ptr<const Checker> checker;
@@ -202,9 +212,31 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
   return checker;
 }
 
-std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
-                                           Warnings& warnings) {
+}  // namespace
+
+std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
+                                           const Group& group, std::shared_ptr<const World> world,
+                                           Warnings& warnings,
+                                           const std::optional<Eigen::VectorXd>& reference) {
+  return makeCheckerWith(rulesOf(args), args, model, group, std::move(world), warnings, reference);
+}
+
+std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,
+                                                const Group& group,
+                                                std::shared_ptr<const World> world,
+                                                Warnings& warnings) {
+  const CollisionRules rules = rulesIn(*world, rulesOf(args), *model.robot, model.attached);
+  return makeCheckerWith(rules, args, model, group, std::move(world), warnings);
+}
+
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+                                               std::shared_ptr<const World> world,
+                                               Warnings& warnings) {
+  CollisionRules rules = rulesIn(*world, rulesOf(args), like.robot(), like.options().attached);
   auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
+  // What it has kept of its own rules are some of these.
+  if (checker->options().rules.rules().size() != rules.rules().size())
+    checker = std::make_shared<const Checker>(checker->withRules(std::move(rules)));
   if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
   return checker;
 }

@@ -59,9 +59,16 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
                                            const std::optional<Eigen::VectorXd>& reference = {});
-/// The same in another world.
-std::shared_ptr<const Checker> makeChecker(const Checker& like, std::shared_ptr<const World> world,
-                                           Warnings& warnings);
+/// In the first of the worlds of many problems. Of the rules those about bodies that it does not
+/// have are for the others.
+std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,
+                                                const Group& group,
+                                                std::shared_ptr<const World> world,
+                                                Warnings& warnings);
+/// The same in another of them, with all rules about bodies that it has.
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+                                               std::shared_ptr<const World> world,
+                                               Warnings& warnings);
 /// For the group asked for, or the only one, in the world of --scene and --cloud. Null without a
 /// group to choose: where there are several, or the only one has nothing to move.
 std::shared_ptr<const Checker> makeCheckerOfGroup(const Arguments& args, const Model& model,

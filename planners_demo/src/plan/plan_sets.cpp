@@ -25,13 +25,12 @@ struct Entry {
   PlanOutcome outcome;
 };
 
-PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Model& model,
-                         const Group& group, const Checker& like, const PlanRequest& request,
-                         Warnings& warnings) {
+PlanOutcome solveProblem(const Arguments& args, const ProblemFile& file, const Entry& entry,
+                         const Checker& like, const PlanRequest& request, Warnings& warnings) {
   const PlanningProblem problem = file.problem(entry.set, entry.index);
   ProblemStates ends;
   try {
-    ends = problemStates(*model.robot, group, problem);
+    ends = problemStates(like.robot(), like.group(), problem);
   } catch (const UsageError& error) {
     // One problem with values outside the robot's limits does not end the run.
     PlanOutcome outcome;
@@ -41,8 +40,8 @@ PlanOutcome solveProblem(const ProblemFile& file, const Entry& entry, const Mode
   }
   std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
   for (const std::vector<double>& goal : ends.goals) states.push_back({.label = "goal", .q = goal});
-  return plan(makeChecker(like, std::make_shared<const World>(problem.world), warnings), states,
-              request);
+  return plan(makeNextChecker(args, like, std::make_shared<const World>(problem.world), warnings),
+              states, request);
 }
 
 /// Threads take the next problem when they are done with one. The first exception ends the run.
@@ -170,14 +169,16 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   const Model model = loadModel(args, warnings);
   const Group& group = chooseGroup(*model.robot, args.group);
   const ProblemFile file = ProblemFile::load(args.problems);
+  const std::vector<ProblemChoice> chosen = chosenProblems(file, args);
+  requireBodiesOfRules(args, model, file, chosen);
   std::vector<Entry> entries;
-  for (const ProblemChoice& chosen : chosenProblems(file, args))
-    entries.push_back({.set = chosen.set, .index = chosen.index, .outcome = {}});
-  const auto like = makeChecker(args, model, group, std::make_shared<const World>(), warnings);
+  for (const ProblemChoice& choice : chosen)
+    entries.push_back({.set = choice.set, .index = choice.index, .outcome = {}});
+  const auto like = makeFirstChecker(args, model, group, std::make_shared<const World>(), warnings);
   {
     Progress progress("planning " + std::to_string(entries.size()) + " problems", args.quiet);
     runAll(entries, args.jobs, progress, [&](const Entry& entry) {
-      return solveProblem(file, entry, model, group, *like, request, warnings);
+      return solveProblem(args, file, entry, *like, request, warnings);
     });
   }
   ExitCode code = ExitCode::Free;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "input/problem_choice.hpp"
+#include "input/rules.hpp"
 
 namespace swept {
 namespace {
@@ -15,10 +16,12 @@ std::string sceneName(const Arguments& args) {
   return name.empty() ? "no scene" : name;
 }
 
-std::vector<ReportWorld> problemWorlds(const Arguments& args) {
+std::vector<ReportWorld> problemWorlds(const Arguments& args, const Model& model) {
   const ProblemFile file = ProblemFile::load(args.problems);
+  const std::vector<ProblemChoice> chosen = chosenProblems(file, args);
+  requireBodiesOfRules(args, model, file, chosen);
   std::vector<ReportWorld> worlds;
-  for (const auto& [set, index] : chosenProblems(file, args))
+  for (const auto& [set, index] : chosen)
     worlds.push_back({.name = set + " " + std::to_string(index),
                       .world = std::make_shared<const World>(file.problem(set, index).world)});
   return worlds;
@@ -28,17 +31,22 @@ std::vector<ReportWorld> problemWorlds(const Arguments& args) {
 
 std::vector<ReportWorld> reportWorlds(const Arguments& args, const Model& model) {
   requireOneSource(args);
-  if (args.problems.empty()) return {{.name = sceneName(args), .world = model.world}};
-  return problemWorlds(args);
+  if (args.problems.empty()) {
+    NamesOfBodies names(rulesOf(args), *model.robot, model.attached);
+    names.find(*model.world);
+    names.requireFound("the world");
+    return {{.name = sceneName(args), .world = model.world}};
+  }
+  return problemWorlds(args, model);
 }
 
 CheckerMaker::CheckerMaker(const Arguments& args, const Model& model, const Group& group,
                            Warnings& warnings)
-    : warnings_(warnings) {
+    : args_(args), warnings_(warnings) {
   const auto make = [&](double tolerance) {
     Arguments own = args;
     own.tolerance = tolerance;
-    return makeChecker(own, model, group, std::make_shared<const World>(), warnings);
+    return makeFirstChecker(own, model, group, std::make_shared<const World>(), warnings);
   };
   like_.truth = make(kTruthTolerance);
   for (const double tolerance : args.report.tolerances) like_.certified.push_back(make(tolerance));
@@ -46,9 +54,9 @@ CheckerMaker::CheckerMaker(const Arguments& args, const Model& model, const Grou
 
 ReportCheckers CheckerMaker::in(const std::shared_ptr<const World>& world) const {
   ReportCheckers checkers;
-  checkers.truth = makeChecker(*like_.truth, world, warnings_);
+  checkers.truth = makeNextChecker(args_, *like_.truth, world, warnings_);
   for (const auto& like : like_.certified)
-    checkers.certified.push_back(makeChecker(*like, world, warnings_));
+    checkers.certified.push_back(makeNextChecker(args_, *like, world, warnings_));
   return checkers;
 }
 
