@@ -61,6 +61,28 @@ TEST_F(OddNames, OfRobotAndLinksAreRefusedForJson) {
                 "be'");
 }
 
+/// They ended the program with an exception of the JSON library, once the path was found.
+TEST_F(OddNames, OfOtherJointsAndOfReasonsAreRefusedForJson) {
+  const std::string where = "-o '" + folder().path("path.json") + "'";
+  rename("<link name=\"beam\"/>", R"(<link name="beam"/><link name="tip"><collision>
+<origin xyz="0 0 -5"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+<joint name="glXue" type="fixed"><parent link="rail"/><child link="tip"/></joint>)");
+  rename("glXue", "gl\xffue");
+  expectRefused(plan("path.json"), where, "the name 'gl\xffue'");
+  rename("gl\xffue", "glue");
+  rename("<group name=\"slider\">",
+         "<disable_collisions link1=\"tip\" link2=\"cube\" reason=\"Ne\xffver\"/><group "
+         "name=\"slider\">");
+  expectRefused(plan("path.json"), where, "the name 'SRDF: Ne\xffver'");
+}
+
+TEST_F(OddNames, OfFilesThatWereChangedAreRefusedByVerify) {
+  const std::string file = folder().path("path.json");
+  ASSERT_EQ(plan("path.json").exitCode, 0);
+  rename("\"rail\"", "\"ra\xffil\"");
+  expectRefused(runSwept({"verify", file}), "the files of '" + file + "'", "the name 'ra\xffil'");
+}
+
 TEST_F(OddNames, OfFilesAndOptionsAreRefusedForJson) {
   const std::string scene = folder().path("p\xffst.yaml");
   std::filesystem::copy_file(gantry_.scene, scene);

@@ -173,4 +173,12 @@ Json modelJson(const Checker& checker) {
   return json;
 }
 
+void requireModelNames(const Checker& checker, const std::string& where) {
+  for (const Link& link : checker.robot().links()) requireUtf8(link.name, where);
+  for (const Joint& joint : checker.robot().joints()) requireUtf8(joint.name, where);
+  for (const AttachedBody& body : checker.options().attached) requireUtf8(body.name, where);
+  for (const WorldBody& body : checker.world().bodies()) requireUtf8(body.name, where);
+  requireUtf8(allowedJson(checker), where);
+}
+
 }  // namespace swept

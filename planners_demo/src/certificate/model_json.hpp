@@ -32,4 +32,8 @@ std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 /// in it.
 Json modelJson(const Checker& checker);
 
+/// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is
+/// not UTF-8.
+void requireModelNames(const Checker& checker, const std::string& where);
+
 }  // namespace swept

@@ -36,6 +36,7 @@ Files filesOf(const Arguments& args, const Json& path, Warnings& warnings) {
   Files files;
   files.model = loadModel(inputs, warnings);
   files.task = loadTask(inputs, files.model, warnings);
+  requireModelNames(*files.task.checker, "the files of '" + args.verify.path + "'");
   return files;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "certificate/certificate.hpp"
+#include "certificate/model_json.hpp"
 #include "command_line/commands.hpp"
 #include "input/clouds.hpp"
 #include "input/inputs.hpp"
@@ -82,7 +83,7 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
 void requireNames(const Arguments& args, const Checker& checker) {
   const std::string where = "-o '" + args.output + "'";
   requireUtf8(inputsJson(args, args.output), where);
-  for (const WorldBody& body : checker.world().bodies()) requireUtf8(body.name, where);
+  requireModelNames(checker, where);
 }
 
 void writePath(const Arguments& args, const PathFile& file, const Checker& checker,
