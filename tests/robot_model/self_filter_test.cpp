@@ -264,6 +264,14 @@ TEST_F(Ball, AMapIsFilteredWhereItStands) {
             "withoutRobot: the map's resolution is 0; it must be above 0");
 }
 
+TEST_F(Ball, AMapThatIsTooFineIsRefused) {
+  const OccupancyMap map{.resolution = 0x1p-14, .occupied = {{.center = {0, 0, 2}, .side = 4.0}}};
+  EXPECT_EQ(test::messageOf(
+                [&] { mapWithoutRobot(map, Eigen::Isometry3d::Identity(), *robot_, state_, 0.0); }),
+            "withoutRobot: cubes near the robot have more than 10000000 parts at a resolution of "
+            "6.103515625e-05 m");
+}
+
 TEST_F(Ball, RefusesWhatIsNoStateOrMargin) {
   const std::vector<double> none{0, 0, 0, 0, 0, 0, 0};
   std::vector<double> infinite = state_;

@@ -125,6 +125,10 @@ class CubeFilter {
  private:
   /// `middle` and `share`: of the part, in sides of the cube. All parts are rounded but once.
   void addPart(const OccupancyMap::Cube& cube, const Vector3d& middle, double share) {
+    if (++parts_ > kMostParts) {
+      refuse("cubes near the robot have more than " + std::to_string(kMostParts) +
+             " parts at a resolution of " + detail::formatNumber(kept_.resolution) + " m");
+    }
     const OccupancyMap::Cube part{.center = cube.center + cube.side * middle,
                                   .side = cube.side * share};
     const Vector3d center = world_from_map_ * part.center;
@@ -144,10 +148,14 @@ class CubeFilter {
     }
   }
 
+  /// A cube of an OctoMap may be 65 536 of its smallest ones wide.
+  static constexpr int kMostParts = 10'000'000;
+
   const PlacedRobot& robot_;
   const Isometry3d& world_from_map_;
   double margin_;
   OccupancyMap& kept_;
+  int parts_ = 0;  ///< looked at
 };
 
 }  // namespace

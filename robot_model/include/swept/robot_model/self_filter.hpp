@@ -37,7 +37,7 @@ Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const 
 /// The map without its smallest cubes whose middles are within `margin` (m) of the robot; what else
 /// is as for points. Of a larger cube that comes as near, the part that does not is left, in
 /// smaller ones. Throws likewise, and std::invalid_argument for a map whose resolution is not above
-/// zero.
+/// zero, and one of which more than 10 million parts would have to be looked at.
 OccupancyMap mapWithoutRobot(const OccupancyMap& map, const Eigen::Isometry3d& world_from_map,
                              const Robot& robot, std::span<const double> state, double margin);
 
