@@ -71,8 +71,8 @@ TEST(BatchInput, WhatNoWorkerCanDoEndsTheBatchAndLeavesNoFile) {
   const TemporaryFolder folder;
   expectRefused(gantryBatch(gantry, {"--allow", "cube,shelf", "-o", folder.path("r")}),
                 kError +
-                    "Checker: a rule names 'shelf', which is no link, attached body or body "
-                    "of the world");
+                    "a rule names 'shelf', which is no link, attached body or body of the world "
+                    "of any chosen problem");
   EXPECT_TRUE(folder.names().empty());
 }
 
