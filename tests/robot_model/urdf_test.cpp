@@ -205,6 +205,19 @@ TEST(Urdf, ReadsEveryPrimitiveInFileOrder) {
   EXPECT_EQ(collision[3].source, "cylinder");
 }
 
+TEST(Urdf, LimitsAreThoseOfTheLimitElement) {
+  test::Warnings warnings;
+  const auto robot = Robot::parse(
+      "<robot name='s'><link name='a'/><link name='b'/><joint name='j' type='revolute'>"
+      "<parent link='a'/><child link='b'/><limit lower='-1' upper='2'/>"
+      "<safety_controller soft_lower_limit='-0.5' soft_upper_limit='1.5' k_velocity='10'/></joint>"
+      "</robot>",
+      "s.urdf", {}, {}, warnings.options());
+  EXPECT_EQ(robot->variables().at(0).lower, -1.0);
+  EXPECT_EQ(robot->variables()[0].upper, 2.0);
+  EXPECT_THAT(warnings.lines, IsEmpty());
+}
+
 TEST(Urdf, IgnoresWhatIsNotCollisionButNamesWhatItDoesNotKnow) {
   test::Warnings warnings;
   ::testing::internal::CaptureStderr();

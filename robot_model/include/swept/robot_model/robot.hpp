@@ -66,10 +66,8 @@ struct Joint {
 struct Variable {
   std::string
       name;  ///< the joint's, or `joint/x`, `joint/theta`, `joint/trans_x`, `joint/rot_w`, ...
-  int joint = -1;  ///< index of its joint
-  /// rad or m; -infinity where nothing bounds it. Of `<limit>` and, where it is narrower, of the
-  /// soft limits in `<safety_controller>`, as MoveIt has it.
-  double lower = 0.0;
+  int joint = -1;       ///< index of its joint
+  double lower = 0.0;   ///< rad or m, of `<limit>`; -infinity where nothing bounds it
   double upper = 0.0;   ///< rad or m; likewise
   bool cyclic = false;  ///< angle modulo 2 pi: interpolated the shorter way
 };
