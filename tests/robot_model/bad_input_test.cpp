@@ -497,6 +497,9 @@ std::vector<BadInput> yamlKeys() {
        "stamp and frame_id"},
       {"SecondDocument", "s.yaml", "world: {}\n---\nworld: {}\n",
        "@/s.yaml:3: error: a second document begins; one is allowed"},
+      // yaml-cpp finds empty documents there without end.
+      {"NoDocument", "s.yaml", ",~-~",
+       "@/s.yaml:1: error: malformed YAML: this is part of no document"},
       {"LinkPadding", "s.yaml",
        "world: {}\nlink_padding:\n  - {link_name: a, padding: 0}\n  - {link_name: b, padding: "
        "0.01}\n",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/numbers.hpp"
+#include "io/yaml_documents.hpp"
 
 namespace swept::detail {
 
@@ -39,13 +40,9 @@ YamlPlace::YamlPlace(const YAML::Node& node, std::string name, int line, const I
 
 YamlPlace YamlPlace::parse(const std::string& text, const InputSource& source) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    // Messages that ROS prints end with the line that begins another one.
-    for (std::size_t i = 1; i < documents.size(); ++i) {
-      if (documents[i].IsNull()) continue;
-      source.fail(documents[i].Mark().line + 1, "a second document begins; one is allowed");
-    }
-    return {documents.empty() ? YAML::Node() : documents.front(), "", 1, &source};
+    if (const auto line = lineOfSecondDocument(text))
+      source.fail(*line, "a second document begins; one is allowed");
+    return {YAML::Load(text), "", 1, &source};
   } catch (const YAML::DeepRecursion& error) {
     source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
   } catch (const YAML::Exception& error) {
