@@ -11,16 +11,14 @@
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
+#include "version_arms.hpp"
 
 namespace swept {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d at(double x, double y, double z) {
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
+using test::at;
 
 /// A ball that slides along x; two such slides, one upon the other, if `twice`.
 std::shared_ptr<const Robot> slide(double radius, double limit, bool twice = false) {
