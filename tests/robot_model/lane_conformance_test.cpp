@@ -157,7 +157,11 @@ class Geometry {
       const Eigen::Vector3d out = (b.box_from_world * center).cwiseAbs() - b.halfExtents;
       if (out.cwiseMax(0.0).norm() > a.radius + margin + 1e-6) return false;
     }
-    if (margin > 0.0) return distance(a.shape, shapeOfB(pair), between(pair)).upper < margin - 1e-9;
+    if (margin > 0.0) {
+      const double surely = margin - 1e-9;
+      const DistanceOptions options{.enough = margin, .contact = 0.999 * surely};
+      return distance(a.shape, shapeOfB(pair), between(pair), options).upper < surely;
+    }
     return collide(a.shape, shapeOfB(pair), between(pair)) == Contact::Touching;
   }
 
