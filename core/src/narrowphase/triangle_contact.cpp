@@ -58,14 +58,16 @@ class Polygon {
   int size_ = 3;
 };
 
-/// How a triangle passes through the prism over another one, the face: heights are along its unit
+/// How a triangle passes through the prism over another one, the face: heights are along its
 /// normal.
 struct Passage {
+  Vector3d normal = Vector3d::Zero();  ///< unit
+  bool ofFirst = true;                 ///< the first triangle passes over the second one's face
   double least = 0.0;
   double most = 0.0;
   Vector3d lowest = Vector3d::Zero();
   Vector3d highest = Vector3d::Zero();
-  Vector3d common = Vector3d::Zero();  ///< middle of what lies in the face's plane
+  Vector3d middle = Vector3d::Zero();  ///< of what lies in the face's plane
 };
 
 /// Middle of the part of a polygon at height 0: of the points where its border passes that height,
@@ -92,9 +94,11 @@ Vector3d middleAtZero(const Polygon& polygon, const std::array<double, 8>& heigh
   return count > 0 ? Vector3d(sum / count) : fallback;
 }
 
-/// False if rounding finds nothing of the triangle over the face.
+/// Of the passage the normal is known. False if rounding finds nothing of the triangle over the
+/// face.
 bool passThrough(const Corners& triangle, const Corners& face, const Corners& faceEdges,
-                 const Vector3d& normal, Passage& passage) {
+                 Passage& passage) {
+  const Vector3d& normal = passage.normal;
   Polygon polygon(triangle);
   for (int j = 0; j < 3; ++j) {
     polygon.cut(face[j], normal.cross(faceEdges[j]));
@@ -114,7 +118,7 @@ bool passThrough(const Corners& triangle, const Corners& face, const Corners& fa
       passage.highest = polygon[i];
     }
   }
-  passage.common = middleAtZero(polygon, height);
+  passage.middle = middleAtZero(polygon, height);
   return true;
 }
 
@@ -126,10 +130,8 @@ struct Candidate {
   Vector3d normal = Vector3d::Zero();
 };
 
-void keepShallower(Candidate& best, double depth, const Vector3d& p, const Vector3d& q,
-                   const Vector3d& normal) {
-  depth = std::max(depth, 0.0);
-  if (depth < best.depth) best = {depth, p, q, normal};
+void keepShallower(Candidate& best, const Candidate& other) {
+  if (other.depth < best.depth) best = other;
 }
 
 /// Squared sine of the angle between two edges above which their rounded cross product is good to a
@@ -171,38 +173,74 @@ Vector3d acrossBoth(const TrianglePair& pair) {
   return direction.squaredNorm() > 0.0 ? direction.unitOrthogonal() : Vector3d::UnitX();
 }
 
+/// How far a point is from being common to both.
+double offBoth(const TrianglePair& pair, const Vector3d& x) {
+  return std::max((x - detail::nearestOnTriangle(x, pair.p, pair.e)).norm(),
+                  (x - detail::nearestOnTriangle(x, pair.q, pair.f)).norm());
+}
+
+/// Of the size: a common point that is off by no more than roundings.
+constexpr double kCommon = 1e-15;
+
+/// The triangles' common point: `middle` of the first passage that is one up to rounding, or else
+/// the best there is. Where they meet in a corner or an edge, rounding may leave it out of what
+/// passes over a face.
+Vector3d commonPoint(const TrianglePair& pair, const Passage* passages, int count) {
+  Vector3d best = Vector3d::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  const auto isGood = [&](const Vector3d& point) {
+    const double off = offBoth(pair, point);
+    if (off < least) {
+      least = off;
+      best = point;
+    }
+    return least <= kCommon * pair.size;
+  };
+  for (int i = 0; i < count; ++i)
+    if (isGood(passages[i].middle)) return best;
+  const PointPair nearest = detail::nearestFeatures(pair);
+  if (!isGood(nearest.p)) isGood(nearest.q);
+  return best;
+}
+
+/// Either way along the normal. A passage that keeps to one side has lost to rounding where it
+/// touches the face.
+void keepShallower(Candidate& best, const Passage& passage, const Vector3d& common) {
+  const auto consider = [&](double height, const Vector3d& extreme, double up) {
+    const double depth = up * height;
+    const Vector3d onFace = extreme - height * passage.normal;
+    // The face's triangle moves along the normal to let the other one out.
+    const Vector3d normal = (passage.ofFirst ? up : -up) * passage.normal;
+    if (!(depth >= 0.0))
+      keepShallower(best, {0.0, common, common, normal});
+    else if (passage.ofFirst)
+      keepShallower(best, {depth, extreme, onFace, normal});
+    else
+      keepShallower(best, {depth, onFace, extreme, normal});
+  };
+  consider(passage.least, passage.lowest, -1.0);
+  consider(passage.most, passage.highest, 1.0);
+}
+
 }  // namespace
 
 TriangleContact triangleContact(const TriangleCorners& a, const TriangleCorners& b) {
   const TrianglePair pair(a, b);
   if (!std::isfinite(pair.size)) return {a[0], a[0], a[0], Vector3d::UnitX(), 0.0};
+  std::array<Passage, 2> passages;
+  int count = 0;
+  if (unitNormal(b, pair.f, passages[count].normal) &&
+      passThrough(pair.p, pair.q, pair.f, passages[count])) {
+    passages[count++].ofFirst = true;
+  }
+  if (unitNormal(a, pair.e, passages[count].normal) &&
+      passThrough(pair.q, pair.p, pair.e, passages[count])) {
+    passages[count++].ofFirst = false;
+  }
+  const Vector3d common = commonPoint(pair, passages.data(), count);
   Candidate best;
-  Vector3d common = Vector3d::Zero();
-  Passage passage;
-  Vector3d normal;
-  if (unitNormal(b, pair.f, normal)) {
-    if (passThrough(pair.p, pair.q, pair.f, normal, passage)) {
-      common = passage.common;
-      const Vector3d rise = passage.least * normal;
-      keepShallower(best, -passage.least, passage.lowest, passage.lowest - rise, -normal);
-      const Vector3d drop = passage.most * normal;
-      keepShallower(best, passage.most, passage.highest, passage.highest - drop, normal);
-    }
-  }
-  if (unitNormal(a, pair.e, normal)) {
-    if (passThrough(pair.q, pair.p, pair.e, normal, passage)) {
-      if (!std::isfinite(best.depth)) common = passage.common;
-      const Vector3d rise = passage.least * normal;
-      keepShallower(best, -passage.least, passage.lowest - rise, passage.lowest, normal);
-      const Vector3d drop = passage.most * normal;
-      keepShallower(best, passage.most, passage.highest - drop, passage.highest, -normal);
-    }
-  }
-  if (!std::isfinite(best.depth)) {
-    const PointPair nearest = detail::nearestFeatures(pair);
-    common = 0.5 * (nearest.p + nearest.q);
-    best = {0.0, nearest.p, nearest.q, acrossBoth(pair)};
-  }
+  for (int i = 0; i < count; ++i) keepShallower(best, passages[i], common);
+  if (count == 0) best = {0.0, common, common, acrossBoth(pair)};
   const double metres = 1.0 / pair.scale;
   return {a[0] + metres * best.p, a[0] + metres * best.q, a[0] + metres * common, best.normal,
           metres * best.depth};

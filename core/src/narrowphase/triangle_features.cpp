@@ -149,6 +149,15 @@ Vector3d faceNormal(const std::array<Vector3d, 3>& edges) {
   return edges[k].cross(across(edges[(k + 1) % 3], edges[k]));
 }
 
+Vector3d nearestOnTriangle(const Vector3d& point, const std::array<Vector3d, 3>& corners,
+                           const std::array<Vector3d, 3>& edges) {
+  PointPair best{point, corners[0], std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < 3; ++i) keepNearer(best, point, onSegment(point, corners[i], edges[i]));
+  Vector3d foot;
+  if (insideFace(point, corners, edges, foot)) keepNearer(best, point, foot);
+  return best.q;
+}
+
 PointPair nearestFeatures(const TrianglePair& pair) {
   PointPair best{pair.p[0], pair.q[0], (pair.q[0] - pair.p[0]).squaredNorm()};
   Vector3d on;

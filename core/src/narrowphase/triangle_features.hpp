@@ -48,6 +48,12 @@ Eigen::Vector3d perpendicular(const Eigen::Vector3d& x, const Eigen::Vector3d& y
 /// triangle without an area.
 Eigen::Vector3d faceNormal(const std::array<Eigen::Vector3d, 3>& edges);
 
+/// Nearest point of a triangle, whose edges are in order. Within a few roundings of the
+/// coordinates, slivers included.
+Eigen::Vector3d nearestOnTriangle(const Eigen::Vector3d& point,
+                                  const std::array<Eigen::Vector3d, 3>& corners,
+                                  const std::array<Eigen::Vector3d, 3>& edges);
+
 /// Nearest points over all vertex-face, edge-edge and vertex-edge pairs. Within a few roundings of
 /// the coordinates of the distance of triangles that do not cross each other, slivers included.
 PointPair nearestFeatures(const TrianglePair& pair);
