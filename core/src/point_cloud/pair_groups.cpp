@@ -2,9 +2,10 @@
 #include "point_cloud/pair_groups.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <numeric>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "point_cloud/any_of.hpp"
 
@@ -39,9 +40,10 @@ class PairSets {
   void add(const NoisyPair& pair) {
     Used& ofA = usedA_[pair.a];
     Used& ofB = usedB_[pair.b];
-    // Below these all are used: a point with many pairs would look through all of its own for each.
-    std::size_t set = std::max(ofA.least, ofB.least);
-    while (ofA.has(set) || ofB.has(set)) ++set;
+    // All before are used: a point with many pairs would look through all of its own for each.
+    std::size_t word = std::max(ofA.full, ofB.full);
+    while ((ofA.word(word) | ofB.word(word)) == kAll) ++word;
+    const std::size_t set = kWord * word + std::countr_one(ofA.word(word) | ofB.word(word));
     ofA.mark(set);
     ofB.mark(set);
     if (set == sets_.size()) sets_.emplace_back();
@@ -60,16 +62,22 @@ class PairSets {
   }
 
  private:
-  /// The sets that have a point: all below `least`, and those beyond. So a point with one pair is
-  /// small even where its pair is in the last of many sets.
+  static constexpr std::size_t kWord = 64;  ///< sets in a word, a bit each
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
+  /// The sets that have a point: all of the words before `full`, and those beyond that have any.
+  /// So a point with one pair is small even where its pair is in the last of many sets.
   struct Used {
-    bool has(std::size_t set) const { return set < least || beyond.contains(set); }
-    void mark(std::size_t set) {
-      beyond.insert(set);
-      while (beyond.erase(least) > 0) ++least;
+    std::uint64_t word(std::size_t index) const {
+      const auto found = beyond.find(index);
+      return index < full ? kAll : found == beyond.end() ? 0 : found->second;
     }
-    std::unordered_set<std::size_t> beyond;
-    std::size_t least = 0;  ///< that does not have it
+    void mark(std::size_t set) {
+      beyond[set / kWord] |= std::uint64_t{1} << (set % kWord);
+      for (; word(full) == kAll; ++full) beyond.erase(full);
+    }
+    std::unordered_map<std::size_t, std::uint64_t> beyond;
+    std::size_t full = 0;
   };
 
   std::unordered_map<std::size_t, Used> usedA_;  ///< per point
