@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <span>
+#include <vector>
 
+#include "swept/robot_model/inverse_kinematics.hpp"
+#include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/self_filter.hpp"
 #include "version_arms.hpp"
 
@@ -52,10 +54,17 @@ TEST(CheckerReference, AQuaternionNeedsADirection) {
             "Checker: the quaternion of joint 'first' has no direction");
   EXPECT_EQ(given("second", {0.0, 2e-6, 0.0, 0.0}), "");
   EXPECT_EQ(given("second", {0.0, 0.0, 3.0, 4.0}), "");
-  // The words of what filters the robot out of clouds.
+  // The words of all that takes a state of the whole robot.
   const Eigen::VectorXd state = withQuaternion(*robot, "second", Eigen::Vector4d::Zero());
-  const std::span<const double> values(state.data(), static_cast<std::size_t>(state.size()));
-  EXPECT_EQ(messageOf([&] { withoutRobot({}, *robot, values, 0.0); }), "withoutRobot: " + message);
+  EXPECT_EQ(messageOf([&] {
+              withoutRobot({}, *robot, {state.data(), static_cast<std::size_t>(state.size())}, 0.0);
+            }),
+            "withoutRobot: " + message);
+  const std::vector<double> q{0.0};
+  EXPECT_EQ(messageOf([&] { LinkMotion(*robot, "tip", "tip", q, q, state); }),
+            "LinkMotion: " + message);
+  EXPECT_EQ(messageOf([&] { InverseKinematics(robot, "tip", "tip", state); }),
+            "InverseKinematics: " + message);
 }
 
 TEST(CheckerReference, AQuaternionIsFinite) {
@@ -63,7 +72,7 @@ TEST(CheckerReference, AQuaternionIsFinite) {
   for (const double value :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(refusal(withQuaternion(*robot, "second", {value, 0.0, 0.0, 1.0})),
-              "Checker: the reference has a value that is not finite");
+              "Checker: 'second/rot_x' of the reference is not finite");
   }
 }
 

@@ -502,8 +502,9 @@ TEST(InverseKinematics, SaysWhatCannotBeBuilt) {
             "InverseKinematics: group 'arm' does not move link 'base_link'");
   EXPECT_EQ(build("arm", "tool", Eigen::VectorXd::Zero(1)),
             "InverseKinematics: the reference has 1 values instead of 6");
-  EXPECT_EQ(build("arm", "tool", Eigen::VectorXd::Constant(6, kInfinity)),
-            "InverseKinematics: the reference has a value that is not finite");
+  EXPECT_EQ(
+      build("arm", "tool", Eigen::VectorXd::Constant(6, kInfinity)),
+      "InverseKinematics: '" + robot->variables()[0].name + "' of the reference is not finite");
   Isometry3d bent = Isometry3d::Identity();
   bent.linear() *= 2.0;
   EXPECT_EQ(build("arm", "tool", {}, bent), "InverseKinematics: the tool is not a rigid transform");

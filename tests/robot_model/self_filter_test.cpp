@@ -284,7 +284,7 @@ TEST_F(Ball, RefusesWhatIsNoStateOrMargin) {
   EXPECT_EQ(refusal(state_, std::numeric_limits<double>::infinity()),
             "withoutRobot: the margin is inf; it must be finite and at least 0");
   EXPECT_EQ(refusal({0.0, 1.0}, 0.0), "withoutRobot: the state has 2 values instead of 7");
-  EXPECT_EQ(refusal(infinite, 0.0), "withoutRobot: 'float/rot_y' is not finite");
+  EXPECT_EQ(refusal(infinite, 0.0), "withoutRobot: 'float/rot_y' of the state is not finite");
   EXPECT_EQ(refusal(none, 0.0), "withoutRobot: the quaternion of joint 'float' has no direction");
 }
 

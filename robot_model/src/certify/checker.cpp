@@ -11,6 +11,7 @@
 #include "certify/signed_clearance.hpp"
 #include "certify/state_check.hpp"
 #include "io/numbers.hpp"
+#include "kinematics/whole_state.hpp"
 
 namespace swept {
 
@@ -29,23 +30,8 @@ void validate(const Robot& robot, const CheckerOptions& options) {
     throw std::invalid_argument("Checker: maxIntervals " + std::to_string(options.maxIntervals) +
                                 " must be at least 1");
   }
-  if (!options.reference) return;
-  const auto expected = static_cast<Eigen::Index>(robot.variables().size());
-  if (options.reference->size() != expected) {
-    throw std::invalid_argument("Checker: the reference has " +
-                                std::to_string(options.reference->size()) + " values, the robot " +
-                                std::to_string(expected) + " variables");
-  }
-  if (!options.reference->allFinite()) {
-    throw std::invalid_argument("Checker: the reference has a value that is not finite");
-  }
-  for (const Joint& joint : robot.joints()) {
-    if (joint.type != JointType::Floating) continue;
-    if (!detail::hasDirection(options.reference->data() + joint.firstVariable + 3)) {
-      throw std::invalid_argument("Checker: the quaternion of joint '" + joint.name +
-                                  "' has no direction");
-    }
-  }
+  if (options.reference)
+    detail::requireWholeState(robot, *options.reference, "Checker", "the reference");
 }
 
 const Group& findGroup(const Robot& robot, std::string_view name) {

@@ -13,6 +13,7 @@
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
 #include "kinematics/rigid_transform.hpp"
+#include "kinematics/whole_state.hpp"
 
 namespace swept {
 
@@ -212,8 +213,7 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, std::st
   const std::optional<int> index = robot->findLink(link);
   if (!index) refuse(of + " has no link '" + std::string(link) + "'");
   const Eigen::VectorXd held = reference.value_or(robot->defaultState());
-  requireSize(static_cast<std::size_t>(held.size()), robot->variables().size(), "the reference");
-  if (!held.allFinite()) refuse("the reference has a value that is not finite");
+  detail::requireWholeState(*robot, held, "InverseKinematics", "the reference");
   requireRigid(link_from_tool, "the tool");
 
   chain->robot = std::move(robot);

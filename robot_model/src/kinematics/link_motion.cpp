@@ -8,6 +8,7 @@
 
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
+#include "kinematics/whole_state.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
@@ -90,8 +91,7 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   requireSize(from.size(), moved->variables.size(), "the first configuration");
   requireSize(to.size(), moved->variables.size(), "the last configuration");
   const Eigen::VectorXd held = reference.value_or(robot.defaultState());
-  requireSize(static_cast<std::size_t>(held.size()), robot.variables().size(), "the reference");
-  if (!held.allFinite()) refuse("the reference has a value that is not finite");
+  detail::requireWholeState(robot, held, "LinkMotion", "the reference");
 
   const KinematicModel kinematics = detail::compileKinematics(robot, *moved, held);
   std::vector<JointMotion> motion(kinematics.bodies.size());

@@ -10,6 +10,7 @@
 
 #include "io/numbers.hpp"
 #include "kinematics/motion_model.hpp"
+#include "kinematics/whole_state.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/segment_query.hpp"
 
@@ -33,24 +34,6 @@ struct PlacedLink {
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("withoutRobot: " + what);
-}
-
-void requireState(const Robot& robot, std::span<const double> state) {
-  if (state.size() != robot.variables().size()) {
-    refuse("the state has " + std::to_string(state.size()) + " values instead of " +
-           std::to_string(robot.variables().size()));
-  }
-  for (std::size_t v = 0; v < state.size(); ++v) {
-    if (!std::isfinite(state[v])) refuse("'" + robot.variables()[v].name + "' is not finite");
-  }
-  for (const Joint& joint : robot.joints()) {
-    if (joint.type != JointType::Floating) continue;
-    const auto first = static_cast<std::size_t>(joint.firstVariable) + 3;
-    const Eigen::Map<const Eigen::Vector4d> quaternion(&state[first]);
-    if (!(quaternion.norm() > 1e-6)) {
-      refuse("the quaternion of joint '" + joint.name + "' has no direction");
-    }
-  }
 }
 
 PlacedLink place(const Link& link, const Isometry3d& model_from_link) {
@@ -89,7 +72,9 @@ class PlacedRobot {
       refuse("the margin is " + detail::formatNumber(margin) +
              "; it must be finite and at least 0");
     }
-    requireState(robot, state);
+    const auto size = static_cast<Eigen::Index>(state.size());
+    detail::requireWholeState(robot, Eigen::Map<const Eigen::VectorXd>(state.data(), size),
+                              "withoutRobot", "the state");
     // A group that moves nothing: every link hangs on the model frame, at the state.
     const detail::KinematicModel model = detail::compileKinematics(
         robot, Group{},

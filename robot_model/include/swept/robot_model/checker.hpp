@@ -163,9 +163,10 @@ class Workspace {
 class Checker {
  public:
   /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin or
-  /// tolerance, a reference of the wrong size, a rule that names a body that is not there, an
-  /// attached body whose link or touch link is not there, whose name is taken, or with a shape or
-  /// pose that AttachedBody does not allow, and for more pairs than CheckerOptions::maxPairs.
+  /// tolerance, a reference of the wrong size, not finite or with a quaternion without direction, a
+  /// rule that names a body that is not there, an attached body whose link or touch link is not
+  /// there, whose name is taken, or with a shape or pose that AttachedBody does not allow, and for
+  /// more pairs than CheckerOptions::maxPairs.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 

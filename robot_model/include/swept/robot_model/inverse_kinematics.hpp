@@ -59,8 +59,8 @@ class InverseKinematics {
 
   /// `reference` has a value for each variable of the robot; those outside the group keep it.
   /// Default: Robot::defaultState(). Throws std::invalid_argument without a robot, for a group or
-  /// link that is not there, a link that the group does not move, a reference of the wrong size or
-  /// not finite, and a tool that is not a rigid transform.
+  /// link that is not there, a link that the group does not move, a reference of the wrong size, not
+  /// finite or with a quaternion without direction, and a tool that is not a rigid transform.
   InverseKinematics(std::shared_ptr<const Robot> robot, std::string_view group,
                     std::string_view link, const std::optional<Eigen::VectorXd>& reference = {},
                     const Eigen::Isometry3d& link_from_tool = Eigen::Isometry3d::Identity());
