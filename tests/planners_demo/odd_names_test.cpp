@@ -143,6 +143,28 @@ TEST_F(OddNames, WithCommasAndQuotesAreQuotedInCsv) {
   EXPECT_THAT(folder().read("path.csv"), testing::StartsWith("\"sl,id\"\"e\",lift\n0,0\n"));
 }
 
+/// A robot's name, a link's and a file's made up lines of stdout.
+TEST_F(OddNames, MakeNoLines) {
+  rename("\"gantry\"", "\"gan\nall free\"");
+  rename("\"cube\"", "\"cu\nall free\"");
+  rename("<link name=\"beam\"/>", R"(<link name="beam"/><link name="tip"><collision>
+<origin xyz="0 0 -5"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+<joint name="glue" type="fixed"><parent link="rail"/><child link="tip"/></joint>)");
+  const auto expect = [](const Outcome& run, const std::string& shown) {
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr(shown));
+    EXPECT_EQ(run.out.find("\nall free"), std::string::npos) << run.out;
+  };
+  const std::string path = folder().path("pa\nall free.csv");
+  expect(plan("pa\nall free.csv"), "path written to " + replaced(path, "\n", "\\n") + "\n");
+  expect(runSwept({"acm", gantry_.urdf, "--srdf", gantry_.srdf}), "  tip - cu\\nall free\n");
+  expect(gantry_.run("report", {"--group", "both", "--motions", "2", "--passes", "1", "-q"}),
+         "gan\\nall free, group both, ");
+  const std::string page = folder().path("pa\nall free.html");
+  expect(runSwept({"view", gantry_.urdf, "-o", page}),
+         "page written to " + replaced(page, "\n", "\\n") + "\n");
+}
+
 /// A file's name made up a second line of stderr, and moved the terminal's cursor.
 TEST(ControlCharacters, OfArgumentsAreEscapedInMessages) {
   const std::string odd = "no\x1b[2J\nfree: all\xc2\x9b\x9b\x7f";

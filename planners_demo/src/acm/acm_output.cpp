@@ -8,6 +8,7 @@
 #include <map>
 
 #include "command_line/shell_word.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -133,12 +134,12 @@ std::string differenceText(const AcmResult& result,
     const AcmDisagreement& difference = differences[i];
     if (i == 0 || differences[i - 1].kind != difference.kind)
       text += titleOf(difference.kind) + ":\n";
-    text += "  " + namesOf(robot, difference.pair);
-    if (!difference.reason.empty()) text += " (" + difference.reason + ")";
-    if (difference.kind == AcmDisagreement::Kind::Collides)
-      text += ": " + witnessValues(robot, difference.pair) + "\n    " +
-              checkCommand(result, difference.pair);
-    text += "\n";
+    std::string line = "  " + namesOf(robot, difference.pair);
+    if (!difference.reason.empty()) line += " (" + difference.reason + ")";
+    const bool collides = difference.kind == AcmDisagreement::Kind::Collides;
+    if (collides) line += ": " + witnessValues(robot, difference.pair);
+    text += escapedLine(line) + "\n";
+    if (collides) text += "    " + checkCommand(result, difference.pair) + "\n";
   }
   return text;
 }
@@ -193,12 +194,13 @@ std::vector<AcmDisagreement> compareWithSrdf(const AcmResult& result) {
 std::string acmText(const AcmResult& result, const std::vector<AcmDisagreement>& differences) {
   std::string text = pairTable(result) + countText(result);
   if (!result.model.srdf.file.empty()) {
-    text += "SRDF " + result.model.srdf.file + ": " +
+    text += "SRDF " + escapedLine(result.model.srdf.file) + ": " +
             std::to_string(result.model.robot->disabledPairs().size()) + " disabled, " +
             std::to_string(differences.size()) + " different\n";
     text += differenceText(result, differences);
   }
-  if (!result.args.output.empty()) text += "SRDF written to " + result.args.output + "\n";
+  if (!result.args.output.empty())
+    text += "SRDF written to " + escapedLine(result.args.output) + "\n";
   return text;
 }
 

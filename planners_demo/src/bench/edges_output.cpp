@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "output/quantile.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -32,12 +33,13 @@ std::string verdictName(const EdgeSummary& summary) {
 std::string header(const EdgeBench& bench) {
   const double total = std::accumulate(bench.checkerTimes.begin(), bench.checkerTimes.end(), 0.0);
   const std::string problems = std::to_string(bench.checkerTimes.size());
-  return bench.robot + ", group " + bench.group + ": " + std::to_string(bench.results.size()) +
-         " motions in the worlds of " + problems + " problems\nrobot loaded in " +
-         secondsText(bench.loadTime) + ", " + problems + " checkers built in " +
-         secondsText(total) + " (mean " + secondsText(mean(bench.checkerTimes)) +
-         ")\ntimes: ns per motion, the least of " + std::to_string(bench.passes) +
-         " passes, less the clock's own " + fixed(bench.clockOverhead, 1) + " ns\n";
+  return escapedLine(bench.robot + ", group " + bench.group) + ": " +
+         std::to_string(bench.results.size()) + " motions in the worlds of " + problems +
+         " problems\nrobot loaded in " + secondsText(bench.loadTime) + ", " + problems +
+         " checkers built in " + secondsText(total) + " (mean " +
+         secondsText(mean(bench.checkerTimes)) + ")\ntimes: ns per motion, the least of " +
+         std::to_string(bench.passes) + " passes, less the clock's own " +
+         fixed(bench.clockOverhead, 1) + " ns\n";
 }
 
 std::string tiersText(const std::vector<EdgeSummary>& summaries) {

@@ -13,6 +13,7 @@
 #include "input/poses.hpp"
 #include "input/states.hpp"
 #include "input/task.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "swept/core/sensed_space.hpp"
 #include "swept/robot_model/cloud_file.hpp"
@@ -189,7 +190,7 @@ void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& opt
 std::string cloudsText(const World& world) {
   std::string text;
   forEachCloud(world, [&](const WorldBody& body, const PointCloud& cloud, auto boxes) {
-    text += "body " + body.name + " is " + std::to_string(cloud.points().size()) +
+    text += "body " + escapedLine(body.name) + " is " + std::to_string(cloud.points().size()) +
             " balls of radius " + shortNumber(cloud.leastRadius());
     if (cloud.largestRadius() > cloud.leastRadius())
       text += " to " + shortNumber(cloud.largestRadius());

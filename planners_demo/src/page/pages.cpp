@@ -10,6 +10,7 @@
 #include "input/json_value.hpp"
 #include "output/clearance_text.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
 #include "page/view.hpp"
@@ -126,7 +127,7 @@ void writePage(const Arguments& args, const Robot& robot, const World& world,
     Progress progress("making the page", args.quiet);
     writeWholeFile(args.page.file, htmlOf(pageJson(args, robot, world, checker, content)));
   }
-  if (!args.json) std::cout << "page written to " << args.page.file << '\n';
+  if (!args.json) std::cout << "page written to " << escapedLine(args.page.file) << '\n';
 }
 
 void writeCheckPage(const Arguments& args, const Model& model, const Task& task) {

@@ -10,6 +10,7 @@
 #include "input/poses.hpp"
 #include "output/clearance_text.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "plan/path_files.hpp"
@@ -46,7 +47,7 @@ std::string planTable(const PlanRequest& request, const PlanOutcome& outcome) {
 }
 
 std::string resultLine(const PlanOutcome& outcome) {
-  if (!outcome.solved()) return "not solved: " + outcome.failure + "\n";
+  if (!outcome.solved()) return "not solved: " + escapedLine(outcome.failure) + "\n";
   if (outcome.proven())
     return "solved: " + std::to_string(outcome.segments.size()) + " segments, all proven free\n";
   for (std::size_t i = 0; i < outcome.segments.size(); ++i)
@@ -161,7 +162,8 @@ ExitCode runPlan(const Arguments& args) {
   } else {
     std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
               << resultLine(outcome);
-    if (file && outcome.proven()) std::cout << "path written to " << args.output << '\n';
+    if (file && outcome.proven())
+      std::cout << "path written to " << escapedLine(args.output) << '\n';
   }
   dump.announce();
   writePlanPage(args, model, task, request, outcome);

@@ -108,8 +108,10 @@ std::string setsText(const std::vector<Entry>& entries) {
   std::string text;
   for (const Entry& entry : entries)
     if (!entry.outcome.proven())
-      text += entry.set + " " + std::to_string(entry.index) + ": " +
-              (entry.outcome.solved() ? "a segment is not proven" : entry.outcome.failure) + "\n";
+      text += escapedLine(
+                  entry.set + " " + std::to_string(entry.index) + ": " +
+                  (entry.outcome.solved() ? "a segment is not proven" : entry.outcome.failure)) +
+              "\n";
   TextTable table({{"set"},
                    {"solved", true},
                    {"all segments free", true},

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "command_line/exit_code.hpp"
+#include "output/terminal_text.hpp"
 #include "output/whole_file.hpp"
 
 namespace swept {
@@ -46,7 +47,7 @@ void writeReport(const Arguments& args, const ErrorReport& report) {
     return;
   }
   std::cout << reportText(report);
-  for (const std::string& file : written) std::cout << "written to " << file << '\n';
+  for (const std::string& file : written) std::cout << "written to " << escapedLine(file) << '\n';
 }
 
 }  // namespace swept

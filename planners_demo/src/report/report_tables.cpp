@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 
+#include "output/terminal_text.hpp"
 #include "report/report_output.hpp"
 #include "report/report_worlds.hpp"
 
@@ -119,9 +120,9 @@ std::string countsText(const ErrorReport& report) {
 }
 
 std::string reportText(const ErrorReport& report) {
-  std::string text = report.robot + ", group " + report.group + ", " + countsText(report) + "\n" +
-                     "lengths " + shortNumber(report.counts.shortest) + " to " +
-                     shortNumber(report.counts.longest) + ", median " +
+  std::string text = escapedLine(report.robot + ", group " + report.group) + ", " +
+                     countsText(report) + "\n" + "lengths " + shortNumber(report.counts.shortest) +
+                     " to " + shortNumber(report.counts.longest) + ", median " +
                      shortNumber(report.counts.median) + " (rad, m); times: the least of " +
                      std::to_string(report.passes) + " passes\n" + report.cloudsText;
   for (const ReportTable& table : reportTables(report)) {
