@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "sanitizers.hpp"
+
 /// Counts what the program takes from the heap, whether with new or, as Eigen does, with malloc:
 /// replaces the C library's functions, which operator new calls. For one source of a program.
 namespace swept::test {
@@ -29,16 +31,7 @@ inline void givenBack(void* memory) {
 
 }  // namespace swept::test
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SWEPT_TEST_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SWEPT_TEST_SANITIZED
-#endif
-
-#ifdef SWEPT_TEST_SANITIZED
+#if defined(SWEPT_TEST_ADDRESS_SANITIZER) || defined(SWEPT_TEST_THREAD_SANITIZER)
 // A sanitizer has replaced them already, and tells.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
                                                                   std::size_t),

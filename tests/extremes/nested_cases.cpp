@@ -72,9 +72,9 @@ Sample contained(Random& random, int i) {
   Solid outer = mesh ? boxMeshOf(half) : boxOf(half);
   if (random.chance(0.5)) {
     const Vector3d inner = small * Vector3d(1.0, 0.5, 0.25);
-    return alignedBoxes(std::move(outer), half,
-                        random.chance(0.5) ? boxMeshOf(inner) : boxOf(inner), inner,
-                        random.permutation(), place);
+    const Matrix3d turned = random.permutation();
+    Solid innerBox = random.chance(0.5) ? boxMeshOf(inner) : boxOf(inner);
+    return alignedBoxes(std::move(outer), half, std::move(innerBox), inner, turned, place);
   }
   Real gap = abs(Real(place[0])) - half[0];
   for (int k = 1; k < 3; ++k) gap = std::max(gap, Real(abs(Real(place[k])) - half[k]));

@@ -200,7 +200,7 @@ TEST(Batch, MissedCollisionsAreThoseOfMotion) {
     std::map<std::string, int> verdicts;
     for (std::size_t i = 0; i + 1 < run["states"].size(); ++i) {
       problem["start"] = run["states"][i];
-      problem["goals"] = {run["states"][i + 1]};
+      problem["goals"] = json::array({run["states"][i + 1]});
       const std::string file = folder.write("one.json", json{{"shelf", {problem}}}.dump());
       const json motion = jsonOf(
           runSwept({"motion", "models/robots/rook7/rook7.urdf", "--group", "arm", "--problems",

@@ -15,6 +15,7 @@
 #include "batch.hpp"
 #include "folder_watch.hpp"
 #include "gantry.hpp"
+#include "sanitizers.hpp"
 
 /// Full disks, no memory, signals, closed streams, files that change: an error that says so, and no
 /// half of a result.
@@ -67,7 +68,7 @@ TEST(Faults, ClosedStreamsAreNoCrash) {
 
 /// From no memory for the robot to enough for all: an answer or a clear error, at each limit.
 TEST(Faults, NoMemoryIsAnErrorThatSaysSo) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(SWEPT_TEST_ADDRESS_SANITIZER) || defined(SWEPT_TEST_THREAD_SANITIZER)
   GTEST_SKIP() << "a sanitizer takes all addresses there are";
 #endif
   int answers = 0, refusals = 0;

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include "program.hpp"
+#include "sanitizers.hpp"
 
 namespace swept::test {
 namespace {
@@ -39,7 +40,7 @@ json terrainCase(const std::string& id) {
 }
 
 TEST(ReplayMemory, IsThatOfTheLargestFile) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(SWEPT_TEST_ADDRESS_SANITIZER) || defined(SWEPT_TEST_THREAD_SANITIZER)
   GTEST_SKIP() << "a sanitizer keeps what was freed";
 #endif
   const TemporaryFolder folder;

@@ -73,10 +73,12 @@ std::shared_ptr<const World> clutter(unsigned seed) {
   std::uniform_real_distribution<double> size(0.02, 0.15);
   auto world = std::make_shared<World>();
   for (int i = 0; i < 8; ++i) {
-    Isometry3d pose = at(place(engine), place(engine), 0.3 + 0.6 * place(engine));
+    // In an order of its own: that of a call's arguments is the compiler's.
+    const double z = place(engine), y = place(engine), x = place(engine);
+    const double axisY = place(engine), axisX = place(engine), angle = place(engine);
+    Isometry3d pose = at(x, y, 0.3 + 0.6 * z);
     pose.linear() =
-        Eigen::AngleAxisd(place(engine), Vector3d(place(engine), place(engine), 1.0).normalized())
-            .toRotationMatrix();
+        Eigen::AngleAxisd(angle, Vector3d(axisX, axisY, 1.0).normalized()).toRotationMatrix();
     const std::string name = "body" + std::to_string(i);
     if (i % 3 == 0) world->add(name, swept::Box{{size(engine), size(engine), size(engine)}}, pose);
     if (i % 3 == 1) world->add(name, swept::Cylinder{size(engine), size(engine)}, pose);
@@ -403,7 +405,7 @@ TEST(Checker, MisuseIsAnError) {
   options.tolerance = 1e-3;
   options.reference = Eigen::VectorXd::Zero(2);
   EXPECT_EQ(message([&] { Checker(robot, "all", world, options); }),
-            "Checker: the reference has 2 values, the robot 3 variables");
+            "Checker: the reference has 2 values instead of 3");
   options.reference.reset();
   options.maxPairs = 7;
   EXPECT_EQ(message([&] { Checker(robot, "all", clutter(1), options); }),

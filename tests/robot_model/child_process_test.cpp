@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "sanitizers.hpp"
+
 namespace swept::detail {
 namespace {
 
@@ -70,7 +72,7 @@ TEST(ChildProcess, HandlersOfTheHostDoNotRunInIt) {
 }
 
 TEST(ChildProcess, MemoryIsBounded) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(SWEPT_TEST_ADDRESS_SANITIZER) || defined(SWEPT_TEST_THREAD_SANITIZER)
   GTEST_SKIP() << "a sanitizer takes all addresses there are";
 #endif
   const auto take = [](std::size_t bytes) {

@@ -29,11 +29,13 @@ inline const std::vector<CloudField> kDoubles{{"x", 'F', 8}, {"y", 'F', 8}, {"z"
 
 /// `value` as a number of this type, byte by byte.
 inline void appendBinary(std::string& out, double value, const CloudField& field, bool big) {
-  std::uint64_t bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
-  if (field.type == 'F') {
-    bits = field.size == 4 ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                           : std::bit_cast<std::uint64_t>(value);
-  }
+  std::uint64_t bits = 0;
+  if (field.type != 'F')
+    bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+  else if (field.size == 4)
+    bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  else
+    bits = std::bit_cast<std::uint64_t>(value);
   for (int i = 0; i < field.size; ++i) {
     const int byte = big ? field.size - 1 - i : i;
     out.push_back(static_cast<char>(bits >> (8 * byte) & 0xff));

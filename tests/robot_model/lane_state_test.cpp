@@ -149,7 +149,7 @@ TEST(LaneState, ProvesWhatEightStatesDo) {
     int open = 0;
     int none = 0;
     int final = 0;
-    int fewer = 0;
+    int closed = 0;
     for (const Named& tree : trees()) {
       SCOPED_TRACE(tree.name);
       LaneModel withoutTables = tree.model->lanes;
@@ -167,7 +167,8 @@ TEST(LaneState, ProvesWhatEightStatesDo) {
         const std::vector<std::uint32_t> some = tables.openOfOne();
         const std::vector<std::uint32_t> all = tables.openOfEight();
         ASSERT_TRUE(std::ranges::includes(all, some));
-        fewer += static_cast<int>(pairs.size()) - static_cast<int>(some.size());
+        for (const std::uint32_t pair : pairs)
+          closed += std::ranges::binary_search(some, pair) ? 0 : 1;
       }
     }
     RecordProperty(std::string("tally_") + hwy::TargetName(target),
@@ -176,7 +177,7 @@ TEST(LaneState, ProvesWhatEightStatesDo) {
     EXPECT_GT(open, 1000);
     EXPECT_GT(none, 100);
     EXPECT_GT(final, 100);
-    EXPECT_GT(fewer, 0) << "tables are not asked";
+    EXPECT_GT(closed, 0) << "tables are not asked";
   }
 }
 

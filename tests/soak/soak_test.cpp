@@ -10,6 +10,7 @@
 #include "drawer.hpp"
 #include "models_dir.hpp"
 #include "run.hpp"
+#include "sanitizers.hpp"
 
 namespace soak {
 namespace {
@@ -169,7 +170,7 @@ TEST(Memory, ReadingsAreEvenlySpacedAfterATenth) {
 }
 
 TEST(Memory, WhatIsTakenIsSeen) {
-#if defined(__SANITIZE_THREAD__)
+#if defined(SWEPT_TEST_THREAD_SANITIZER)
   constexpr double kShare = 5.0;  // ThreadSanitizer remembers four bytes of each
 #else
   constexpr double kShare = 1.0;
