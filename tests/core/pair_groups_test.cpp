@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace swept {
@@ -41,6 +43,29 @@ TEST(PairGroups, OfAStarAreBoundedInMemoryOfItsSize) {
   // No two pairs are known to be independent.
   EXPECT_DOUBLE_EQ(range.lower, 0.125);
   EXPECT_NEAR(range.upper, 0.25 + 2e-7 * (kCount - 1), 1e-10);
+  // Nor does it matter whose point they share.
+  for (detail::NoisyPair& pair : pairs) std::swap(pair.a, pair.b);
+  const detail::ProbabilityRange swapped = detail::groupRange(pairs, group);
+  EXPECT_EQ(swapped.lower, range.lower);
+  EXPECT_EQ(swapped.upper, range.upper);
+}
+
+/// Each of n points may meet each of n others: there are more sets than bits in a word, and at
+/// most n pairs in one.
+TEST(PairGroups, OfAllPairsHaveSetsOfAsManyAsThereArePoints) {
+  constexpr std::size_t kCount = 150;
+  constexpr double kLikely = 1e-6;
+  std::vector<detail::NoisyPair> pairs;
+  for (std::size_t i = 0; i < kCount * kCount; ++i)
+    pairs.push_back({i / kCount, i % kCount, rangeOf(kLikely, kLikely)});
+  std::vector<std::size_t> group(pairs.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const detail::ProbabilityRange range = detail::groupRange(pairs, group);
+  const double matched = -std::expm1(kCount * std::log1p(-kLikely));
+  EXPECT_LE(range.lower, matched * (1.0 + 1e-12));
+  EXPECT_GT(range.lower, 0.5 * matched);
+  EXPECT_LE(range.upper, kLikely * kCount * kCount);
+  EXPECT_GE(range.upper, kCount * matched * (1.0 - 1e-12));
 }
 
 }  // namespace
