@@ -445,6 +445,7 @@ double contactError(const Case& c) {
   const TriangleContact contact = triangleContact(c.a, c.b);
   EXPECT_TRUE(contact.pointA.allFinite() && contact.pointB.allFinite());
   EXPECT_GE(contact.depth, 0.0);
+  EXPECT_FALSE(std::signbit(contact.depth));
   EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-14);
   const double parted = (contact.pointA - contact.depth * contact.normal - contact.pointB).norm();
   return std::max({distanceToTriangle(contact.point, c.a), distanceToTriangle(contact.point, c.b),

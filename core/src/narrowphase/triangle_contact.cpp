@@ -207,7 +207,7 @@ Vector3d commonPoint(const TrianglePair& pair, const Passage* passages, int coun
 /// touches the face.
 void keepShallower(Candidate& best, const Passage& passage, const Vector3d& common) {
   const auto consider = [&](double height, const Vector3d& extreme, double up) {
-    const double depth = up * height;
+    const double depth = up * height + 0.0;  // not -0
     const Vector3d onFace = extreme - height * passage.normal;
     // The face's triangle moves along the normal to let the other one out.
     const Vector3d normal = (passage.ofFirst ? up : -up) * passage.normal;
