@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "all_volumes.hpp"
 #include "heap_counter.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/broadphase/body_tree.hpp"
@@ -188,8 +189,7 @@ TEST(Impact, AllocatesNothing) {
 
 template <typename BV>
 class Traversals : public testing::Test {};
-using AllVolumes = testing::Types<Aabb, Obb, Rss, ObbRss, KDop<16>, KDop<18>, KDop<24>>;
-TYPED_TEST_SUITE(Traversals, AllVolumes);
+TYPED_TEST_SUITE(Traversals, test::AllVolumes);
 
 /// Once the result has room for the pairs.
 TYPED_TEST(Traversals, AllocateNothing) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "all_volumes.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/bv/aabb.hpp"
 #include "swept/core/bv/bounding_volume.hpp"
@@ -90,8 +91,7 @@ Vector3d randomMix(std::mt19937& random, const Points& points) {
 
 template <typename BV>
 class BoundingVolumes : public testing::Test {};
-using AllVolumes = testing::Types<Aabb, Obb, Rss, ObbRss, KDop<16>, KDop<18>, KDop<24>>;
-TYPED_TEST_SUITE(BoundingVolumes, AllVolumes);
+TYPED_TEST_SUITE(BoundingVolumes, test::AllVolumes);
 
 TYPED_TEST(BoundingVolumes, FitContainsEveryPoint) {
   std::mt19937 random(1);

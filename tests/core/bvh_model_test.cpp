@@ -11,6 +11,7 @@
 #include <numeric>
 #include <string>
 
+#include "all_volumes.hpp"
 #include "mesh_samples.hpp"
 #include "message_of.hpp"
 
@@ -99,8 +100,7 @@ Soup deformed(const Soup& soup, double by) {
 
 template <typename BV>
 class BvhModels : public testing::Test {};
-using AllVolumes = testing::Types<Aabb, Obb, Rss, ObbRss, KDop<16>, KDop<18>, KDop<24>>;
-TYPED_TEST_SUITE(BvhModels, AllVolumes);
+TYPED_TEST_SUITE(BvhModels, test::AllVolumes);
 
 TYPED_TEST(BvhModels, EverySplitRuleAndFitRuleCoversAllTriangles) {
   for (const auto& [name, split] : splitRules()) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "all_volumes.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/traversal/mesh_collision.hpp"
 
@@ -71,8 +72,7 @@ Effort runBoth(const BvhModel<BV>& a, const BvhModel<BV>& b, int frames, std::si
 
 template <typename BV>
 class FrontLists : public testing::Test {};
-using AllVolumes = testing::Types<Aabb, Obb, Rss, ObbRss, KDop<16>, KDop<18>, KDop<24>>;
-TYPED_TEST_SUITE(FrontLists, AllVolumes);
+TYPED_TEST_SUITE(FrontLists, test::AllVolumes);
 
 TYPED_TEST(FrontLists, CoherentMotionTakesThirtyPercentFewerTests) {
   std::mt19937 random(51);

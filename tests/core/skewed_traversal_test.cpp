@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "all_volumes.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/broadphase/body_tree.hpp"
 #include "swept/core/collision_probability.hpp"
@@ -62,8 +63,7 @@ Isometry3d poseBeside(std::mt19937& random, const Vector3d& at) {
 
 template <typename BV>
 class SkewedTraversals : public testing::Test {};
-using AllVolumes = testing::Types<Aabb, Obb, Rss, ObbRss, KDop<16>, KDop<18>, KDop<24>>;
-TYPED_TEST_SUITE(SkewedTraversals, AllVolumes);
+TYPED_TEST_SUITE(SkewedTraversals, test::AllVolumes);
 
 TYPED_TEST(SkewedTraversals, AreThoseOfTheNearestRotation) {
   std::mt19937 random(71);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "all_volumes.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/traversal/mesh_collision.hpp"
 #include "swept/core/traversal/mesh_distance.hpp"
@@ -185,8 +186,7 @@ TEST(TraversalCases, AreRepresentative) {
 
 template <typename BV>
 class Traversals : public testing::Test {};
-using AllVolumes = testing::Types<Aabb, Obb, Rss, ObbRss, KDop<16>, KDop<18>, KDop<24>>;
-TYPED_TEST_SUITE(Traversals, AllVolumes);
+TYPED_TEST_SUITE(Traversals, test::AllVolumes);
 
 TYPED_TEST(Traversals, CollisionEqualsBruteForceForEverySplitRule) {
   MeshCollisionResult result;

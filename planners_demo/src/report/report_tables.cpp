@@ -121,7 +121,7 @@ std::string countsText(const ErrorReport& report) {
 
 std::string reportText(const ErrorReport& report) {
   std::string text = escapedLine(report.robot + ", group " + report.group) + ", " +
-                     countsText(report) + "\n" + "lengths " + shortNumber(report.counts.shortest) +
+                     countsText(report) + "\nlengths " + shortNumber(report.counts.shortest) +
                      " to " + shortNumber(report.counts.longest) + ", median " +
                      shortNumber(report.counts.median) + " (rad, m); times: the least of " +
                      std::to_string(report.passes) + " passes\n" + report.cloudsText;
