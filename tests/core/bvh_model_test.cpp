@@ -12,6 +12,7 @@
 #include <string>
 
 #include "all_volumes.hpp"
+#include "bvh_models.hpp"
 #include "mesh_samples.hpp"
 #include "message_of.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 using test::messageOf;
+using test::modelOf;
 using test::Soup;
 using testing::HasSubstr;
 
@@ -30,15 +32,6 @@ const std::map<std::string, SplitFunction>& splitRules() {
                                                           {"principal axis", PrincipalAxisSplit{}},
                                                           {"surface area", SurfaceAreaSplit{}}};
   return rules;
-}
-
-template <typename BV>
-BvhModel<BV> modelOf(const Soup& soup, BvhOptions<BV> options = {}) {
-  BvhModel<BV> model(std::move(options));
-  model.begin(soup.vertices.size(), soup.triangles.size());
-  model.addMesh(soup.vertices, soup.triangles);
-  model.end();
-  return model;
 }
 
 /// Checks a subtree from what it covers; returns its depth and the index after its last node.

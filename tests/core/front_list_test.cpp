@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "all_volumes.hpp"
+#include "bvh_models.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/traversal/mesh_collision.hpp"
 
@@ -15,17 +16,9 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test::modelOf;
 
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-
-template <typename BV>
-BvhModel<BV> modelOf(const test::Soup& soup) {
-  BvhModel<BV> model;
-  model.begin();
-  model.addMesh(soup.vertices, soup.triangles);
-  model.end();
-  return model;
-}
 
 /// A slow tumble past and through the other body and back: frame `i` of `frames`.
 Isometry3d tumble(int i, int frames) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "all_volumes.hpp"
+#include "bvh_models.hpp"
 #include "mesh_samples.hpp"
 #include "swept/core/broadphase/body_tree.hpp"
 #include "swept/core/collision_probability.hpp"
@@ -22,6 +23,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using test::modelOf;
 
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
@@ -43,15 +45,6 @@ test::Soup blobAt(std::mt19937& random, const Vector3d& at) {
   test::Soup soup = test::blobSoup(random, 6, 8);
   for (Vector3d& v : soup.vertices) v += at;
   return soup;
-}
-
-template <typename BV>
-BvhModel<BV> modelOf(const test::Soup& soup) {
-  BvhModel<BV> model;
-  model.begin();
-  model.addMesh(soup.vertices, soup.triangles);
-  model.end();
-  return model;
 }
 
 /// Of two blobs far from their origins, the second one 1.5 m from the first.
