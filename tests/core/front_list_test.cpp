@@ -169,7 +169,8 @@ TEST(FrontList, NoticesTreesThatAreNotItsOwn) {
   auto a = modelOf<Obb>(soup);
   const auto b = modelOf<Obb>(test::blobSoup(random, 8, 12));
   const auto small = modelOf<Obb>(test::blobSoup(random, 3, 4));
-  const auto copy = b;
+  // A tree of its own.
+  const auto copy = b;  // NOLINT(performance-unnecessary-copy-initialization)
   FrontList front;
   MeshCollisionResult scratch;
   MeshCollisionResult warm;
