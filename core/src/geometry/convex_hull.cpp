@@ -12,6 +12,7 @@
 #include "geometry/point_text.hpp"
 #include "geometry/quickhull.hpp"
 #include "geometry/small_ball.hpp"
+#include "geometry/support_points.hpp"
 #include "geometry/weld.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -234,19 +235,6 @@ double normalizingScale(Points points) {
   return std::ldexp(1.0, std::min(-exponent, 1000));
 }
 
-std::vector<double> byCoordinate(const std::vector<Eigen::Vector3d>& vertices) {
-  constexpr std::size_t kLanes = ConvexHull::kLanes;
-  const std::size_t padded = (vertices.size() + kLanes - 1) / kLanes * kLanes;
-  std::vector<double> coordinates;
-  coordinates.reserve(3 * padded);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < padded; ++i) {
-      coordinates.push_back(vertices[i < vertices.size() ? i : 0][axis]);
-    }
-  }
-  return coordinates;
-}
-
 }  // namespace
 
 ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
@@ -269,7 +257,7 @@ ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
   for (const std::array<int, 3>& face : selection.faces) {
     data->faces.emplace_back(vertexOf[face[0]], vertexOf[face[1]], vertexOf[face[2]]);
   }
-  data->coordinates = byCoordinate(data->vertices);
+  data->supportPoints = std::make_shared<detail::SupportPoints>(data->vertices, scale);
   data->ball = detail::smallBall(data->vertices);
   data->error = selection.error / scale;
   data->extent = data->extent * (1.0 + 8.0 * std::numeric_limits<double>::epsilon()) +

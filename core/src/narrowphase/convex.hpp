@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "geometry/support_points.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept::detail {
@@ -36,7 +37,7 @@ struct Convex {
   double error = 0.0;   ///< m, the shape may reach this far beyond the core grown by `radius`
   double omitted = 0.0;  ///< m, the part of `error` that vertices make which a hull leaves out
   std::span<const Eigen::Vector3d> points;
-  const double* coordinates = nullptr;  ///< m, of `points` as ConvexHull::coordinates(), or null
+  const SupportPoints* many = nullptr;  ///< `points` as support queries read them, or null
 
   static Convex of(const Sphere& sphere);
   static Convex of(const Box& box);
@@ -120,8 +121,7 @@ inline Eigen::Vector3d ellipsoid(const Eigen::Vector3d& semiAxes, double shave,
   return semiAxes.cwiseProduct((stretched / most).normalized()) - shave * d.stableNormalized();
 }
 
-Eigen::Vector3d ofPoints(std::span<const Eigen::Vector3d> points, const double* coordinates,
-                         const Eigen::Vector3d& d);
+Eigen::Vector3d ofPoints(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& d);
 
 }  // namespace support
 
@@ -140,7 +140,7 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
     case Core::Ellipsoid:
       return support::ellipsoid(size, shave, direction);
     case Core::Points:
-      return support::ofPoints(points, coordinates, direction);
+      return many != nullptr ? many->farthest(direction) : support::ofPoints(points, direction);
     case Core::Plane:
     case Core::HalfSpace:
       return offset * size;
@@ -215,7 +215,7 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
   Convex convex;
   convex.core = Core::Points;
   convex.points = hull.vertices();
-  convex.coordinates = hull.coordinates().data();
+  convex.many = &hull.supportPoints();
   convex.extent = hull.extent();
   convex.error = convex.omitted = hull.error();
   return convex;

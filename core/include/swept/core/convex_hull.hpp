@@ -11,6 +11,10 @@
 
 namespace swept {
 
+namespace detail {
+class SupportPoints;
+}
+
 /// Solid convex hull of a set of points.
 ///
 /// Keeps the points that are extreme; every given point lies in the hull of the kept ones grown by
@@ -37,16 +41,14 @@ class ConvexHull {
   double extent() const { return data_->extent; }  ///< m, no vertex is farther from the origin
   /// Of the vertices: the smallest, but for rounding. The hull itself is larger by `error()`.
   const BoundingSphere& ball() const { return data_->ball; }
-  /// m. All x, then all y, then all z of the vertices, each list filled up to a multiple of
-  /// `kLanes` with the first vertex: what a vectorised scan reads.
-  std::span<const double> coordinates() const { return data_->coordinates; }
-  static constexpr std::size_t kLanes = 8;  ///< doubles
+  /// The vertices as support queries read them.
+  const detail::SupportPoints& supportPoints() const { return *data_->supportPoints; }
 
  private:
   struct Data {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<Eigen::Vector3i> faces;
-    std::vector<double> coordinates;
+    std::shared_ptr<const detail::SupportPoints> supportPoints;
     BoundingSphere ball{};
     double error = 0.0;
     double extent = 0.0;
