@@ -20,10 +20,11 @@ struct Answer {
   double clearance;
   bool motion;
   double lastValid;
+  Eigen::Vector3d projection;
   bool operator==(const Answer&) const = default;
 };
 
-// One set of validators for all threads, and what they say of motion i.
+// One set of validators and one space for all threads, and what they say of motion i.
 class Queries {
  public:
   Queries(const std::shared_ptr<const Checker>& checker, std::size_t count)
@@ -31,6 +32,7 @@ class Queries {
         si_(std::make_shared<ob::SpaceInformation>(space_)),
         validity_(si_, checker),
         motions_(si_, checker) {
+    space_->setup();
     const auto sampler = space_->allocStateSampler();
     for (std::size_t i = 0; i < 2 * count; ++i) {
       states_.emplace_back(space_);
@@ -45,8 +47,10 @@ class Queries {
     answer.state = validity_.isValid(from, answer.clearance);
     answer.motion = motions_.checkMotion(from, to, lastValid);
     answer.lastValid = lastValid.second;
+    space_->getDefaultProjection()->project(from, answer.projection);
     return answer;
   }
+  unsigned int projected() const { return space_->getDefaultProjection()->getDimension(); }
   const CertifiedMotionValidator& motions() const { return motions_; }
 
  private:
@@ -61,6 +65,7 @@ TEST(Threads, EightAnswerAsOneDoes) {
   constexpr std::size_t kMotions = 1000, kThreads = 8;
   const Queries queries(std::make_shared<const Checker>(gantry(), "all", worldOf(boxes())),
                         kMotions);
+  ASSERT_EQ(queries.projected(), 3u);  // the place of the tip
   std::vector<Answer> expected;
   for (std::size_t i = 0; i < kMotions; ++i) expected.push_back(queries.ask(i));
   const unsigned int validOnce = queries.motions().getValidMotionCount();
