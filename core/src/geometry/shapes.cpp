@@ -15,7 +15,7 @@
 namespace swept {
 namespace {
 
-using detail::roundedUp;
+using detail::aboveRounding;
 
 void requireSize(std::string_view name, double value) {
   if (value >= 0.0 && std::isfinite(value)) return;
@@ -53,24 +53,25 @@ struct SphereOf {
   }
   BoundingSphere operator()(const Box& box) const {
     const Eigen::Vector3d& half = box.halfExtents;
-    return {Eigen::Vector3d::Zero(), roundedUp(std::hypot(half.x(), half.y(), half.z()))};
+    return {Eigen::Vector3d::Zero(), aboveRounding(std::hypot(half.x(), half.y(), half.z()))};
   }
   BoundingSphere operator()(const Cylinder& cylinder) const {
-    return {Eigen::Vector3d::Zero(), roundedUp(std::hypot(cylinder.radius, cylinder.halfLength))};
+    return {Eigen::Vector3d::Zero(),
+            aboveRounding(std::hypot(cylinder.radius, cylinder.halfLength))};
   }
   BoundingSphere operator()(const Capsule& capsule) const {
-    return {Eigen::Vector3d::Zero(), roundedUp(capsule.radius + capsule.halfLength)};
+    return {Eigen::Vector3d::Zero(), aboveRounding(capsule.radius + capsule.halfLength)};
   }
   BoundingSphere operator()(const Cone& cone) const {
     // The ball through the apex and the base circle, unless the base is the wider part.
     const double height = 2.0 * cone.halfLength;
     if (!(cone.radius < height)) {
-      const double radius = roundedUp(std::max(cone.radius, height));
+      const double radius = aboveRounding(std::max(cone.radius, height));
       return {Eigen::Vector3d(0.0, 0.0, -cone.halfLength), radius};
     }
     const double lift = 0.5 * (height - cone.radius * (cone.radius / height));
     return {Eigen::Vector3d(0.0, 0.0, lift - cone.halfLength),
-            roundedUp(std::max(std::hypot(cone.radius, lift), height - lift))};
+            aboveRounding(std::max(std::hypot(cone.radius, lift), height - lift))};
   }
   BoundingSphere operator()(const Ellipsoid& ellipsoid) const {
     return {Eigen::Vector3d::Zero(), ellipsoid.semiAxes.maxCoeff()};
@@ -82,7 +83,7 @@ struct SphereOf {
   BoundingSphere operator()(const HalfSpace&) const { return everywhere(); }
   BoundingSphere operator()(const ConvexHull& hull) const {
     BoundingSphere ball = hull.ball();
-    ball.radius = roundedUp(ball.radius + hull.error());
+    ball.radius = aboveRounding(ball.radius + hull.error());
     return ball;
   }
   BoundingSphere operator()(const TriangleMesh& mesh) const {
@@ -90,7 +91,7 @@ struct SphereOf {
   }
   BoundingSphere operator()(const PointCloud& cloud) const {
     BoundingSphere ball = detail::ballAround(cloud.hull().ball().center, cloud.points());
-    ball.radius = roundedUp(ball.radius + cloud.largestRadius());
+    ball.radius = aboveRounding(ball.radius + cloud.largestRadius());
     return ball;
   }
 
@@ -107,7 +108,7 @@ struct BoxOf {
     return symmetric(cylinder.radius, cylinder.halfLength);
   }
   Aabb operator()(const Capsule& capsule) const {
-    return symmetric(capsule.radius, roundedUp(capsule.radius + capsule.halfLength));
+    return symmetric(capsule.radius, aboveRounding(capsule.radius + capsule.halfLength));
   }
   Aabb operator()(const Cone& cone) const { return symmetric(cone.radius, cone.halfLength); }
   Aabb operator()(const Ellipsoid& ellipsoid) const {
@@ -134,7 +135,7 @@ struct BoxOf {
     // A sum of opposite signs rounds by its result, which is smaller than the terms; growing by a
     // few epsilons of the coordinates covers it.
     const double scale = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-    const double reach = roundedUp(by + std::numeric_limits<double>::epsilon() * scale);
+    const double reach = aboveRounding(by + std::numeric_limits<double>::epsilon() * scale);
     box.lower.array() -= reach;
     box.upper.array() += reach;
     return box;

@@ -115,7 +115,7 @@ BoundingSphere ballAround(const Vector3d& center, Points points) {
     const Vector3d offset = point - center;
     radius = std::max(radius, std::hypot(offset.x(), offset.y(), offset.z()));
   }
-  return {center, roundedUp(radius)};
+  return {center, aboveRounding(radius)};
 }
 
 BoundingSphere smallBall(Points points) {

@@ -11,7 +11,7 @@ namespace swept::detail {
 
 /// Upper bound of a length that was computed with fewer than 16 rounded operations on non-negative
 /// terms: each costs at most half an epsilon, and the last term covers results that underflow.
-inline double roundedUp(double length) {
+inline double aboveRounding(double length) {
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   return length * (1.0 + 8.0 * kEpsilon) + std::numeric_limits<double>::min();
 }
