@@ -77,7 +77,7 @@ Verdict worse(Verdict a, Verdict b) {
   return a == Verdict::Free ? b : a;
 }
 
-TEST(NearPairs, LargeWorldsAnswerAsTheirParts) {
+TEST(NearGeometries, LargeWorldsAnswerAsTheirParts) {
   const auto slider = slidingRobot();
   const Both both(slider,
                   {.rules = CollisionRules().pad("cart", 0.02).margin("arm", "body7*", 0.1)});
@@ -114,7 +114,7 @@ TEST(NearPairs, LargeWorldsAnswerAsTheirParts) {
   motions.expectRepresentative(40);
 }
 
-TEST(NearPairs, VersionsShareTheBoxesOfTheirWorld) {
+TEST(NearGeometries, VersionsShareTheBoxesOfTheirWorld) {
   const auto robot = slidingRobot();
   auto world = std::make_shared<World>();
   for (const WorldBody& body : manyBodies(5)) world->add(body);
@@ -135,7 +135,7 @@ TEST(NearPairs, VersionsShareTheBoxesOfTheirWorld) {
   EXPECT_EQ(small->boxes, nullptr);
 }
 
-TEST(NearPairs, FewOfManyAreCollected) {
+TEST(NearGeometries, FewOfManyAreCollected) {
   const auto robot = slidingRobot();
   auto world = std::make_shared<World>();
   for (const WorldBody& body : manyBodies(6)) world->add(body);
@@ -147,7 +147,7 @@ TEST(NearPairs, FewOfManyAreCollected) {
   ASSERT_TRUE(query.start(from, to));
   query.moveTo(0.5);
   std::vector<std::uint32_t> near;
-  detail::NearPairs(*model, query, workspace).collect(0.5, near);
+  detail::NearGeometries(*model, query, workspace).collect(0.5, near);
   EXPECT_TRUE(std::ranges::is_sorted(near));
   EXPECT_LT(near.size(), model->pairs.size() / 3);
   EXPECT_GT(near.size(), 3U);

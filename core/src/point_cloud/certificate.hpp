@@ -76,6 +76,6 @@ struct Finding {
 };
 
 /// Looks at a position (m).
-using Look = std::function<Finding(const Eigen::Vector3d&)>;
+using LookAt = std::function<Finding(const Eigen::Vector3d&)>;
 
 }  // namespace swept::detail

@@ -33,7 +33,7 @@ bool narrower(const LineCell& a, const LineCell& b) {
 
 }  // namespace
 
-EventIntegral::EventIntegral(const Noise& noise, Look look)
+EventIntegral::EventIntegral(const Noise& noise, LookAt look)
     : noise_(noise), look_(std::move(look)), depth_(2.0 * noise.spread) {
   const Finding first = lookAt(noise_.mean, nullptr);
   boundByFirst(first);

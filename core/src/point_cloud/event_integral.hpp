@@ -48,7 +48,7 @@ class EventIntegral {
     bool isConvex;           ///< the positions for which the event occurs are a convex set
   };
   /// Looks once, at the mean.
-  EventIntegral(const Noise& noise, Look look);
+  EventIntegral(const Noise& noise, LookAt look);
 
   /// One step. False if there is nothing left that steps could improve.
   bool refine();
@@ -73,7 +73,7 @@ class EventIntegral {
   void updateRange();
 
   Noise noise_;
-  Look look_;
+  LookAt look_;
   NoiseFrame frame_;
   ProbabilityRange first_;  ///< by the first look
   ProbabilityRange range_;

@@ -38,14 +38,14 @@ std::shared_ptr<const SweepAndPrune> compileBoxes(const CheckerModel& model,
   return manager;
 }
 
-std::optional<std::uint32_t> NearPairs::pairOf(std::size_t geometry, BoxHandle other) const {
+std::optional<std::uint32_t> NearGeometries::pairOf(std::size_t geometry, BoxHandle other) const {
   const std::span<const GeometryPair> pairs = worldPairs(geometry);
   const auto found = std::ranges::lower_bound(pairs, static_cast<int>(other), {}, &GeometryPair::b);
   if (found == pairs.end() || found->b != static_cast<int>(other)) return std::nullopt;
   return static_cast<std::uint32_t>(&*found - model_.pairs.data());
 }
 
-void NearPairs::collect(double half, std::vector<std::uint32_t>& pairs) {
+void NearGeometries::collect(double half, std::vector<std::uint32_t>& pairs) {
   pairs.clear();
   if (model_.boxes == nullptr) {
     pairs.resize(model_.pairs.size());

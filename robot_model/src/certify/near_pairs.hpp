@@ -21,9 +21,9 @@ std::shared_ptr<const SweepAndPrune> compileBoxes(const CheckerModel& model,
                                                   const CheckerModel* like);
 
 /// The exact tier's pairs in order of their boxes: of all pairs of a large world, few come near.
-class NearPairs {
+class NearGeometries {
  public:
-  NearPairs(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace)
+  NearGeometries(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace)
       : model_(model), query_(query), workspace_(workspace) {}
 
   /// Into `pairs`, ascending: all pairs but those whose boxes, swept over [t - half, t + half],

@@ -23,7 +23,7 @@ void listParts(WorkspaceData& workspace) {
 void takeAll(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   workspace.pending.clear();
   query.moveTo(0.5);
-  NearPairs(model, query, workspace).collect(0.5, workspace.pendingArena);
+  NearGeometries(model, query, workspace).collect(0.5, workspace.pendingArena);
   if (!workspace.pendingArena.empty())
     workspace.pending.push_back({0.0, 1.0, 0, workspace.pendingArena.size()});
 }

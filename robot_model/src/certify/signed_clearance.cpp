@@ -52,7 +52,7 @@ SignedClearance apart(const PairDistance& distance) {
 
 Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   Nearest nearest;
-  NearPairs(model, query, workspace).forNearest([&](std::uint32_t pair) {
+  NearGeometries(model, query, workspace).forNearest([&](std::uint32_t pair) {
     const double enough = nearest.clearance.lower;
     const PairDistance distance = query.measure(pair, enough, tolerance::kDistance);
     if (distance.lower < enough) nearest.add(pair, apart(distance));
@@ -64,7 +64,7 @@ Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData&
 /// Of the pairs whose boxes meet; the others are apart.
 Nearest deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   Nearest nearest;
-  NearPairs(model, query, workspace).collect(0.0, workspace.arena);
+  NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
   for (const std::uint32_t pair : workspace.arena) {
     if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
     nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));

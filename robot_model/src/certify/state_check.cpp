@@ -46,7 +46,7 @@ Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
                       WorkspaceData& workspace) {
   PairQuery query(model, workspace);
   if (!startAt(query, q)) return Verdict::Undecided;
-  NearPairs(model, query, workspace).collect(0.0, workspace.arena);
+  NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
   return provePairs(query, workspace.arena);
 }
 
@@ -105,7 +105,7 @@ template <typename Visitor>
 double leastDistance(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace,
                      const Visitor& nearer) {
   double least = std::numeric_limits<double>::infinity();
-  NearPairs(model, query, workspace).forNearest([&](std::uint32_t pair) {
+  NearGeometries(model, query, workspace).forNearest([&](std::uint32_t pair) {
     const PairDistance distance = query.measure(pair, least, tolerance::kDistance);
     if (distance.lower < least) {
       least = distance.lower;
@@ -141,7 +141,7 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   }
   PairQuery query(model, workspace);
   if (!startAt(query, q)) return report;
-  NearPairs(model, query, workspace).collect(0.0, workspace.arena);
+  NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
   bool proven = true;
   std::set<std::tuple<std::string, std::string, bool>> reported;
   for (const std::uint32_t i : workspace.arena) {
