@@ -37,7 +37,7 @@ struct Convex {
   double error = 0.0;   ///< m, the shape may reach this far beyond the core grown by `radius`
   double omitted = 0.0;  ///< m, the part of `error` that vertices make which a hull leaves out
   std::span<const Eigen::Vector3d> points;
-  const SupportPoints* many = nullptr;  ///< `points` as support queries read them, or null
+  const SupportPoints* vertices = nullptr;  ///< `points` as support queries read them, or null
 
   static Convex of(const Sphere& sphere);
   static Convex of(const Box& box);
@@ -140,7 +140,8 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
     case Core::Ellipsoid:
       return support::ellipsoid(size, shave, direction);
     case Core::Points:
-      return many != nullptr ? many->farthest(direction) : support::ofPoints(points, direction);
+      return vertices != nullptr ? vertices->farthest(direction)
+                                 : support::ofPoints(points, direction);
     case Core::Plane:
     case Core::HalfSpace:
       return offset * size;
@@ -215,7 +216,7 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
   Convex convex;
   convex.core = Core::Points;
   convex.points = hull.vertices();
-  convex.many = &hull.supportPoints();
+  convex.vertices = &hull.supportPoints();
   convex.extent = hull.extent();
   convex.error = convex.omitted = hull.error();
   return convex;
