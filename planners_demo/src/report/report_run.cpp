@@ -13,7 +13,7 @@
 #include "output/progress.hpp"
 #include "plan/planning.hpp"
 #include "report/course_parts.hpp"
-#include "report/motion_part.hpp"
+#include "report/random_motion_part.hpp"
 #include "report/report_output.hpp"
 #include "report/shape_parts.hpp"
 
@@ -180,7 +180,7 @@ class ReportRun {
   std::vector<ReportWorld> worlds_;
   CheckerMaker checkers_;
   std::vector<ReportMethod> methods_;
-  MotionPart motions_;
+  RandomMotionPart motions_;
   LengthTally contacts_, clearances_, distances_, penetrations_;
   Stopwatch stopwatch_;
   std::size_t done_ = 0;

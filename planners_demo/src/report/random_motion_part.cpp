@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/motion_part.hpp"
+#include "report/random_motion_part.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,10 @@ double depthOf(const Checker& checker, const ReportMotion& motion) {
 
 }  // namespace
 
-MotionPart::MotionPart(std::vector<ReportMethod> methods, int passes)
+RandomMotionPart::RandomMotionPart(std::vector<ReportMethod> methods, int passes)
     : methods_(std::move(methods)), passes_(passes), tallies_(methods_.size()) {}
 
-void MotionPart::count(const std::string& world, const std::vector<ReportMotion>& motions) {
+void RandomMotionPart::count(const std::string& world, const std::vector<ReportMotion>& motions) {
   for (const ReportMotion& motion : motions) {
     ++counts_.motions;
     const Verdict truth = motion.truth.verdict;
@@ -46,7 +46,7 @@ void MotionPart::count(const std::string& world, const std::vector<ReportMotion>
   }
 }
 
-void MotionPart::add(const std::string& world, std::vector<AskedMethod>& asked,
+void RandomMotionPart::add(const std::string& world, std::vector<AskedMethod>& asked,
                      const Checker& truth, const std::vector<ReportMotion>& motions,
                      const Stopwatch& stopwatch, const ReportTick& tick) {
   count(world, motions);
@@ -82,7 +82,7 @@ void MotionPart::add(const std::string& world, std::vector<AskedMethod>& asked,
 }
 
 /// `depths` (m) are of motions that some method misses.
-void MotionPart::score(std::size_t method, const Answers& answers,
+void RandomMotionPart::score(std::size_t method, const Answers& answers,
                        std::span<JudgedMotion* const> motions, const std::vector<double>& depths) {
   RateErrors& rates = tallies_[method].rates;
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -96,7 +96,7 @@ void MotionPart::score(std::size_t method, const Answers& answers,
   std::ranges::copy(answers.times, std::back_inserter(tallies_[method].times));
 }
 
-MotionCounts MotionPart::counts() const {
+MotionCounts RandomMotionPart::counts() const {
   MotionCounts counts = counts_;
   std::vector<double> ascending;
   for (const JudgedMotion& motion : judged_) ascending.push_back(motion.motion.length);
@@ -107,7 +107,7 @@ MotionCounts MotionPart::counts() const {
   return counts;
 }
 
-std::vector<ReportRow> MotionPart::rows() const {
+std::vector<ReportRow> RandomMotionPart::rows() const {
   std::vector<ReportRow> rows;
   for (std::size_t i = 0; i < methods_.size(); ++i) {
     std::vector<double> times = tallies_[i].times;

@@ -12,10 +12,10 @@
 namespace swept {
 
 /// Collects, world by world, what the methods say of random motions and what is true.
-class MotionPart {
+class RandomMotionPart {
  public:
   /// A time is the least of so many passes.
-  MotionPart(std::vector<ReportMethod> methods, int passes);
+  RandomMotionPart(std::vector<ReportMethod> methods, int passes);
 
   /// Asks all methods as a planner does, through OMPL's motion validators. Motions whose truth is
   /// not known are counted and not asked about.
