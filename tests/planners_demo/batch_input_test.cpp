@@ -177,6 +177,27 @@ TEST(BatchInput, OtherFilesAreRefusedAndStayAsTheyAre) {
                 folder.path("none") + ": error: file not found");
 }
 
+TEST(BatchInput, WhatHasNoEndIsNotReadToIt) {
+  const Gantry gantry;
+  const TemporaryFolder folder;
+  const std::string notResults =
+      ":1: error: not a results file: the first line must be a header with the format \"swept "
+      "bench planners\"";
+  expectRefused(runSwept({"bench", "summary", "/dev/zero"}), "/dev/zero" + notResults);
+  expectRefused(runShell("yes | swept bench summary /dev/stdin"), "/dev/stdin" + notResults);
+  const std::string file = folder.path("r");
+  ASSERT_EQ(gantryBatch(gantry, {"-o", file}).exitCode, 0);
+  for (const std::string& before : {std::string(), "'" + file + "'"})
+    expectRefused(runShell("cat '" + file + "' /dev/zero | swept bench summary " + before +
+                           " /dev/stdin"),
+                  "/dev/stdin:4: error: the line has more than 67108864 bytes, which are the most "
+                  "that are read of one");
+  expectRefused(runShell("(echo; cat /dev/zero) | swept bench planners '" + gantry.urdf +
+                         "' --group both --problems '" + gantry.problems + "' --stdin"),
+                "<stdin>:2: error: the line has more than 1048576 bytes, which are the most that "
+                "name a run");
+}
+
 /// They were read for earlier results, and as they never end, this never did.
 TEST(BatchInput, PipesAndDevicesTakeResultsAndAreNotRead) {
   const Gantry gantry;

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include "batch/results_header.hpp"
 #include "command_line/exit_code.hpp"
@@ -49,16 +51,57 @@ void addRun(Results& results, std::map<RunKey, std::string>& known, const std::s
   }
 }
 
+/// Each line is looked at as soon as it is there: what is no results file need not have an end.
+class Lines {
+ public:
+  explicit Lines(std::string file) : file_(std::move(file)) {}
+
+  void add(std::string_view text) {
+    for (std::size_t end; (end = text.find('\n')) != std::string_view::npos;) {
+      rest_.append(text.substr(0, end));
+      addLine();
+      text.remove_prefix(end + 1);
+    }
+    rest_.append(text);
+    if (number_ == 0 && !isTornHeader(rest_)) requireHeader({}, file_);
+    if (rest_.size() > kMaxTextBytes)
+      throw InputError(file_, number_ + 1,
+                       "the line has more than " + std::to_string(kMaxTextBytes) +
+                           " bytes, which are the most that are read of one");
+  }
+
+  Results end() {
+    results_.tornBytes = rest_.size();
+    return std::move(results_);
+  }
+
+ private:
+  void addLine() {
+    results_.wholeBytes += rest_.size() + 1;
+    const std::string line = std::exchange(rest_, {});
+    if (++number_ > 1) return addRun(results_, known_, line, file_, number_);
+    requireModestJson(line, file_);
+    results_.header = Json::parse(line, nullptr, false);
+    requireHeader(results_.header, file_);
+  }
+
+  std::string file_;
+  Results results_;
+  std::map<RunKey, std::string> known_;
+  int number_ = 0;    ///< of the last line with an end
+  std::string rest_;  ///< what is there of the next one
+};
+
 /// Also of pipes, and of more than a text file may have.
-std::string allOf(int descriptor, const std::string& file) {
-  std::string text;
+Results allOf(int descriptor, const std::string& file) {
+  Lines lines(file);
   std::array<char, 65536> buffer{};
   for (ssize_t count; (count = read(descriptor, buffer.data(), buffer.size())) != 0;) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) refuseToRead(file);
-    text.append(buffer.data(), static_cast<std::size_t>(count));
+    lines.add({buffer.data(), static_cast<std::size_t>(count)});
   }
-  return text;
+  return lines.end();
 }
 
 class Input {
@@ -77,31 +120,10 @@ class Input {
 
 }  // namespace
 
-Results parseResults(const std::string& text, const std::string& file) {
-  Results results;
-  std::map<RunKey, std::string> known;
-  int number = 0;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    const std::string line = text.substr(begin, end - begin);
-    if (++number == 1) {
-      requireModestJson(line, file);
-      results.header = Json::parse(line, nullptr, false);
-      requireHeader(results.header, file);
-    } else {
-      addRun(results, known, line, file, number);
-    }
-  }
-  results.wholeBytes = begin;
-  results.tornBytes = text.size() - begin;
-  if (number == 0 && !isTornHeader(text)) requireHeader({}, file);
-  return results;
-}
-
 Results readResults(const std::string& file, Warnings& warnings) {
   if (!std::filesystem::exists(file)) throw InputError(file, 0, "file not found");
   const Input input(file);
-  Results results = parseResults(allOf(input.descriptor(), file), file);
+  Results results = allOf(input.descriptor(), file);
   if (results.tornBytes > 0) warnings(tornText(file, results.tornBytes));
   return results;
 }
@@ -117,7 +139,7 @@ ResultsFile::ResultsFile(const std::string& file, const Json& header, Warnings& 
     return;
   }
   openForWriting(0);
-  results_ = parseResults(allOf(descriptor_, file), file);
+  results_ = allOf(descriptor_, file);
   if (!results_.header.is_null())
     requireSameHeader(results_.header, file, header, "on the command line");
   if (results_.tornBytes > 0) {

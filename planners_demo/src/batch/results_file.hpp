@@ -18,10 +18,9 @@ struct Results {
   std::size_t tornBytes = 0;    ///< of a last line without one: its writer was killed
 };
 
-/// Of a file's contents. A line that comes again as it was counts once. Throws InputError for a
-/// file that is no results file, a line that is no result, and two results of one run.
-Results parseResults(const std::string& text, const std::string& file);
-/// Throws InputError; warns of a torn line.
+/// A line that comes again as it was counts once. Warns of a torn line. Throws InputError for a
+/// file that is no results file, a line that is no result or has more than kMaxTextBytes, and two
+/// results of one run.
 Results readResults(const std::string& file, Warnings& warnings);
 
 /// A results file that grows. Each line is on the disk before the next is written.
@@ -29,7 +28,7 @@ class ResultsFile {
  public:
   /// Reads what is there; drops a torn line, with a warning. A pipe or a device, which has no lines
   /// to be read again, takes the header and the results. Nothing is written to a file that is
-  /// refused. Throws InputError or UsageError: as parseResults, for a header that is not
+  /// refused. Throws InputError or UsageError: as readResults, for a header that is not
   /// `header`, a file that cannot be written or that another process writes to.
   ResultsFile(const std::string& file, const Json& header, Warnings& warnings);
   ~ResultsFile();

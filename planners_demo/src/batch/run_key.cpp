@@ -15,6 +15,9 @@
 namespace swept {
 namespace {
 
+/// Bytes. What names a run has some hundred; what has no line break may have no end.
+constexpr std::size_t kMaxLine = std::size_t{1} << 20;
+
 constexpr std::uint32_t kLargestSeed = std::numeric_limits<std::uint32_t>::max();
 
 /// In the order given, each once.
@@ -70,8 +73,11 @@ std::vector<RunKey> readRuns(std::istream& text, const std::string& source,
   std::vector<RunKey> keys;
   std::set<RunKey> known;
   int number = 0;
-  for (std::string line; std::getline(text, line);) {
+  std::string most(kMaxLine + 1, '\0');
+  while (text.getline(most.data(), static_cast<std::streamsize>(most.size()))) {
     ++number;
+    const auto count = static_cast<std::size_t>(text.gcount());
+    const std::string line = most.substr(0, text.eof() ? count : count - 1);
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
       const nlohmann::json json = parseJsonLine(line, source, number);
@@ -85,6 +91,10 @@ std::vector<RunKey> readRuns(std::istream& text, const std::string& source,
       throw InputError(source, number, error.what());
     }
   }
+  if (!text.eof())
+    throw InputError(source, number + 1,
+                     "the line has more than " + std::to_string(kMaxLine) +
+                         " bytes, which are the most that name a run");
   return keys;
 }
 
