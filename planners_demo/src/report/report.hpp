@@ -83,6 +83,7 @@ struct JudgedMotion {
 };
 
 /// All that a run found.
+// NOLINTNEXTLINE(bugprone-exception-escape): Json's move is noexcept, which is not believed of it.
 struct ErrorReport {
   std::string robot, group;
   std::vector<std::string> worlds;  ///< names
