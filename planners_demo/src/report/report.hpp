@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "batch/validator.hpp"
-#include "output/text_output.hpp"
+#include "swept/robot_model/world.hpp"
 
 namespace swept {
 
@@ -83,13 +84,11 @@ struct JudgedMotion {
 };
 
 /// All that a run found.
-// NOLINTNEXTLINE(bugprone-exception-escape): Json's move is noexcept, which is not believed of it.
 struct ErrorReport {
   std::string robot, group;
-  std::vector<std::string> worlds;  ///< names
-  std::string cloudsText;           ///< as cloudsText() says it
-  Json clouds;                      ///< of cloudsJson()
-  double margin = 0.0;              ///< m
+  std::vector<std::string> worlds;     ///< names
+  std::shared_ptr<const World> world;  ///< of --scene and --cloud; empty without
+  double margin = 0.0;                 ///< m
   std::uint32_t seed = 1;
   int passes = 1;
   MotionCounts counts;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "input/clouds.hpp"
 #include "output/markup_text.hpp"
 #include "report/machine.hpp"
 #include "report/report_output.hpp"
@@ -62,7 +63,7 @@ std::string factsHtml(const ErrorReport& report, const std::string& commandLine)
   html += element("dt", "command") + "<dd>" + element("code", commandLine) + "</dd>\n";
   for (const auto& [name, value] : machineFacts()) add(name, value);
   add("worlds", joined(report.worlds));
-  if (!report.cloudsText.empty()) add("clouds", report.cloudsText);
+  if (const std::string clouds = cloudsText(*report.world); !clouds.empty()) add("clouds", clouds);
   add("margin", exactNumber(report.margin) + " m");
   add("seed", std::to_string(report.seed));
   add("times", "on one thread, the least of " + std::to_string(report.passes) +

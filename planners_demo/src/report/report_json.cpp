@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "input/clouds.hpp"
 #include "report/machine.hpp"
 #include "report/report_output.hpp"
 #include "report/report_worlds.hpp"
@@ -43,7 +44,7 @@ Json reportJson(const ErrorReport& report, const std::string& commandLine) {
   Json json = {{"robot", report.robot},   {"group", report.group}, {"worlds", report.worlds},
                {"margin", report.margin}, {"seed", report.seed},   {"passes", report.passes},
                {"command", commandLine}};
-  json["clouds"] = report.clouds;
+  json["clouds"] = cloudsJson(*report.world);
   json["motions"] = {{"count", counts.motions},
                      {"free", counts.free},
                      {"collision", counts.collision},

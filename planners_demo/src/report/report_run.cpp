@@ -9,7 +9,6 @@
 #include "batch/run_key.hpp"
 #include "bench/peer.hpp"
 #include "command_line/commands.hpp"
-#include "input/clouds.hpp"
 #include "output/progress.hpp"
 #include "plan/planning.hpp"
 #include "report/course_parts.hpp"
@@ -90,8 +89,7 @@ class ReportRun {
     ErrorReport report{.robot = model_.robot->name(),
                        .group = group_.name,
                        .worlds = {},
-                       .cloudsText = cloudsText(*model_.world),
-                       .clouds = cloudsJson(*model_.world),
+                       .world = model_.world,
                        .margin = args_.margin,
                        .seed = args_.seed,
                        .passes = args_.passes,

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 
+#include "input/clouds.hpp"
 #include "output/terminal_text.hpp"
 #include "report/report_output.hpp"
 #include "report/report_worlds.hpp"
@@ -124,7 +125,7 @@ std::string reportText(const ErrorReport& report) {
                      countsText(report) + "\nlengths " + shortNumber(report.counts.shortest) +
                      " to " + shortNumber(report.counts.longest) + ", median " +
                      shortNumber(report.counts.median) + " (rad, m); times: the least of " +
-                     std::to_string(report.passes) + " passes\n" + report.cloudsText;
+                     std::to_string(report.passes) + " passes\n" + cloudsText(*report.world);
   for (const ReportTable& table : reportTables(report)) {
     TextTable lines(table.columns);
     for (const std::vector<std::string>& row : table.rows) lines.add(row);
