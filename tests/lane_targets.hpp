@@ -2,18 +2,20 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "swept/core/simd_dispatch.hpp"
 
 namespace swept::lane_test {
 
 /// Instruction sets that this program is compiled for and that this machine has.
 inline std::vector<std::int64_t> laneTargets() {
   std::vector<std::int64_t> targets;
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) targets.push_back(target);
+  for (std::int64_t left = detail::processorTargets() & HWY_TARGETS; left != 0; left &= left - 1)
+    targets.push_back(left & -left);
   return targets;
 }
 
@@ -21,13 +23,9 @@ inline std::vector<std::int64_t> laneTargets() {
 class OnTarget {
  public:
   explicit OnTarget(std::int64_t target) : trace_(__FILE__, __LINE__, hwy::TargetName(target)) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    detail::chosenTarget().Update(target);
   }
-  ~OnTarget() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
+  ~OnTarget() { detail::chosenTarget().Update(detail::processorTargets()); }
   OnTarget(const OnTarget&) = delete;
   OnTarget& operator=(const OnTarget&) = delete;
 

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -46,11 +48,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(squaredDistances);
+SWEPT_DISPATCH_TABLE(squaredDistances);
 
 float squaredDistances(const float* blocks, std::size_t count, const float* point,
                        std::size_t dimension, float* squared) {
-  return HWY_DYNAMIC_DISPATCH(squaredDistances)(blocks, count, point, dimension, squared);
+  return SWEPT_DISPATCH(squaredDistances)(blocks, count, point, dimension, squared);
 }
 
 }  // namespace swept::detail

@@ -89,7 +89,7 @@ step_core() {
   copy_of_bare core
   copy_into core tests/packaging/core
   cp -r "$folder/build$prefix" "$folder/core$prefix"
-  get core g++ cmake make libeigen3-dev libccd-dev libhwy-dev
+  get core g++ cmake make libeigen3-dev libccd-dev
   core_program core -D CMAKE_PREFIX_PATH="$prefix"
 }
 

@@ -30,9 +30,10 @@ HWY_AFTER_NAMESPACE();
 #include "lane_targets.hpp"
 #include "swept/core/axis_frame.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 namespace swept::detail {
-HWY_EXPORT(measureSquared);
+SWEPT_DISPATCH_TABLE(measureSquared);
 
 namespace {
 
@@ -167,7 +168,7 @@ std::array<double, kLanes> laneDistances(const Scene& scene, const Segments& seg
       g[i].lane[lane] = static_cast<float>(segments.g[lane][i]);
     }
   }
-  HWY_DYNAMIC_DISPATCH(measureSquared)(scene.world, x, g, squared);
+  SWEPT_DISPATCH(measureSquared)(scene.world, x, g, squared);
   std::array<double, kLanes> distances{};
   for (int lane = 0; lane < kLanes; ++lane)
     distances[lane] = std::sqrt(static_cast<double>(squared.lane[lane]));

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -266,25 +268,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(LowerBounds);
-HWY_EXPORT(DirectedBounds);
-HWY_EXPORT(Hit);
+SWEPT_DISPATCH_TABLE(LowerBounds);
+SWEPT_DISPATCH_TABLE(DirectedBounds);
+SWEPT_DISPATCH_TABLE(Hit);
 
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower) {
-  HWY_DYNAMIC_DISPATCH(LowerBounds)(node, frames, other, enough, lower.data());
+  SWEPT_DISPATCH(LowerBounds)(node, frames, other, enough, lower.data());
 }
 
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower,
                     BoxDirections& directions) {
-  HWY_DYNAMIC_DISPATCH(DirectedBounds)(node, frames, other, enough, lower.data(), &directions);
+  SWEPT_DISPATCH(DirectedBounds)(node, frames, other, enough, lower.data(), &directions);
 }
 
 std::uint32_t boxesHit(const WideNode& node, const Eigen::Vector3d& origin,
                        const Eigen::Vector3d& direction) {
   const std::uint32_t inUse = (std::uint32_t{1} << node.count) - 1;
-  return HWY_DYNAMIC_DISPATCH(Hit)(node, origin, direction) & inUse;
+  return SWEPT_DISPATCH(Hit)(node, origin, direction) & inUse;
 }
 
 }  // namespace swept::detail

@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -70,10 +72,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(FindOverlaps);
+SWEPT_DISPATCH_TABLE(FindOverlaps);
 
 void findOverlaps(const BoxTree& tree, const FloatBox& box, std::vector<std::uint32_t>& owners) {
-  HWY_DYNAMIC_DISPATCH(FindOverlaps)(tree, box, owners);
+  SWEPT_DISPATCH(FindOverlaps)(tree, box, owners);
 }
 
 }  // namespace swept::detail

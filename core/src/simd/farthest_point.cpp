@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -70,11 +72,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(farthestPoint);
+SWEPT_DISPATCH_TABLE(farthestPoint);
 
 std::size_t farthestPoint(const double* coordinates, std::size_t count, double dx, double dy,
                           double dz) {
-  return HWY_DYNAMIC_DISPATCH(farthestPoint)(coordinates, count, dx, dy, dz);
+  return SWEPT_DISPATCH(farthestPoint)(coordinates, count, dx, dy, dz);
 }
 
 }  // namespace swept::detail

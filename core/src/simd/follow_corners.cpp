@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -190,23 +192,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(LargestCoordinate);
-HWY_EXPORT(FollowSubtree);
-HWY_EXPORT(FollowTop);
+SWEPT_DISPATCH_TABLE(LargestCoordinate);
+SWEPT_DISPATCH_TABLE(FollowSubtree);
+SWEPT_DISPATCH_TABLE(FollowTop);
 
 double largestCoordinate(std::span<const Eigen::Vector3d> points) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
   if (points.empty()) return 0.0;
-  return HWY_DYNAMIC_DISPATCH(LargestCoordinate)(points.front().data(), 3 * points.size());
+  return SWEPT_DISPATCH(LargestCoordinate)(points.front().data(), 3 * points.size());
 }
 
 BoxAreas followSubtree(const TreeOrder& order, std::span<const FloatPoint> points,
                        std::size_t subtree, DeformingFrame& frame) {
-  return HWY_DYNAMIC_DISPATCH(FollowSubtree)(order, points.data(), subtree, frame);
+  return SWEPT_DISPATCH(FollowSubtree)(order, points.data(), subtree, frame);
 }
 
 double followTop(const TreeOrder& order, DeformingFrame& frame) {
-  return HWY_DYNAMIC_DISPATCH(FollowTop)(order, frame);
+  return SWEPT_DISPATCH(FollowTop)(order, frame);
 }
 
 }  // namespace swept::detail

@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -105,10 +107,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(GridBounds);
+SWEPT_DISPATCH_TABLE(GridBounds);
 
 void gridBounds(const GridView& grid, const double* points, double* bounds) {
-  HWY_DYNAMIC_DISPATCH(GridBounds)(grid, points, bounds);
+  SWEPT_DISPATCH(GridBounds)(grid, points, bounds);
 }
 
 }  // namespace swept::detail

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -205,13 +207,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(FindMeetingFeatures);
+SWEPT_DISPATCH_TABLE(FindMeetingFeatures);
 
 void findMeetingFeatures(const MovingTree& a, const MovingTree& b, float margin,
                          std::span<const MeetingPair> pairs, std::vector<std::uint16_t>& features) {
   features.assign(pairs.size(), margin < kMostMargin ? 0 : FeatureBits::kAll);
   if (!(margin < kMostMargin)) return;
-  HWY_DYNAMIC_DISPATCH(FindMeetingFeatures)
+  SWEPT_DISPATCH(FindMeetingFeatures)
   (a, b, margin, pairs.data(), pairs.size(), features.data());
 }
 

@@ -10,6 +10,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -381,11 +383,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(FindMeetingPairs);
+SWEPT_DISPATCH_TABLE(FindMeetingPairs);
 
 void findMeetingPairs(const MovingTree& a, const MovingTree& b, bool same, float margin,
                       std::vector<OpenBlocks>& open, std::vector<MeetingPair>& pairs) {
-  HWY_DYNAMIC_DISPATCH(FindMeetingPairs)(a, b, same, margin, open, pairs);
+  SWEPT_DISPATCH(FindMeetingPairs)(a, b, same, margin, open, pairs);
 }
 
 }  // namespace swept::detail

@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
@@ -74,8 +76,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(PointBoxes);
-HWY_EXPORT(SegmentBoxes);
+SWEPT_DISPATCH_TABLE(PointBoxes);
+SWEPT_DISPATCH_TABLE(SegmentBoxes);
 
 namespace {
 
@@ -87,12 +89,12 @@ std::uint32_t inUse(const WideNode& node) {
 
 std::uint32_t pointBoxes(const WideNode& node, const Eigen::Vector3d& p, float most,
                          std::array<float, WideNode::kLanes>& squared) {
-  return HWY_DYNAMIC_DISPATCH(PointBoxes)(node, p, most, squared.data()) & inUse(node);
+  return SWEPT_DISPATCH(PointBoxes)(node, p, most, squared.data()) & inUse(node);
 }
 
 std::uint32_t segmentBoxes(const WideNode& node, const NearSegment& segment, float most,
                            std::array<float, WideNode::kLanes>& squared) {
-  return HWY_DYNAMIC_DISPATCH(SegmentBoxes)(node, segment, most, squared.data()) & inUse(node);
+  return SWEPT_DISPATCH(SegmentBoxes)(node, segment, most, squared.data()) & inUse(node);
 }
 
 }  // namespace swept::detail

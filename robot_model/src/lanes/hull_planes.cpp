@@ -9,6 +9,7 @@
 #include "lanes/f8.hpp"
 #include "lanes/lane_bounds.hpp"
 #include "lanes/placed_ball.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -178,7 +179,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(Divide);
+SWEPT_DISPATCH_TABLE(Divide);
 
 bool canDivide(const LaneModel& model, std::uint32_t pair) {
   const LanePairSource& source = model.sources[pair];
@@ -192,7 +193,7 @@ bool canDivide(const LaneModel& model, std::uint32_t pair) {
 std::uint32_t lanesDivided(const LaneModel& model, std::uint32_t pair,
                            const LaneDirection& direction, std::uint32_t lanes,
                            LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(Divide)(model, pair, direction, lanes, scratch);
+  return SWEPT_DISPATCH(Divide)(model, pair, direction, lanes, scratch);
 }
 
 }  // namespace swept::detail

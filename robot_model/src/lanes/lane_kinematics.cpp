@@ -11,6 +11,7 @@
 
 #include "lanes/f8.hpp"
 #include "lanes/lane_bounds.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -184,16 +185,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(Place);
-HWY_EXPORT(Bound);
+SWEPT_DISPATCH_TABLE(Place);
+SWEPT_DISPATCH_TABLE(Bound);
 
 void placeBodies(const LaneModel& model, const std::vector<LaneJointMotion>& motion,
                  std::span<const int> bodies, LaneBlock& block) {
-  HWY_DYNAMIC_DISPATCH(Place)(model, motion.data(), bodies, block);
+  SWEPT_DISPATCH(Place)(model, motion.data(), bodies, block);
 }
 
 void boundMotion(const LaneModel& model, LaneScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(Bound)(model, scratch);
+  SWEPT_DISPATCH(Bound)(model, scratch);
 }
 
 }  // namespace swept::detail

@@ -11,6 +11,7 @@
 #include "lanes/f8.hpp"
 #include "lanes/obstacle_kernels.hpp"
 #include "lanes/placed_ball.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -43,11 +44,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(Points);
+SWEPT_DISPATCH_TABLE(Points);
 
 PointsInside pointsInside(const LaneModel& model, const LaneSuspect& suspect,
                           LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(Points)(model, suspect, scratch);
+  return SWEPT_DISPATCH(Points)(model, suspect, scratch);
 }
 
 }  // namespace swept::detail

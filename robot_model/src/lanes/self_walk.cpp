@@ -13,6 +13,7 @@
 #include "lanes/placed_ball.hpp"
 #include "lanes/self_contacts.hpp"
 #include "lanes/self_tables.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -181,17 +182,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(All);
-HWY_EXPORT(One);
+SWEPT_DISPATCH_TABLE(All);
+SWEPT_DISPATCH_TABLE(One);
 
 bool walkSelf(const LaneModel& model, LaneScratch& scratch) {
   if (scratch.block.mode == LaneMode::State) return walkState(model, scratch);
-  return HWY_DYNAMIC_DISPATCH(All)(model, scratch);
+  return SWEPT_DISPATCH(All)(model, scratch);
 }
 
 bool walkPair(const LaneModel& model, std::uint32_t pair, std::uint32_t lanes,
               LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(One)(model, pair, lanes, scratch);
+  return SWEPT_DISPATCH(One)(model, pair, lanes, scratch);
 }
 
 }  // namespace swept::detail

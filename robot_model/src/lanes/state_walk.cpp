@@ -16,6 +16,7 @@
 #include "lanes/placed_ball.hpp"
 #include "lanes/self_contacts.hpp"
 #include "lanes/self_tables.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -227,10 +228,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(AllOfState);
+SWEPT_DISPATCH_TABLE(AllOfState);
 
 bool walkState(const LaneModel& model, LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(AllOfState)(model, scratch);
+  return SWEPT_DISPATCH(AllOfState)(model, scratch);
 }
 
 }  // namespace swept::detail

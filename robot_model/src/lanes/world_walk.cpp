@@ -12,6 +12,7 @@
 #include "lanes/field_walk.hpp"
 #include "lanes/obstacle_kernels.hpp"
 #include "lanes/placed_ball.hpp"
+#include "swept/core/simd_dispatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -294,16 +295,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-HWY_EXPORT(Bodies);
-HWY_EXPORT(Pairs);
+SWEPT_DISPATCH_TABLE(Bodies);
+SWEPT_DISPATCH_TABLE(Pairs);
 
 bool walkWorld(const LaneModel& model, LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(Bodies)(model, scratch);
+  return SWEPT_DISPATCH(Bodies)(model, scratch);
 }
 
 bool walkPairs(const LaneModel& model, int geometry, std::span<const LaneHit> obstacles,
                LaneScratch& scratch) {
-  return HWY_DYNAMIC_DISPATCH(Pairs)(model, geometry, obstacles, scratch);
+  return SWEPT_DISPATCH(Pairs)(model, geometry, obstacles, scratch);
 }
 
 }  // namespace swept::detail
