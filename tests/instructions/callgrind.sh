@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Sourced by compare.sh and record.sh.
+source "$(dirname "${BASH_SOURCE[0]}")/../valgrind/valgrind.sh"
 
-# What FOLDER lacks for counting is left in `missing`; true when nothing.
+# What counting in FOLDER lacks is left in `missing`; true when nothing. PROBE is an empty program.
 require_tools() {
-  missing=""
+  require_valgrind "$2" || return
   if [[ ! -x "$1/instruction_workload" ]]; then missing="$1/instruction_workload was not built"; fi
-  if ! command -v valgrind >/dev/null; then missing="valgrind is not installed"; fi
   [[ -z "$missing" ]]
 }
 

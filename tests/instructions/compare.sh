@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# compare.sh FOLDER: counts with callgrind the instructions of the workloads of instruction_workload,
+# compare.sh FOLDER PROBE: counts with callgrind the instructions of the workloads of instruction_workload,
 # which is in FOLDER of the build, and compares them with those that counts.txt records. Exit code 0:
 # at most 5 % more in each; 1: more than that, or other queries; 77: cannot be compared (skipped).
 set -euo pipefail
@@ -13,7 +13,7 @@ skip() {
   exit 77
 }
 
-require_tools "$folder" || skip "$missing"
+require_tools "$folder" "$2" || skip "$missing"
 build="$(cat "$folder/build.txt")"
 recorded_build="$(sed -n 's/^# build: //p' "$here/counts.txt")"
 if [[ "$build" != "$recorded_build" ]]; then

@@ -6,7 +6,7 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 source "$here/callgrind.sh"
 folder="$(cd "${1:-$here/../../build/release}" && pwd)/tests/instructions"
-if ! require_tools "$folder"; then
+if ! require_tools "$folder" "$folder/../valgrind/valgrind_probe"; then
   echo "error: $missing" >&2
   exit 1
 fi

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# memcheck.sh SWEPT: runs the program's main commands under valgrind's memcheck, from the top folder
-# of the tree. Exit code 1: a command used memory wrongly, lost some, or answered otherwise than
-# without; 77: there is no valgrind (skipped).
+# memcheck.sh SWEPT PROBE: runs the program's main commands under valgrind's memcheck, from the top
+# folder of the tree. Exit code 1: a command used memory wrongly, lost some, or answered otherwise than
+# without; 77: there is no valgrind, or none that can run PROBE, an empty program (skipped).
 set -euo pipefail
 swept="$1"
-if ! command -v valgrind >/dev/null; then
-  echo "skipped: no valgrind"
+source "$(dirname "${BASH_SOURCE[0]}")/../valgrind/valgrind.sh"
+if ! require_valgrind "$2"; then
+  echo "skipped: $missing"
   exit 77
 fi
 folder="$(mktemp -d)"
