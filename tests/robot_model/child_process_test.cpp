@@ -12,10 +12,13 @@
 #include <thread>
 #include <vector>
 
+#include "run_in_child.hpp"
 #include "sanitizers.hpp"
 
 namespace swept::detail {
 namespace {
+
+using test::runInChild;
 
 constexpr ChildLimits kAmple{.seconds = 20, .bytes = std::uint64_t{1} << 30};
 

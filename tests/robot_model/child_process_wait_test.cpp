@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/child_process.hpp"
+#include "run_in_child.hpp"
 
 namespace swept::detail {
 namespace {
@@ -24,7 +24,7 @@ std::pair<std::string, double> endingOf(const std::function<std::string()>& work
   const auto begin = std::chrono::steady_clock::now();
   std::string ending = "none";
   try {
-    runInChild(work, {.seconds = 1, .bytes = std::uint64_t{1} << 30});
+    test::runInChild(work, {.seconds = 1, .bytes = std::uint64_t{1} << 30});
   } catch (const ChildError& error) {
     ending = error.what();
   }

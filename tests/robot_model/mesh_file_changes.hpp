@@ -15,7 +15,8 @@ namespace swept::test {
 inline std::string said(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   try {
-    return std::to_string(detail::readMeshFile(folder.write(name, text)).triangles.size());
+    detail::MeshFileReader reader;
+    return std::to_string(reader.read(folder.write(name, text)).triangles.size());
   } catch (const detail::MeshFileError& error) {
     return error.what();
   }

@@ -3,7 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,13 +12,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
-#include <fstream>
 #include <system_error>
-
-#if defined(__linux__)
-#include <sys/prctl.h>
-#endif
+#include <utility>
 
 namespace swept::detail {
 
@@ -26,150 +23,132 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kTick = 50;        // ms, between looks at a child that says nothing
-constexpr int kEndTick = 1;      // ms, at one that has closed its pipe: most end at once
-constexpr int kUnfinished = 17;  // exit code of a child that could not say all
+constexpr int kTick = 50;    // ms, between looks at a child that says nothing
+constexpr int kEndTick = 1;  // ms, at one that has closed its socket: most end at once
 
-/// Bytes of address space in use; 0: not known. Builds with sanitizers do not ask.
-[[maybe_unused]] std::uint64_t addressSpace() {
-  std::ifstream stream("/proc/self/statm");
-  std::uint64_t pages = 0;
-  if (!(stream >> pages)) return 0;
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+[[noreturn]] void failToStart(int error) {
+  throw std::system_error(error, std::generic_category(), "no process can be made");
 }
 
-void lower(decltype(RLIMIT_CPU) resource, rlim_t soft, rlim_t hard) {
-  rlimit limit{};
-  if (getrlimit(resource, &limit) != 0) return;
-  limit.rlim_cur = std::min(limit.rlim_cur, soft);
-  limit.rlim_max = std::min(limit.rlim_max, hard);
-  setrlimit(resource, &limit);
+/// None of the three that a host may have closed: the child silences these, and the host writes to
+/// them.
+int beyondStandardStreams(int descriptor) {
+  if (descriptor > STDERR_FILENO) return descriptor;
+  const int higher = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  const int error = errno;
+  close(descriptor);
+  errno = error;
+  return higher;
 }
 
-/// Before the fork: reading /proc is not for a child of a process with threads.
-struct Bounds {
-  rlim_t cpu, memory;
-
-  explicit Bounds(const ChildLimits& limits) : cpu(limits.seconds), memory(RLIM_INFINITY) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    // A sanitizer's shadow takes all addresses there are.
-    if (const std::uint64_t used = addressSpace(); used > 0) memory = used + limits.bytes;
-#endif
+std::array<int, 2> socketEnds() {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) failToStart(errno);
+  int error = 0;
+  for (int& end : ends) {
+    end = beyondStandardStreams(end);
+    if (end < 0) error = errno;
   }
-  void apply() const {
-    lower(RLIMIT_CPU, cpu, cpu + 1);
-    lower(RLIMIT_AS, memory, memory);
-    lower(RLIMIT_CORE, 0, 0);
-  }
-};
-
-bool writeAll(int descriptor, const char* bytes, std::size_t size) {
-  for (std::size_t done = 0; done < size;) {
-    const ssize_t count = write(descriptor, bytes + done, size - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    done += static_cast<std::size_t>(count);
-  }
-  return true;
+  if (error == 0) return ends;
+  for (const int end : ends)
+    if (end >= 0) close(end);
+  failToStart(error);
 }
 
-/// The life of the child. It does not return, so that nothing of the parent is done twice.
-[[noreturn]] void live(int descriptor, pid_t parent, const std::function<std::string()>& work,
-                       const Bounds& bounds) {
-#if defined(__linux__)
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kUnfinished);
-#else
-  static_cast<void>(parent);
-#endif
-  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
-    std::signal(signal, SIG_DFL);
-  std::signal(SIGPIPE, SIG_IGN);
-  const int nowhere = open("/dev/null", O_RDWR);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
-  bounds.apply();
-  try {
-    const std::string result = work();
-    const std::uint64_t size = result.size();
-    const bool written = writeAll(descriptor, reinterpret_cast<const char*>(&size), sizeof size) &&
-                         writeAll(descriptor, result.data(), result.size());
-    _exit(written ? 0 : kUnfinished);
-  } catch (...) {
-    _exit(kUnfinished);
-  }
-}
-
-/// Whether the descriptor has something to say: `data`, its end, or nothing yet.
+/// Whether the socket has something to say: `data`, its end, or nothing yet.
 enum class Heard { Data, End, Nothing };
 
-Heard listen(int descriptor, std::string& text) {
-  pollfd wait{.fd = descriptor, .events = POLLIN, .revents = 0};
+Heard listen(int socket, std::string& text, std::size_t most) {
+  pollfd wait{.fd = socket, .events = POLLIN, .revents = 0};
   if (poll(&wait, 1, kTick) <= 0) return Heard::Nothing;
   std::array<char, 65536> buffer;
-  const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+  const ssize_t count = recv(socket, buffer.data(), std::min(most, buffer.size()), 0);
   if (count < 0) return errno == EINTR ? Heard::Nothing : Heard::End;
   if (count == 0) return Heard::End;
   text.append(buffer.data(), static_cast<std::size_t>(count));
   return Heard::Data;
 }
 
-/// Of a message that starts with its size; false: there is more to come.
-bool isWhole(const std::string& text) {
-  std::uint64_t size = 0;
-  if (text.size() < sizeof size) return false;
-  std::memcpy(&size, text.data(), sizeof size);
-  return text.size() - sizeof size >= size;
-}
+}  // namespace
 
-/// A child, and the end of the pipe that it writes to. Ended and reaped at the latest here.
-class Child {
+/// A child, and the end of the socket that leads to it. Ended and reaped at the latest here.
+class ChildProcess::Process {
  public:
-  Child(const std::function<std::string()>& work, const Bounds& bounds) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) fail();
+  explicit Process(const ChildWork& work) {
+    const std::uint64_t memory = addressSpace();
+    const std::array<int, 2> ends = socketEnds();
     const pid_t parent = getpid();
     pid_ = fork();
     if (pid_ == 0) {
       close(ends[0]);
-      live(ends[1], parent, work, bounds);
+      liveAsChild(ends[1], parent, work, memory);
     }
     const int error = errno;
     close(ends[1]);
-    descriptor_ = ends[0];
-    errno = error;
+    socket_ = ends[0];
     if (pid_ < 0) {
-      close(descriptor_);
-      fail();
+      close(socket_);
+      failToStart(error);
     }
   }
-  ~Child() {
-    close(descriptor_);
-    if (!ended_) kill(pid_, SIGKILL);
+  ~Process() {
+    close(socket_);
+    // Asked first: one that is gone may have left its number to another process.
+    if (!isGone()) kill(pid_, SIGKILL);
     while (!ended_ && waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
 
-  std::string listenUntil(Clock::time_point latest, const ChildLimits& limits) {
-    std::string text;
-    while (!isWhole(text)) {
-      if (text.size() > limits.bytes) throw ChildError("said too much");
-      // Before listening: what one that is gone has said is all in the pipe.
-      const bool gone = isGone();
-      const Heard heard = listen(descriptor_, text);
-      // The pipe of one that is gone may be held open by a child of another thread; and one that
-      // has closed its pipe may stay.
-      if (gone && heard != Heard::Data) throw ChildError(ending());
-      if (heard == Heard::End) poll(nullptr, 0, kEndTick);
-      if (Clock::now() > latest)
-        throw ChildError("took more than " + std::to_string(limits.seconds * kWallPerCpu) + " s");
-    }
-    return text.substr(sizeof(std::uint64_t));
+  std::string ask(std::span<const std::string_view> request, const ChildLimits& limits) {
+    const unsigned wall = limits.seconds * kWallPerCpu;
+    latest_ = Clock::now() + std::chrono::seconds(wall);
+    late_ = "took more than " + std::to_string(wall) + " s";
+    RequestHead head{.seconds = limits.seconds, .memory = limits.bytes, .size = 0};
+    for (const std::string_view part : request) head.size += part.size();
+    send({reinterpret_cast<const char*>(&head), sizeof head});
+    for (const std::string_view part : request) send(part);
+    std::uint64_t size = 0;
+    std::memcpy(&size, receive(sizeof size).data(), sizeof size);
+    if (size > limits.bytes) throw ChildError("said too much");
+    return receive(size);
   }
 
  private:
-  [[noreturn]] static void fail() {
-    throw std::system_error(errno, std::generic_category(), "no process can be made");
+  /// To one that does not listen any more it says nothing: how that ended, receive() finds out.
+  void send(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t count = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (count >= 0) {
+        text.remove_prefix(static_cast<std::size_t>(count));
+        continue;
+      }
+      if (errno == EINTR) continue;
+      if (errno != EAGAIN && errno != EWOULDBLOCK) return;
+      if (isGone()) throw ChildError(ending());
+      requireTime();
+      pollfd wait{.fd = socket_, .events = POLLOUT, .revents = 0};
+      poll(&wait, 1, kTick);
+    }
+  }
+
+  std::string receive(std::size_t size) {
+    std::string text;
+    while (text.size() < size) {
+      // Before listening: what one that is gone has said is all in the socket.
+      const bool gone = isGone();
+      const Heard heard = listen(socket_, text, size - text.size());
+      // The socket of one that is gone may be held open by a child of another thread; and one that
+      // has closed its socket may stay.
+      if (gone && heard != Heard::Data) throw ChildError(ending());
+      if (heard == Heard::End) poll(nullptr, 0, kEndTick);
+      requireTime();
+    }
+    return text;
+  }
+
+  void requireTime() const {
+    if (Clock::now() > latest_) throw ChildError(late_);
   }
 
   /// Also where the host lets the system reap its children.
@@ -182,25 +161,42 @@ class Child {
 
   /// Of one that is gone.
   std::string ending() const {
-    if (!WIFSIGNALED(status_)) return "ended too soon";
-    if (WTERMSIG(status_) == SIGXCPU || WTERMSIG(status_) == SIGKILL)
+    if (!WIFSIGNALED(status_))
+      return WEXITSTATUS(status_) == kNoMemory ? "ran out of memory" : "ended too soon";
+    const int signal = WTERMSIG(status_);
+    if (signal == SIGPROF || signal == SIGXCPU || signal == SIGKILL)
       return "took too much time or memory";
-    return "crashed (signal " + std::to_string(WTERMSIG(status_)) + ")";
+    return "crashed (signal " + std::to_string(signal) + ")";
   }
 
   pid_t pid_ = -1;
-  int descriptor_ = -1;
+  int socket_ = -1;
   int status_ = 0;
   bool ended_ = false;
+  Clock::time_point latest_;  ///< for the present request
+  std::string late_;          ///< said then
 };
 
-}  // namespace
+ChildProcess::ChildProcess(ChildWork work) : work_(std::move(work)) {}
 
-std::string runInChild(const std::function<std::string()>& work, const ChildLimits& limits) {
-  const Bounds bounds(limits);
-  Child child(work, bounds);
-  const auto latest = Clock::now() + std::chrono::seconds(limits.seconds * kWallPerCpu);
-  return child.listenUntil(latest, limits);
+ChildProcess::~ChildProcess() = default;
+
+std::string ChildProcess::ask(std::span<const std::string_view> request,
+                              const ChildLimits& limits) {
+  if (!process_) process_ = std::make_unique<Process>(work_);
+  try {
+    std::string answer = process_->ask(request, limits);
+    answered_ = true;
+    return answer;
+  } catch (...) {
+    end();
+    throw;
+  }
+}
+
+void ChildProcess::end() {
+  process_.reset();
+  answered_ = false;
 }
 
 }  // namespace swept::detail

@@ -109,9 +109,14 @@ std::string_view take(std::string_view text, std::vector<Item>& items) {
   return text.substr(sizeof count + count * sizeof(Item));
 }
 
-std::string saidOf(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+/// Of a request: a name, a line break, and the bytes of the file.
+std::string saidOf(std::string_view request, const MeshImport& import) {
+  const auto end = request.find('\n');
+  const std::string_view file = request.substr(end + 1);
   try {
-    const MeshFileContent content = importMesh(name, bytes);
+    const MeshFileContent content =
+        import(std::string(request.substr(0, end)),
+               {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
     std::string text(1, static_cast<char>(Kind::Content));
     append(content.vertices, text);
     append(content.triangles, text);
@@ -151,20 +156,14 @@ void requireWhole(const MeshClaim& claim, MeshFileContent& content) {
   content.loss = std::max(claim.loss, off);
 }
 
-MeshFileContent importInChild(const std::string& name, const std::vector<std::uint8_t>& bytes) {
-  const ChildLimits limits{
-      .seconds = kSeconds + static_cast<unsigned>(bytes.size() / kBytesPerSecond),
-      .bytes = kMemory + kMemoryPerByte * bytes.size()};
-  std::string said;
-  try {
-    said = runInChild([&] { return saidOf(name, bytes); }, limits);
-  } catch (const ChildError& error) {
-    throw MeshFileError(std::string("cannot be read: assimp ") + error.what());
-  } catch (const std::system_error& error) {
-    throw MeshFileError(std::string("cannot be read: ") + error.what());
-  }
+ChildLimits limitsFor(std::size_t bytes) {
+  return {.seconds = kSeconds + static_cast<unsigned>(bytes / kBytesPerSecond),
+          .bytes = kMemory + kMemoryPerByte * bytes};
+}
+
+MeshFileContent contentOf(std::string_view said) {
   if (said.empty()) refuseContent();
-  const std::string_view rest = std::string_view(said).substr(1);
+  const std::string_view rest = said.substr(1);
   if (said.front() == static_cast<char>(Kind::Error)) throw MeshFileError(std::string(rest));
   MeshFileContent content;
   take(take(rest, content.vertices), content.triangles);
@@ -180,16 +179,53 @@ void requireFewTriangles(std::uint64_t count) {
                       " triangles, which is the most allowed");
 }
 
-MeshFileContent readMeshFile(const std::filesystem::path& file) {
+MeshFileReader::MeshFileReader() : MeshFileReader(importMesh) {}
+
+MeshFileReader::MeshFileReader(MeshImport import)
+    : child_([import = std::move(import)](std::string_view request) {
+        return saidOf(request, import);
+      }) {}
+
+MeshFileContent MeshFileReader::ask(const std::string& name, std::string_view text) {
+  try {
+    return contentOf(
+        child_.ask(std::array<std::string_view, 3>{name, "\n", text}, limitsFor(text.size())));
+  } catch (const ChildError& error) {
+    throw MeshFileError(std::string("cannot be read: assimp ") + error.what());
+  } catch (const std::system_error& error) {
+    throw MeshFileError(std::string("cannot be read: ") + error.what());
+  }
+}
+
+MeshFileContent MeshFileReader::askForWhole(const std::string& name, std::string_view text,
+                                            const MeshClaim& claim) {
+  try {
+    MeshFileContent content = ask(name, text);
+    requireWhole(claim, content);
+    return content;
+  } catch (const MeshFileError&) {
+    // Whatever that file has done to the process: it reads no other.
+    child_.end();
+    throw;
+  }
+}
+
+MeshFileContent MeshFileReader::read(const std::filesystem::path& file) {
   const std::string ending = lowerEnding(file);
   const Check check = checkOf(ending);
   const std::vector<std::uint8_t> bytes = readBytes(file);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const MeshClaim claim = claimOf(file, text, check);
   // By a name of ours, whatever the file's has in it.
-  MeshFileContent content = importInChild("mesh" + ending, bytes);
-  requireWhole(claim, content);
-  return content;
+  const std::string name = "mesh" + ending;
+  if (child_.hasAnswered()) {
+    try {
+      return askForWhole(name, text, claim);
+    } catch (const MeshFileError&) {
+      // Not this file's fault, perhaps, but of those before it: a process that has read none says.
+    }
+  }
+  return askForWhole(name, text, claim);
 }
 
 }  // namespace swept::detail

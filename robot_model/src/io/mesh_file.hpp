@@ -4,8 +4,15 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
+
+#include "io/child_process.hpp"
+#include "io/mesh_claim.hpp"
 
 namespace swept::detail {
 
@@ -24,6 +31,11 @@ struct MeshFileError : std::runtime_error {
 /// Throws MeshFileError for more than 20 million.
 void requireFewTriangles(std::uint64_t count);
 
+/// What makes a mesh of a file's bytes; the name tells the format. Throws MeshFileError and
+/// std::bad_alloc.
+using MeshImport =
+    std::function<MeshFileContent(const std::string& name, std::span<const std::uint8_t> bytes)>;
+
 /// Reads .stl, .obj, .dae and .ply, in letters of any size. Polygons are triangulated, points and
 /// lines dropped, node transforms applied.
 ///
@@ -41,12 +53,29 @@ void requireFewTriangles(std::uint64_t count);
 /// itself would turn a Z_UP file so that y points up.
 ///
 /// Assimp runs in a process of its own, for as long and with as much memory as a file of that size
-/// can reasonably take: one that makes it crash or hang is refused as any other.
+/// can reasonably take: one that makes it crash or hang is refused as any other. That process reads
+/// one file after the other, each within limits of its own, as long as it reads them whole; one
+/// that failed at a file reads no other, and a file is refused only by one that has read no other.
 ///
 /// No other file is opened, not even one that this file names (materials, textures, buffers).
 /// Throws MeshFileError for another ending, a file over 256 MB, one with more than 20 million
 /// triangles, one that cannot be read whole, or one without triangles, and where no process can be
-/// made.
-MeshFileContent readMeshFile(const std::filesystem::path& file);
+/// made, and reads the next file nevertheless. One thread uses it, and outlives it.
+class MeshFileReader {
+ public:
+  MeshFileReader();
+  /// With something else in place of assimp.
+  explicit MeshFileReader(MeshImport import);
+
+  MeshFileContent read(const std::filesystem::path& file);
+
+ private:
+  MeshFileContent ask(const std::string& name, std::string_view text);
+  /// All that `claim` says there is.
+  MeshFileContent askForWhole(const std::string& name, std::string_view text,
+                              const MeshClaim& claim);
+
+  ChildProcess child_;
+};
 
 }  // namespace swept::detail

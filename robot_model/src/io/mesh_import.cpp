@@ -19,7 +19,7 @@ namespace {
 /// Shows assimp one file, held in memory, and nothing else of the file system.
 class OneFile final : public Assimp::IOSystem {
  public:
-  OneFile(std::string name, const std::vector<std::uint8_t>& bytes)
+  OneFile(std::string name, std::span<const std::uint8_t> bytes)
       : name_(std::move(name)), bytes_(bytes) {}
   bool Exists(const char* file) const override { return name_ == file; }
   char getOsSeparator() const override { return '/'; }
@@ -31,7 +31,7 @@ class OneFile final : public Assimp::IOSystem {
 
  private:
   std::string name_;
-  const std::vector<std::uint8_t>& bytes_;
+  std::span<const std::uint8_t> bytes_;
 };
 
 using RowMajor4f = Eigen::Matrix<float, 4, 4, Eigen::RowMajor>;
@@ -82,7 +82,7 @@ void rethrowNoMemory(const Assimp::Importer& importer) {
 
 }  // namespace
 
-MeshFileContent importMesh(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+MeshFileContent importMesh(const std::string& name, std::span<const std::uint8_t> bytes) {
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(name, bytes));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "io/mesh_file.hpp"
 
@@ -12,6 +12,6 @@ namespace swept::detail {
 /// What assimp makes of a mesh file's bytes; it picks the reader by the ending of `name`. Throws
 /// MeshFileError and std::bad_alloc. Assimp is not proof against hostile files: they can make it
 /// crash or run without end.
-MeshFileContent importMesh(const std::string& name, const std::vector<std::uint8_t>& bytes);
+MeshFileContent importMesh(const std::string& name, std::span<const std::uint8_t> bytes);
 
 }  // namespace swept::detail

@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "io/line_faces.hpp"
-#include "io/mesh_file.hpp"
 #include "io/numbers.hpp"
 #include "io/package_paths.hpp"
 #include "io/regular_file.hpp"
@@ -69,7 +68,7 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
   const Key key{oneName(file), {scale.x(), scale.y(), scale.z()}};
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   try {
-    MeshFileContent content = readMeshFile(file);
+    MeshFileContent content = files_.read(file);
     requirePrecise(content, scale);
     const double crackWidth = roundingOf(content) * scale.cwiseAbs().minCoeff();
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/input_source.hpp"
+#include "io/mesh_file.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace swept::detail {
@@ -28,6 +29,7 @@ class MeshStore {
  private:
   using Key = std::pair<std::filesystem::path, std::array<double, 3>>;
   const InputSource& source_;
+  MeshFileReader files_;
   std::map<Key, TriangleMesh> meshes_;
 };
 

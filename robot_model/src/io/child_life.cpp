@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/child_life.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
+
+namespace swept::detail {
+
+namespace {
+
+rlimit limitOf(decltype(RLIMIT_AS) resource) {
+  rlimit limit{.rlim_cur = RLIM_INFINITY, .rlim_max = RLIM_INFINITY};
+  getrlimit(resource, &limit);
+  return limit;
+}
+
+/// Anew for each request: what those before it took does not count.
+class Bounds {
+ public:
+  explicit Bounds(std::uint64_t parentMemory)
+      : parentMemory_(parentMemory), memory_(limitOf(RLIMIT_AS)) {
+    rlimit core = limitOf(RLIMIT_CORE);
+    core.rlim_cur = 0;
+    setrlimit(RLIMIT_CORE, &core);
+  }
+  void setFor(const RequestHead& head) const {
+    // Not RLIMIT_CPU, which counts from the start of the process, and in whole seconds.
+    const itimerval timer{.it_interval = {},
+                          .it_value = {.tv_sec = static_cast<time_t>(head.seconds), .tv_usec = 0}};
+    setitimer(ITIMER_PROF, &timer, nullptr);
+    if (parentMemory_ == 0) return;
+    // The soft limit alone: a hard one could not be raised again.
+    rlimit memory = memory_;
+    memory.rlim_cur = std::min<rlim_t>(memory.rlim_cur, parentMemory_ + head.memory);
+    setrlimit(RLIMIT_AS, &memory);
+  }
+
+ private:
+  std::uint64_t parentMemory_;
+  rlimit memory_;  ///< the host's
+};
+
+/// Signals that are to end this process do so, whatever the host does with them.
+void resetSignals() {
+  sigset_t ending;
+  sigemptyset(&ending);
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGPROF}) {
+    std::signal(signal, SIG_DFL);
+    sigaddset(&ending, signal);
+  }
+  sigprocmask(SIG_UNBLOCK, &ending, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+/// Assimp's reader of .obj clears 16 MiB for each file; to have these pages from the system is most
+/// of what reading a small file takes. So they stay here: a free block with room for them and for
+/// what is allocated ahead of them, and one in use behind it, lest it become part of what is free
+/// at the heap's end and small blocks divide that. What is not used of the two takes no memory.
+void keepMemoryForObj() {
+#if defined(__GLIBC__)
+  constexpr int kMapped = 32 << 20;  // bytes; the most that glibc takes
+  constexpr std::size_t kFree = 20 << 20, kBehind = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, kMapped);
+  mallopt(M_TRIM_THRESHOLD, 2 * kMapped);
+  // Compilers leave out blocks that nobody uses.
+  void* volatile block = std::malloc(kFree);
+  void* volatile behind = std::malloc(kBehind);
+  static_cast<void>(behind);
+  std::free(block);
+#endif
+}
+
+bool receiveAll(int socket, char* bytes, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = recv(socket, bytes + done, size - done, 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool sendAll(int socket, const char* bytes, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = send(socket, bytes + done, size - done, MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+/// False: there is nobody at the other end.
+bool answerNext(int socket, const ChildWork& work, const Bounds& bounds) {
+  RequestHead head{};
+  if (!receiveAll(socket, reinterpret_cast<char*>(&head), sizeof head)) return false;
+  bounds.setFor(head);
+  std::string request(head.size, '\0');
+  if (!receiveAll(socket, request.data(), request.size())) return false;
+  const std::string answer = work(request);
+  const std::uint64_t size = answer.size();
+  return sendAll(socket, reinterpret_cast<const char*>(&size), sizeof size) &&
+         sendAll(socket, answer.data(), answer.size());
+}
+
+}  // namespace
+
+std::uint64_t addressSpace() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return 0;  // a sanitizer's shadow takes all addresses there are
+#else
+  std::ifstream stream("/proc/self/statm");
+  std::uint64_t pages = 0;
+  if (!(stream >> pages)) return 0;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+#endif
+}
+
+void liveAsChild(int socket, pid_t parent, const ChildWork& work, std::uint64_t parentMemory) {
+#if defined(__linux__)
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(kUnfinished);
+#else
+  static_cast<void>(parent);
+#endif
+  resetSignals();
+  keepMemoryForObj();
+  const int nowhere = open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
+  const Bounds bounds(parentMemory);
+  try {
+    while (answerNext(socket, work, bounds)) continue;
+  } catch (const std::bad_alloc&) {
+    _exit(kNoMemory);
+  } catch (...) {
+  }
+  _exit(kUnfinished);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All meshes of a robot are read in one process, and each as if it were the only one. There was a
+// process for each, of which each had 16 MiB from the system: for an arm of ten small meshes that
+// was most of what loading it took.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <span>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "fork_counter.hpp"
+#include "input_files.hpp"
+#include "io/mesh_file.hpp"
+#include "io/mesh_import.hpp"
+#include "sanitizers.hpp"
+#include "swept/robot_model/robot.hpp"
+
+namespace swept {
+namespace {
+
+using detail::MeshFileContent;
+using detail::MeshFileError;
+using detail::MeshFileReader;
+using Bytes = std::span<const std::uint8_t>;
+
+/// A tetrahedron of that size, after a remark.
+std::string tetrahedron(double size, const std::string& remark = "") {
+  const std::string s = std::to_string(size);
+  return "# " + remark + "\nv 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nv 0 0 " + s +
+         "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+}
+
+/// Writes a ball of 2 n (n - 1) triangles.
+void writeBall(const std::filesystem::path& file, int n) {
+  std::ofstream stream(file);
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double latitude = std::numbers::pi * i / n, longitude = 2.0 * std::numbers::pi * j / n;
+      stream << "v " << std::sin(latitude) * std::cos(longitude) << " "
+             << std::sin(latitude) * std::sin(longitude) << " " << std::cos(latitude)
+             << "\nvn 0 0 1\n";
+    }
+  }
+  const auto face = [&](int a, int b, int c) {
+    stream << "f " << a + 1 << "//" << a + 1 << " " << b + 1 << "//" << b + 1 << " " << c + 1
+           << "//" << c + 1 << "\n";
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int next = (j + 1) % n;
+      if (i > 0) face(i * n + j, (i + 1) * n + j, i * n + next);
+      if (i < n - 1) face(i * n + next, (i + 1) * n + j, (i + 1) * n + next);
+    }
+  }
+}
+
+/// A robot of links with a mesh each, in that order.
+std::string robotOf(const std::vector<std::string>& files) {
+  std::string text = "<robot name='m'><link name='base'/>";
+  for (const std::string& file : files) {
+    text += "\n<link name='" + file + "'><collision><geometry><mesh filename='" + file +
+            "'/></geometry></collision></link><joint name='to " + file +
+            "' type='fixed'><parent link='base'/><child link='" + file + "'/></joint>";
+  }
+  return text + "</robot>";
+}
+
+bool has(Bytes bytes, std::string_view word) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.find(word) != std::string_view::npos;
+}
+
+/// How many triangles are read, or why none.
+std::string said(MeshFileReader& reader, const std::filesystem::path& file) {
+  try {
+    return std::to_string(reader.read(file).triangles.size());
+  } catch (const MeshFileError& error) {
+    return error.what();
+  }
+}
+
+class MeshFileReading : public testing::Test {
+ protected:
+  /// Files `0.obj` and so on, of tetrahedra of different sizes.
+  std::vector<std::string> writeFiles(int count) {
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i) {
+      names.push_back(std::to_string(i) + ".obj");
+      folder_.write(names.back(), tetrahedron(1.0 + 0.1 * i));
+    }
+    return names;
+  }
+  /// Of the one link with that mesh.
+  static const TriangleMesh& meshOf(const Robot& robot, const std::string& file) {
+    const auto link = std::ranges::find(robot.links(), file, &Link::name);
+    return std::get<TriangleMesh>(link->collision.at(0).shape);
+  }
+  static void expectSame(const Robot& a, const Robot& b, const std::vector<std::string>& files) {
+    for (const std::string& file : files) {
+      const TriangleMesh &one = meshOf(a, file), &other = meshOf(b, file);
+      EXPECT_TRUE(std::ranges::equal(one.vertices(), other.vertices())) << file;
+      EXPECT_TRUE(std::ranges::equal(one.triangles(), other.triangles())) << file;
+    }
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+/// The first test: none before it leaves free memory that this process and its child could use.
+TEST_F(MeshFileReading, WhatAssimpClearsComesFromTheSystemOnce) {
+#if defined(SWEPT_TEST_ADDRESS_SANITIZER) || defined(SWEPT_TEST_THREAD_SANITIZER)
+  GTEST_SKIP() << "a sanitizer has pages of its own";
+#elif !defined(__GLIBC__)
+  GTEST_SKIP() << "another allocator gives memory back";
+#endif
+  // Growing, so that what the first one left free is too small for what is ahead of the others.
+  const std::vector<int> sizes{3, 5, 8, 11, 16, 24, 36, 16, 36, 24, 8, 36};
+  for (const int n : sizes) writeBall(folder_.path() / (std::to_string(n) + ".obj"), n);
+  const test::ForkCounter counter;
+  {
+    MeshFileReader reader;
+    for (const int n : sizes)
+      EXPECT_EQ(said(reader, folder_.path() / (std::to_string(n) + ".obj")),
+                std::to_string(2 * n * (n - 1)));
+  }
+  // The 16 MiB of one file are 4096 pages of 4 KiB, and what is shared with the parent until it is
+  // written, or is the mesh, is some 500 more. A process for each file had 50 000.
+  EXPECT_EQ(counter.forks(), 1);
+  EXPECT_GT(counter.pages(), 0);
+  EXPECT_LE(counter.pages(), (std::int64_t{20} << 20) / sysconf(_SC_PAGESIZE) + 800);
+}
+
+TEST_F(MeshFileReading, OneProcessReadsAllMeshesOfARobot) {
+  const auto urdf = folder_.write("m.urdf", robotOf(writeFiles(12)));
+  const test::ForkCounter counter;
+  const auto robot = Robot::load(urdf);
+  EXPECT_EQ(robot->links().size(), 13U);
+  EXPECT_EQ(counter.forks(), 1);
+}
+
+TEST_F(MeshFileReading, OneMeshOfManyLinksIsReadOnce) {
+  folder_.write("a.obj", tetrahedron(1.0));
+  std::string text = "<robot name='m'><link name='base'>";
+  for (int i = 0; i < 12; ++i)
+    text += "<collision><geometry><mesh filename='a.obj'/></geometry></collision>";
+  const auto urdf = folder_.write("m.urdf", text + "</link></robot>");
+  const test::ForkCounter counter;
+  const auto robot = Robot::load(urdf);
+  EXPECT_EQ(counter.forks(), 1);
+  const auto& pieces = robot->links()[0].collision;
+  const auto corners = [](const CollisionGeometry& piece) {
+    return std::get<TriangleMesh>(piece.shape).vertices().data();
+  };
+  EXPECT_EQ(pieces.size(), 12U);
+  for (const CollisionGeometry& piece : pieces) EXPECT_EQ(corners(piece), corners(pieces[0]));
+}
+
+TEST_F(MeshFileReading, RobotsWithoutMeshesNeedNoProcess) {
+  const test::ForkCounter counter;
+  Robot::load(folder_.write("m.urdf",
+                            "<robot name='m'><link name='a'><collision><geometry>"
+                            "<sphere radius='1'/></geometry></collision></link></robot>"));
+  EXPECT_EQ(counter.forks(), 0);
+}
+
+TEST_F(MeshFileReading, TheRobotIsTheSameInAnyOrderAndFromManyThreads) {
+  std::vector<std::string> files = writeFiles(12);
+  const auto robot = Robot::load(folder_.write("m.urdf", robotOf(files)));
+  EXPECT_EQ(meshOf(*robot, "3.obj").vertices().size(), 4U);
+  EXPECT_FALSE(
+      std::ranges::equal(meshOf(*robot, "3.obj").vertices(), meshOf(*robot, "4.obj").vertices()));
+  std::mt19937 random(7);
+  std::vector<std::string> orders;
+  for (int i = 0; i < 4; ++i) {
+    std::ranges::shuffle(files, random);
+    orders.push_back(robotOf(files));
+  }
+  std::vector<std::shared_ptr<const Robot>> others(orders.size());
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < orders.size(); ++i)
+      threads.emplace_back([&, i] {
+        LoadOptions options;
+        others[i] = Robot::parse(orders[i], (folder_.path() / "m.urdf").string(), {}, {}, options);
+      });
+  }
+  for (const auto& other : others) expectSame(*robot, *other, files);
+}
+
+/// Crashes, hangs and takes memory where a remark of the file says so.
+MeshFileContent importOrFail(const std::string& name, Bytes bytes) {
+  if (has(bytes, "# crash")) std::abort();
+  if (has(bytes, "# hang"))
+    for (std::atomic<int> i = 0;; ++i) continue;
+  if (has(bytes, "# eat")) std::vector<char>().reserve(std::size_t{3} << 30);
+  return detail::importMesh(name, bytes);
+}
+
+TEST_F(MeshFileReading, WhatFailsIsRefusedAndTheOthersAreRead) {
+  MeshFileReader reader(importOrFail);
+  const auto write = [&](const std::string& remark) {
+    return folder_.write(remark + ".obj", tetrahedron(1.0, remark));
+  };
+  const auto good = write("good");
+  EXPECT_EQ(said(reader, good), "4");
+  EXPECT_EQ(said(reader, write("crash")), "cannot be read: assimp crashed (signal 6)");
+  EXPECT_EQ(said(reader, good), "4");
+  EXPECT_EQ(said(reader, folder_.write("cut.obj", "v 1 2")),
+            "cannot be read: its line 1: a vertex must have 3 numbers, a fourth that is 1, or 6 "
+            "with its colour");
+  EXPECT_EQ(said(reader, good), "4");
+#if !defined(SWEPT_TEST_ADDRESS_SANITIZER) && !defined(SWEPT_TEST_THREAD_SANITIZER)
+  EXPECT_EQ(said(reader, write("eat")), "cannot be read: out of memory");
+#endif
+  EXPECT_THAT(said(reader, write("hang")),
+              testing::AnyOf("cannot be read: assimp took too much time or memory",
+                             "cannot be read: assimp took more than 30 s"));
+  EXPECT_EQ(said(reader, good), "4");
+}
+
+/// Each in the second process that reads: what ended the first may be what was left in it.
+TEST_F(MeshFileReading, AFileIsRefusedOnlyByAProcessThatHasReadNoOther) {
+  enum class Fault { Crash, Error, Corners, Triangles };
+  for (const Fault fault : {Fault::Crash, Fault::Error, Fault::Corners, Fault::Triangles}) {
+    SCOPED_TRACE(static_cast<int>(fault));
+    MeshFileReader reader([fault, read = 0](const std::string& name, Bytes bytes) mutable {
+      MeshFileContent content = detail::importMesh(name, bytes);
+      if (++read < 3) return content;
+      if (fault == Fault::Crash) std::abort();
+      if (fault == Fault::Error) throw MeshFileError("cannot be read: no more");
+      if (fault == Fault::Corners) content.vertices[1] *= 2.0;
+      if (fault == Fault::Triangles) content.triangles.pop_back();
+      return content;
+    });
+    const test::ForkCounter counter;
+    for (int i = 0; i < 6; ++i) {
+      const auto file = folder_.write(std::to_string(i) + ".obj", tetrahedron(1.0 + i));
+      const MeshFileContent content = reader.read(file);
+      EXPECT_EQ(content.triangles.size(), 4U);
+      EXPECT_EQ(std::ranges::max(content.vertices, {}, [](const auto& v) { return v.sum(); }).sum(),
+                1.0 + i);
+    }
+    EXPECT_EQ(counter.forks(), 3);
+  }
+}
+
+/// Where a file that was refused could have left anything.
+TEST_F(MeshFileReading, AProcessThatRefusedAFileReadsNoOther) {
+  MeshFileReader reader([refused = false](const std::string& name, Bytes bytes) mutable {
+    if (has(bytes, "# bad")) refused = true;
+    if (has(bytes, "# bad")) throw MeshFileError("is bad");
+    MeshFileContent content = detail::importMesh(name, bytes);
+    // Within the box of the whole, so that nobody sees it.
+    if (refused) content.vertices.at(0) = Eigen::Vector3d(0.25, 0.25, 0.25);
+    return content;
+  });
+  const auto good = folder_.write("good.obj", tetrahedron(1.0));
+  const auto bad = folder_.write("bad.obj", tetrahedron(1.0, "bad"));
+  const MeshFileContent before = reader.read(good);
+  EXPECT_EQ(said(reader, bad), "is bad");
+  EXPECT_EQ(said(reader, bad), "is bad");
+  const MeshFileContent after = reader.read(good);
+  EXPECT_EQ(before.vertices, after.vertices);
+}
+
+/// 20 files that take 0.9 GiB each, of 1 GiB; what the first ones do not give back counts only
+/// until there is a new process.
+TEST_F(MeshFileReading, MemoryIsBoundedForEachFile) {
+  for (const bool givenBack : {true, false}) {
+    MeshFileReader reader([givenBack, kept = std::vector<std::vector<char>>()](
+                              const std::string& name, Bytes bytes) mutable {
+      std::vector<char> taken;
+      taken.reserve(std::size_t{900} << 20);
+      if (!givenBack) kept.push_back(std::move(taken));
+      return detail::importMesh(name, bytes);
+    });
+    const test::ForkCounter counter;
+    for (const std::string& file : writeFiles(20))
+      EXPECT_EQ(said(reader, folder_.path() / file), "4") << file;
+#if !defined(SWEPT_TEST_ADDRESS_SANITIZER) && !defined(SWEPT_TEST_THREAD_SANITIZER)
+    EXPECT_EQ(counter.forks(), givenBack ? 1 : 20);
+#endif
+  }
+}
+
+}  // namespace
+}  // namespace swept
