@@ -2,6 +2,7 @@
 #include "body.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -56,11 +57,13 @@ double reachOf(const Element& element) {
 Body::Body(std::string name, std::vector<Element> elements, std::vector<Flat> flats,
            std::vector<Surface> solids)
     : name_(std::move(name)), flats_(std::move(flats)), solids_(std::move(solids)) {
+  for (const Flat& flat : flats_) size_ = std::max({size_, flat.size, std::abs(flat.offset)});
   if (elements.empty()) return;
   std::vector<Vector3d> centers;
   for (const Element& element : elements) {
     centers.push_back(centerOf(element));
     reach_ = std::max(reach_, reachOf(element));
+    size_ = std::max({size_, element.size, reach_});
   }
   std::vector<std::size_t> order(elements.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -26,6 +26,7 @@ struct Element {
   std::vector<Disc> discs = {};
   std::optional<Ellipsoid> ellipsoid = {};
   double radius = 0.0;
+  double size = 0.0;  ///< m: what coordinates were computed from, added up; 0: from nothing else
 };
 
 /// The points x with normal . x = offset, or <= offset if `solid`. m.
@@ -33,6 +34,7 @@ struct Flat {
   Eigen::Vector3d normal;  ///< unit
   double offset;
   bool solid;
+  double size = 0.0;  ///< m: what the offset was computed from, added up
 };
 
 /// Triangles of which the closed components enclose something. m, in the frame of the body.
@@ -73,8 +75,11 @@ class Body {
 
   /// max of direction . x over what a node holds. `direction` need not be a unit vector.
   double support(int node, const Eigen::Vector3d& direction) const;
-  /// m. No point of an element is farther from the body's origin.
+  /// m. No point of an element is farther from the body's origin, but for rounding.
   double reach() const { return reach_; }
+  /// m. Of elements and flats, what their coordinates are made of: they round relative to that. At
+  /// least reach().
+  double size() const { return size_; }
 
  private:
   int build(std::size_t first, std::size_t last, std::vector<Eigen::Vector3d>& centers,
@@ -88,6 +93,7 @@ class Body {
   std::vector<Surface> solids_;
   std::vector<Node> nodes_;
   double reach_ = 0.0;
+  double size_ = 0.0;
 };
 
 }  // namespace swept::verify

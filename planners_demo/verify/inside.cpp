@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 /// Relative to the lengths that a product is made of: nearer to zero, its sign is not trusted.
 constexpr double kDoubt = 1e-10;
+/// m^3. Nor is it of products that have underflowed, or could have.
+constexpr double kLeastVolume = 1e-290;
 constexpr int kRays = 32;
 
 /// Sets of triangles that are joined one edge at a time.
@@ -58,7 +60,7 @@ enum class Crossing { None, Out, In, Doubtful };
 /// Sign of a . (b x c); zero: too near to tell.
 int orientation(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double product = a.dot(b.cross(c));
-  const double doubt = kDoubt * a.norm() * b.norm() * c.norm();
+  const double doubt = kDoubt * a.norm() * b.norm() * c.norm() + kLeastVolume;
   return product > doubt ? 1 : product < -doubt ? -1 : 0;
 }
 

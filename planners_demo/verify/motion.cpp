@@ -73,14 +73,18 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
     const double start = joint.multiplier * from[0] + joint.offset;
     const double change =
         joint.multiplier * (cyclic ? shorterWay(from[0], to[0]) : to[0] - from[0]);
+    // The shorter way from a small angle to a large one is small, and an offset may leave little of
+    // a large value.
+    const double made = std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
+                        std::abs(joint.offset);
     if (joint.kind == JointKind::Revolute) {
       motion.angle = start;
       motion.spin = change;
-      motion.largest = std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
-                       std::abs(joint.offset);
+      motion.angles = made;
     } else {
       motion.translation = start * joint.axis;
       motion.rate = change * joint.axis;
+      motion.lengths = made;
     }
   } else if (joint.kind == JointKind::Planar) {
     const Vector3d y = joint.axis.cross(joint.planarX);
@@ -88,10 +92,14 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
     motion.rate = (to[0] - from[0]) * joint.planarX + (to[1] - from[1]) * y;
     motion.angle = from[2];
     motion.spin = shorterWay(from[2], to[2]);
-    motion.largest = std::max(std::abs(from[2]), std::abs(to[2]));
+    motion.angles = std::max(std::abs(from[2]), std::abs(to[2]));
+    motion.lengths =
+        std::max(std::abs(from[0]) + std::abs(from[1]), std::abs(to[0]) + std::abs(to[1]));
   } else if (joint.kind == JointKind::Floating) {
     motion.translation = {from[0], from[1], from[2]};
-    motion.rate = Vector3d(to[0], to[1], to[2]) - motion.translation;
+    const Vector3d goal(to[0], to[1], to[2]);
+    motion.rate = goal - motion.translation;
+    motion.lengths = std::max(motion.translation.lpNorm<1>(), goal.lpNorm<1>());
     motion.rotation = orientation(from.data() + 3, joint.name);
     Quaterniond relative = orientation(to.data() + 3, joint.name) * motion.rotation.conjugate();
     const double product = from[3] * to[3] + from[4] * to[4] + from[5] * to[5] + from[6] * to[6];
@@ -137,6 +145,7 @@ Placed Motion::at(int link, int reference, double t) const {
 /// one slides, it is zero.
 Bounds Motion::bounds(int link, int reference, double reach) const {
   Bounds bounds;
+  bounds.extent = reach;
   double arm = reach;  // m, from the origin of the link that the walk has come to
   double speed = 0.0;  // m per unit of time, relative to that link
   for (; link != reference && link >= 0; link = parentOf(model_, link)) {
@@ -146,12 +155,14 @@ Bounds Motion::bounds(int link, int reference, double reach) const {
     const double spin = std::abs(motion.spin);
     bounds.acceleration += spin * (spin * arm + 2.0 * speed);
     speed += spin * arm + motion.rate.norm();
-    arm += std::max(motion.translation.norm(), (motion.translation + motion.rate).norm()) +
-           model_.joints[static_cast<std::size_t>(index)].parent_from_joint.translation().norm();
-    bounds.turn += motion.largest + 2.0 * spin;
+    const double offset =
+        model_.joints[static_cast<std::size_t>(index)].parent_from_joint.translation().norm();
+    arm += offset + std::max(motion.translation.norm(), (motion.translation + motion.rate).norm());
+    bounds.extent += offset + motion.lengths;
+    bounds.turn += motion.angles + 2.0 * spin;
+    bounds.spin += spin;
     ++bounds.joints;
   }
-  bounds.extent = arm;
   return bounds;
 }
 

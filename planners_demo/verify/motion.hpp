@@ -17,11 +17,14 @@ struct Placed {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
 
-/// What holds for all points of a link within `reach` of its origin, over a whole motion.
+/// What holds for all points of a link within `reach` of its origin, over a whole motion. `extent`
+/// and `turn` count what lengths and angles are made of, not what is left of that: offsets may take
+/// back most of it, and the rest rounds as the whole does.
 struct Bounds {
   double acceleration = 0.0;  ///< m per unit of time squared, relative to the reference frame
-  double extent = 0.0;        ///< m, distance from the origin of the reference frame
-  double turn = 0.0;          ///< rad: largest angles and all that is turned, added up
+  double extent = 0.0;        ///< m, at least the distance from the origin of the reference frame
+  double turn = 0.0;          ///< rad: largest angles and twice all that is turned, added up
+  double spin = 0.0;          ///< rad: all that is turned, added up
   int joints = 0;
 };
 
@@ -45,7 +48,8 @@ class Motion {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitX();               ///< unit
     double angle = 0.0;                                            ///< rad
     double spin = 0.0;                                             ///< rad
-    double largest = 0.0;  ///< rad: the shorter way from a small angle to a large one is small
+    double angles = 0.0;   ///< rad: what the angle is made of at either end, added up
+    double lengths = 0.0;  ///< m: what the translation is made of at either end, added up
   };
   JointMotion jointMotion(const Joint& joint, std::span<const double> from,
                           std::span<const double> to) const;

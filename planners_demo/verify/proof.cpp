@@ -2,16 +2,14 @@
 #include "proof.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+
+#include "rounding.hpp"
 
 namespace swept::verify {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Relative to lengths and angles, per joint. A transform and a support take some 50 roundings of
-/// 1.1e-16, and rotations may be off by 1e-12.
-constexpr double kRounding = 1e-11;
 
 /// Whether a body is a link itself, and not something that the link carries.
 bool isLink(const Model& model, int body) {
@@ -65,13 +63,15 @@ PairMotion::PairMotion(const Model& model, const Motion& motion, PairToProve pai
   b_ = motion.at(linkB, reference, middle);
   const Bounds boundsA = motion.bounds(linkA, reference, bodyA_.reach());
   const Bounds boundsB = motion.bounds(linkB, reference, bodyB_.reach());
-  double flats = 0.0;
-  for (const Flat& flat : bodyB_.flats()) flats = std::max(flats, std::abs(flat.offset));
   const double acceleration = boundsA.acceleration + boundsB.acceleration;
-  const double size = boundsA.extent + boundsB.extent + flats;
+  const double size = boundsA.extent + boundsB.extent + bodyA_.size() + bodyB_.size();
   const double turn = 1.0 + boundsA.turn + boundsB.turn;
+  // What a direction swings by grows with half_, and so does what that rounds by.
+  const double swing = 1.0 + half_ * (boundsA.spin + boundsB.spin);
   slack_ = 0.5 * half_ * half_ * acceleration +
-           kRounding * (boundsA.joints + boundsB.joints + 4) * turn * size;
+           kRounding * (boundsA.joints + boundsB.joints + 4) * turn * swing * size + kUnderflow;
+  // NaN, too: numbers were too large on the way.
+  if (!(turn <= kLargest && size <= kLargest)) slack_ = std::numeric_limits<double>::infinity();
 }
 
 double PairMotion::most(const Body& body, int node, const Placed& placed, double s,

@@ -7,15 +7,13 @@
 #include <utility>
 
 #include "model.hpp"
+#include "rounding.hpp"
 
 namespace swept::verify {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-/// How far from 1 lengths of axes and columns of rotations may be.
-constexpr double kUnit = 1e-12;
 
 /// More would take hours: links and pairs are gone through again and again.
 constexpr std::size_t kMaxLinks = 10'000;
@@ -203,7 +201,8 @@ Vector3d readUnit(const Json& json, const char* key, const std::string& where) {
   Vector3d axis = readVector(at(json, key, where), where + ", " + key);
   if (!(std::abs(axis.norm() - 1.0) <= kUnit))
     throw Refusal(where + ": " + key + " has not length 1");
-  return axis;
+  // Turned about an axis that is too long by 1e-12, points would move apart by four times that.
+  return axis.normalized();
 }
 
 Vector3d readVector(const Json& json, const std::string& where) {

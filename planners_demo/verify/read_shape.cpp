@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <set>
 
 #include "encoding.hpp"
 #include "model.hpp"
+#include "rounding.hpp"
 
 namespace swept::verify {
 namespace {
@@ -29,6 +31,20 @@ std::vector<Vector3d> readPoints(const Json& json, const std::string& where) {
   return points;
 }
 
+/// m. What coordinates in the frame of the body are made of, where those in the shape's are up to
+/// `local`. Either may take back most of the other.
+double sizeIn(const Isometry3d& frame, double local, const std::string& where) {
+  const double size = frame.translation().norm() + local;
+  if (!(size <= kFarthest)) throw Refusal(where + ": it reaches farther than 1e150 m");
+  return size;
+}
+
+double farthest(const std::vector<Vector3d>& points) {
+  double most = 0.0;
+  for (const Vector3d& point : points) most = std::max(most, point.norm());
+  return most;
+}
+
 /// Ends of a segment along z.
 std::vector<Vector3d> ends(double halfLength, const Isometry3d& frame) {
   return {frame * Vector3d(0, 0, -halfLength), frame * Vector3d(0, 0, halfLength)};
@@ -42,6 +58,7 @@ void addBox(const Json& json, const Isometry3d& frame, const std::string& where,
     element.points.push_back(frame * Vector3d((corner & 1) != 0 ? half.x() : -half.x(),
                                               (corner & 2) != 0 ? half.y() : -half.y(),
                                               (corner & 4) != 0 ? half.z() : -half.z()));
+  element.size = sizeIn(frame, half.norm(), where);
   parts.elements.push_back(std::move(element));
 }
 
@@ -52,8 +69,11 @@ void addRound(const Json& json, const std::string& type, const Isometry3d& frame
   if (type == "sphere") {
     element.points.emplace_back(frame.translation());
     element.radius = radius;
+    element.size = sizeIn(frame, radius, where);
   } else {
-    const std::vector<Vector3d> tips = ends(readSize(json, "half_length", where), frame);
+    const double halfLength = readSize(json, "half_length", where);
+    element.size = sizeIn(frame, halfLength + radius, where);
+    const std::vector<Vector3d> tips = ends(halfLength, frame);
     const Vector3d axis = frame.linear().col(2);
     if (type == "capsule") {
       element.points = tips;
@@ -73,16 +93,19 @@ void addEllipsoid(const Json& json, const Isometry3d& frame, const std::string& 
   const Vector3d axes = readVector(at(json, "semi_axes", where), where + ", semi_axes");
   Element element;
   element.ellipsoid = {frame.translation(), frame.linear() * axes.asDiagonal()};
+  element.size = sizeIn(frame, axes.norm(), where);
   parts.elements.push_back(std::move(element));
 }
 
 void addConvex(const Json& json, const Isometry3d& frame, const std::string& where,
                ShapeParts& parts) {
   Element element;
-  for (const Vector3d& point : readPoints(at(json, "vertices", where), where + ", vertices"))
-    element.points.push_back(frame * point);
-  if (element.points.empty()) throw Refusal(where + ": it has no vertices");
+  const std::vector<Vector3d> points =
+      readPoints(at(json, "vertices", where), where + ", vertices");
+  if (points.empty()) throw Refusal(where + ": it has no vertices");
   element.radius = readSize(json, "error", where);
+  element.size = sizeIn(frame, farthest(points) + element.radius, where);
+  for (const Vector3d& point : points) element.points.push_back(frame * point);
   parts.elements.push_back(std::move(element));
 }
 
@@ -90,7 +113,8 @@ void addFlat(const Json& json, bool solid, const Isometry3d& frame, const std::s
              ShapeParts& parts) {
   const Vector3d normal = frame.linear() * readUnit(json, "normal", where);
   const double offset = readNumber(at(json, "offset", where), where + ", offset");
-  parts.flats.push_back({normal, offset + normal.dot(frame.translation()), solid});
+  const double size = sizeIn(frame, std::abs(offset), where);
+  parts.flats.push_back({normal, offset + normal.dot(frame.translation()), solid, size});
 }
 
 /// What is inside is told by the edges that triangles share. By a vertex that is there twice, or a
@@ -108,14 +132,16 @@ void requireWelded(const Surface& surface, const std::string& where) {
 void addMesh(const Json& json, const Isometry3d& frame, const std::string& where,
              ShapeParts& parts) {
   Surface surface;
-  for (const Vector3d& point : readPoints(at(json, "vertices", where), where + ", vertices"))
-    surface.vertices.push_back(frame * point);
+  const std::vector<Vector3d> points =
+      readPoints(at(json, "vertices", where), where + ", vertices");
+  const double size = sizeIn(frame, farthest(points), where);
+  for (const Vector3d& point : points) surface.vertices.push_back(frame * point);
   const Json& text = at(json, "triangles", where);
   if (!text.is_string()) throw Refusal(where + ", triangles is not a base64 text");
   const std::vector<std::uint32_t> corners = integersOf(text.get<std::string>(), where);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     std::array<int, 3> triangle{};
-    Element element;
+    Element element{.size = size};
     for (std::size_t k = 0; k < 3; ++k) {
       if (corners[i + k] >= surface.vertices.size())
         throw Refusal(where + ": triangle " + std::to_string(i / 3) +
@@ -149,7 +175,9 @@ void addCloud(const Json& json, const Isometry3d& frame, const std::string& wher
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double radius = same ? radii.get<double>() : each[i];
     if (!(radius >= 0.0)) throw Refusal(where + ": a radius is negative");
-    parts.elements.push_back({.points = {frame * points[i]}, .radius = radius});
+    parts.elements.push_back({.points = {frame * points[i]},
+                              .radius = radius,
+                              .size = sizeIn(frame, points[i].norm() + radius, where)});
   }
 }
 
