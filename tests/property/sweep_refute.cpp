@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 
+#include "in_parts.hpp"
 #include "sweeps/campaign.hpp"
 
 // NOLINTNEXTLINE(bugprone-exception-escape): CLI throws where the options below are wrong.
@@ -25,16 +26,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (code) std::cout << sweeps::makeSweep(options.seed, options.first).code();
-    sweeps::CampaignReport total;
-    const std::uint64_t end = options.first + options.count;
-    for (sweeps::CampaignOptions part = options; part.first < end; part.first += part.count) {
-      part.count = std::min(report, end - part.first);
-      const sweeps::CampaignReport found = runCampaign(part);
-      for (const std::string& failure : found.failures) std::cout << "  " << failure << std::endl;
-      total.add(found);
-      std::cout << summary(total) << std::endl;
-    }
-    return total.failures.empty() ? 0 : 1;
+    return runInParts(options, report, sweeps::runCampaign);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 3;
