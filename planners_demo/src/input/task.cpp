@@ -12,6 +12,7 @@
 #include "input/problem_choice.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
+#include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 
@@ -190,9 +191,10 @@ const Group& chooseGroup(const Robot& robot, const std::string& name) {
 
 namespace {
 
+/// `alone`: nothing else goes on that shows on the terminal.
 std::shared_ptr<const Checker> makeCheckerWith(
     const CollisionRules& rules, const Arguments& args, const Model& model, const Group& group,
-    std::shared_ptr<const World> world, Warnings& warnings,
+    std::shared_ptr<const World> world, Warnings& warnings, bool alone,
     const std::optional<Eigen::VectorXd>& reference = {}) {
   if (group.variables.empty())
     throw UsageError("group '" + group.name + "' has no joint that moves");
@@ -204,6 +206,8 @@ std::shared_ptr<const Checker> makeCheckerWith(
   options.reference = reference;
   std::shared_ptr<const Checker> checker;
   try {
+    const std::string links = std::to_string(model.robot->links().size());
+    Progress progress("building the checker of " + links + " links", args.quiet || !alone);
     checker = std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
@@ -218,7 +222,8 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
                                            const std::optional<Eigen::VectorXd>& reference) {
-  return makeCheckerWith(rulesOf(args), args, model, group, std::move(world), warnings, reference);
+  return makeCheckerWith(rulesOf(args), args, model, group, std::move(world), warnings, true,
+                         reference);
 }
 
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,
@@ -226,7 +231,7 @@ std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Mod
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings) {
   const CollisionRules rules = rulesIn(*world, rulesOf(args), *model.robot, model.attached);
-  return makeCheckerWith(rules, args, model, group, std::move(world), warnings);
+  return makeCheckerWith(rules, args, model, group, std::move(world), warnings, false);
 }
 
 std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,

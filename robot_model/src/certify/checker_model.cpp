@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/checker_model.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 #include "certify/body_compile.hpp"
@@ -9,6 +10,13 @@
 #include "certify/pair_compile.hpp"
 
 namespace swept::detail {
+
+namespace {
+
+/// Joints. Bounds on travel relative to all ancestors together are a little larger than one by one.
+constexpr std::size_t kLongPath = 128;
+
+}  // namespace
 
 std::string CheckerModel::nameOfA(const GeometryPair& pair) const {
   return carriers[robotGeometry[pair.a].carrier].name;
@@ -50,12 +58,20 @@ WorkspaceData::WorkspaceData(const CheckerModel& model)
       states(model.kinematics.bodies.size()),
       stateStamps(model.kinematics.bodies.size(), -1),
       placed(model.robotGeometry.size()),
-      travels(model.travels.size()),
-      travelStamps(model.travels.size(), -1),
       hints(model.pairs.size(), Eigen::Vector3d::Zero()),
       hintStamps(model.pairs.size(), -1),
       lanes(model.lanes),
       probe(model.kinematics.dimension) {
+  const bool nested = std::ranges::any_of(model.robotGeometry, [](const RobotGeometry& geometry) {
+    return geometry.levers.path.size() > kLongPath;
+  });
+  if (nested) {
+    for (const RobotGeometry& geometry : model.robotGeometry)
+      nestedTravels.emplace_back(geometry.levers.path.size() + 1);
+  } else {
+    travels.resize(model.travels.size());
+  }
+  travelStamps.resize(nested ? model.robotGeometry.size() : model.travels.size(), -1);
   if (model.world->obstacles().empty()) return;
   from.resize(model.kinematics.wholeDimension);
   to.resize(model.kinematics.wholeDimension);

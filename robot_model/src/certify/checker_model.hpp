@@ -203,9 +203,11 @@ struct WorkspaceData {
   };
   std::vector<Placed> placed;
   std::int64_t stamp = 0;
-  /// Of the current motion; computed when first asked for.
+  /// Of the current motion; computed when first asked for. Of a long chain of joints (see
+  /// nestedTravels) all of a geometry together, per geometry, in place of CheckerModel::travels.
   std::vector<TravelBound> travels;
   std::vector<std::int64_t> travelStamps;
+  std::vector<std::vector<TravelBound>> nestedTravels;
   std::int64_t motionStamp = 0;
   double t = 0.0;
   double wander = 0.0;                 ///< m, of all planar and floating joints together

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include "certify/checker_model.hpp"
 #include "certify/pair_reasons.hpp"
+#include "kinematics/common_ancestors.hpp"
 #include "kinematics/name_pattern.hpp"
 #include "swept/core/distance.hpp"
 
@@ -30,7 +30,11 @@ bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b) {
 
 class PairCompiler {
  public:
-  explicit PairCompiler(CheckerModel& model) : model_(model), rules_(model.options.rules) {}
+  explicit PairCompiler(CheckerModel& model)
+      : model_(model),
+        rules_(model.options.rules),
+        ancestors_(model.kinematics),
+        slots_(model.robotGeometry.size()) {}
 
   void compile() {
     for (const CollisionRules::Rule& rule : rules_.rules()) {
@@ -98,16 +102,14 @@ class PairCompiler {
   }
 
   int travelSlot(int geometry, int reference) {
-    const LeverArms& levers = model_.robotGeometry[geometry].levers;
-    std::size_t first = 0;
-    while (first < levers.path.size() && reference != 0 && levers.path[first] != reference) ++first;
-    if (reference != 0) ++first;  // the joints after the reference body
-    const auto known = slots_.find({geometry, first});
-    if (known != slots_.end()) return known->second;
-    const int slot = static_cast<int>(model_.travels.size());
+    // The joints after the reference body.
+    const auto first = static_cast<std::size_t>(ancestors_.depth(reference));
+    std::vector<int>& slots = slots_[geometry];
+    if (slots.size() <= first) slots.resize(first + 1, -1);
+    if (slots[first] >= 0) return slots[first];
+    slots[first] = static_cast<int>(model_.travels.size());
     model_.travels.push_back({geometry, first});
-    slots_.emplace(std::pair{geometry, first}, slot);
-    return slot;
+    return slots[first];
   }
 
   /// Farthest any point of the geometry gets from its first moving joint, if that is bounded.
@@ -174,18 +176,6 @@ class PairCompiler {
     add(pair, model_.pairs, "shapes");
   }
 
-  int lastCommonAncestor(int a, int b) const {
-    while (a != b) {
-      // Parents have smaller indices than their children.
-      if (a > b) {
-        a = model_.kinematics.bodies[a].parent;
-      } else {
-        b = model_.kinematics.bodies[b].parent;
-      }
-    }
-    return a;
-  }
-
   /// The body that what is fixed in `body` moves with, and its frame from the one of `body`.
   int movingBody(int body, Isometry3d& moving_from_body) const {
     moving_from_body.setIdentity();
@@ -206,6 +196,7 @@ class PairCompiler {
         if (firstOf_[b] < firstOf_[b + 1])
           add(carrierPair(static_cast<int>(a), static_cast<int>(b), disabled), model_.bodyPairs,
               "bodies");
+      ancestors_.setFirst(model_.carriers[a].body);
       for (int i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
         for (std::size_t k = base; k < model_.bodyPairs.size(); ++k)
           for (int j = firstOf_[model_.bodyPairs[k].b]; j < firstOf_[model_.bodyPairs[k].b + 1];
@@ -230,6 +221,7 @@ class PairCompiler {
     return pair;
   }
 
+  /// The first geometry is of the carrier whose body `ancestors_` has as the first.
   void pairGeometries(int i, int j, BodyPair& bodies) {
     const RobotGeometry& a = model_.robotGeometry[i];
     const RobotGeometry& b = model_.robotGeometry[j];
@@ -247,7 +239,7 @@ class PairCompiler {
     pair.self = true;
     pair.a = i;
     pair.b = j;
-    pair.reference = lastCommonAncestor(a.body, b.body);
+    pair.reference = ancestors_.with(b.body);
     pair.travelA = travelSlot(i, pair.reference);
     pair.travelB = travelSlot(j, pair.reference);
     pair.rounding = rounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms);
@@ -259,7 +251,9 @@ class PairCompiler {
   const CollisionRules& rules_;
   std::vector<double> paddings_;  ///< m, per carrier
   std::vector<int> firstOf_;      ///< per carrier: of its geometry, the first
-  std::map<std::pair<int, std::size_t>, int> slots_;
+  CommonAncestors ancestors_;
+  /// Per geometry and number of joints in front of the first that counts: of travels; -1: none yet.
+  std::vector<std::vector<int>> slots_;
 };
 
 }  // namespace

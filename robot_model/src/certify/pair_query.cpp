@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/nested_travels.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 
@@ -49,6 +50,7 @@ const BodyState& PairQuery::state(int body) {
 }
 
 const TravelBound& PairQuery::bound(int travel) {
+  if (!workspace_.nestedTravels.empty()) return nestedBound(model_.travels[travel]);
   if (workspace_.travelStamps[travel] != workspace_.motionStamp) {
     const TravelSlot& slot = model_.travels[travel];
     workspace_.travels[travel] =
@@ -57,6 +59,16 @@ const TravelBound& PairQuery::bound(int travel) {
     workspace_.travelStamps[travel] = workspace_.motionStamp;
   }
   return workspace_.travels[travel];
+}
+
+const TravelBound& PairQuery::nestedBound(const TravelSlot& slot) {
+  std::vector<TravelBound>& bounds = workspace_.nestedTravels[slot.geometry];
+  if (workspace_.travelStamps[slot.geometry] != workspace_.motionStamp) {
+    const LeverArms& levers = model_.robotGeometry[slot.geometry].levers;
+    nestedTravels(model_.kinematics, levers.path, levers.arms, workspace_.motion, bounds);
+    workspace_.travelStamps[slot.geometry] = workspace_.motionStamp;
+  }
+  return bounds[slot.firstJoint];
 }
 
 Vector3d& PairQuery::hint(std::uint32_t pair) {

@@ -74,6 +74,7 @@ class PairQuery {
  private:
   const BodyState& state(int body);
   const TravelBound& bound(int travel);
+  const TravelBound& nestedBound(const TravelSlot& slot);
   Eigen::Vector3d& hint(std::uint32_t pair);
   const Eigen::Vector3d& center(int geometry);
   const Eigen::Isometry3d& pose(int geometry);

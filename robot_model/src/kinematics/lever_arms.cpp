@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinematics/nested_travels.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -151,13 +153,8 @@ TravelBound travelBound(const KinematicModel& model, const LeverArms& levers, st
     double next = turning + joint.spinSpeed;
     const bool turnsToo = turns(body.type);
     if (turnsToo && previousTurns) {
-      // Two consecutive axes keep the angle between them: their velocities add as vectors.
-      const Vector3d inParentFrame = body.parent_from_joint.linear() * body.axis;
-      const double cosine = std::abs(inParentFrame.dot(model.bodies[body.parent].axis));
-      const double together =
-          std::sqrt(previousRate * previousRate + joint.spinSpeed * joint.spinSpeed +
-                    2.0 * previousRate * joint.spinSpeed * std::min(1.0, cosine));
-      next = std::min(next, turningBefore + together * kOutward);
+      const double together = boundTogether(model, body, previousRate, joint.spinSpeed);
+      next = std::min(next, turningBefore + together);
     }
     turningBefore = turning;
     turning = next;

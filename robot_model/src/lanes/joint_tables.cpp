@@ -2,12 +2,15 @@
 #include "lanes/joint_tables.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "kinematics/for_each_index.hpp"
 #include "lanes/lane_model.hpp"
 #include "lanes/table_builder.hpp"
+#include "lanes/table_candidates.hpp"
 
 namespace swept::detail {
 
@@ -22,7 +25,7 @@ constexpr int kRounds = 4;
 constexpr int kLeastShare = 10'000;
 
 struct Task {
-  std::size_t bodies = 0;  ///< index into LaneModel::bodyPairs
+  std::int32_t bodies = 0;  ///< index into LaneModel::bodyPairs
   std::unique_ptr<TableBuilder> builder;
   int work = 0;
 };
@@ -43,23 +46,34 @@ void share(std::vector<Task>& tasks, int most, const Done& done, const Work& wor
   }
 }
 
-/// Per pair of bodies: all pairs of its geometry if none of them ever meets, else none.
-std::vector<JointTable::Pairs> neverPairs(const CheckerModel& model, const LaneModel& lanes) {
+/// Per pair of bodies, whether none of the pairs of its geometry ever meets.
+std::vector<char> neverPairs(const CheckerModel& model, const LaneModel& lanes) {
   std::set<std::pair<int, int>> never;
   for (const BodyPair& pair : model.bodyPairs)
     if (pair.never) never.emplace(pair.a, pair.b);
-  std::vector<JointTable::Pairs> pairs(lanes.bodyPairs.size());
-  std::vector<char> meets(lanes.bodyPairs.size(), 0);
-  for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
-    const LanePairSource& source = lanes.sources[i];
+  std::vector<char> all(lanes.bodyPairs.size(), 1);
+  for (const LanePairSource& source : lanes.sources) {
     if (source.obstacle >= 0) continue;
     const std::pair carriers{model.robotGeometry[source.geometry].carrier,
                              model.robotGeometry[source.other].carrier};
-    if (!never.contains(carriers)) meets[source.bodyPair] = 1;
-    pairs[source.bodyPair].push_back({source.geometry, source.other, model.pairs[i].margin});
+    if (!never.contains(carriers)) all[source.bodyPair] = 0;
   }
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (meets[i] != 0) pairs[i].clear();
+  return all;
+}
+
+/// The pairs of geometry of those pairs of bodies, in their order.
+std::vector<JointTable::Pairs> geometriesOf(const CheckerModel& model, const LaneModel& lanes,
+                                            const std::vector<std::int32_t>& bodyPairs) {
+  std::vector<std::int32_t> indexOf(lanes.bodyPairs.size(), -1);
+  for (std::size_t i = 0; i < bodyPairs.size(); ++i)
+    indexOf[bodyPairs[i]] = static_cast<std::int32_t>(i);
+  std::vector<JointTable::Pairs> pairs(bodyPairs.size());
+  for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
+    const LanePairSource& source = lanes.sources[i];
+    if (source.obstacle >= 0 || indexOf[source.bodyPair] < 0) continue;
+    pairs[indexOf[source.bodyPair]].push_back(
+        {source.geometry, source.other, model.pairs[i].margin});
+  }
   return pairs;
 }
 
@@ -77,28 +91,47 @@ bool holdsFor(const CheckerModel& model, const JointTables& tables, const JointT
          sameGeometry(tables.geometry[pair.b], model.robotGeometry[pair.b]);
 }
 
+/// Of pairs of bodies that never meet.
+void addAllApart(const CheckerModel& model, const LaneModel& lanes, const std::vector<char>& never,
+                 JointTables& tables) {
+  std::vector<std::int32_t> bodyPairs;
+  for (std::size_t i = 0; i < never.size(); ++i)
+    if (never[i] != 0) bodyPairs.push_back(static_cast<std::int32_t>(i));
+  std::vector<JointTable::Pairs> pairs = geometriesOf(model, lanes, bodyPairs);
+  for (std::size_t i = 0; i < bodyPairs.size(); ++i) {
+    const LaneBodyPair& bodies = lanes.bodyPairs[bodyPairs[i]];
+    tables.entries.push_back(
+        {bodies.bodyA, bodies.bodyB,
+         std::make_shared<const JointTable>(JointTable::allApart(std::move(pairs[i])))});
+  }
+}
+
+std::vector<Task> tasksOf(const CheckerModel& model, const LaneModel& lanes,
+                          const std::vector<char>& never) {
+  const TableCandidates candidates = tableCandidates(model, lanes, never, kMostWork / kLeastShare);
+  std::vector<JointTable::Pairs> pairs = geometriesOf(model, lanes, candidates.bodyPairs);
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const LaneBodyPair& bodies = lanes.bodyPairs[candidates.bodyPairs[i]];
+    const std::optional<TableMotion> motion =
+        TableMotion::between(model, lanes, bodies, candidates.coarseness);
+    if (!motion) continue;
+    tasks.push_back(
+        {candidates.bodyPairs[i],
+         std::make_unique<TableBuilder>(model, lanes, bodies, *motion, std::move(pairs[i])), 0});
+  }
+  return tasks;
+}
+
 }  // namespace
 
 std::shared_ptr<const JointTables> buildJointTables(const CheckerModel& model,
                                                     const LaneModel& lanes) {
   auto tables = std::make_shared<JointTables>();
   tables->geometry = model.robotGeometry;
-  std::vector<Task> tasks;
-  const std::vector<JointTable::Pairs> never = neverPairs(model, lanes);
-  for (std::size_t i = 0; i < lanes.bodyPairs.size(); ++i) {
-    const LaneBodyPair& bodies = lanes.bodyPairs[i];
-    if (!never[i].empty()) {
-      tables->entries.push_back(
-          {bodies.bodyA, bodies.bodyB,
-           std::make_shared<const JointTable>(JointTable::allApart(never[i]))});
-      continue;
-    }
-    const std::optional<TableMotion> motion = TableMotion::between(model, lanes, bodies);
-    if (!motion) continue;
-    Task& task = tasks.emplace_back();
-    task.bodies = i;
-    task.builder = std::make_unique<TableBuilder>(model, lanes, bodies, *motion);
-  }
+  const std::vector<char> never = neverPairs(model, lanes);
+  addAllApart(model, lanes, never, *tables);
+  std::vector<Task> tasks = tasksOf(model, lanes, never);
   share(
       tasks, kMostWork, [](const TableBuilder& builder) { return builder.proven(); },
       [](TableBuilder& builder, int& work) { builder.prove(work); });
@@ -114,9 +147,12 @@ std::shared_ptr<const JointTables> buildJointTables(const CheckerModel& model,
 }
 
 void chooseTables(const CheckerModel& model, const JointTables& tables, LaneModel& lanes) {
+  std::map<std::pair<int, int>, std::shared_ptr<const JointTable>> tableOf;
+  for (const JointTables::Entry& entry : tables.entries)
+    tableOf.insert_or_assign({entry.bodyA, entry.bodyB}, entry.table);
   for (LaneBodyPair& bodies : lanes.bodyPairs) {
-    for (const JointTables::Entry& entry : tables.entries)
-      if (entry.bodyA == bodies.bodyA && entry.bodyB == bodies.bodyB) bodies.table = entry.table;
+    const auto known = tableOf.find({bodies.bodyA, bodies.bodyB});
+    if (known != tableOf.end()) bodies.table = known->second;
   }
   for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
     const LanePairSource& source = lanes.sources[i];

@@ -1,18 +1,96 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lanes/lane_bounds.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 namespace swept::detail {
 
-float accelerationOfPoints(const LaneModel& model, int index, int geometry, LaneScratch& scratch) {
-  const LaneReference& reference = model.references[index];
-  boundSteps(reference, scratch);
-  const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
-  const float* arms = model.hulls->arms.data() + model.hulls->of[geometry].firstArm;
-  float sum = 0.0F;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const int step = reference.slot[path[i]];
-    if (step >= 0) sum += scratch.turned[step] * arms[i] + scratch.slid[step];
+namespace {
+
+/// Of the sums, per joint: each takes a few roundings of doubles.
+constexpr double kRounding = 8.0 * 0x1p-53;
+
+/// V and d of the lemma, per body.
+void boundTurning(const LaneModel& model, LaneScratch& scratch) {
+  auto& [turning, excess, carried, driven] = scratch.nested;
+  turning[0] = 0.0;
+  for (const int body : model.allBodies) {
+    const LaneBody& joint = model.bodies[body];
+    const auto spin = static_cast<double>(scratch.motion[body].spin);
+    turning[body] = turning[joint.parent] + spin;
+    excess[body] = 0.0;
+    if (joint.cosine < 0.0F) continue;
+    const auto together = static_cast<double>(scratch.together[body]);
+    const auto previous = static_cast<double>(scratch.motion[joint.parent].spin);
+    const double past = turning[model.bodies[joint.parent].parent] + together;
+    turning[body] = std::min(turning[body], past);
+    excess[body] = std::max(0.0, previous + spin - together);
   }
+}
+
+/// What boundSteps does, for the joints of a path from the index `first` on alone: `turned` and
+/// `slid` of the scratch, by their index.
+void boundPath(const LaneModel& model, const std::vector<int>& path, std::size_t first,
+               LaneScratch& scratch) {
+  float before = 0.0F;  // rad per unit t, of the body that the joint hangs on,
+  float start = 0.0F;   // and of the one before that
+  for (std::size_t i = first; i < path.size(); ++i) {
+    const LaneJointMotion& joint = scratch.motion[path[i]];
+    float next = before + joint.spin;
+    if (i > first && model.bodies[path[i]].cosine >= 0.0F)
+      next = std::min(next, start + scratch.together[path[i]]);
+    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
+    scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
+    start = before;
+    before = next * kOutward;
+  }
+}
+
+}  // namespace
+
+void boundCarried(const LaneModel& model, LaneScratch& scratch) {
+  boundTurning(model, scratch);
+  auto& [turning, excess, carried, driven] = scratch.nested;
+  std::ranges::fill(carried, 0.0);
+  std::ranges::fill(driven, 0.0);
+  const double rounding = kRounding * static_cast<double>(model.bodies.size());
+  for (std::size_t at = model.bodies.size(); at-- > 1;) {
+    const LaneCarried& joint = model.carried[at];
+    const auto spin = static_cast<double>(scratch.motion[at].spin);
+    const auto speed = static_cast<double>(scratch.motion[at].speed);
+    const double around = turning[model.bodies[at].parent];
+    const double less = around - excess[at];
+    const double largest = around + excess[at];
+    for (std::size_t i = 0; i < joint.bodies.size(); ++i) {
+      const int body = joint.bodies[i];
+      const auto arm = static_cast<double>(joint.arms[i]);
+      const double own = spin * spin * arm;
+      if (joint.around >= 0) {
+        const double sum = driven[body] + own - 2.0 * less * carried[body];
+        const double error = rounding * (driven[body] + own + 2.0 * largest * carried[body]);
+        const int slot = model.references[joint.around].slot[body];
+        scratch.bounds[joint.around].acceleration[slot / kLanes].lane[slot % kLanes] =
+            kOutward * static_cast<float>(std::max(0.0, sum) + error);
+      }
+      const double moved = spin * arm + speed;
+      carried[body] += moved;
+      driven[body] += 2.0 * around * moved + own;
+    }
+  }
+}
+
+float accelerationOfPoints(const LaneModel& model, int index, int geometry, LaneScratch& scratch) {
+  const int reference = model.references[index].body;
+  const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
+  const std::size_t first = model.ancestors[reference].size();
+  if (path.size() <= first || (first > 0 && path[first - 1] != reference)) return 0.0F;
+  const float* arms = model.hulls->arms.data() + model.hulls->of[geometry].firstArm;
+  boundPath(model, path, first, scratch);
+  float sum = 0.0F;
+  for (std::size_t i = first; i < path.size(); ++i)
+    sum += scratch.turned[i] * arms[i] + scratch.slid[i];
   // One rounding for each step, and what the last product rounds.
   return sum * (kOutward + 0x1p-22F * static_cast<float>(path.size()));
 }

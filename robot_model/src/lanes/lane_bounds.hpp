@@ -30,6 +30,11 @@ inline void boundSteps(const LaneReference& reference, LaneScratch& scratch) {
   }
 }
 
+/// LaneScratch::bounds from LaneModel::carried, in time proportional to the number of arms: of
+/// every body relative to each of its ancestors that is a reference. The lemma is that of
+/// nestedTravels, with what boundMotion has of joints.
+void boundCarried(const LaneModel& model, LaneScratch& scratch);
+
 /// m per unit t squared; bounds the acceleration of every point of the geometry relative to the
 /// reference.
 float accelerationOfPoints(const LaneModel& model, int reference, int geometry,

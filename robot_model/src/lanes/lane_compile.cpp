@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "certify/checker_model.hpp"
 #include "lanes/joint_tables.hpp"
@@ -54,8 +55,11 @@ class LaneCompiler {
     lanes_.pairOf.assign(geometries * obstacles, -1);
     lanes_.pairOfGeometries.assign(geometries * geometries, -1);
     lanes_.sources.resize(model_.pairs.size());
+    references_.assign(lanes_.bodies.size(), -1);
+    references_[0] = 0;
     std::vector<char> meetsWorld(lanes_.bodies.size(), 0);
-    std::map<std::pair<int, int>, std::size_t> known;
+    // Of two bodies, the index into bodyPairs; -1: none yet.
+    std::vector<std::int32_t> known(lanes_.bodies.size() * lanes_.bodies.size(), -1);
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       const GeometryPair& pair = model_.pairs[i];
       const int bodyA = model_.robotGeometry[pair.a].body;
@@ -67,35 +71,39 @@ class LaneCompiler {
       }
       lanes_.pairOfGeometries[pair.a * geometries + pair.b] = static_cast<std::int32_t>(i);
       const int bodyB = model_.robotGeometry[pair.b].body;
-      const auto [at, isNew] = known.try_emplace({bodyA, bodyB}, lanes_.bodyPairs.size());
-      if (isNew)
+      std::int32_t& at = known[bodyA * lanes_.bodies.size() + bodyB];
+      if (at < 0) {
+        at = static_cast<std::int32_t>(lanes_.bodyPairs.size());
         lanes_.bodyPairs.push_back({.bodyA = bodyA,
                                     .bodyB = bodyB,
                                     .reference = referenceOf(pair.reference),
                                     .table = {}});
-      lanes_.sources[i] = {pair.a, -1, pair.b, static_cast<int>(at->second)};
+      }
+      lanes_.sources[i] = {pair.a, -1, pair.b, at};
     }
     for (std::size_t body = lanes_.bodies.size(); body-- > 1;)
       if (meetsWorld[body]) lanes_.worldBodies.push_back(static_cast<int>(body));
   }
 
   int referenceOf(int body) {
-    const auto known = std::ranges::find(referenceBodies_, body);
-    if (known == referenceBodies_.end()) {
+    int& reference = references_[body];
+    if (reference < 0) {
+      reference = static_cast<int>(referenceBodies_.size());
       referenceBodies_.push_back(body);
-      return static_cast<int>(referenceBodies_.size()) - 1;
     }
-    return static_cast<int>(known - referenceBodies_.begin());
+    return reference;
   }
 
   void addReferences(bool sameBodies) {
     const auto same = [](const LaneReference& reference, int body) {
       return reference.body == body;
     };
-    if (sameBodies && std::ranges::equal(like_->lanes.references, referenceBodies_, same))
+    if (sameBodies && std::ranges::equal(like_->lanes.references, referenceBodies_, same)) {
       lanes_.references = like_->lanes.references;
-    else
-      lanes_.references = SharedArray(compileReferences(model_, lanes_, referenceBodies_));
+      lanes_.carried = like_->lanes.carried;
+    } else {
+      compileReferences(model_, referenceBodies_, lanes_);
+    }
   }
 
   /// All rounded up, so that no margin is lost.
@@ -129,6 +137,7 @@ class LaneCompiler {
   const CheckerModel* like_;
   LaneModel lanes_;
   std::vector<int> referenceBodies_{0};
+  std::vector<int> references_;  ///< per body: of referenceBodies_; -1: none
 };
 
 }  // namespace

@@ -119,11 +119,12 @@ class Division {
   }
 
   void placePair(const LanePairSource& source) {
-    scratch_.bodies = model_.ancestors[model_.geometryBody[source.geometry]];
+    const std::vector<int>& ofA = model_.ancestors[model_.geometryBody[source.geometry]];
+    scratch_.bodies = ofA;
     if (source.obstacle < 0) {
-      for (const int body : model_.ancestors[model_.geometryBody[source.other]])
-        if (std::ranges::find(scratch_.bodies, body) == scratch_.bodies.end())
-          scratch_.bodies.push_back(body);
+      // Both begin with what they have in common.
+      const std::vector<int>& ofB = model_.ancestors[model_.geometryBody[source.other]];
+      scratch_.bodies.insert(scratch_.bodies.end(), std::ranges::mismatch(ofA, ofB).in2, ofB.end());
     }
     placeBodies(model_, scratch_.motion, scratch_.bodies, scratch_.block);
   }

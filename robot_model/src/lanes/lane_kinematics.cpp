@@ -159,6 +159,7 @@ void Bound(const LaneModel& model, LaneScratch& scratch) {
     scratch.together[body] = kOutward * std::sqrt(previous * previous + spin * spin +
                                                   2.0F * previous * spin * joint.cosine);
   }
+  if (!model.carried.empty()) return boundCarried(model, scratch);
   for (std::size_t k = 0; k < model.references.size(); ++k) {
     const LaneReference& reference = model.references[k];
     boundSteps(reference, scratch);

@@ -54,6 +54,7 @@ struct LaneNode {
 ///
 /// Rows go over the moving bodies, padded; `arms[step][body]` bounds the distance of each ball
 /// centre of the body from the axis of the step's joint, 0 where that does not carry the body.
+/// Where LaneModel::carried has them, there are no steps, arms and `carried` here.
 struct LaneReference {
   struct Step {
     int body = 0;
@@ -67,6 +68,15 @@ struct LaneReference {
   std::vector<Row> arms;     ///< m, [step * rows + row]
   std::vector<Row> carried;  ///< 1 or 0, likewise
   std::vector<int> slot;     ///< per body: where it is in the rows; -1: not moved
+};
+
+/// The bodies that one joint carries. References have arms each of their own, whose number grows
+/// with the third power of that of the bodies in a chain; where that is too many, these are for all
+/// references: see boundCarried.
+struct LaneCarried {
+  std::vector<int> bodies;   ///< its own one included, ascending
+  std::vector<float> arms;   ///< m, of each, as in LaneReference
+  std::int32_t around = -1;  ///< of LaneModel::references, that of the body it hangs on; -1: none
 };
 
 /// Two bodies with pairs of their geometry to check.
@@ -134,6 +144,7 @@ struct LaneModel {
   SharedArray<int> geometryBody;
   std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
   SharedArray<LaneReference> references;  ///< [0]: the model frame
+  SharedArray<LaneCarried> carried;       ///< per body, of its joint; empty but for many bodies
   std::vector<LaneBodyPair> bodyPairs;
   std::vector<LaneRootRow> rootRows;  ///< of all of bodyPairs
   LaneObstacles obstacles;

@@ -2,6 +2,8 @@
 #include "lanes/lane_references.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 #include "certify/checker_model.hpp"
 
@@ -14,7 +16,11 @@ using Eigen::Vector3d;
 class ReferenceCompiler {
  public:
   ReferenceCompiler(const CheckerModel& model, const LaneModel& lanes)
-      : model_(model), lanes_(lanes), levers_(lanes.bodies.size()) {
+      : model_(model), lanes_(lanes) {}
+
+  /// Before any steps are added.
+  void findArms() {
+    levers_.resize(lanes_.bodies.size());
     for (std::size_t body = 1; body < lanes_.bodies.size(); ++body) {
       Vector3d middle;
       double radius = 0.0;
@@ -23,24 +29,50 @@ class ReferenceCompiler {
     }
   }
 
-  LaneReference compile(int body) const {
+  /// Where each body is in the rows.
+  LaneReference places(int body) const {
     LaneReference reference;
     reference.body = body;
     reference.slot.assign(lanes_.bodies.size(), -1);
-    std::vector<int> moved;
+    int moved = 0;
+    // Parents come first: what hangs on a moved body is moved.
     for (std::size_t i = 1; i < lanes_.bodies.size(); ++i) {
-      const auto& ancestors = lanes_.ancestors[i];
-      const bool below = body == 0 || std::ranges::find(ancestors, body) != ancestors.end();
-      if (!below || static_cast<int>(i) == body) continue;
-      reference.slot[i] = static_cast<int>(moved.size());
-      moved.push_back(static_cast<int>(i));
+      const int parent = lanes_.bodies[i].parent;
+      if (parent == body || reference.slot[parent] >= 0) reference.slot[i] = moved++;
     }
-    reference.rows = (static_cast<int>(moved.size()) + kLanes - 1) / kLanes;
+    reference.rows = (moved + kLanes - 1) / kLanes;
+    return reference;
+  }
+
+  void addSteps(LaneReference& reference) const {
+    std::vector<int> moved;
+    for (std::size_t i = 1; i < lanes_.bodies.size(); ++i)
+      if (reference.slot[i] >= 0) moved.push_back(static_cast<int>(i));
     reference.arms.resize(moved.size() * reference.rows, Row{});
     reference.carried.resize(moved.size() * reference.rows, Row{});
     for (const int step : moved) reference.steps.push_back(stepOf(step, reference));
     for (const int carried : moved) fillArms(carried, reference);
-    return reference;
+  }
+
+  std::vector<LaneCarried> carried(const std::vector<int>& references) const {
+    std::vector<LaneCarried> joints(lanes_.bodies.size());
+    for (std::size_t body = 1; body < lanes_.bodies.size(); ++body) {
+      Vector3d middle;
+      double radius = 0.0;
+      centersOf(body, middle, radius);
+      const LeverArms levers = leverArms(model_.kinematics, static_cast<int>(body), middle, radius);
+      for (std::size_t i = 0; i < levers.path.size(); ++i) {
+        LaneCarried& joint = joints[levers.path[i]];
+        joint.bodies.push_back(static_cast<int>(body));
+        joint.arms.push_back(armOf(levers, i));
+      }
+    }
+    std::vector<std::int32_t> indexOf(lanes_.bodies.size(), -1);
+    for (std::size_t k = 0; k < references.size(); ++k)
+      indexOf[references[k]] = static_cast<std::int32_t>(k);
+    for (std::size_t body = 1; body < lanes_.bodies.size(); ++body)
+      joints[body].around = indexOf[lanes_.bodies[body].parent];
+    return joints;
   }
 
  private:
@@ -74,6 +106,10 @@ class ReferenceCompiler {
     return step;
   }
 
+  static float armOf(const LeverArms& levers, std::size_t i) {
+    return static_cast<float>(levers.arms[i] * (1.0 + 1e-6));
+  }
+
   void fillArms(int body, LaneReference& reference) const {
     const LeverArms& levers = levers_[body];
     const int slot = reference.slot[body];
@@ -81,7 +117,7 @@ class ReferenceCompiler {
       const int step = reference.slot[levers.path[i]];
       if (step < 0) continue;
       const int at = step * reference.rows + slot / kLanes;
-      reference.arms[at].lane[slot % kLanes] = static_cast<float>(levers.arms[i] * (1.0 + 1e-6));
+      reference.arms[at].lane[slot % kLanes] = armOf(levers, i);
       reference.carried[at].lane[slot % kLanes] = 1.0F;
     }
   }
@@ -93,12 +129,24 @@ class ReferenceCompiler {
 
 }  // namespace
 
-std::vector<LaneReference> compileReferences(const CheckerModel& model, const LaneModel& lanes,
-                                             const std::vector<int>& bodies) {
-  const ReferenceCompiler compiler(model, lanes);
+void compileReferences(const CheckerModel& model, const std::vector<int>& bodies, LaneModel& lanes,
+                       std::size_t mostArms) {
+  ReferenceCompiler compiler(model, lanes);
   std::vector<LaneReference> references;
-  for (const int body : bodies) references.push_back(compiler.compile(body));
-  return references;
+  std::size_t arms = 0;
+  for (const int body : bodies) {
+    references.push_back(compiler.places(body));
+    const auto moved =
+        std::ranges::count_if(references.back().slot, [](int at) { return at >= 0; });
+    arms += static_cast<std::size_t>(moved * references.back().rows) * kLanes;
+  }
+  if (arms > mostArms) {
+    lanes.carried = SharedArray(compiler.carried(bodies));
+  } else {
+    compiler.findArms();
+    for (LaneReference& reference : references) compiler.addSteps(reference);
+  }
+  lanes.references = SharedArray(std::move(references));
 }
 
 }  // namespace swept::detail

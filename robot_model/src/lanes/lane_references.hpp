@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "lanes/lane_model.hpp"
 
 namespace swept::detail {
 
-/// LaneModel::references for these bodies; the first one is 0, the model frame. Needs the bodies
-/// and covers of the lanes.
-std::vector<LaneReference> compileReferences(const CheckerModel& model, const LaneModel& lanes,
-                                             const std::vector<int>& bodies);
+/// Of all references together, 4 bytes each, and as many that are 0 or 1: what a chain of 140
+/// bodies has.
+inline constexpr std::size_t kMostArms = std::size_t{1} << 20;
+
+/// LaneModel::references for these bodies; the first one is 0, the model frame. With more than
+/// `mostArms`, LaneModel::carried in place of their arms. Needs the bodies and covers of the lanes.
+void compileReferences(const CheckerModel& model, const std::vector<int>& bodies, LaneModel& lanes,
+                       std::size_t mostArms = kMostArms);
 
 }  // namespace swept::detail

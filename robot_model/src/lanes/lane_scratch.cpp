@@ -13,6 +13,9 @@ LaneScratch::LaneScratch(const LaneModel& model) {
     bounds[i].acceleration.resize(model.references[i].rows, Row{});
   for (auto* perStep : {&together, &turning, &turned, &slid})
     perStep->resize(model.bodies.size(), 0.0F);
+  if (!model.carried.empty())
+    for (auto* perBody : {&nested.turning, &nested.excess, &nested.carried, &nested.driven})
+      perBody->resize(model.bodies.size(), 0.0);
   block.angle.resize(model.bodies.size(), Row{});
   block.slide.resize(3 * model.bodies.size(), Row{});
   block.states.resize(model.bodies.size());

@@ -113,6 +113,14 @@ struct LaneScratch {
   std::vector<float> turning;      ///< rad per unit t, per step of a reference
   std::vector<float> turned;       ///< its factor of the arms
   std::vector<float> slid;
+  /// Of boundCarried, per body; empty but for many bodies.
+  struct Nested {
+    std::vector<double> turning;  ///< rad per unit t, relative to the model frame
+    std::vector<double> excess;   ///< rad per unit t, d of its lemma, where the joint is c
+    std::vector<double> carried;  ///< m per unit t, sum of w of the joints on the way to it so far
+    std::vector<double> driven;   ///< m per unit t squared, of 2 V w + s^2 arm
+  };
+  Nested nested;
   LaneBlock block;
   std::vector<LaneHit> hits;  ///< a stack
   /// A cover that the walk is going to look at more closely, and the hits it is not apart from.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "certify/checker_model.hpp"
 
@@ -33,16 +34,13 @@ bool halve(int quarter, std::array<int, 2>& begin, std::array<int, 2>& end) {
 }  // namespace
 
 TableBuilder::TableBuilder(const CheckerModel& model, const LaneModel& lanes,
-                           const LaneBodyPair& bodies, const TableMotion& motion)
+                           const LaneBodyPair& bodies, const TableMotion& motion,
+                           JointTable::Pairs pairs)
     : motion_(motion), proof_(model, lanes, bodies, motion_) {
   table_.joints = motion_.joints();
   table_.axes = motion_.axes();
   table_.cells.resize(static_cast<std::size_t>(table_.axes[0].cells) * table_.axes[1].cells);
-  for (std::size_t i = 0; i < lanes.sources.size(); ++i) {
-    const LanePairSource& pair = lanes.sources[i];
-    if (pair.obstacle < 0 && &lanes.bodyPairs[pair.bodyPair] == &bodies)
-      table_.pairs.push_back({pair.geometry, pair.other, model.pairs[i].margin});
-  }
+  table_.pairs = std::move(pairs);
 }
 
 /// The pair that is looked at from now on.

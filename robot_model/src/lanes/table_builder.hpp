@@ -17,8 +17,9 @@ namespace swept::detail {
 /// succeed, so that a table whose work ran out is a coarser one; then parts of the open cells.
 class TableBuilder {
  public:
+  /// `pairs` are those of the bodies' geometry.
   TableBuilder(const CheckerModel& model, const LaneModel& lanes, const LaneBodyPair& bodies,
-               const TableMotion& motion);
+               const TableMotion& motion, JointTable::Pairs pairs);
   TableBuilder(const TableBuilder&) = delete;
   TableBuilder& operator=(const TableBuilder&) = delete;
 

@@ -24,14 +24,15 @@ constexpr double kValueRounding = 4e-5;
 }  // namespace
 
 std::optional<TableMotion> TableMotion::between(const CheckerModel& model, const LaneModel& lanes,
-                                                const LaneBodyPair& bodies) {
+                                                const LaneBodyPair& bodies, int coarseness) {
   TableMotion motion(model, lanes, bodies);
   const int reference = lanes.references[bodies.reference].body;
   motion.collect(bodies.bodyA, reference, motion.pathA_);
   motion.collect(bodies.bodyB, reference, motion.pathB_);
   motion.path_ = motion.pathA_;
   motion.path_.insert(motion.path_.end(), motion.pathB_.begin(), motion.pathB_.end());
-  if (motion.path_.empty() || motion.path_.size() > JointTable::kMostJoints || !motion.setAxes())
+  if (motion.path_.empty() || motion.path_.size() > JointTable::kMostJoints ||
+      !motion.setAxes(coarseness))
     return std::nullopt;
   motion.jointA_ = motion.pathA_.size() == 2 ? 1 : 0;
   motion.jointB_ = motion.pathB_.empty() || motion.path_.size() == 1 ? 0 : 1;
@@ -46,7 +47,7 @@ void TableMotion::collect(int body, int reference, std::vector<int>& path) const
   std::ranges::reverse(path);
 }
 
-bool TableMotion::setAxes() {
+bool TableMotion::setAxes(int coarseness) {
   for (std::size_t k = 0; k < path_.size(); ++k) {
     const MovingBody& body = model_.kinematics.bodies[path_[k]];
     double lower = body.lower;
@@ -59,7 +60,7 @@ bool TableMotion::setAxes() {
     const bool fits = turns(body.type) && lower >= -kWidest && upper <= kWidest && upper > lower;
     if (!fits) return false;
     // All turns are like the first.
-    const int most = kCells[path_.size()];
+    const int most = kCells[path_.size()] / (path_.size() == 2 ? coarseness : 1);
     const double turn = 2.0 * std::numbers::pi;
     const bool winds = upper - lower > turn;
     turn_[k] =

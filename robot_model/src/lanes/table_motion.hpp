@@ -33,9 +33,10 @@ struct LaneModel;
 /// 1e-5 of the robot's reach, is far more than what poses are off.
 class TableMotion {
  public:
-  /// Nothing if the relative pose depends on other than one or two joints that turn.
+  /// Nothing if the relative pose depends on other than one or two joints that turn. Of two joints
+  /// a table has so many times fewer cells along each as `coarseness` says.
   static std::optional<TableMotion> between(const CheckerModel& model, const LaneModel& lanes,
-                                            const LaneBodyPair& bodies);
+                                            const LaneBodyPair& bodies, int coarseness = 1);
 
   /// m. Per joint, what the lemma's h is to be multiplied with.
   using Levers = std::array<double, 2>;
@@ -101,7 +102,7 @@ class TableMotion {
       : model_(model), lanes_(lanes), bodies_(bodies) {}
 
   void collect(int body, int reference, std::vector<int>& path) const;
-  bool setAxes();
+  bool setAxes(int coarseness);
   Line axisIn(int body, int joint) const;
   Eigen::Isometry3d pose(const std::vector<int>& path, const double* values) const;
 

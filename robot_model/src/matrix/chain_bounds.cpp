@@ -13,6 +13,10 @@ using Eigen::Vector3d;
 
 constexpr double kOutward = 1.0 + 1e-9;
 
+/// Additions that take as long as what one joint does to two balls: in any direction; in one.
+constexpr std::int64_t kReachWork = 10;
+constexpr std::int64_t kEffectWork = 20;
+
 }  // namespace
 
 ChainBounds::ChainBounds(const LinkChain& chain) : chain_(chain) {
@@ -47,11 +51,14 @@ double ChainBounds::approach(const Ball& a, const Ball& b) {
     effectB_[j].any = chord_[j] * reach(j, b);
     total += effectB_[j].any;
   }
+  work_ += kReachWork * static_cast<std::int64_t>(count);
   double least = total;
   std::size_t best = 0;
   for (std::size_t before = 1; before <= count; ++before) {
     total = 0.0;
-    for (std::size_t j = 0; j < count; ++j) total += j < before ? effectA_[j].any : effectB_[j].any;
+    std::size_t j = 0;
+    for (; j < count && total < least; ++j) total += j < before ? effectA_[j].any : effectB_[j].any;
+    work_ += static_cast<std::int64_t>(j);
     if (!(total < least)) continue;
     least = total;
     best = before;
@@ -82,6 +89,7 @@ double ChainBounds::sum(std::size_t before, double most) {
     cost_[j] = std::min(effect.directed + std::min(tilt, 2.0) * effect.any, effect.any);
     total += cost_[j];
     tilt += tilt_[j];
+    ++work_;
   };
   for (std::size_t j = before; j-- > 0 && total < most;) add(j, effectA_[j]);
   tilt = 0.0;
@@ -97,6 +105,7 @@ double ChainBounds::approachAlong(const Vector3d& n, const Ball& a, const Ball& 
     effectA_[j] = effect(j, n, a, -1.0);
     effectB_[j] = effect(j, n, b, 1.0);
   }
+  work_ += kEffectWork * static_cast<std::int64_t>(count);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t before = 0; before <= count; ++before) {
     const double total = sum(before, least);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -60,6 +61,10 @@ class ChainBounds {
   /// m; what each variable had in the last answer.
   std::span<const double> shares() const { return shares_; }
 
+  /// Of all answers so far, counted in additions, a few ns each: up to the square of the number of
+  /// joints for each.
+  std::int64_t work() const { return work_; }
+
  private:
   /// What one joint does to the points of a ball; m.
   struct Effect {
@@ -78,6 +83,7 @@ class ChainBounds {
   std::vector<Effect> effectA_, effectB_;  ///< of each joint
   std::vector<double> cost_, bestCost_;    ///< m, of each joint
   std::vector<double> shares_;
+  std::int64_t work_ = 0;
 };
 
 }  // namespace swept::detail

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matrix/never_pairs.hpp"
 
-#include <map>
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <vector>
 
+#include "kinematics/common_ancestors.hpp"
 #include "kinematics/for_each_index.hpp"
 #include "matrix/never_proof.hpp"
 
@@ -10,39 +14,103 @@ namespace swept::detail {
 
 namespace {
 
+/// Additions (see NeverProof::work()) that take as long as what a question takes before its first
+/// box, for each of the robot's bodies.
+constexpr std::int64_t kStartWork = 20;
+
 class Prover {
  public:
-  Prover(const Robot& robot, std::span<const LinkQuestion> questions)
-      : robot_(robot), model_(wholeKinematics(robot)), start_(robot.defaultState()) {
+  Prover(const Robot& robot, std::span<LinkQuestion> questions)
+      : robot_(robot),
+        questions_(questions),
+        model_(wholeKinematics(robot)),
+        start_(robot.defaultState()) {
+    pieces_.resize(robot.links().size());
     for (const LinkQuestion& question : questions)
       for (const int link : {question.linkA, question.linkB})
-        if (!pieces_.contains(link)) pieces_.emplace(link, piecesOf(robot, model_, link));
+        if (!pieces_[link]) pieces_[link] = piecesOf(robot, model_, link);
+    countJoints();
   }
 
-  bool prove(const LinkQuestion& question, std::int64_t budget) const {
-    const LinkPieces& a = pieces_.at(question.linkA);
-    const LinkPieces& b = pieces_.at(question.linkB);
-    const LinkChain chain(robot_, model_, model_.bodyOfLink[question.linkA],
-                          model_.bodyOfLink[question.linkB]);
-    if (!chain.bounded() || !a.covered() || !b.covered()) return false;
-    LinkChain::Place place;
-    chain.startFrom(start_, place);
-    return NeverProof(a, b, chain, question.margin, place).run(budget) == NeverProof::State::Proven;
+  std::int64_t prove(std::int64_t budget, std::int64_t mostWork, unsigned threads) {
+    if (questions_.empty()) return 0;
+    const std::vector<std::uint32_t> order = byJoints();
+    std::int64_t left = mostWork;
+    for (std::size_t first = 0; first < order.size();) {
+      // What is answered together could be paid together, whatever it turns out to take: so the
+      // answers do not depend on which thread is faster, and the work passes its limit by the last
+      // pairs of balls of a few questions at the most.
+      std::size_t last = first;
+      for (std::int64_t owed = 0; last < order.size(); ++last) {
+        owed += mostWorkOf(order[last], budget);
+        if (owed > left) break;
+      }
+      if (last == first) break;
+      std::vector<std::int64_t> work(last - first, 0);
+      forEachIndex(work.size(), threads, [&](std::size_t i) {
+        work[i] =
+            answer(questions_[order[first + i]], budget, mostWorkOf(order[first + i], budget));
+      });
+      left -= std::accumulate(work.begin(), work.end(), std::int64_t{0});
+      first = last;
+    }
+    return mostWork - left;
   }
 
  private:
+  void countJoints() {
+    CommonAncestors ancestors(model_);
+    for (const LinkQuestion& question : questions_) {
+      ancestors.setFirst(model_.bodyOfLink[question.linkA]);
+      joints_.push_back(ancestors.jointsTo(model_.bodyOfLink[question.linkB]));
+    }
+  }
+
+  /// Those with fewer joints first, else as they were asked.
+  std::vector<std::uint32_t> byJoints() const {
+    std::vector<std::uint32_t> next(static_cast<std::size_t>(std::ranges::max(joints_)) + 2, 0);
+    for (const int joints : joints_) ++next[joints + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<std::uint32_t> order(joints_.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      order[next[joints_[i]]++] = static_cast<std::uint32_t>(i);
+    return order;
+  }
+
+  std::int64_t startWork() const {
+    return kStartWork * static_cast<std::int64_t>(model_.bodies.size());
+  }
+  std::int64_t mostWorkOf(std::size_t question, std::int64_t budget) const {
+    return startWork() + NeverProof::usualWork(budget, static_cast<std::size_t>(joints_[question]));
+  }
+
+  /// Returns the work.
+  std::int64_t answer(LinkQuestion& question, std::int64_t budget, std::int64_t mostWork) const {
+    const LinkPieces& a = *pieces_[question.linkA];
+    const LinkPieces& b = *pieces_[question.linkB];
+    const LinkChain chain(robot_, model_, model_.bodyOfLink[question.linkA],
+                          model_.bodyOfLink[question.linkB]);
+    if (!chain.bounded() || !a.covered() || !b.covered()) return startWork();
+    LinkChain::Place place;
+    chain.startFrom(start_, place);
+    NeverProof proof(a, b, chain, question.margin, place);
+    question.never = proof.run(budget, mostWork - startWork()) == NeverProof::State::Proven;
+    return startWork() + proof.work();
+  }
+
   const Robot& robot_;
+  const std::span<LinkQuestion> questions_;
   const KinematicModel model_;
   const Eigen::VectorXd start_;
-  std::map<int, LinkPieces> pieces_;
+  std::vector<std::optional<LinkPieces>> pieces_;  ///< per link, of those asked about
+  std::vector<int> joints_;                        ///< per question, between the two links
 };
 
 }  // namespace
 
-void proveNever(const Robot& robot, std::span<LinkQuestion> questions, std::int64_t budget) {
-  const Prover prover(robot, questions);
-  forEachIndex(questions.size(), 0,
-               [&](std::size_t i) { questions[i].never = prover.prove(questions[i], budget); });
+std::int64_t proveNever(const Robot& robot, std::span<LinkQuestion> questions, std::int64_t budget,
+                        std::int64_t mostWork, unsigned threads) {
+  return Prover(robot, questions).prove(budget, mostWork, threads);
 }
 
 }  // namespace swept::detail

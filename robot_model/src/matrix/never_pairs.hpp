@@ -17,8 +17,12 @@ struct LinkQuestion {
 };
 
 /// Answers them, each within the budget (see CollisionMatrixOptions::budget), over all values of
-/// the robot's variables within their limits. On as many threads as there are processors; the
-/// answers are the same on any number.
-void proveNever(const Robot& robot, std::span<LinkQuestion> questions, std::int64_t budget);
+/// the robot's variables within their limits. Those with the fewest joints between the two links
+/// come first, as they are the ones that can be proven, and the less work each is; when `mostWork`
+/// (see NeverProof::work()) might be passed by the next, the rest is left unanswered. On so many
+/// threads (0: as many as there are processors); the answers, and the work that is returned, are
+/// the same on any number.
+std::int64_t proveNever(const Robot& robot, std::span<LinkQuestion> questions, std::int64_t budget,
+                        std::int64_t mostWork, unsigned threads = 0);
 
 }  // namespace swept::detail

@@ -15,6 +15,11 @@ constexpr std::int64_t kExactEffort = 100;
 /// And one plane between hulls.
 constexpr std::int64_t kPlaneEffort = 20;
 
+/// Additions (see ChainBounds::work()) that take as long as what counts as one effort, apart from
+/// the bounds; and as placing a joint.
+constexpr std::int64_t kEffortWork = 20;
+constexpr std::int64_t kMoveWork = 60;
+
 /// Balls are replaced by their children while their radius is more than this times the approach:
 /// before, halving the box gains more.
 constexpr double kRefineAt = 4.0;
@@ -55,14 +60,27 @@ ChainBounds::Ball NeverProof::ballB(int i, double radius) const {
   return {place_.base_from_b * b_.balls[i].center, radius};
 }
 
-NeverProof::State NeverProof::run(std::int64_t budget) {
-  while (!boxes_.empty() && !contact_ && effort_ < budget) {
+std::int64_t NeverProof::work() const {
+  return bounds_.work() + kEffortWork * effort_ + kMoveWork * moves_;
+}
+
+/// Of what counts as one effort the bounds take up to twice the square of the number of joints, and
+/// a box has one at least.
+std::int64_t NeverProof::usualWork(std::int64_t budget, std::size_t joints) {
+  const auto count = static_cast<std::int64_t>(joints) + 10;
+  return 4 * budget * count * count;
+}
+
+NeverProof::State NeverProof::run(std::int64_t budget, std::int64_t mostWork) {
+  mostWork_ = mostWork;
+  while (!boxes_.empty() && !contact_ && effort_ < budget && !outOfWork()) {
     const Box box = std::move(boxes_.back());
     boxes_.pop_back();
     look(box);
   }
   if (contact_) return State::Contact;
-  if (!boxes_.empty()) return State::Open;
+  // A box may have been left before all its pairs of balls had been looked at.
+  if (!boxes_.empty() || outOfWork()) return State::Open;
   return stuck_ ? State::Stuck : State::Proven;
 }
 
@@ -72,10 +90,12 @@ void NeverProof::look(const Box& box) {
     stuck_ = true;
     return;
   }
+  moves_ += static_cast<std::int64_t>(chain_.joints().size());
   bounds_.setBox(box.values, place_);
   collectOpen(box);
-  if (contact_) return;
+  if (contact_ || outOfWork()) return;
   if (arena_.size() > firstOpen_) dropFar();
+  if (outOfWork()) return;
   if (arena_.size() == firstOpen_) {
     share_ += box.share;
   } else {
@@ -88,12 +108,13 @@ void NeverProof::collectOpen(const Box& box) {
   // What later boxes had appended is done with.
   arena_.resize(box.first + box.count);
   firstOpen_ = arena_.size();
-  for (std::size_t i = box.first; i < firstOpen_ && !contact_; ++i) refine(arena_[i]);
+  for (std::size_t i = box.first; i < firstOpen_ && !contact_ && !outOfWork(); ++i)
+    refine(arena_[i]);
 }
 
 void NeverProof::refine(BallPair pair) {
   work_.assign(1, pair);
-  while (!work_.empty() && !contact_) {
+  while (!work_.empty() && !contact_ && !outOfWork()) {
     pair = work_.back();
     work_.pop_back();
     double approach = 0.0, gap = 0.0;
@@ -153,7 +174,7 @@ void NeverProof::dropFar() {
   const std::size_t end = arena_.size();
   std::size_t kept = firstOpen_;
   // Pairs are kept in place: none is written before it is read.
-  for (std::size_t i = firstOpen_; i < end; ++i) {
+  for (std::size_t i = firstOpen_; i < end && !outOfWork(); ++i) {
     const BallPair pair = arena_[i];
     if (!isFar(pair)) arena_[kept++] = pair;
   }

@@ -38,10 +38,16 @@ class NeverProof {
   NeverProof(const LinkPieces& a, const LinkPieces& b, const LinkChain& chain, double margin,
              LinkChain::Place& place);
 
-  /// Goes on until so much of the budget is spent in all.
-  State run(std::int64_t budget);
+  /// Goes on until so much of the budget is spent in all, or of the work.
+  State run(std::int64_t budget, std::int64_t mostWork = std::numeric_limits<std::int64_t>::max());
 
   std::int64_t effort() const { return effort_; }
+  /// Time, as ChainBounds::work() counts it. Effort does not say how long it takes: what counts as
+  /// one takes the longer the more joints there are.
+  std::int64_t work() const;
+  /// More than a run takes within the budget, unless covers are so large that a box alone goes far
+  /// beyond it.
+  static std::int64_t usualWork(std::int64_t budget, std::size_t joints);
   double share() const { return share_; }  ///< of the box, by volume, that is proven
   /// Values of the chain's variables in the middle of the box in which exact geometry came nearest.
   const std::vector<double>& nearest() const { return nearest_; }
@@ -64,6 +70,7 @@ class NeverProof {
     std::vector<double> shares;  ///< m, of each variable in the approach
   };
 
+  bool outOfWork() const { return work() >= mostWork_; }
   void look(const Box& box);
   void collectOpen(const Box& box);
   /// Adds what is open of the pair, or of its descendants, to the arena.
@@ -96,6 +103,8 @@ class NeverProof {
   double exactDistance_ = 0.0;                     ///< m, lower bound, in the middle
   std::vector<std::optional<PiecePlane>> planes_;  ///< of two pieces, in this box
   std::int64_t effort_ = 0;
+  std::int64_t moves_ = 0;  ///< of joints, to the middles of boxes
+  std::int64_t mostWork_ = std::numeric_limits<std::int64_t>::max();
   double share_ = 0.0;
   bool stuck_ = false;
   bool contact_ = false;
