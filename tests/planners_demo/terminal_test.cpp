@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gantry.hpp"
+#include "urdf_text.hpp"
 
 namespace swept::test {
 namespace {
@@ -23,6 +24,26 @@ TEST(Terminal, LongWorkShowsProgressAndWipesIt) {
   EXPECT_THAT(run.err, HasSubstr("planning with RRTConnect, at most 1 s ("));
   EXPECT_THAT(run.err, EndsWith("\r\033[K"));
   EXPECT_THAT(run.out, HasSubstr("\nnot solved: "));
+}
+
+/// So many pairs that no computer looks at them in a blink.
+TEST(Terminal, BuildingACheckerOfManyLinksShows) {
+  const TemporaryFolder folder;
+  std::string urdf = "<robot name='chain'><link name='l0'/>";
+  std::string state;
+  for (int i = 1; i <= 1500; ++i) {
+    const std::string name = std::to_string(i);
+    urdf += "<link name='l" + name +
+            "'><collision><geometry><sphere radius='0.02'/></geometry></collision></link>" +
+            joint("j" + name, "revolute", "l" + std::to_string(i - 1), "l" + name,
+                  "<origin xyz='0 0 0.1'/>" + limited("1 0 0", -3.0, 3.0));
+    state += i > 1 ? ",0" : "0";
+  }
+  folder.write("chain.urdf", urdf + "</robot>");
+  const Outcome run = runSwept({"check", folder.path("chain.urdf"), state}, Stderr::Terminal);
+  EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
+  EXPECT_THAT(run.err, HasSubstr("building the checker of 1501 links ("));
+  EXPECT_THAT(run.err, EndsWith("\r\033[K"));
 }
 
 TEST(Terminal, PipedThereIsNothingButResults) {

@@ -14,6 +14,7 @@
 #include "lanes/table_candidates.hpp"
 #include "long_robots.hpp"
 #include "matrix/never_pairs.hpp"
+#include "matrix/never_proof.hpp"
 
 namespace swept {
 namespace {
@@ -99,6 +100,35 @@ TEST(ManyLinks, ProofsAreTheSameOnAnyNumberOfThreads) {
   }
   EXPECT_GT(one.count, 10);
   EXPECT_LT(one.count, prove(*robot, kUnlimited).count);
+}
+
+/// How a proof about two links of a chain of balls ends with so much work.
+struct Ended {
+  detail::NeverProof::State state;
+  std::int64_t work;
+};
+
+Ended proveWith(double limit, std::int64_t mostWork) {
+  const auto robot = test::ballChain(9, limit);
+  const detail::KinematicModel model = detail::wholeKinematics(*robot);
+  const detail::LinkPieces a = detail::piecesOf(*robot, model, 1);
+  const detail::LinkPieces b = detail::piecesOf(*robot, model, 8);
+  const detail::LinkChain chain(*robot, model, model.bodyOfLink[1], model.bodyOfLink[8]);
+  detail::LinkChain::Place place;
+  chain.startFrom(robot->defaultState(), place);
+  detail::NeverProof proof(a, b, chain, 0.0, place);
+  const auto state = proof.run(kBudget, mostWork);
+  return {state, proof.work()};
+}
+
+TEST(ManyLinks, AProofThatRunsOutOfWorkProvesNothing) {
+  using State = detail::NeverProof::State;
+  for (std::int64_t work = 1; work < 100'000; work += 1 + work / 8)
+    EXPECT_NE(proveWith(3.0, work).state, State::Proven) << work;
+  const Ended whole = proveWith(0.25, kUnlimited);
+  ASSERT_EQ(whole.state, State::Proven);
+  for (std::int64_t work = 1; work < 2 * whole.work; work += 1 + work / 8)
+    EXPECT_EQ(proveWith(0.25, work).state, work > whole.work ? State::Proven : State::Open) << work;
 }
 
 std::shared_ptr<const detail::CheckerModel> compiled(const std::shared_ptr<const Robot>& robot) {

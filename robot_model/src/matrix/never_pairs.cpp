@@ -15,8 +15,13 @@ namespace swept::detail {
 namespace {
 
 /// Additions (see NeverProof::work()) that take as long as what a question takes before its first
-/// box, for each of the robot's bodies.
-constexpr std::int64_t kStartWork = 20;
+/// box: itself, and for each of the robot's bodies.
+constexpr std::int64_t kQuestionWork = 2000;
+constexpr std::int64_t kBodyWork = 1;
+/// Of many questions so many are answered one after the other with the same scratch, which is large
+/// for a robot of many bodies; of few, there is something to do for each thread.
+constexpr std::size_t kMostTogether = 16;
+constexpr std::size_t kFewestTasks = 256;
 
 class Prover {
  public:
@@ -46,18 +51,29 @@ class Prover {
         if (owed > left) break;
       }
       if (last == first) break;
-      std::vector<std::int64_t> work(last - first, 0);
-      forEachIndex(work.size(), threads, [&](std::size_t i) {
-        work[i] =
-            answer(questions_[order[first + i]], budget, mostWorkOf(order[first + i], budget));
-      });
-      left -= std::accumulate(work.begin(), work.end(), std::int64_t{0});
+      left -= answerAll(std::span(order).subspan(first, last - first), budget, threads);
       first = last;
     }
     return mostWork - left;
   }
 
  private:
+  /// Returns the work.
+  std::int64_t answerAll(std::span<const std::uint32_t> questions, std::int64_t budget,
+                         unsigned threads) {
+    const std::size_t together =
+        std::clamp<std::size_t>(questions.size() / kFewestTasks, 1, kMostTogether);
+    std::vector<std::int64_t> work((questions.size() + together - 1) / together, 0);
+    forEachIndex(work.size(), threads, [&](std::size_t i) {
+      LinkChain::Place place;
+      const std::size_t end = std::min((i + 1) * together, questions.size());
+      for (std::size_t k = i * together; k < end; ++k)
+        work[i] +=
+            answer(questions_[questions[k]], budget, mostWorkOf(questions[k], budget), place);
+    });
+    return std::accumulate(work.begin(), work.end(), std::int64_t{0});
+  }
+
   void countJoints() {
     CommonAncestors ancestors(model_);
     for (const LinkQuestion& question : questions_) {
@@ -78,20 +94,20 @@ class Prover {
   }
 
   std::int64_t startWork() const {
-    return kStartWork * static_cast<std::int64_t>(model_.bodies.size());
+    return kQuestionWork + kBodyWork * static_cast<std::int64_t>(model_.bodies.size());
   }
   std::int64_t mostWorkOf(std::size_t question, std::int64_t budget) const {
     return startWork() + NeverProof::usualWork(budget, static_cast<std::size_t>(joints_[question]));
   }
 
   /// Returns the work.
-  std::int64_t answer(LinkQuestion& question, std::int64_t budget, std::int64_t mostWork) const {
+  std::int64_t answer(LinkQuestion& question, std::int64_t budget, std::int64_t mostWork,
+                      LinkChain::Place& place) const {
     const LinkPieces& a = *pieces_[question.linkA];
     const LinkPieces& b = *pieces_[question.linkB];
     const LinkChain chain(robot_, model_, model_.bodyOfLink[question.linkA],
                           model_.bodyOfLink[question.linkB]);
     if (!chain.bounded() || !a.covered() || !b.covered()) return startWork();
-    LinkChain::Place place;
     chain.startFrom(start_, place);
     NeverProof proof(a, b, chain, question.margin, place);
     question.never = proof.run(budget, mostWork - startWork()) == NeverProof::State::Proven;
