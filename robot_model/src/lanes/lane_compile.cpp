@@ -58,8 +58,8 @@ class LaneCompiler {
     references_.assign(lanes_.bodies.size(), -1);
     references_[0] = 0;
     std::vector<char> meetsWorld(lanes_.bodies.size(), 0);
-    // Of two bodies, the index into bodyPairs; -1: none yet.
-    std::vector<std::int32_t> known(lanes_.bodies.size() * lanes_.bodies.size(), -1);
+    // Of a first body and each second one, the index into bodyPairs; -1: none yet.
+    std::vector<std::vector<std::int32_t>> known(lanes_.bodies.size());
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       const GeometryPair& pair = model_.pairs[i];
       const int bodyA = model_.robotGeometry[pair.a].body;
@@ -71,7 +71,8 @@ class LaneCompiler {
       }
       lanes_.pairOfGeometries[pair.a * geometries + pair.b] = static_cast<std::int32_t>(i);
       const int bodyB = model_.robotGeometry[pair.b].body;
-      std::int32_t& at = known[bodyA * lanes_.bodies.size() + bodyB];
+      if (known[bodyA].empty()) known[bodyA].resize(lanes_.bodies.size(), -1);
+      std::int32_t& at = known[bodyA][bodyB];
       if (at < 0) {
         at = static_cast<std::int32_t>(lanes_.bodyPairs.size());
         lanes_.bodyPairs.push_back({.bodyA = bodyA,

@@ -247,7 +247,10 @@ class MotionSearch {
   void place() {
     scratch_.bodyWanted.assign(model_.bodies.size(), 0);
     const auto want = [&](int body) {
-      for (const int ancestor : model_.ancestors[body]) scratch_.bodyWanted[ancestor] = 1;
+      // From the body upwards: what carries one that is wanted is wanted already.
+      const std::vector<int>& path = model_.ancestors[body];
+      for (std::size_t i = path.size(); i-- > 0 && scratch_.bodyWanted[path[i]] == 0;)
+        scratch_.bodyWanted[path[i]] = 1;
     };
     for (const std::uint32_t pair : scratch_.wanted) {
       const LanePairSource& source = model_.sources[pair];

@@ -3,20 +3,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace swept::detail {
 
 std::vector<LaneRootRow> compileRootRows(const LaneModel& lanes) {
   const auto radiusOf = [&](int body) { return lanes.nodes[lanes.rootOfBody[body]].radius; };
   const std::size_t eights = (lanes.bodies.size() + kLanes - 1) / kLanes;
-  // Of a body and eight others, the index into rows; -1: none yet.
-  std::vector<std::int32_t> known(lanes.bodies.size() * eights, -1);
+  // Of a first body and each eight others, the index into rows; -1: none yet.
+  std::vector<std::vector<std::int32_t>> known(lanes.bodies.size());
   std::vector<LaneRootRow> rows;
   for (std::size_t i = 0; i < lanes.bodyPairs.size(); ++i) {
     const LaneBodyPair& pair = lanes.bodyPairs[i];
     const int eight = pair.bodyB / kLanes;
     const int lane = pair.bodyB % kLanes;
-    std::int32_t& at = known[pair.bodyA * eights + eight];
+    if (known[pair.bodyA].empty()) known[pair.bodyA].resize(eights, -1);
+    std::int32_t& at = known[pair.bodyA][eight];
     if (at < 0) {
       at = static_cast<std::int32_t>(rows.size());
       LaneRootRow& added = rows.emplace_back();
