@@ -287,6 +287,37 @@ TEST_F(Verify, FilesThatAreNoPathAreBadInput) {
   EXPECT_THAT(runSwept({"verify", "no/such.json"}).err, HasSubstr("no/such.json"));
 }
 
+/// The ball passes a post that it misses by 1 mm wherever it is, so that the pair is not checked,
+/// and keeps half a metre from all that is. Planes beside the post cannot show as much as that.
+TEST(VerifyReach, WhatIsOutOfReachMayBeNearerThanWhatIsChecked) {
+  const TemporaryFolder folder;
+  const std::string urdf = folder.write(
+      "arm.urdf",
+      "<robot name='r'><link name='base'/><link name='arm'><collision><origin xyz='0.3 0 0'/>"
+      "<geometry><sphere radius='0.1'/></geometry></collision></link>"
+      "<joint name='j' type='revolute'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>"
+      "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint></robot>");
+  const auto ball = [](const std::string& name, const std::string& x) {
+    return "    - {header: {frame_id: base}, id: " + name +
+           ", primitives: [{type: sphere, dimensions: [0.1]}], primitive_poses: [{position: [" + x +
+           ", 0, 0], orientation: [0, 0, 0, 1]}]}\n";
+  };
+  const std::string scene =
+      folder.write("scene.yaml", "name: s\nworld:\n  collision_objects:\n" + ball("post", "0.501") +
+                                     ball("wall", "-0.45"));
+  const std::string file = folder.path("path.json");
+  const Outcome run =
+      runSwept({"plan", urdf, "--scene", scene, "-q", "-o", file, "--", "-0.5", "0.5"});
+  ASSERT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_GT(Json::parse(folder.read("path.json"))["segments"][0]["clearance"], 0.5);
+  const auto json = jsonOf(runSwept({"verify", file, "--json"}));
+  EXPECT_EQ(json["verified"], true) << json["refusal"];
+  EXPECT_EQ(json["pairs"], 2);
+  EXPECT_GT(json["clearance"], 0.0);
+  EXPECT_LE(json["clearance"], 1e-3);
+}
+
 /// Meshes that are not convex and clouds: planes between parts of them.
 TEST(VerifyModels, ProofsOfAllScenesHold) {
   const TemporaryFolder folder;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "certificate/pair_search.hpp"
 #include "verify/check.hpp"
@@ -21,6 +24,7 @@ class CertificateSearch {
     const std::vector<CertifiedBody> sources = certifiedBodies(checker);
     for (std::size_t i = 0; i < sources.size(); ++i)
       bodies_.emplace_back(model_.bodies[i], sources[i]);
+    findMeasured(checker, sources);
   }
 
   /// Null, and `missing`, where a pair is not proven.
@@ -32,7 +36,8 @@ class CertificateSearch {
       SearchedBody& a = bodies_[static_cast<std::size_t>(pair.a)];
       SearchedBody& b = bodies_[static_cast<std::size_t>(pair.b)];
       const double margin = model_.marginOf(pair.a, pair.b);
-      const double share = std::max(0.0, kShareOfClearance * (clearance - margin));
+      const bool measured = measured_.contains({pair.a, pair.b});
+      const double share = measured ? std::max(0.0, kShareOfClearance * (clearance - margin)) : 0.0;
       const double keep = std::isfinite(share) ? margin + share : margin;
       Json entry = PairSearch(model_, motion, pair, a, b, keep).run();
       if (entry.is_null()) {
@@ -46,9 +51,21 @@ class CertificateSearch {
   }
 
  private:
+  void findMeasured(const Checker& checker, const std::vector<CertifiedBody>& sources) {
+    std::map<std::pair<std::string, bool>, int> numbers;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      numbers[{sources[i].name, sources[i].link >= 0}] = static_cast<int>(i);
+    for (const Checker::Pair& pair : checker.checkedPairs())
+      measured_.insert(
+          std::minmax(numbers.at({pair.bodyA, true}), numbers.at({pair.bodyB, pair.selfPair})));
+  }
+
   verify::Model model_;
   std::vector<verify::PairToProve> pairs_;
   std::deque<SearchedBody> bodies_;
+  /// Pairs that the clearances are about. Bodies out of reach have to be proven apart as well, and
+  /// may be nearer than these.
+  std::set<std::pair<int, int>> measured_;
 };
 
 }  // namespace

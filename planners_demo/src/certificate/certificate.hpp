@@ -20,8 +20,8 @@ struct Certificate {
 
 /// Looks for planes that prove every segment of a path, of which each is proven free by the
 /// checker already. They show that what has to keep apart keeps more than half of what
-/// `clearances` (m, one per segment, proven) has above the margin. Throws UsageError for moving
-/// obstacles.
+/// `clearances` (m, one per segment, proven) has above the margin; bodies that are out of a link's
+/// reach, which these are not about, more than the margin. Throws UsageError for moving obstacles.
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
                           std::span<const double> clearances);
 
