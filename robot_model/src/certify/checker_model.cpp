@@ -31,6 +31,11 @@ bool CheckerModel::isSelfPair(const GeometryPair& pair) const {
   return pair.self && carriers[robotGeometry[pair.b].carrier].kind != Carrier::Kind::Obstacle;
 }
 
+bool CheckerModel::checksWorld(int ofRobot, int ofWorld) const {
+  const int first = firstBodyPair[robotGeometry[ofRobot].carrier];
+  return first >= 0 && bodyPairs[first + worldGeometry[ofWorld].body].reason == PairReason::Checked;
+}
+
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
                                                    std::shared_ptr<const World> world,

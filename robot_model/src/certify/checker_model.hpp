@@ -133,6 +133,18 @@ struct CheckerModel {
   /// Per robot geometry, and one more: of its pairs with the world, the first.
   std::vector<std::uint32_t> firstWorldPair;
   std::uint32_t firstSelfPair = 0;
+  ///@{
+  /// Distances are measured between all pieces of the bodies that are checked against each other.
+  /// Those out of reach of each other are in none of the pairs, and are not listed anywhere: they
+  /// may be many.
+  /// Per carrier: its pair with the world's first body, into bodyPairs; -1: it is checked against
+  /// none.
+  std::vector<int> firstBodyPair;
+  /// Per robot geometry of the other carriers: what its pairs with the world have in common, with
+  /// the largest rounding of them.
+  std::vector<GeometryPair> likeWorldPairs;
+  std::int64_t measuredPairs = 0;  ///< how many pairs of pieces that is, two carriers' among them
+  ///@}
   double largestMargin = 0.0;    ///< m, of the pairs
   double largestRounding = 0.0;  ///< m, likewise
   double largestSpan = 0.0;      ///< m, likewise, see spanOf
@@ -148,6 +160,8 @@ struct CheckerModel {
   std::string nameOfB(const GeometryPair& pair) const;
   bool isSelfPair(
       const GeometryPair& pair) const;  ///< as Witness has it: moving obstacles are none
+  /// Whether the pair of bodies is checked that these two pieces are of.
+  bool checksWorld(int ofRobot, int ofWorld) const;
 };
 
 /// `like`: null, or an earlier version for the same robot, group and reference.
@@ -171,6 +185,12 @@ struct PendingPart {
   std::uint32_t pair = 0;
   double begin = 0.0;
   double end = 1.0;
+};
+
+/// A pair among which the least clearance of a motion is looked for.
+struct MeasuredPair {
+  GeometryPair pair;
+  double bound = 0.0;  ///< m, lower bound of its distance over the whole motion
 };
 
 /// m. No point of the pair's geometry of the robot is farther from a joint that carries it, of both
@@ -222,6 +242,7 @@ struct WorkspaceData {
   std::vector<PendingInterval> pending;
   std::vector<std::uint32_t> pendingArena;
   std::vector<PendingPart> parts;
+  std::vector<MeasuredPair> measured;
   BroadphaseScratch boxes;
   /// Whole configurations: see KinematicModel. Empty without moving obstacles.
   std::vector<double> from, to;

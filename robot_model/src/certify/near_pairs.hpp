@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "certify/pair_compile.hpp"
 #include "certify/pair_query.hpp"
 
 namespace swept::detail {
@@ -30,29 +31,35 @@ class NearGeometries {
   /// stay apart by more than their margins.
   void collect(double half, std::vector<std::uint32_t>& pairs);
 
-  /// Visits pairs until all others are proven to be at least as far apart as the least bound that
-  /// `visit(pair)` has returned (m), at t.
+  /// Visits pairs of pieces of the bodies that are checked against each other, pieces out of reach
+  /// too, until all others are proven to stay at least as far apart on [t - half, t + half] as the
+  /// least bound (m) that `visit(const GeometryPair&)` has returned.
   template <typename Visitor>
-  void forNearest(const Visitor& visit) {
+  void forNearest(double half, const Visitor& visit) {
     double least = std::numeric_limits<double>::infinity();
-    const auto one = [&](std::uint32_t pair) {
+    const auto one = [&](const GeometryPair& pair) {
+      const double approach = half > 0.0 ? query_.travel(pair, half) : 0.0;
       // What is no number says nothing.
-      const bool settled = query_.coarseDistance(model_.pairs[pair]) >= least;
+      const bool settled = query_.coarseDistance(pair) - approach >= least;
       if (!settled) least = std::min(least, visit(pair));
     };
-    if (model_.boxes == nullptr) {
-      for (std::uint32_t pair = 0; pair < model_.pairs.size(); ++pair) one(pair);
-      return;
-    }
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
-      if (worldPairs(i).empty()) continue;
-      model_.boxes->distance(query_.ballBox(static_cast<int>(i), 0.0), workspace_.boxes,
-                             [&](BoxHandle other, double) {
-                               if (const auto pair = pairOf(i, other)) one(*pair);
-                               return least;
-                             });
+      if (model_.firstBodyPair[model_.robotGeometry[i].carrier] < 0) continue;
+      const GeometryPair& like = model_.likeWorldPairs[i];
+      const auto oneOfWorld = [&](std::size_t other) {
+        const auto b = static_cast<int>(other);
+        if (model_.checksWorld(like.a, b)) one(worldPair(model_, like, b));
+        return least;
+      };
+      if (model_.boxes == nullptr) {
+        for (std::size_t k = 0; k < model_.worldGeometry.size(); ++k) oneOfWorld(k);
+      } else {
+        model_.boxes->distance(query_.ballBox(like, half), workspace_.boxes,
+                               [&](BoxHandle other, double) { return oneOfWorld(other); });
+      }
     }
-    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair) one(pair);
+    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
+      one(model_.pairs[pair]);
   }
 
  private:

@@ -28,6 +28,17 @@ bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b) {
   return collide(a, b, a_from_b) != Contact::Separate;
 }
 
+/// Rounding of the relative pose of two geometries, in metres at their points: proportional to
+/// the coordinates and to the number of transforms that were multiplied.
+double poseRounding(double magnitudes, double transforms) {
+  if (!(magnitudes < kLargestNorm)) return std::numeric_limits<double>::infinity();
+  return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0) + kUnderflow;
+}
+
+double magnitudeOf(const RobotGeometry& robot) {
+  return std::max(robot.levers.span, robot.magnitude);
+}
+
 class PairCompiler {
  public:
   explicit PairCompiler(CheckerModel& model)
@@ -49,6 +60,8 @@ class PairCompiler {
     pairWithWorld();
     indexWorldPairs();
     pairCarriers();
+    model_.measuredPairs +=
+        static_cast<std::int64_t>(model_.pairs.size()) - std::int64_t{model_.firstSelfPair};
     for (const GeometryPair& pair : model_.pairs) {
       model_.largestMargin = std::max(model_.largestMargin, pair.margin);
       model_.largestRounding = std::max(model_.largestRounding, pair.rounding);
@@ -90,17 +103,6 @@ class PairCompiler {
     return rules_.empty() ? std::nullopt : rules_.allowed(a, b);
   }
 
-  /// Rounding of the relative pose of two geometries, in metres at their points: proportional to
-  /// the coordinates and to the number of transforms that were multiplied.
-  static double rounding(double magnitudes, double transforms) {
-    if (!(magnitudes < kLargestNorm)) return std::numeric_limits<double>::infinity();
-    return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0) + kUnderflow;
-  }
-
-  static double magnitudeOf(const RobotGeometry& robot) {
-    return std::max(robot.levers.span, robot.magnitude);
-  }
-
   int travelSlot(int geometry, int reference) {
     // The joints after the reference body.
     const auto first = static_cast<std::size_t>(ancestors_.depth(reference));
@@ -119,7 +121,7 @@ class PairCompiler {
     const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
     const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
     const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
-    const double slack = rounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
+    const double slack = poseRounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
     return outside.stableNorm() > robot.levers.reachFromBase + margin + slack;
   }
 
@@ -127,6 +129,8 @@ class PairCompiler {
     const std::vector<WorldBody>& bodies = model_.world->bodies();
     std::vector<double> worldPaddings;
     for (const WorldBody& body : bodies) worldPaddings.push_back(rules_.padding(body.name));
+    model_.firstBodyPair.assign(model_.carriers.size(), -1);
+    model_.likeWorldPairs.resize(model_.robotGeometry.size());
     for (std::size_t c = 0; c < model_.carriers.size(); ++c) {
       const Carrier& carrier = model_.carriers[c];
       if (carrier.kind == Carrier::Kind::Obstacle || firstOf_[c] == firstOf_[c + 1]) continue;
@@ -144,6 +148,7 @@ class PairCompiler {
         for (std::size_t j = 0; j < model_.worldGeometry.size(); ++j)
           pairWithPart(i, static_cast<int>(j),
                        model_.bodyPairs[base + model_.worldGeometry[j].body]);
+      measureAll(c, base);
     }
   }
 
@@ -169,11 +174,32 @@ class PairCompiler {
     bodies.reason = PairReason::Checked;
     GeometryPair pair;
     pair.a = a;
-    pair.b = b;
     pair.travelA = travelSlot(a, 0);
-    pair.rounding = rounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
     pair.margin = bodies.margin;
-    add(pair, model_.pairs, "shapes");
+    add(worldPair(model_, pair, b), model_.pairs, "shapes");
+  }
+
+  /// A piece that is out of reach is left out of verdicts, which ask whether some piece comes near.
+  /// A distance between two bodies is that of the nearest of all of their pieces: beside one that
+  /// is in reach, and far away, the nearest may be out of reach, however little.
+  void measureAll(std::size_t carrier, std::size_t firstBodyPair) {
+    double farthest = 0.0;
+    std::int64_t parts = 0;
+    for (const WorldGeometry& world : model_.worldGeometry) {
+      if (model_.bodyPairs[firstBodyPair + world.body].reason != PairReason::Checked) continue;
+      farthest = std::max(farthest, world.magnitude);
+      ++parts;
+    }
+    if (parts == 0) return;
+    model_.firstBodyPair[carrier] = static_cast<int>(firstBodyPair);
+    for (int i = firstOf_[carrier]; i < firstOf_[carrier + 1]; ++i) {
+      const RobotGeometry& robot = model_.robotGeometry[i];
+      GeometryPair& like = model_.likeWorldPairs[i];
+      like.a = i;
+      like.travelA = travelSlot(i, 0);
+      like.rounding = poseRounding(magnitudeOf(robot) + farthest, robot.transforms);
+      model_.measuredPairs += parts;
+    }
   }
 
   /// The body that what is fixed in `body` moves with, and its frame from the one of `body`.
@@ -242,7 +268,7 @@ class PairCompiler {
     pair.reference = ancestors_.with(b.body);
     pair.travelA = travelSlot(i, pair.reference);
     pair.travelB = travelSlot(j, pair.reference);
-    pair.rounding = rounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms);
+    pair.rounding = poseRounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms);
     pair.margin = bodies.margin;
     add(pair, model_.pairs, "shapes");
   }
@@ -260,6 +286,15 @@ class PairCompiler {
 
 void compilePairs(CheckerModel& model) {
   PairCompiler(model).compile();
+}
+
+GeometryPair worldPair(const CheckerModel& model, const GeometryPair& like, int worldGeometry) {
+  const RobotGeometry& robot = model.robotGeometry[like.a];
+  const double magnitudes = magnitudeOf(robot) + model.worldGeometry[worldGeometry].magnitude;
+  GeometryPair pair = like;
+  pair.b = worldGeometry;
+  pair.rounding = poseRounding(magnitudes, robot.transforms);
+  return pair;
 }
 
 }  // namespace swept::detail

@@ -129,6 +129,15 @@ Aabb PairQuery::ballBox(int geometry, double half) {
   const GeometryPair& pair = model_.pairs[model_.firstWorldPair[geometry]];
   const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) +
                        model_.largestMargin + largestRounding();
+  return boxAround(geometry, reach);
+}
+
+Aabb PairQuery::ballBox(const GeometryPair& pair, double half) {
+  const double radius = model_.robotGeometry[pair.a].radius;
+  return boxAround(pair.a, radius + travel(pair, half) + rounding(pair));
+}
+
+Aabb PairQuery::boxAround(int geometry, double reach) {
   const Vector3d all = Vector3d::Constant(reach * (1.0 + kVelocityRounding));
   const Vector3d& middle = center(geometry);
   // Of what is no number a box would meet nothing.
@@ -262,8 +271,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   return answer;
 }
 
-PairDistance PairQuery::measure(std::uint32_t index, double enough, double accuracy) {
-  const GeometryPair& pair = model_.pairs[index];
+PairDistance PairQuery::measure(const GeometryPair& pair, double enough, double accuracy) {
   const Isometry3d& world_from_a = pose(pair.a);
   DistanceOptions options;
   options.enough = enough + rounding(pair);
@@ -278,9 +286,8 @@ PairDistance PairQuery::measure(std::uint32_t index, double enough, double accur
   return result;
 }
 
-bool PairQuery::staysBeyond(std::uint32_t index, double half, double distance,
+bool PairQuery::staysBeyond(const GeometryPair& pair, double half, double distance,
                             const PairDistance& now, double accuracy) {
-  const GeometryPair& pair = model_.pairs[index];
   const Isometry3d& world_from_a = pose(pair.a);
   const Vector3d across = world_from_a.linear().transpose() * (now.pointB - now.pointA);
   const double length = across.norm();
@@ -297,18 +304,20 @@ bool PairQuery::staysBeyond(std::uint32_t index, double half, double distance,
   return result.status == Separation::Separated;
 }
 
-SignedClearance PairQuery::measureSigned(std::uint32_t index, double accuracy) {
-  const GeometryPair& pair = model_.pairs[index];
+SignedClearance PairQuery::measureSigned(const GeometryPair& pair, double accuracy) {
   const Isometry3d& world_from_a = pose(pair.a);
   const SignedDistanceResult found =
       signedDistance(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
                      world_from_a.inverse() * poseOfB(pair), accuracy);
-  return {found.lower - rounding(pair), found.upper, world_from_a * found.pointA,
-          world_from_a * found.pointB, world_from_a.linear() * found.normal};
+  const double lower = found.lower - rounding(pair);
+  // What is no number says nothing.
+  return {lower <= found.upper ? lower : -std::numeric_limits<double>::infinity(), found.upper,
+          world_from_a * found.pointA, world_from_a * found.pointB,
+          world_from_a.linear() * found.normal};
 }
 
-Vector3d PairQuery::velocity(std::uint32_t index, const Vector3d& pointA, const Vector3d& pointB) {
-  const GeometryPair& pair = model_.pairs[index];
+Vector3d PairQuery::velocity(const GeometryPair& pair, const Vector3d& pointA,
+                             const Vector3d& pointB) {
   const BodyState& a = state(model_.robotGeometry[pair.a].body);
   Vector3d velocity = -(a.linear + a.angular.cross(pointA));
   if (pair.self) {

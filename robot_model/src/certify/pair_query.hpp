@@ -44,15 +44,15 @@ class PairQuery {
   /// margin at t. `half` in units of t.
   PairAnswer prove(std::uint32_t pair, double half);
   /// Distance at t. Stops early when it is proven to exceed `enough` (m).
-  PairDistance measure(std::uint32_t pair, double enough, double accuracy);
+  PairDistance measure(const GeometryPair& pair, double enough, double accuracy);
   /// The same, negative where they overlap; see signedDistance().
-  SignedClearance measureSigned(std::uint32_t pair, double accuracy);
+  SignedClearance measureSigned(const GeometryPair& pair, double accuracy);
   /// Whether the pair stays farther apart than `distance` (m) on [t - half, t + half], `now` being
   /// its distance at t. False: not proven.
-  bool staysBeyond(std::uint32_t pair, double half, double distance, const PairDistance& now,
+  bool staysBeyond(const GeometryPair& pair, double half, double distance, const PairDistance& now,
                    double accuracy);
   /// m per unit of t, model frame: of a point of b past a point of a, both m, model frame, at t.
-  Eigen::Vector3d velocity(std::uint32_t pair, const Eigen::Vector3d& pointA,
+  Eigen::Vector3d velocity(const GeometryPair& pair, const Eigen::Vector3d& pointA,
                            const Eigen::Vector3d& pointB);
   /// m, model frame: of a point in the frame of the first one's body.
   Eigen::Vector3d placed(std::uint32_t pair, const Eigen::Vector3d& point) {
@@ -66,6 +66,9 @@ class PairQuery {
   /// m, model frame: holds the geometry, grown by the largest margin and rounding of all pairs, on
   /// [t - half, t + half].
   Aabb ballBox(int geometry, double half);
+  /// m, model frame: holds the pair's geometry of the robot, grown by the pair's rounding, on
+  /// [t - half, t + half].
+  Aabb ballBox(const GeometryPair& pair, double half);
   /// m. Of every pair's relative pose, for any point, in this motion.
   double largestRounding() const;
 
@@ -80,6 +83,7 @@ class PairQuery {
   const Eigen::Isometry3d& pose(int geometry);
   double rounding(const GeometryPair& pair) const;
   double slideRounding() const;
+  Aabb boxAround(int geometry, double reach);
   /// What the containing balls and boxes say.
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };
   /// `towards` becomes the unit direction from the first to the second that they were compared

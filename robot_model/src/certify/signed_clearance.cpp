@@ -23,18 +23,18 @@ constexpr double kFewestUlps = 4.0;
 /// The least so far, and whose it is.
 struct Nearest {
   SignedClearance clearance;
-  std::uint32_t pair = 0;
+  GeometryPair pair;
   bool known = false;
 
   Nearest() {
     clearance.lower = std::numeric_limits<double>::infinity();
     clearance.upper = std::numeric_limits<double>::infinity();
   }
-  void add(std::uint32_t index, const SignedClearance& found) {
+  void add(const GeometryPair& other, const SignedClearance& found) {
     const double lower = std::min(clearance.lower, found.lower);
     if (!known || found.upper < clearance.upper) {
       clearance = found;
-      pair = index;
+      pair = other;
       known = true;
     }
     clearance.lower = lower;
@@ -52,7 +52,7 @@ SignedClearance apart(const PairDistance& distance) {
 
 Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   Nearest nearest;
-  NearGeometries(model, query, workspace).forNearest([&](std::uint32_t pair) {
+  NearGeometries(model, query, workspace).forNearest(0.0, [&](const GeometryPair& pair) {
     const double enough = nearest.clearance.lower;
     const PairDistance distance = query.measure(pair, enough, tolerance::kDistance);
     if (distance.lower < enough) nearest.add(pair, apart(distance));
@@ -61,14 +61,17 @@ Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData&
   return nearest;
 }
 
-/// Of the pairs whose boxes meet; the others are apart.
+/// Of the pairs whose boxes meet; the others are apart, as is what is out of reach.
 Nearest deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   Nearest nearest;
   NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
-  for (const std::uint32_t pair : workspace.arena) {
+  for (const std::uint32_t index : workspace.arena) {
+    const GeometryPair& pair = model.pairs[index];
     if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
     nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));
   }
+  // Of those that are apart no more is known.
+  nearest.clearance.lower = std::min(nearest.clearance.lower, 0.0);
   return nearest;
 }
 

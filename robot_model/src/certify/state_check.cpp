@@ -99,13 +99,13 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
 
 namespace {
 
-/// Least distance over the pairs at the current state; a pair farther than the best so far is given
-/// up as soon as that is proven.
+/// Least distance over all pieces of the checked pairs at the current state; pieces farther apart
+/// than the best so far are given up as soon as that is proven.
 template <typename Visitor>
 double leastDistance(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace,
                      const Visitor& nearer) {
   double least = std::numeric_limits<double>::infinity();
-  NearGeometries(model, query, workspace).forNearest([&](std::uint32_t pair) {
+  NearGeometries(model, query, workspace).forNearest(0.0, [&](const GeometryPair& pair) {
     const PairDistance distance = query.measure(pair, least, tolerance::kDistance);
     if (distance.lower < least) {
       least = distance.lower;
@@ -123,7 +123,7 @@ double stateClearance(const CheckerModel& model, std::span<const double> configu
   const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!startAt(query, q)) return 0.0;
-  return leastDistance(model, query, workspace, [](std::uint32_t) {});
+  return leastDistance(model, query, workspace, [](const GeometryPair&) {});
 }
 
 StateReport reportState(const CheckerModel& model, std::span<const double> configuration,
@@ -153,10 +153,10 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
       report.contacts.push_back(std::move(witness));
     }
   }
-  report.clearance = leastDistance(model, query, workspace, [&](std::uint32_t i) {
-    report.nearestA = model.nameOfA(model.pairs[i]);
-    report.nearestB = model.nameOfB(model.pairs[i]);
-    report.nearestSelfPair = model.isSelfPair(model.pairs[i]);
+  report.clearance = leastDistance(model, query, workspace, [&](const GeometryPair& pair) {
+    report.nearestA = model.nameOfA(pair);
+    report.nearestB = model.nameOfB(pair);
+    report.nearestSelfPair = model.isSelfPair(pair);
   });
   if (!report.contacts.empty()) {
     report.verdict = Verdict::Collision;

@@ -23,6 +23,11 @@ inline std::int64_t mostQueries(const CheckerModel& model) {
          static_cast<std::int64_t>(model.pairs.size());
 }
 
+/// The same of distances, where a clearance is asked for.
+inline std::int64_t mostMeasures(const CheckerModel& model) {
+  return kWorkPerInterval * model.options.maxIntervals + model.measuredPairs;
+}
+
 /// Sub-intervals of the lane tier that are left of those of one motion.
 inline int lanesLeft(const CheckerModel& model, const Effort& effort) {
   const std::int64_t left = kWorkPerInterval * model.options.maxIntervals - effort.lanes;

@@ -68,8 +68,8 @@ struct StateReport {
   /// Variables (names) outside their limits. Says nothing about geometry; a planner refuses both.
   std::vector<std::string> outsideLimits;
   std::vector<Witness> contacts;  ///< one per violating pair, in the checker's pair order
-  /// m. Proven lower bound of the least distance over all pairs; margins and paddings are not taken
-  /// off. Infinity: no pairs.
+  /// m. Proven lower bound of the least distance over all checked pairs, with all of their pieces;
+  /// margins and paddings are not taken off. Infinity: no pairs.
   double clearance = 0.0;
   ///@{
   /// The pair that gave `clearance`; empty without pairs.
@@ -105,10 +105,10 @@ enum class MotionQuery : std::uint8_t {
   FirstContact,  ///< freeUntil is the supremum of the provable prefix, to within the tolerance
 };
 
-/// Least distance over a motion, as an interval.
+/// Least distance of the checked pairs over a motion, as an interval; infinite: there are none.
 struct MotionClearance {
   double lower = 0.0;  ///< m, proven for every t
-  double upper = 0.0;  ///< m, attained at t
+  double upper = 0.0;  ///< m, attained at t, as poses are rounded; infinity: nothing is known
   double t = 0.0;      ///< in [0, 1], where upper is attained
   int intervals = 0;   ///< examined
 };
