@@ -80,7 +80,7 @@ void ClearanceCase::makeWorld() {
     world_.push_back(std::move(body));
   }
   // So many that their boxes are sorted.
-  for (int i = 0; random_.chance(0.3) || (i > 0 && i < 32); ++i) {
+  for (int i = 0; i > 0 ? i < 40 : random_.chance(0.5); ++i) {
     RandomPiece piece = pieces_.ofWorld();
     piece.body_from_shape = pieces_.turned(pieces_.away(1.0, 2.5));
     world_.push_back({.name = "small" + std::to_string(i), .link = {}, .parts = {partOf(piece)}});
