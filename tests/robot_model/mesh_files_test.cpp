@@ -142,8 +142,7 @@ TEST(MeshFiles, CracksOfSinglePrecisionAreNoHoles) {
   EXPECT_THAT(warnings.lines.front(), testing::HasSubstr("mesh 'open.stl' is an open surface"));
 }
 
-/// A face with two equal corners is dropped when the mesh is built, and with it the line that it
-/// is.
+/// A face with two equal corners is a line: part of the shape where it is no edge of another.
 TEST(MeshFiles, FacesThatAreLinesOfNoOtherFaceAreKept) {
   const test::TemporaryFolder folder;
   const std::string cube = test::kCubeObj;

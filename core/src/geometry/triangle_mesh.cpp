@@ -146,7 +146,7 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   surface.report.duplicatesDropped = parts.duplicatesDropped;
   surface.report.cracksFilled = static_cast<int>(cracksFilled);
   surface.report.closedComponents = static_cast<int>(parts.oriented.size());
-  surface.report.openComponents = parts.openComponents;
+  surface.report.openComponents = parts.openComponents + static_cast<int>(welded.lines.size());
   surface.vertices = std::move(welded.vertices);
   surface.keptAs = std::move(welded.keptAs);
   surface.triangles = std::move(parts.triangles);
@@ -154,6 +154,13 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   surface.componentCorners = std::move(parts.cornerOf);
   for (const bool oriented : parts.oriented)
     surface.components.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), oriented});
+  // A component each: no triangle shares the edge. They come after components and cracks were
+  // found, which know edges between two vertices only.
+  for (const Triangle& line : welded.lines) {
+    surface.triangles.push_back(line);
+    surface.componentOf.push_back(-1);
+    surface.componentCorners.push_back(line[0]);
+  }
   arrange(surface);
   return finished(std::move(surface));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -13,9 +14,11 @@ namespace swept::detail {
 /// Triangles over the distinct positions that they use.
 struct WeldedMesh {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Eigen::Vector3i> triangles;
+  std::vector<Eigen::Vector3i> triangles;  ///< with three distinct corners
+  /// Triangles with two equal corners, or three, that reach beyond the others.
+  std::vector<Eigen::Vector3i> lines;
   std::vector<int> keptAs;  ///< per given vertex: its index in `vertices`; -1: no triangle uses it
-  int degenerateDropped = 0;  ///< triangles with two equal corners
+  int degenerateDropped = 0;  ///< triangles with two equal corners that do not
 };
 
 /// For each point the index of the first point with equal coordinates (-0.0 equals 0.0). Without a
@@ -42,20 +45,65 @@ inline std::vector<int> firstEqual(std::span<const Eigen::Vector3d> points) {
   return first;
 }
 
+/// What a triangle with two equal corners is; with equal ends, a point.
+struct WeldedLine {
+  int least;
+  int most;
+  auto operator<=>(const WeldedLine&) const = default;
+};
+
+/// Of a triangle, where vertices at the same place have one index, `first`.
+inline Eigen::Vector3i weldedCorners(const Eigen::Vector3i& triangle, std::span<const int> first) {
+  return {first[triangle[0]], first[triangle[1]], first[triangle[2]]};
+}
+
+inline bool hasDistinctCorners(const Eigen::Vector3i& corners) {
+  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+}
+
+/// Each of the lines once that is no edge of a triangle with distinct corners, and each of the
+/// points that is no corner of one and no end of a line.
+inline std::vector<WeldedLine> linesBeyond(std::span<const Eigen::Vector3i> triangles,
+                                           std::span<const int> first,
+                                           std::vector<WeldedLine> lines) {
+  std::ranges::sort(lines);
+  lines.erase(std::ranges::unique(lines).begin(), lines.end());
+  std::vector<bool> covered(lines.size(), false);
+  const auto cover = [&](int a, int b) {
+    const WeldedLine line{std::min(a, b), std::max(a, b)};
+    const auto at = std::ranges::lower_bound(lines, line);
+    if (at != lines.end() && *at == line) {
+      covered[static_cast<std::size_t>(at - lines.begin())] = true;
+    }
+  };
+  for (const Eigen::Vector3i& triangle : triangles) {
+    const Eigen::Vector3i corners = weldedCorners(triangle, first);
+    if (!hasDistinctCorners(corners)) continue;
+    for (const int a : corners)
+      for (const int b : corners) cover(a, b);
+  }
+  for (const auto [least, most] : lines) {
+    if (least == most) continue;
+    cover(least, least);
+    cover(most, most);
+  }
+  std::vector<WeldedLine> beyond;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!covered[i]) beyond.push_back(lines[i]);
+  return beyond;
+}
+
 /// Indices must be in range and coordinates finite.
+///
+/// A line is as much of the shape as a triangle is: where rounding puts a corner on another one,
+/// what is left of a needle may reach far beyond all other triangles, if the surface is open there.
 inline WeldedMesh weld(std::span<const Eigen::Vector3d> vertices,
                        std::span<const Eigen::Vector3i> triangles) {
   constexpr int kUnused = -1;
   std::vector<int> first = firstEqual(vertices);
   std::vector<int> keptIndex(vertices.size(), kUnused);
   WeldedMesh mesh;
-  mesh.triangles.reserve(triangles.size());
-  for (const Eigen::Vector3i& triangle : triangles) {
-    const Eigen::Vector3i corners(first[triangle[0]], first[triangle[1]], first[triangle[2]]);
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
-      ++mesh.degenerateDropped;
-      continue;
-    }
+  const auto keep = [&](const Eigen::Vector3i& corners) {
     Eigen::Vector3i kept;
     for (int i = 0; i < 3; ++i) {
       int& index = keptIndex[corners[i]];
@@ -65,8 +113,24 @@ inline WeldedMesh weld(std::span<const Eigen::Vector3d> vertices,
       }
       kept[i] = index;
     }
-    mesh.triangles.push_back(kept);
+    return kept;
+  };
+  std::vector<WeldedLine> lines;
+  mesh.triangles.reserve(triangles.size());
+  for (const Eigen::Vector3i& triangle : triangles) {
+    const Eigen::Vector3i corners = weldedCorners(triangle, first);
+    if (hasDistinctCorners(corners)) {
+      mesh.triangles.push_back(keep(corners));
+    } else {
+      lines.push_back({corners.minCoeff(), corners.maxCoeff()});
+    }
   }
+  if (!lines.empty()) {
+    for (const auto [least, most] : linesBeyond(triangles, first, std::move(lines)))
+      mesh.lines.push_back(keep({least, most, most}));
+  }
+  mesh.degenerateDropped =
+      static_cast<int>(triangles.size() - mesh.triangles.size() - mesh.lines.size());
   for (int& vertex : first) vertex = keptIndex[vertex];
   mesh.keptAs = std::move(first);
   return mesh;

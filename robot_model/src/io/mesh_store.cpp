@@ -6,9 +6,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "io/line_faces.hpp"
+#include "io/mesh_file.hpp"
 #include "io/numbers.hpp"
 #include "io/package_paths.hpp"
+#include "io/point_faces.hpp"
 #include "io/regular_file.hpp"
 
 namespace swept::detail {
@@ -72,7 +73,7 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
     requirePrecise(content, scale);
     const double crackWidth = roundingOf(content) * scale.cwiseAbs().minCoeff();
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
-    keepLines(content.vertices, content.triangles);
+    refuseLonePoints(content.vertices, content.triangles);
     TriangleMesh mesh =
         TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
     warnIfOpen(mesh, reference, line, source_);

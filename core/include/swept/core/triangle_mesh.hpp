@@ -27,7 +27,7 @@ struct MeshReport {
   int verticesGiven = 0;      ///< to build()
   int verticesKept = 0;       ///< after welding equal positions and dropping unused ones
   int trianglesGiven = 0;     ///< to build()
-  int degenerateDropped = 0;  ///< triangles with two equal corners
+  int degenerateDropped = 0;  ///< triangles with two equal corners, a line that others have
   int duplicatesDropped = 0;  ///< triangles with the corners of an earlier one, in any order
   int cracksFilled = 0;       ///< triangles that were added to close cracks
   int closedComponents = 0;   ///< every edge shared by an even number of triangles
@@ -42,10 +42,10 @@ struct MeshReport {
 /// oriented; cavities formed by a component inside another are filled. Inside a component means:
 /// its winding number is not zero when its triangles are consistently oriented (so where it
 /// overlaps itself is inside), else a ray from the point crosses it an odd number of times. Open
-/// components are surfaces.
-///
-/// Triangles with the corners of an earlier one are dropped, except in a component that only they
-/// close: two boxes that share a face, for instance, repeat its triangles.
+/// components are surfaces. A triangle with the corners of an earlier one is dropped, except in a
+/// component that only such ones close (boxes that share a face). One with two equal corners is a
+/// line, with three a point: dropped where another has that edge or corner, else a component by
+/// itself, open, and {a, b, b} or {a, a, a} among triangles().
 class TriangleMesh {
  public:
   using Triangle = Eigen::Vector3i;  ///< indices into vertices()
