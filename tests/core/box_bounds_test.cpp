@@ -76,6 +76,29 @@ class BoxBounds : public testing::TestWithParam<std::int64_t> {
   lane_test::OnTarget on_{GetParam()};
 };
 
+/// The squares of gaps below 1e-22 m are no normal numbers in single precision, and rounded up the
+/// bounds were above the distance by a tenth: a ball was proven to be farther from a point of a
+/// cloud than it was, where their bodies are larger and the two happen to be so near.
+TEST_P(BoxBounds, AreNoneWhereSquaresUnderflow) {
+  reference::Random random(12);
+  WideNode node = emptyNode(Vector3d::Zero());
+  node.count = WideNode::kLanes;
+  for (int lane = 0; lane < node.count; ++lane) node.set(lane, OrientedBox{});
+  const BoxFrames frames(Isometry3d::Identity(), 1e-11);
+  ASSERT_TRUE(frames.usable());
+  int positive = 0;
+  for (int i = 0; i < 20000; ++i) {
+    OrientedBox other;
+    const Vector3d away = std::pow(10.0, random.uniform(-23.5, -19.0)) * random.direction();
+    other.center = away.cast<float>().cast<double>();
+    std::array<float, WideNode::kLanes> lower{};
+    boxLowerBounds(node, frames, other, std::numeric_limits<float>::infinity(), lower);
+    ASSERT_LE(lower[0], other.center.norm());
+    positive += lower[0] > 0.0F ? 1 : 0;
+  }
+  EXPECT_GT(positive, 5000);
+}
+
 TEST_P(BoxBounds, AreNeverAboveTheDistanceAndSeldomFarBelow) {
   reference::Random random(11);
   int apart = 0, positive = 0, close = 0, total = 0;

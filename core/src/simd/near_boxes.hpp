@@ -15,6 +15,10 @@ struct NearSegment {
   std::array<float, 3> half;    ///< m
 };
 
+/// m^2, the least normal number of single precision. Where squares underflow, the sums below are
+/// off by less.
+inline constexpr double kLeastSquare = 0x1p-126;
+
 // Of each: bit i of the result says that box i is in use and that its square is not above `most`
 // (m^2), or no number. Lanes not in use hold anything.
 
