@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "matrix_robots.hpp"
 
 namespace swept {
@@ -43,6 +45,26 @@ TEST(CollisionMatrixLimits, SamplesInContactSuggestAlways) {
 
 TEST(CollisionMatrixLimits, RigidlyAttachedLinksNeedNoSamples) {
   EXPECT_EQ(statusOf(jointText("j", "fixed", "a", "between"), {.samples = 0}), PairStatus::Always);
+}
+
+/// A ball that turns about an axis 0.5 m away, beside one that is in its way or is not.
+PairStatus statusOfTurn(const std::string& limits, const Eigen::Vector3d& other) {
+  const auto robot = robotOf(linkText("a", ball(0.1), other) + linkText("between", "") +
+                             linkText("b", ball(0.1), {0.5, 0.0, 0.0}) +
+                             jointText("j", "revolute", "a", "between", limits) +
+                             jointText("rest", "fixed", "between", "b"));
+  return reportOf(*robot, collisionMatrix(*robot), "a", "b").status;
+}
+
+/// However many turns a joint may do, one is all there is to look at.
+TEST(CollisionMatrixLimits, ManyTurnsAreAsOne) {
+  for (const std::string limits : {"-4 4", "-1e4 1e4", "-1e9 1e9", "-1e16 1e16", "3 1e16"}) {
+    EXPECT_EQ(statusOfTurn(limits, Eigen::Vector3d::Zero()), PairStatus::Never) << limits;
+    for (const double angle : {0.0, 1.0, 3.1, 4.5})
+      EXPECT_NE(statusOfTurn(limits, 0.5 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)),
+                PairStatus::Never)
+          << limits << " " << angle;
+  }
 }
 
 TEST(CollisionMatrixLimits, TheReasonInTheSrdfSaysNoMore) {

@@ -44,6 +44,11 @@ LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA,
   std::ranges::sort(order_);
   limits_ = box_;
   if (bounded_) boundTurns();
+  for (const ChainJoint& joint : joints_) {
+    const std::size_t k = joint.variable;
+    const double largest = std::max(std::abs(box_.lower[k]), std::abs(box_.upper[k]));
+    bounded_ = bounded_ && joint.scale * largest <= kFarthest;
+  }
   for (std::size_t k = 0; k < variables_.size(); ++k) {
     const bool near = std::abs(box_.lower[k]) <= kFarthest && std::abs(box_.upper[k]) <= kFarthest;
     bounded_ = bounded_ && near;
@@ -69,11 +74,8 @@ void LinkChain::addPath(int from, bool reversed) {
 
 void LinkChain::addVariable(const Robot& robot, ChainJoint& joint) {
   const MovingBody& body = model_.bodies[joint.body];
-  const Variable& variable = robot.variables()[body.variable];
   const bool several = body.type == JointType::Planar || body.type == JointType::Floating;
-  bounded_ =
-      bounded_ && !several && std::abs(body.offset) <= kFarthest &&
-      joint.scale * std::max(std::abs(variable.lower), std::abs(variable.upper)) <= kFarthest;
+  bounded_ = bounded_ && !several && std::abs(body.offset) <= kFarthest;
   const auto known = std::ranges::find(variables_, body.variable);
   joint.variable = static_cast<std::size_t>(known - variables_.begin());
   if (known != variables_.end()) return;
@@ -97,7 +99,11 @@ void LinkChain::boundTurns() {
       periodic = periodic && !joint.slides && joint.scale == std::round(joint.scale);
     }
     if (model_.cyclic[variables_[k]] != 0 && !periodic) bounded_ = false;
-    if (periodic) box_.upper[k] = std::min(box_.upper[k], box_.lower[k] + turn);
+    if (!periodic) continue;
+    // Of turns that are so far out that angles round, any other is as good.
+    const bool far = !(std::abs(box_.lower[k]) <= kFarthest);
+    if (far && box_.upper[k] - box_.lower[k] >= turn) box_.lower[k] = -std::numbers::pi;
+    box_.upper[k] = std::min(box_.upper[k], box_.lower[k] + turn);
   }
 }
 
