@@ -63,6 +63,8 @@ WorkspaceData::WorkspaceData(const CheckerModel& model)
       states(model.kinematics.bodies.size()),
       stateStamps(model.kinematics.bodies.size(), -1),
       placed(model.robotGeometry.size()),
+      carried(model.kinematics.bodies.size()),
+      arms(model.kinematics.bodies.size()),
       hints(model.pairs.size(), Eigen::Vector3d::Zero()),
       hintStamps(model.pairs.size(), -1),
       lanes(model.lanes),

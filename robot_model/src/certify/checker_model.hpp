@@ -73,10 +73,12 @@ struct GeometryPair {
   bool self = false;
   int reference =
       0;  ///< body whose frame the relative motion is bounded in: the last common ancestor
-  int travelA = 0;        ///< index into CheckerModel::travels
-  int travelB = -1;       ///< likewise; -1 when b does not move relative to the reference
-  double rounding = 0.0;  ///< m, bound on the error of the computed relative pose, for any point
-  double margin = 0.0;    ///< m, what the two have to keep
+  int travelA = 0;   ///< index into CheckerModel::travels
+  int travelB = -1;  ///< likewise; -1 when b does not move relative to the reference
+  /// m, bound on the error of the computed relative pose, for any point, while all translations are
+  /// zero and angles small; see CarriedRounding for the rest.
+  double rounding = 0.0;
+  double margin = 0.0;  ///< m, what the two have to keep
 };
 
 /// Why a pair of bodies is checked or not.
@@ -145,9 +147,10 @@ struct CheckerModel {
   std::vector<GeometryPair> likeWorldPairs;
   std::int64_t measuredPairs = 0;  ///< how many pairs of pieces that is, two carriers' among them
   ///@}
-  double largestMargin = 0.0;    ///< m, of the pairs
-  double largestRounding = 0.0;  ///< m, likewise
-  double largestSpan = 0.0;      ///< m, likewise, see spanOf
+  double largestMargin = 0.0;      ///< m, of the pairs
+  double largestRounding = 0.0;    ///< m, likewise
+  double largestSpan = 0.0;        ///< m, likewise, see spanOf
+  double largestTransforms = 0.0;  ///< likewise, see transformsOf
   /// The world's boxes, for the exact tier; null for a world with few. Handles are indices into
   /// worldGeometry.
   std::shared_ptr<const SweepAndPrune> boxes;
@@ -194,10 +197,15 @@ struct MeasuredPair {
 };
 
 /// m. No point of the pair's geometry of the robot is farther from a joint that carries it, of both
-/// together, but for translations of planar and floating joints.
+/// together, but for translations.
 inline double spanOf(const CheckerModel& model, const GeometryPair& pair) {
-  const double span = model.robotGeometry[pair.a].levers.span;
-  return pair.self ? span + model.robotGeometry[pair.b].levers.span : span;
+  const double span = model.robotGeometry[pair.a].levers.spanAtRest;
+  return pair.self ? span + model.robotGeometry[pair.b].levers.spanAtRest : span;
+}
+/// Multiplied to place both.
+inline double transformsOf(const CheckerModel& model, const GeometryPair& pair) {
+  const double transforms = model.robotGeometry[pair.a].transforms;
+  return pair.self ? transforms + model.robotGeometry[pair.b].transforms : transforms;
 }
 
 /// An obstacle changes its way.
@@ -230,10 +238,10 @@ struct WorkspaceData {
   std::vector<std::vector<TravelBound>> nestedTravels;
   std::int64_t motionStamp = 0;
   double t = 0.0;
-  double wander = 0.0;                 ///< m, of all planar and floating joints together
-  double angleError = 0.0;             ///< rad, of all joints together: rounding of large angles
-  double slideError = 0.0;             ///< m, likewise: of what slides, made of large values
-  std::vector<Eigen::Vector3d> hints;  ///< per pair, within one motion: last direction found
+  std::vector<CarriedRounding> carried;  ///< per body, of the current motion
+  CarriedRounding mostCarried;           ///< no body has more of anything
+  std::vector<double> arms;              ///< m, of one travel
+  std::vector<Eigen::Vector3d> hints;    ///< per pair, within one motion: last direction found
   std::vector<std::int64_t> hintStamps;
   std::vector<std::uint32_t> arena, nextArena, failed;
   std::vector<PendingInterval> generation, nextGeneration;

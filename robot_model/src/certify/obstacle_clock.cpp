@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "kinematics/obstacle_pose.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -20,10 +22,11 @@ void placeObstacles(const CheckerModel& model, std::vector<double>& whole) {
     return;
   }
   for (const MovingObstacle& obstacle : model.world->obstacles()) {
-    const Eigen::Isometry3d pose = obstacle.poseAt(time);
-    const Eigen::Quaterniond turn(pose.linear());
-    at = std::copy_n(pose.translation().data(), 3, at);
+    const ObstaclePose pose = obstaclePose(obstacle, time);
+    const Eigen::Quaterniond turn(pose.world_from_body.linear());
+    at = std::copy_n(pose.world_from_body.translation().data(), 3, at);
     at = std::copy_n(turn.coeffs().data(), 4, at);
+    *at++ = pose.magnitude;
   }
 }
 

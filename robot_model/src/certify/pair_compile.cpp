@@ -35,8 +35,9 @@ double poseRounding(double magnitudes, double transforms) {
   return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0) + kUnderflow;
 }
 
+/// m. At rest: what a motion's translations add is known with it.
 double magnitudeOf(const RobotGeometry& robot) {
-  return std::max(robot.levers.span, robot.magnitude);
+  return std::max(robot.levers.spanAtRest, robot.magnitude);
 }
 
 class PairCompiler {
@@ -66,6 +67,7 @@ class PairCompiler {
       model_.largestMargin = std::max(model_.largestMargin, pair.margin);
       model_.largestRounding = std::max(model_.largestRounding, pair.rounding);
       model_.largestSpan = std::max(model_.largestSpan, spanOf(model_, pair));
+      model_.largestTransforms = std::max(model_.largestTransforms, transformsOf(model_, pair));
     }
   }
 
@@ -121,7 +123,9 @@ class PairCompiler {
     const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
     const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
     const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
-    const double slack = poseRounding(magnitudeOf(robot) + world.magnitude, robot.transforms);
+    // Wherever it is within the limits: compileMotion refuses what is beyond them.
+    const double magnitude = std::max(robot.levers.span, robot.magnitude);
+    const double slack = poseRounding(magnitude + world.magnitude, robot.transforms);
     return outside.stableNorm() > robot.levers.reachFromBase + margin + slack;
   }
 

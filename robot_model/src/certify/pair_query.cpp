@@ -26,12 +26,19 @@ constexpr double kQueryShare = 1.0 / 16.0;
 bool PairQuery::start(std::span<const double> from, std::span<const double> to) {
   if (!compileMotion(model_.kinematics, from, to, workspace_.motion)) return false;
   ++workspace_.motionStamp;
-  workspace_.wander = 0.0;
-  for (const JointMotion& joint : workspace_.motion) workspace_.wander += joint.wander;
-  if (!(workspace_.wander < kLargestNorm)) return false;
-  workspace_.angleError = angleError(workspace_.motion);
-  workspace_.slideError = slideError(workspace_.motion);
-  return true;
+  CarriedRounding& most = workspace_.mostCarried;
+  most = {};
+  double slid = 0.0;  // of all joints: what is no number shows in a sum
+  for (std::size_t i = 1; i < workspace_.motion.size(); ++i) {
+    const JointMotion& joint = workspace_.motion[i];
+    const CarriedRounding& own = workspace_.carried[i] =
+        carriedRounding(workspace_.carried[model_.kinematics.bodies[i].parent], joint);
+    most.slid = std::max(most.slid, own.slid);
+    most.angleError = std::max(most.angleError, own.angleError);
+    most.slideError = std::max(most.slideError, own.slideError);
+    slid += joint.slid() + joint.speed;
+  }
+  return slid < kLargestNorm;
 }
 
 void PairQuery::moveTo(double t) {
@@ -49,13 +56,22 @@ const BodyState& PairQuery::state(int body) {
   return workspace_.states[body];
 }
 
+std::span<const double> PairQuery::arms(const RobotGeometry& geometry) {
+  const LeverArms& levers = geometry.levers;
+  if (!levers.vary) return levers.arms;
+  const std::span<double> own = std::span(workspace_.arms).first(levers.path.size());
+  motionArms(model_.kinematics, geometry.body, geometry.center, geometry.radius, workspace_.motion,
+             own);
+  return own;
+}
+
 const TravelBound& PairQuery::bound(int travel) {
   if (!workspace_.nestedTravels.empty()) return nestedBound(model_.travels[travel]);
   if (workspace_.travelStamps[travel] != workspace_.motionStamp) {
     const TravelSlot& slot = model_.travels[travel];
-    workspace_.travels[travel] =
-        travelBound(model_.kinematics, model_.robotGeometry[slot.geometry].levers, slot.firstJoint,
-                    workspace_.motion);
+    const RobotGeometry& geometry = model_.robotGeometry[slot.geometry];
+    workspace_.travels[travel] = travelBound(model_.kinematics, geometry.levers.path,
+                                             arms(geometry), slot.firstJoint, workspace_.motion);
     workspace_.travelStamps[travel] = workspace_.motionStamp;
   }
   return workspace_.travels[travel];
@@ -64,8 +80,9 @@ const TravelBound& PairQuery::bound(int travel) {
 const TravelBound& PairQuery::nestedBound(const TravelSlot& slot) {
   std::vector<TravelBound>& bounds = workspace_.nestedTravels[slot.geometry];
   if (workspace_.travelStamps[slot.geometry] != workspace_.motionStamp) {
-    const LeverArms& levers = model_.robotGeometry[slot.geometry].levers;
-    nestedTravels(model_.kinematics, levers.path, levers.arms, workspace_.motion, bounds);
+    const RobotGeometry& geometry = model_.robotGeometry[slot.geometry];
+    nestedTravels(model_.kinematics, geometry.levers.path, arms(geometry), workspace_.motion,
+                  bounds);
     workspace_.travelStamps[slot.geometry] = workspace_.motionStamp;
   }
   return bounds[slot.firstJoint];
@@ -101,21 +118,24 @@ const Isometry3d& PairQuery::pose(int geometry) {
   return placed.world_from_shape;
 }
 
-/// Planar and floating joints move the coordinates' magnitude, and what slides may be made of
-/// larger values than its own; the rest is known at compile time.
-double PairQuery::slideRounding() const {
-  const double joints = static_cast<double>(model_.kinematics.bodies.size() + 2);
-  return tolerance::kRoundingPerJoint * joints * 2.0 * workspace_.wander + workspace_.slideError;
-}
-
+/// Translations move the coordinates' magnitude, each geometry's those of the joints that carry it,
+/// and values may round by more than what they come to; the rest is known at compile time.
 double PairQuery::rounding(const GeometryPair& pair) const {
-  return pair.rounding + slideRounding() +
-         workspace_.angleError * (spanOf(model_, pair) + 2.0 * workspace_.wander);
+  const double perMetre = tolerance::kRoundingPerJoint * (transformsOf(model_, pair) + 2.0);
+  const auto carried = [&](int geometry) {
+    const RobotGeometry& robot = model_.robotGeometry[geometry];
+    const CarriedRounding& own = workspace_.carried[robot.body];
+    return perMetre * own.slid + own.angleError * (robot.levers.spanAtRest + own.slid) +
+           own.slideError;
+  };
+  return pair.rounding + carried(pair.a) + (pair.self ? carried(pair.b) : 0.0);
 }
 
 double PairQuery::largestRounding() const {
-  return model_.largestRounding + slideRounding() +
-         workspace_.angleError * (model_.largestSpan + 2.0 * workspace_.wander);
+  const CarriedRounding& most = workspace_.mostCarried;
+  const double perMetre = tolerance::kRoundingPerJoint * (model_.largestTransforms + 2.0);
+  return model_.largestRounding + 2.0 * perMetre * most.slid +
+         most.angleError * (model_.largestSpan + 2.0 * most.slid) + 2.0 * most.slideError;
 }
 
 double PairQuery::travel(const GeometryPair& pair, double half) {

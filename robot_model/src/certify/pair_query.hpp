@@ -76,13 +76,14 @@ class PairQuery {
 
  private:
   const BodyState& state(int body);
+  /// m, over the current motion; valid until asked for another geometry.
+  std::span<const double> arms(const RobotGeometry& geometry);
   const TravelBound& bound(int travel);
   const TravelBound& nestedBound(const TravelSlot& slot);
   Eigen::Vector3d& hint(std::uint32_t pair);
   const Eigen::Vector3d& center(int geometry);
   const Eigen::Isometry3d& pose(int geometry);
   double rounding(const GeometryPair& pair) const;
-  double slideRounding() const;
   Aabb boxAround(int geometry, double reach);
   /// What the containing balls and boxes say.
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };

@@ -66,13 +66,19 @@ ReachableSet inParent(const ReachableSet& set, const Eigen::Isometry3d& parent_f
   return result;
 }
 
+/// m, of a prismatic joint's value.
+struct Range {
+  double low;
+  double high;
+};
+
 /// Lets the body's own joint move; the set stays in the joint frame.
-void sweepByJoint(const MovingBody& body, ReachableSet& set) {
+void sweepByJoint(const MovingBody& body, const Range& range, ReachableSet& set) {
   switch (body.type) {
     case JointType::Prismatic:
-      set.low += body.lower;
-      set.high += body.upper;
-      set.ball += std::max(std::abs(body.lower), std::abs(body.upper));
+      set.low += range.low;
+      set.high += range.high;
+      set.ball += std::max(std::abs(range.low), std::abs(range.high));
       set.tighten();
       break;
     case JointType::Floating:
@@ -85,14 +91,21 @@ void sweepByJoint(const MovingBody& body, ReachableSet& set) {
   }
 }
 
+ReachableSet setOf(const MovingBody& body, const Vector3d& center) {
+  const Vector3d first = axisOf(body);
+  const double along = first.dot(center);
+  return {first, (center - along * first).norm(), along, along, center.norm()};
+}
+
 /// m; see LeverArms::span. The set of the points goes inwards with the frames that are passed.
-double spanOf(const KinematicModel& model, int body, ReachableSet set) {
+template <typename RangeOf>
+double spanOf(const KinematicModel& model, int body, ReachableSet set, const RangeOf& rangeOf) {
   double span = set.ball;
   double detours = 0.0;
   for (int i = body; i > 0; i = model.bodies[i].parent) {
     const MovingBody& current = model.bodies[i];
     set.addOrigin();
-    sweepByJoint(current, set);
+    sweepByJoint(current, rangeOf(i), set);
     set.addOrigin();
     span = std::max(span, set.ball);
     set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
@@ -102,30 +115,96 @@ double spanOf(const KinematicModel& model, int body, ReachableSet set) {
   return (span + detours) * kOutward;
 }
 
+/// Goes inwards and shows each joint's body, the arm of the ball's points (m) about its axis, and
+/// how far (m) they get from the origin of its joint frame.
+template <typename RangeOf, typename Visit>
+void visitArms(const KinematicModel& model, int body, const Vector3d& center, double radius,
+               const RangeOf& rangeOf, const Visit& visit) {
+  ReachableSet set = setOf(model.bodies[body], center);
+  for (int i = body; i > 0; i = model.bodies[i].parent) {
+    const MovingBody& current = model.bodies[i];
+    const double arm = current.type == JointType::Floating ? set.ball : set.radius;
+    sweepByJoint(current, rangeOf(i), set);
+    visit(i, arm * kOutward + radius, set.ball * kOutward + radius);
+    set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
+  }
+}
+
+Range atRest(int /*body*/) {
+  return {0.0, 0.0};
+}
+
+/// Lemma: of what a slide s along u adds to a point, s times the part of u across an axis is across
+/// that. In the frame of the axis u is in the set that joints between the two turn it through: a
+/// vector is placed as a point is, but for the translations.
+void addGrowths(const KinematicModel& model, int slide, std::span<const int> path,
+                std::vector<RestArms::Growth>& growths) {
+  // Of axes that are parallel, rounding says that they are nearly so.
+  constexpr double kRounding = 1e-14;
+  ReachableSet set{axisOf(model.bodies[slide]), 0.0, 1.0, 1.0, 1.0};
+  auto joint = static_cast<std::size_t>(std::ranges::find(path, slide) - path.begin());
+  for (int i = slide; joint-- > 0;) {
+    Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+    turned.linear() = model.bodies[i].parent_from_joint.linear();
+    i = model.bodies[i].parent;
+    set = inParent(set, turned, axisOf(model.bodies[i]));
+    const MovingBody& body = model.bodies[i];
+    const double share = body.type == JointType::Floating ? 1.0 : set.radius;
+    if (turns(body.type) || slidesFreely(body.type))
+      growths.push_back({joint, slide, share * kOutward + kRounding});
+    sweepByJoint(body, atRest(i), set);
+  }
+}
+
 }  // namespace
 
 LeverArms leverArms(const KinematicModel& model, int body, const Vector3d& center, double radius) {
   LeverArms result;
-  const Vector3d first = axisOf(model.bodies[body]);
-  const double along = first.dot(center);
-  ReachableSet set{first, (center - along * first).norm(), along, along, center.norm()};
-  result.span = spanOf(model, body, set) + radius;
-  for (int i = body; i > 0; i = model.bodies[i].parent) {
+  const auto withinLimits = [&](int i) {
+    return Range{model.bodies[i].lower, model.bodies[i].upper};
+  };
+  const ReachableSet set = setOf(model.bodies[body], center);
+  result.spanAtRest = spanOf(model, body, set, atRest) + radius;
+  bool slides = false;
+  visitArms(model, body, center, radius, withinLimits, [&](int i, double arm, double reach) {
     const MovingBody& current = model.bodies[i];
-    const double arm = current.type == JointType::Floating ? set.ball : set.radius;
     result.path.push_back(i);
     result.transforms += 1.0 + current.fold.transforms;
-    result.arms.push_back(arm * kOutward + radius);
-    sweepByJoint(current, set);
-    result.reachFromBase = set.ball * kOutward + radius;
-    set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
-  }
+    result.arms.push_back(arm);
+    result.reachFromBase = reach;
+    result.vary = result.vary || (slides && (turns(current.type) || slidesFreely(current.type)));
+    slides = slides || current.type == JointType::Prismatic;
+  });
+  result.span = slides ? spanOf(model, body, set, withinLimits) + radius : result.spanAtRest;
   std::reverse(result.path.begin(), result.path.end());
   std::reverse(result.arms.begin(), result.arms.end());
   return result;
 }
 
-TravelBound travelBound(const KinematicModel& model, const LeverArms& levers, std::size_t first,
+void motionArms(const KinematicModel& model, int body, const Vector3d& center, double radius,
+                std::span<const JointMotion> motion, std::span<double> arms) {
+  const auto used = [&](int i) { return Range{motion[i].low, motion[i].high}; };
+  std::size_t joint = arms.size();
+  visitArms(model, body, center, radius, used,
+            [&](int /*i*/, double arm, double /*reach*/) { arms[--joint] = arm; });
+}
+
+RestArms restArms(const KinematicModel& model, int body, const Vector3d& center, double radius) {
+  RestArms result;
+  std::vector<int> path;
+  visitArms(model, body, center, radius, atRest, [&](int i, double arm, double /*reach*/) {
+    path.push_back(i);
+    result.arms.push_back(arm);
+  });
+  std::reverse(path.begin(), path.end());
+  std::reverse(result.arms.begin(), result.arms.end());
+  for (const int i : path)
+    if (model.bodies[i].type == JointType::Prismatic) addGrowths(model, i, path, result.growths);
+  return result;
+}
+
+TravelBound travelBound(const KinematicModel& model, std::span<const int> path,
+                        std::span<const double> arms, std::size_t first,
                         std::span<const JointMotion> motion) {
   // Lemma (DESIGN of a motion certificate): with joint rates r_k constant and W_k a bound on the
   // angular velocity of body k relative to the reference,
@@ -133,19 +212,19 @@ TravelBound travelBound(const KinematicModel& model, const LeverArms& levers, st
   // hence |p''| <= sum_k |r_k| rho_k (2 W_{k-1} + |r_k|) for rotations and 2 |r_k| W_{k-1} for
   // translations. A joint with both translates first, then rotates about its moved origin.
   double wander = 0.0;
-  for (std::size_t i = first; i < levers.path.size(); ++i) wander += motion[levers.path[i]].wander;
+  for (std::size_t i = first; i < path.size(); ++i) wander += motion[path[i]].wander;
 
   TravelBound bound;
   double turning = 0.0;        // W_k
   double turningBefore = 0.0;  // W_{k-1}
   double previousRate = 0.0;
   bool previousTurns = false;
-  for (std::size_t i = first; i < levers.path.size(); ++i) {
-    const MovingBody& body = model.bodies[levers.path[i]];
-    const JointMotion& joint = motion[levers.path[i]];
+  for (std::size_t i = first; i < path.size(); ++i) {
+    const MovingBody& body = model.bodies[path[i]];
+    const JointMotion& joint = motion[path[i]];
     // Planar and floating joints farther out carry the ball away from this axis.
     wander -= joint.wander;
-    const double arm = levers.arms[i] + std::max(0.0, wander) * kOutward;
+    const double arm = arms[i] + std::max(0.0, wander) * kOutward;
     bound.speed += joint.speed + joint.spinSpeed * arm;
     bound.acceleration += 2.0 * joint.speed * turning;
     bound.acceleration += joint.spinSpeed * arm * (2.0 * turning + joint.spinSpeed);

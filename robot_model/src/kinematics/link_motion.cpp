@@ -23,10 +23,10 @@ struct LinkPath {
   Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();  ///< of the last body
   double transforms = 0.0;  ///< joints, with those that stand still
   MotionRates rates;
-  double span = 0.0;        ///< m, see LeverArms::span, of the link's origin
-  double perUnit = 0.0;     ///< 1 + the sum of the joints' rates, rad and m per unit of t
-  double angleError = 0.0;  ///< rad, see detail::angleError
-  double slideError = 0.0;  ///< m, see detail::slideError
+  double span = 0.0;        ///< m, of the link's origin: see LeverArms::spanAtRest, and the slides
+  double perUnit = 0.0;     ///< 1 + the sum of the joints' spins, rad per unit of t
+  double speeds = 0.0;      ///< m per unit of t, sum of the joints'
+  CarriedRounding carried;  ///< of the link
 
   BodyState at(double t) const {
     BodyState state;
@@ -60,8 +60,10 @@ void requireSize(std::size_t size, std::size_t expected, const std::string& what
 // Lemma: the angular velocity is the sum of the joints' spins, each of which turns with the joints
 // before it, at most as fast as these turn together.
 MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& levers,
-                    const std::vector<JointMotion>& motion) {
-  const detail::TravelBound travel = detail::travelBound(kinematics, levers, 0, motion);
+                    const Vector3d& center, const std::vector<JointMotion>& motion) {
+  std::vector<double> arms = levers.arms;
+  if (levers.vary) detail::motionArms(kinematics, levers.path.back(), center, 0.0, motion, arms);
+  const detail::TravelBound travel = detail::travelBound(kinematics, levers.path, arms, 0, motion);
   MotionRates rates;
   rates.speed = travel.speed;
   rates.acceleration = travel.acceleration;
@@ -106,14 +108,14 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   const detail::LeverArms levers = detail::leverArms(kinematics, kinematics.bodyOfLink[linkIndex],
                                                      path->body_from_link.translation(), 0.0);
   const detail::Fold& fold = kinematics.foldOfLink[linkIndex];
-  path->span = levers.span + fold.detour(path->body_from_link);
+  path->span = levers.spanAtRest + fold.detour(path->body_from_link);
   path->perUnit = 1.0;
   path->transforms = levers.transforms + fold.transforms;
   detail::BodyState still;  // since the last joint that moves
   for (const int member : levers.path) {
     MovingBody body = kinematics.bodies[static_cast<std::size_t>(member)];
     const JointMotion& joint = motion[static_cast<std::size_t>(member)];
-    path->span += joint.wander;
+    path->carried = detail::carriedRounding(path->carried, joint);
     if (joint.speed == 0.0 && joint.spinSpeed == 0.0) {
       still = detail::bodyAt(body, joint, 0.0, still);
       continue;
@@ -122,12 +124,13 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
     still = {};
     path->bodies.push_back(body);
     path->joints.push_back(joint);
-    path->perUnit += joint.speed + joint.spinSpeed;
+    path->perUnit += joint.spinSpeed;
+    path->speeds += joint.speed;
   }
+  path->span += path->carried.slid;
+  const Vector3d origin = path->body_from_link.translation();
   path->body_from_link = still.world_from_body * path->body_from_link;
-  path->angleError = detail::angleError(motion);
-  path->slideError = detail::slideError(motion);
-  path->rates = ratesOf(kinematics, levers, motion);
+  path->rates = ratesOf(kinematics, levers, origin, motion);
   path_ = std::move(path);
 }
 
@@ -150,10 +153,11 @@ MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
 }
 
 double LinkMotion::rounding(double reach) const {
-  const double joints = path_->transforms + 2.0;
-  return (tolerance::kRoundingPerJoint * joints * path_->perUnit + path_->angleError) *
-             (path_->span + reach) +
-         path_->slideError;
+  // Of places and of velocities: joints that turn take the span to these, the others their speeds.
+  const double relative = tolerance::kRoundingPerJoint * (path_->transforms + 2.0);
+  const double span = path_->span + reach;
+  const double turned = (relative + path_->carried.angleError) * span;
+  return path_->perUnit * (turned + path_->carried.slideError) + relative * path_->speeds;
 }
 
 Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,

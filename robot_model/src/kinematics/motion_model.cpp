@@ -18,6 +18,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
+/// Relative. A value, its way to another one and the sum of both round by four parts in 2^53.
+constexpr double kValueRounding = 8.0 * 0x1p-53;
 
 /// Product of two quaternions x, y, z, w, as given and summed in the order that OMPL's
 /// SO3StateSpace has: between opposite orientations its rounding decides which way round is taken.
@@ -121,8 +123,11 @@ MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group)
   const Variable& variable = robot.variables()[source.firstVariable];
   const double atLower = body.multiplier * variable.lower + body.offset;
   const double atUpper = body.multiplier * variable.upper + body.offset;
-  // compileMotion lets values pass their limits by this much.
-  const double slack = std::abs(body.multiplier) * tolerance::kLimit;
+  // compileMotion lets values pass their limits by this much, and by what they round.
+  const double largest =
+      std::abs(body.multiplier) * std::max(std::abs(variable.lower), std::abs(variable.upper)) +
+      std::abs(body.offset);
+  const double slack = std::abs(body.multiplier) * tolerance::kLimit + kValueRounding * largest;
   body.lower = std::min(atLower, atUpper) - slack;
   body.upper = std::max(atLower, atUpper) + slack;
   return body;
@@ -200,7 +205,7 @@ int addAttachedFrame(KinematicModel& model, int body, const Isometry3d& body_fro
 
 int addObstacleFrames(KinematicModel& model, std::size_t count) {
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-  constexpr int kPose = 7;
+  constexpr int kPose = 8;  // with the magnitude
   const int first = static_cast<int>(model.bodies.size());
   if (count == 0) return first;
   model.cyclic.push_back(0);
@@ -221,9 +226,7 @@ int addObstacleFrames(KinematicModel& model, std::size_t count) {
 
 namespace {
 
-/// Relative. A value, its way to another one and the sum of both round by four parts in 2^53.
-constexpr double kValueRounding = 8.0 * 0x1p-53;
-/// Up to so many radians, or times the limits of what slides, that is part of kRoundingPerJoint.
+/// Up to so many radians, or times the largest translation, that is part of kRoundingPerJoint.
 constexpr double kOrdinary = 10.0;
 
 bool compileFloating(const double* from, const double* to, JointMotion& motion) {
@@ -274,8 +277,9 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       const double largest = std::abs(body.multiplier) *
                                  (std::max(std::abs(*q0), std::abs(*q1)) + std::abs(difference)) +
                              std::abs(body.offset);
-      const double limit = std::max(std::abs(body.lower), std::abs(body.upper));
-      motion.slideError = kValueRounding * std::max(0.0, largest - kOrdinary * limit);
+      motion.low = std::min(start, end);
+      motion.high = std::max(start, end);
+      motion.slideError = kValueRounding * std::max(0.0, largest - kOrdinary * motion.slid());
       break;
     }
     case JointType::Planar:
@@ -289,6 +293,12 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       break;
     case JointType::Floating:
       if (!compileFloating(q0, q1, motion)) return false;
+      // Of an obstacle, which is on its way between waypoints that may be far away. Lemma: of each
+      // of three coordinates that, the share and its product round by less than 14 parts in 2^53.
+      if (body.variable >= model.dimension) {
+        const double largest = 4.0 * std::max(q0[7], q1[7]);
+        motion.slideError = kValueRounding * std::max(0.0, largest - kOrdinary * motion.wander);
+      }
       break;
     case JointType::Fixed:
       break;
@@ -309,17 +319,10 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
   return true;
 }
 
-double angleError(std::span<const JointMotion> motion) {
-  double error = 0.0;
-  for (const JointMotion& joint : motion)
-    error += kValueRounding * std::max(0.0, joint.largestAngle - kOrdinary);
-  return error;
-}
-
-double slideError(std::span<const JointMotion> motion) {
-  double error = 0.0;
-  for (const JointMotion& joint : motion) error += joint.slideError;
-  return error;
+CarriedRounding carriedRounding(const CarriedRounding& before, const JointMotion& joint) {
+  return {before.slid + joint.slid(),
+          before.angleError + kValueRounding * std::max(0.0, joint.largestAngle - kOrdinary),
+          before.slideError + joint.slideError};
 }
 
 BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,

@@ -44,7 +44,8 @@ struct MovingBody {
 /// floating joint of its own.
 ///
 /// A configuration is that of the group, followed by the time where there are moving obstacles. The
-/// functions on motions read whole configurations: with the poses of the obstacles behind it.
+/// functions on motions read whole configurations: with the poses of the obstacles behind it, and
+/// how large (m) the coordinates are that each was made of.
 struct KinematicModel {
   std::vector<MovingBody> bodies;  ///< parents first; [0] is the model frame itself
   std::vector<int> bodyOfLink;
@@ -77,16 +78,27 @@ struct JointMotion {
   double speed = 0.0;         ///< m per unit t, |rate|
   double spinSpeed = 0.0;     ///< rad per unit t, |spin|
   double wander = 0.0;        ///< m, planar and floating: largest |translation| over the motion
+  double low = 0.0;           ///< m, prismatic: range of its value over the motion
+  double high = 0.0;          ///< m
   double largestAngle = 0.0;  ///< rad, of what the joint's angle is made of, for its rounding
-  double slideError = 0.0;  ///< m, prismatic: what its value rounds by beyond what its limits tell
+  double slideError = 0.0;    ///< m, what a translation rounds by beyond what its own size tells
+
+  /// m. Largest |translation| over the motion, whatever the type.
+  double slid() const { return std::max({wander, -low, high}); }
 };
 
-/// rad. What angles larger than a few turns, and the shorter way between two, round by: of all
-/// joints together, beyond what kRoundingPerJoint allows for.
-double angleError(std::span<const JointMotion> motion);
-/// m. Likewise of what slides, made of much larger values than its limits: a mimic joint's whose
-/// offset takes back most of what its master gives.
-double slideError(std::span<const JointMotion> motion);
+/// What the joints that carry a body add to the rounding of its place in one motion, beyond what
+/// they do with all translations at zero. It is as large as the values that the motion uses.
+struct CarriedRounding {
+  double slid = 0.0;        ///< m, all translations together
+  double angleError = 0.0;  ///< rad, of angles larger than a few turns, and the shorter ways
+  /// m. Of translations made of much larger values than they are: a mimic joint's whose offset
+  /// takes back most of what its master gives, an obstacle's between waypoints far away.
+  double slideError = 0.0;
+};
+
+/// Of what `joint` moves, whose parent has `before`.
+CarriedRounding carriedRounding(const CarriedRounding& before, const JointMotion& joint);
 
 /// Frame and velocity field of a body at one t: the point p (m, model frame) has velocity
 /// linear + angular x p per unit t.
@@ -118,7 +130,7 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
                   std::span<const double> to, JointMotion& motion);
 
 /// False when a value is not finite, a quaternion has no direction, or a prismatic value is outside
-/// its limits (the lever arms do not hold there).
+/// its limits (what is left out as out of reach may be within it there).
 bool compileMotion(const KinematicModel& model, std::span<const double> from,
                    std::span<const double> to, std::span<JointMotion> motion);
 

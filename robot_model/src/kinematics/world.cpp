@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kinematics/obstacle_pose.hpp"
 #include "kinematics/rigid_transform.hpp"
 #include "kinematics/shape_cover.hpp"
 
@@ -122,18 +123,29 @@ const MovingObstacle* World::findObstacle(std::string_view name) const {
 }
 
 Eigen::Isometry3d MovingObstacle::poseAt(double time) const {
-  const auto after = std::ranges::upper_bound(waypoints, time, {}, &Waypoint::time);
-  if (after == waypoints.begin()) return waypoints.front().world_from_body;
-  const Waypoint& first = *std::prev(after);
-  if (after == waypoints.end() || time == first.time) return first.world_from_body;
+  return detail::obstaclePose(*this, time).world_from_body;
+}
+
+namespace detail {
+
+ObstaclePose obstaclePose(const MovingObstacle& obstacle, double time) {
+  const auto& waypoints = obstacle.waypoints;
+  const auto after = std::ranges::upper_bound(waypoints, time, {}, &MovingObstacle::Waypoint::time);
+  if (after == waypoints.begin()) return {waypoints.front().world_from_body, 0.0};
+  const MovingObstacle::Waypoint& first = *std::prev(after);
+  if (after == waypoints.end() || time == first.time) return {first.world_from_body, 0.0};
   const double share = (time - first.time) / (after->time - first.time);
   const Eigen::Vector3d begin = first.world_from_body.translation();
+  const Eigen::Vector3d end = after->world_from_body.translation();
   const Eigen::Quaterniond turn(first.world_from_body.linear());
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = begin + share * (after->world_from_body.translation() - begin);
-  pose.linear() =
+  ObstaclePose pose;
+  pose.world_from_body.translation() = begin + share * (end - begin);
+  pose.world_from_body.linear() =
       turn.slerp(share, Eigen::Quaterniond(after->world_from_body.linear())).toRotationMatrix();
+  pose.magnitude = std::max(begin.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff());
   return pose;
 }
+
+}  // namespace detail
 
 }  // namespace swept

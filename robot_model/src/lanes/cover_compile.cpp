@@ -29,8 +29,10 @@ class CoverCompiler {
       geometriesOf[geometry.body].push_back(static_cast<int>(i));
       geometryBody_.push_back(geometry.body);
       // What places a shape in its body is rounded in double alone.
-      const double span = std::max(geometry.levers.span, kSingle * geometry.magnitude);
+      const LeverArms& levers = geometry.levers;
+      const double span = std::max(levers.spanAtRest, kSingle * geometry.magnitude);
       lanes_.reach = std::max(lanes_.reach, static_cast<float>(span) * 1.00001F);
+      lanes_.farther = std::max(lanes_.farther, levers.span - levers.spanAtRest);
     }
     rootOfGeometry_.assign(model_.robotGeometry.size(), -1);
     rootOfBody_.assign(bodies, -1);
@@ -199,7 +201,7 @@ class CoverCompiler {
     auto hulls = std::make_shared<LaneHulls>();
     for (const RobotGeometry& geometry : model_.robotGeometry)
       hulls->add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
-                 geometry.levers.arms);
+                 restArms(model_.kinematics, geometry.body, geometry.center, geometry.radius));
     lanes_.hulls = std::move(hulls);
   }
 

@@ -30,16 +30,12 @@ LaneJointKind kindOf(JointType type) {
   }
 }
 
-/// rad, or times the limits of what slides. What is left of a value by an offset rounds in double
-/// as the value does: up to this offset by less than it rounds in single precision, which is
-/// counted.
+/// rad. What is left of an angle by an offset rounds in double as the angle does: up to this offset
+/// by less than it rounds in single precision, which is counted. What so slides says by how much.
 constexpr double kLargestOffset = 1e6;
 
 bool roundsInSingle(const MovingBody& body) {
-  const double unit = body.type == JointType::Prismatic
-                          ? std::max(std::abs(body.lower), std::abs(body.upper))
-                          : 1.0;
-  return std::abs(body.offset) <= kLargestOffset * unit;
+  return !turns(body.type) || std::abs(body.offset) <= kLargestOffset;
 }
 
 /// The arms do not count what planar and floating joints farther out let a body slide; in front of
@@ -135,6 +131,7 @@ void shareLaneBodies(const LaneModel& like, LaneModel& lanes) {
   lanes.floats = like.floats;
   lanes.rounding = like.rounding;
   lanes.reach = like.reach;
+  lanes.farther = like.farther;
 }
 
 }  // namespace swept::detail

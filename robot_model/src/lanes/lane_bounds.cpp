@@ -86,13 +86,20 @@ float accelerationOfPoints(const LaneModel& model, int index, int geometry, Lane
   const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
   const std::size_t first = model.ancestors[reference].size();
   if (path.size() <= first || (first > 0 && path[first - 1] != reference)) return 0.0F;
-  const float* arms = model.hulls->arms.data() + model.hulls->of[geometry].firstArm;
+  const LaneHull& hull = model.hulls->of[geometry];
+  const float* arms = model.hulls->arms.data() + hull.firstArm;
   boundPath(model, path, first, scratch);
   float sum = 0.0F;
   for (std::size_t i = first; i < path.size(); ++i)
     sum += scratch.turned[i] * arms[i] + scratch.slid[i];
-  // One rounding for each step, and what the last product rounds.
-  return sum * (kOutward + 0x1p-22F * static_cast<float>(path.size()));
+  for (std::int32_t i = 0; i < hull.growthCount; ++i) {
+    const LaneHulls::Growth& growth = model.hulls->growths[hull.firstGrowth + i];
+    if (static_cast<std::size_t>(growth.joint) >= first)
+      sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
+  }
+  // One rounding for each term, and what the last products round.
+  const auto terms = static_cast<float>(path.size() + hull.growthCount);
+  return sum * (kOutward + 0x1p-22F * terms);
 }
 
 }  // namespace swept::detail

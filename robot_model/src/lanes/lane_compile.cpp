@@ -33,9 +33,9 @@ class LaneCompiler {
     addMargins();
     lanes_.rootRows = compileRootRows(lanes_);
     addTables();
-    lanes_.obstacles = compileObstacles(model_.worldGeometry, lanes_.reach, reachIsBounded(),
-                                        lanes_.obstacleExtras,
-                                        like_ != nullptr ? &like_->lanes.obstacles : nullptr);
+    lanes_.obstacles = compileObstacles(
+        model_.worldGeometry, lanes_.reach, reachIsBounded(), lanes_.obstacleExtras,
+        like_ != nullptr ? &like_->lanes.obstacles : nullptr, lanes_.farther);
     return std::move(lanes_);
   }
 

@@ -34,9 +34,9 @@ constexpr std::size_t kMostCells = std::size_t{1} << 22;
 
 }  // namespace
 
-FieldCompiler::FieldCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+FieldCompiler::FieldCompiler(const std::vector<WorldGeometry>& world, double reach, double room,
                              std::span<const LaneField> known)
-    : reach_(reach), bounded_(bounded) {
+    : reach_(reach), room_(room) {
   const auto fields = static_cast<std::size_t>(std::ranges::count_if(world, wantsField));
   cells_ =
       std::clamp(kMostCells / std::max<std::size_t>(fields, 1), kLeastFieldCells, kMostFieldCells);
@@ -63,15 +63,11 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, LaneFie
   const Aabb box = boundingBox(geometry.shape);
   const Vector3d unlimited = Vector3d::Constant(std::numeric_limits<double>::infinity());
   Aabb window{-unlimited, unlimited};
-  if (bounded_) {
-    // Room for balls around the farthest points too. Where it cuts nothing off, whatever the pose,
-    // the field can be shared.
-    const Vector3d room = Vector3d::Constant(1.3 * reach_ + 0.1);
-    const Vector3d origin = shape_from_world.translation();
-    for (int i = 0; i < 3; ++i) {
-      if (origin[i] - room[i] > box.lower[i]) window.lower[i] = origin[i] - room[i];
-      if (origin[i] + room[i] < box.upper[i]) window.upper[i] = origin[i] + room[i];
-    }
+  // Where it cuts nothing off, whatever the pose, the field can be shared.
+  const Vector3d origin = shape_from_world.translation();
+  for (int i = 0; i < 3; ++i) {
+    if (origin[i] - room_ > box.lower[i]) window.lower[i] = origin[i] - room_;
+    if (origin[i] + room_ < box.upper[i]) window.upper[i] = origin[i] + room_;
   }
   const std::shared_ptr<const ClearanceField> field = fieldFor(geometry.shape, window);
   if (!field) return false;

@@ -39,8 +39,9 @@ struct LaneField {
 /// Makes the fields of a world's meshes and clouds; equal ones are shared.
 class FieldCompiler {
  public:
-  /// `reach` and `bounded`: as for compileObstacles. `known`: of another world, to be shared.
-  FieldCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+  /// `reach`: as for compileObstacles. `room`: m, no ball of the robot has a point farther from the
+  /// model frame's origin; may be infinite. `known`: of another world, to be shared.
+  FieldCompiler(const std::vector<WorldGeometry>& world, double reach, double room,
                 std::span<const LaneField> known);
 
   /// `slack`: m, what a coordinate in a frame of the geometry is rounded by. False where no point
@@ -57,7 +58,7 @@ class FieldCompiler {
   };
 
   double reach_;
-  bool bounded_;
+  double room_;
   std::size_t cells_ = 0;
   std::vector<KnownField> known_;
 };

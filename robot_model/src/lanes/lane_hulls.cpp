@@ -71,12 +71,17 @@ struct GrownHull {
 }  // namespace
 
 void LaneHulls::add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
-                    const Eigen::Matrix3d& bodyFromLane, const std::vector<double>& armsOfPath) {
+                    const Eigen::Matrix3d& bodyFromLane, const RestArms& armsOfPath) {
   const Grown grown = std::visit(GrownHull(), shape);
   LaneHull hull;
   hull.first = static_cast<std::int32_t>(points.size());
   hull.firstArm = static_cast<std::int32_t>(arms.size());
-  for (const double arm : armsOfPath) arms.push_back(static_cast<float>(arm * (1.0 + 1e-6)));
+  for (const double arm : armsOfPath.arms) arms.push_back(static_cast<float>(arm * (1.0 + 1e-6)));
+  hull.firstGrowth = static_cast<std::int32_t>(growths.size());
+  hull.growthCount = static_cast<std::int32_t>(armsOfPath.growths.size());
+  for (const RestArms::Growth& growth : armsOfPath.growths)
+    growths.push_back({static_cast<std::int32_t>(growth.joint), growth.slide,
+                       static_cast<float>(growth.share * (1.0 + 1e-6))});
   hull.count = static_cast<std::int32_t>(grown.points.size());
   if (grown.radius > 0.0) hull.radius = std::nextafter(static_cast<float>(grown.radius), 1e30F);
   hull.ofGeometry = grown.ofGeometry;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kinematics/lever_arms.hpp"
 #include "lanes/row.hpp"
 #include "swept/core/shapes.hpp"
 
@@ -17,7 +18,9 @@ struct LaneHull {
   float radius = 0.0F;     ///< m
   /// The points are of the geometry themselves, not only around it.
   bool ofGeometry = false;
-  std::int32_t firstArm = 0;  ///< into LaneHulls::arms; one for each of LaneModel::ancestors
+  std::int32_t firstArm = 0;     ///< into LaneHulls::arms; one for each of LaneModel::ancestors
+  std::int32_t firstGrowth = 0;  ///< into LaneHulls::growths
+  std::int32_t growthCount = 0;
 };
 
 /// Of all geometries, in the frames of their bodies.
@@ -30,12 +33,20 @@ struct LaneHulls {
   std::vector<Points> points;
   /// The same in double precision, in the frames of the kinematics: [8 * row + lane].
   std::vector<Eigen::Vector3d> inBody;
-  /// m, rounded up: no point of the geometry is farther from the joint's axis.
+  /// m, rounded up: no point of the geometry is farther from the joint's axis while all prismatic
+  /// joints are at zero.
   std::vector<float> arms;
+  /// See RestArms::Growth; `joint` is an index into LaneModel::ancestors, shares are rounded up.
+  struct Growth {
+    std::int32_t joint = 0;
+    std::int32_t slide = 0;
+    float share = 0.0F;
+  };
+  std::vector<Growth> growths;
 
   /// `bodyFromLane`: the kinematics' frame of the body from the lanes'.
   void add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
-           const Eigen::Matrix3d& bodyFromLane, const std::vector<double>& armsOfPath);
+           const Eigen::Matrix3d& bodyFromLane, const RestArms& armsOfPath);
 };
 
 }  // namespace swept::detail

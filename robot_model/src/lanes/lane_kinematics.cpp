@@ -172,8 +172,14 @@ void Bound(const LaneModel& model, LaneScratch& scratch) {
       if (model.slides)
         for (std::size_t i = 0; i < steps; ++i)
           sum = multiplyAdd(set(scratch.slid[i]), load(reference.carried[i * rows + r]), sum);
-      // One rounding for each step, and what the last product rounds.
-      const float outward = kOutward + 0x1p-22F * static_cast<float>(steps);
+      for (const LaneReference::Growth& growth : reference.growths) {
+        const F8 slid = set(scratch.motion[growth.slide].slid);
+        for (std::size_t i = 0; i < steps; ++i)
+          sum = multiplyAdd(set(scratch.turned[i]) * slid, load(growth.shares[i * rows + r]), sum);
+      }
+      // One rounding for each term, and what the last products round.
+      const float outward =
+          kOutward + 0x1p-22F * static_cast<float>(steps * (1 + reference.growths.size()));
       store(sum * set(outward), scratch.bounds[k].acceleration[r]);
     }
   }

@@ -53,8 +53,9 @@ struct LaneNode {
 /// Bounds on how the bodies that move relative to a reference body do so.
 ///
 /// Rows go over the moving bodies, padded; `arms[step][body]` bounds the distance of each ball
-/// centre of the body from the axis of the step's joint, 0 where that does not carry the body.
-/// Where LaneModel::carried has them, there are no steps, arms and `carried` here.
+/// centre of the body from the axis of the step's joint while all prismatic joints are at zero, 0
+/// where that does not carry the body. What a motion slides makes it longer: see Growth. Where
+/// LaneModel::carried has them, there are no steps, arms and `carried` here.
 struct LaneReference {
   struct Step {
     int body = 0;
@@ -62,12 +63,18 @@ struct LaneReference {
     int grandparent = -1;     ///< step; meaningful when `turnsAfter`
     bool turnsAfter = false;  ///< both this joint and its parent's turn, relative to the reference
   };
+  /// By how much more, per m that a prismatic joint is off zero.
+  struct Growth {
+    int slide = 0;            ///< index into LaneModel::bodies
+    std::vector<Row> shares;  ///< as `arms`
+  };
   int body = 0;
-  std::vector<Step> steps;   ///< parents first
-  int rows = 0;              ///< per step
-  std::vector<Row> arms;     ///< m, [step * rows + row]
-  std::vector<Row> carried;  ///< 1 or 0, likewise
-  std::vector<int> slot;     ///< per body: where it is in the rows; -1: not moved
+  std::vector<Step> steps;      ///< parents first
+  int rows = 0;                 ///< per step
+  std::vector<Row> arms;        ///< m, [step * rows + row]
+  std::vector<Growth> growths;  ///< one per prismatic joint behind one that turns
+  std::vector<Row> carried;     ///< 1 or 0, likewise
+  std::vector<int> slot;        ///< per body: where it is in the rows; -1: not moved
 };
 
 /// The bodies that one joint carries. References have arms each of their own, whose number grows
@@ -75,7 +82,7 @@ struct LaneReference {
 /// references: see boundCarried.
 struct LaneCarried {
   std::vector<int> bodies;   ///< its own one included, ascending
-  std::vector<float> arms;   ///< m, of each, as in LaneReference
+  std::vector<float> arms;   ///< m, of each, within the limits of prismatic joints
   std::int32_t around = -1;  ///< of LaneModel::references, that of the body it hangs on; -1: none
 };
 
@@ -162,7 +169,8 @@ struct LaneModel {
   bool floats = false;                      ///< some joint is floating
   float margin = 0.0F;                      ///< m, the least of all pairs
   float rounding = 0.0F;                    ///< relative, of positions; see lane_motion.cpp
-  float reach = 0.0F;  ///< m, see LeverArms::span: the largest, but for what slides freely
+  float reach = 0.0F;    ///< m, see LeverArms::spanAtRest: the largest, but for what slides
+  double farther = 0.0;  ///< m, how much farther prismatic joints reach within their limits
   std::shared_ptr<const JointTables> tables;  ///< all that were built
 
   /// m. What the pair has to keep beyond `margin`.

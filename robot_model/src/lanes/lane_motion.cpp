@@ -38,7 +38,8 @@ struct Extent {
   double largestAngle = 0.0;  ///< rad
   double spins = 0.0;         ///< rad per unit t, of all joints
   double speeds = 0.0;        ///< m per unit t, of all joints
-  double wander = 0.0;        ///< m
+  double slid = 0.0;          ///< m, of all joints
+  double slideError = 0.0;    ///< m, likewise
 };
 
 /// rad. Beyond, the rounding of 2 pi shows in what is left of an angle when turns are taken off.
@@ -65,7 +66,7 @@ bool addSlide(const LaneModel& model, const KinematicModel& kinematics, std::siz
   if (!compileJoint(kinematics, body, from, to, joint)) return false;
   if (!(joint.largestAngle <= kLargestAngle)) return false;
   // The largest of several may leave out what is no number: a walk must never see it.
-  if (!std::isfinite(joint.wander + joint.speed)) return false;
+  if (!std::isfinite(joint.wander + joint.high - joint.low + joint.speed)) return false;
   const bool floating = body.type == JointType::Floating;
   // Slides are written in the parent's frame.
   const Eigen::Matrix3d lane_from_joint =
@@ -78,7 +79,9 @@ bool addSlide(const LaneModel& model, const KinematicModel& kinematics, std::siz
   }
   lane.speed = static_cast<float>(joint.speed * kOutward);
   extent.speeds += joint.speed;
-  extent.wander += joint.wander;
+  lane.slid = static_cast<float>(joint.slid() * kOutward);
+  extent.slid += joint.slid();
+  extent.slideError += joint.slideError;
   if (floating) compileFloating(body, joint, lane);
   return addTurn(floating ? 0.0 : joint.angle, floating ? joint.spinSpeed : joint.angleRate,
                  joint.spinSpeed, lane, extent);
@@ -112,13 +115,14 @@ bool addJoints(const LaneModel& model, const KinematicModel& kinematics,
 /// Lemma: a rotation is off by at most 32 kSingle (1 + a / 8) more than its parent's, a the largest
 /// angle: 4 kSingle a from the angle, 5 kSingle from the sine and cosine, and two products with
 /// three terms each. A position is off by the sum of these times what lies beyond, at most the
-/// reach, plus its own sums; a velocity by as much times the sum of the spins, of which half an
-/// interval counts at most a half.
+/// reach at rest and what is slid, plus its own sums; a velocity by as much times the sum of the
+/// spins, of which half an interval counts at most a half. What is slid takes points as much
+/// farther from the obstacles' frames as well.
 bool setRounding(const LaneModel& model, const Extent& extent, LaneScratch& scratch) {
-  const double reach = model.reach + extent.wander;
+  const double reach = model.reach + extent.slid;
   const double relative = static_cast<double>(model.rounding) * (1.0 + extent.largestAngle / 8.0);
   const double rounding = relative * (reach * (1.0 + 0.5 * extent.spins) + 0.5 * extent.speeds) +
-                          64.0 * kSingle * extent.wander;
+                          64.0 * kSingle * extent.slid + extent.slideError;
   scratch.rounding = static_cast<float>(rounding);
   return rounding < 1.0;
 }
@@ -155,7 +159,8 @@ bool compileLaneStates(const LaneModel& model, const KinematicModel& kinematics,
     Extent own;
     if (!addJoints(model, kinematics, q, q, scratch, own)) return false;
     extent.largestAngle = std::max(extent.largestAngle, own.largestAngle);
-    extent.wander = std::max(extent.wander, own.wander);
+    extent.slid = std::max(extent.slid, own.slid);
+    extent.slideError = std::max(extent.slideError, own.slideError);
     for (std::size_t i = 1; i < model.bodies.size(); ++i) {
       scratch.block.angle[i].lane[lane] = scratch.motion[i].angle;
       for (std::size_t k = 0; k < 3; ++k)

@@ -25,7 +25,7 @@ class ReferenceCompiler {
       Vector3d middle;
       double radius = 0.0;
       centersOf(body, middle, radius);
-      levers_[body] = leverArms(model_.kinematics, static_cast<int>(body), middle, radius);
+      levers_[body] = restArms(model_.kinematics, static_cast<int>(body), middle, radius);
     }
   }
 
@@ -111,20 +111,35 @@ class ReferenceCompiler {
   }
 
   void fillArms(int body, LaneReference& reference) const {
-    const LeverArms& levers = levers_[body];
+    const RestArms& levers = levers_[body];
+    const std::vector<int>& path = lanes_.ancestors[body];
     const int slot = reference.slot[body];
-    for (std::size_t i = 0; i < levers.path.size(); ++i) {
-      const int step = reference.slot[levers.path[i]];
+    const auto setIn = [&](std::vector<Row>& rows, int step, double value) {
+      rows[step * reference.rows + slot / kLanes].lane[slot % kLanes] = static_cast<float>(value);
+    };
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const int step = reference.slot[path[i]];
       if (step < 0) continue;
-      const int at = step * reference.rows + slot / kLanes;
-      reference.arms[at].lane[slot % kLanes] = armOf(levers, i);
-      reference.carried[at].lane[slot % kLanes] = 1.0F;
+      setIn(reference.arms, step, levers.arms[i] * (1.0 + 1e-6));
+      setIn(reference.carried, step, 1.0);
     }
+    for (const RestArms::Growth& growth : levers.growths) {
+      const int step = reference.slot[path[growth.joint]];
+      if (step >= 0) setIn(sharesOf(growth.slide, reference), step, growth.share * (1.0 + 1e-6));
+    }
+  }
+
+  /// Of a prismatic joint.
+  static std::vector<Row>& sharesOf(int slide, LaneReference& reference) {
+    const auto known = std::ranges::find(reference.growths, slide, &LaneReference::Growth::slide);
+    if (known != reference.growths.end()) return known->shares;
+    reference.growths.push_back({slide, std::vector<Row>(reference.arms.size(), Row{})});
+    return reference.growths.back().shares;
   }
 
   const CheckerModel& model_;
   const LaneModel& lanes_;
-  std::vector<LeverArms> levers_;
+  std::vector<RestArms> levers_;
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ struct LaneJointMotion {
   float after[9] = {};      ///< Floating: applied to the body before it turns
   float spin = 0.0F;        ///< rad per unit t, not below |angleRate|
   float speed = 0.0F;       ///< m per unit t, not below |slideRate|
+  float slid = 0.0F;        ///< m, Slide: not below what it is off zero during the motion
 };
 
 /// Frame and velocity field of one body in all lanes: p has velocity linear + angular x p.

@@ -22,9 +22,9 @@ constexpr double kLargestSquared = 1e15;
 
 class ObstacleCompiler {
  public:
-  ObstacleCompiler(const std::vector<WorldGeometry>& world, double reach, bool bounded,
+  ObstacleCompiler(const std::vector<WorldGeometry>& world, double reach, double room,
                    std::span<const LaneField> known)
-      : reach_(reach), fields_(world, reach, bounded, known) {}
+      : reach_(reach), fields_(world, reach, room, known) {}
 
   void add(const WorldGeometry& geometry) {
     geometry_ = &geometry;
@@ -229,10 +229,13 @@ void ObstacleCompiler::addTriangle(const Triangle& triangle) {
 }  // namespace
 
 LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded,
-                               std::span<const float> extras, const LaneObstacles* like) {
+                               std::span<const float> extras, const LaneObstacles* like,
+                               double farther) {
+  // Room for balls around the farthest points too.
+  const double room =
+      bounded ? 1.3 * (reach + farther) + 0.1 : std::numeric_limits<double>::infinity();
   ObstacleCompiler compiler(
-      world, reach, bounded,
-      like != nullptr ? std::span(like->fields) : std::span<const LaneField>());
+      world, reach, room, like != nullptr ? std::span(like->fields) : std::span<const LaneField>());
   for (const WorldGeometry& geometry : world) compiler.add(geometry);
   LaneObstacles result = compiler.take();
   result.nodes = buildObstacleTree(world, reach, extras);

@@ -94,12 +94,12 @@ struct LaneObstacles {
   std::vector<LaneWorldNode> nodes;  ///< [0] is the root; empty: no obstacles
 };
 
-/// `reach`: m, no point of the robot is farther from the model frame's origin, but for what slides
-/// freely; `bounded`: nothing does. `extras`: m, per geometry, how much farther around it must be
-/// looked for the robot; empty: not at all. `like`: null, or another world, whose fields are
-/// shared.
+/// `reach`: m, no point of the robot is farther from the model frame's origin, but for what slides;
+/// `bounded`: none slides freely, the others no farther than by `farther` (m). `extras`: m, per
+/// geometry, how much farther around it must be looked for the robot; empty: not at all. `like`:
+/// null, or another world, whose fields are shared.
 LaneObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded,
                                std::span<const float> extras = {},
-                               const LaneObstacles* like = nullptr);
+                               const LaneObstacles* like = nullptr, double farther = 0.0);
 
 }  // namespace swept::detail

@@ -210,7 +210,7 @@ class Checker {
   int dimension() const;  ///< size of a configuration of the group
 
   /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
-  /// prismatic value outside its limits (the bounds on what moves hold inside them).
+  /// prismatic value outside its limits (what is out of reach within them is not looked at).
   Verdict checkState(std::span<const double> q, Workspace& workspace) const;
   /// The same verdicts for many states, which follow each other in `states`; faster than one by
   /// one. Throws std::invalid_argument unless there is one verdict for each.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "swept/robot_model/world.hpp"
+
+namespace swept::detail {
+
+struct ObstaclePose {
+  Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
+  /// m. No coordinate that the translation is made of is larger, however near what comes of them.
+  double magnitude = 0.0;
+};
+
+/// See MovingObstacle::poseAt. `time` is finite.
+ObstaclePose obstaclePose(const MovingObstacle& obstacle, double time);
+
+}  // namespace swept::detail
