@@ -8,6 +8,8 @@
 #include <typeinfo>
 #include <utility>
 
+#include "swept/robot_model/limits.hpp"
+
 namespace swept::detail {
 
 namespace ob = ompl::base;
@@ -66,6 +68,16 @@ double JointSpace::getMaximumExtent() const {
     sum += range * range;
   }
   return std::sqrt(sum);
+}
+
+bool JointSpace::satisfiesBounds(const ob::State* state) const {
+  const double* values = state->as<StateType>()->values;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    // What is no number passes, as it does in OMPL's own space: no checker calls it valid.
+    if (!isWithin(values[i], bounds_.low[i], bounds_.high[i]) && !std::isnan(values[i]))
+      return false;
+  }
+  return true;
 }
 
 double JointSpace::getMeasure() const {

@@ -25,6 +25,9 @@ class JointSpace : public ompl::base::RealVectorStateSpace {
   const std::vector<double>& weights() const { return weights_; }
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
   double getMaximumExtent() const override;
+  /// As far beyond the bounds as isWithin() has it: the limit in single precision is a state, too.
+  /// Samples and enforceBounds() stay within the bounds themselves.
+  bool satisfiesBounds(const ompl::base::State* state) const override;
   /// Of ranges times weights, as in OMPL's compound spaces: planners make radii of it.
   double getMeasure() const override;
   /// Its distances, and deviations, are those of the space: a joint's divided by its weight.

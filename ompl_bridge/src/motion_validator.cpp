@@ -7,6 +7,7 @@
 #include "preconditions.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/paths.hpp"
+#include "swept/robot_model/limits.hpp"
 #include "workspace_pool.hpp"
 
 namespace swept {
@@ -25,6 +26,8 @@ double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, doubl
     // Not the space's interpolate: it takes orientations closer than 1e-4 rad for equal and would
     // leave the certified motion by that much.
     checker.interpolate(scratch.from, scratch.to, t, q);
+    // As the state's conversion will do: it is certified as it will be.
+    takeToLimits(checker.robot(), checker.group(), q);
     const MotionCertificate certificate =
         certifyByEither(checker, scratch.from, q, scratch.workspace, MotionQuery::VerdictOnly);
     if (certificate.verdict == Verdict::Free) return t;

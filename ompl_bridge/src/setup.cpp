@@ -4,11 +4,15 @@
 #include <ompl/base/DiscreteMotionValidator.h>
 
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "limit_warning.hpp"
 #include "preconditions.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/validity_checker.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 
@@ -27,13 +31,40 @@ ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> c
   return setup;
 }
 
+namespace {
+
+/// A configuration as a state of the space. What is a hair beyond the space's bounds, which may be
+/// narrower than the robot's limits, is taken to them.
+ompl::base::ScopedState<> stateOf(const ompl::base::StateSpacePtr& space, const Checker& checker,
+                                  std::span<const double> configuration, const char* of) {
+  const Robot& robot = checker.robot();
+  const StateConversion conversion(robot, checker.group());
+  ompl::base::ScopedState<> state(space);
+  conversion.toState(configuration, state.get());
+  ompl::base::ScopedState<> bounded = state;
+  space->enforceBounds(bounded.get());
+  std::vector<double> q(configuration.begin(), configuration.end());
+  std::vector<double> inside(q.size());
+  conversion.toConfiguration(bounded.get(), inside);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Variable& variable = robot.variables()[checker.group().variables[i]];
+    const std::string unit = unitOf(robot, variable);
+    const bool turns = variable.cyclic || unit.empty();
+    if (turns || inside[i] == q[i] || !isWithin(q[i], inside[i], inside[i])) continue;
+    detail::warnOfLimit({variable.name, q[i], inside[i], unit}, of);
+    q[i] = inside[i];
+  }
+  conversion.toState(q, state.get());
+  return state;
+}
+
+}  // namespace
+
 void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
                      std::span<const double> start, std::span<const double> goal) {
   detail::requireSpaceOf(checker, *setup.getStateSpace());
-  const StateConversion conversion(checker.robot(), checker.group());
-  ompl::base::ScopedState<> from(setup.getStateSpace()), to(setup.getStateSpace());
-  conversion.toState(start, from.get());
-  conversion.toState(goal, to.get());
+  const ompl::base::ScopedState<> from = stateOf(setup.getStateSpace(), checker, start, "start");
+  const ompl::base::ScopedState<> to = stateOf(setup.getStateSpace(), checker, goal, "goal");
   setup.setStartAndGoalStates(from, to);
 }
 

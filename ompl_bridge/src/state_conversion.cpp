@@ -12,6 +12,7 @@
 
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 namespace ob = ompl::base;
@@ -48,6 +49,7 @@ StateConversion::StateConversion(const Robot& robot, const Group& group) {
     const int size = static_cast<int>(run.variables.size());
     blocks_.push_back({run.kind, dimension_, size});
     dimension_ += size;
+    for (const int v : run.variables) variables_.push_back(robot.variables()[v]);
   }
 }
 
@@ -94,7 +96,11 @@ void StateConversion::toState(std::span<const double> q, ob::State* state) const
     const std::span<const double> in = q.subspan(blocks_[i].first, blocks_[i].size);
     switch (blocks_[i].kind) {
       case SubspaceKind::RealVector:
-        std::copy(in.begin(), in.end(), part->as<ob::RealVectorStateSpace::StateType>()->values);
+        for (std::size_t k = 0; k < in.size(); ++k) {
+          const Variable& variable = variables_[static_cast<std::size_t>(blocks_[i].first) + k];
+          part->as<ob::RealVectorStateSpace::StateType>()->values[k] =
+              limitNear(variable, in[k]).value_or(in[k]);
+        }
         break;
       case SubspaceKind::SO2:
         part->as<ob::SO2StateSpace::StateType>()->value = wrapped(in[0]);

@@ -6,6 +6,7 @@
 #include <ompl/base/spaces/SO2StateSpace.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -17,10 +18,12 @@
 
 #include "group_space.hpp"
 #include "joint_space.hpp"
+#include "limit_warning.hpp"
 #include "number_text.hpp"
 #include "preconditions.hpp"
 #include "state_layout.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
+#include "swept/robot_model/limits.hpp"
 #include "tip_projection.hpp"
 
 namespace swept {
@@ -42,16 +45,19 @@ std::pair<double, double> limitsOf(const Variable& variable, const StateSpaceOpt
   double lower = variable.lower, upper = variable.upper;
   const auto narrower = options.limits.find(variable.name);
   if (narrower != options.limits.end()) {
-    const auto [low, high] = narrower->second;
+    auto [low, high] = narrower->second;
+    low = limitNear(variable, low).value_or(low);
+    high = limitNear(variable, high).value_or(high);
     if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
       refuse("limits [" + numberText(low) + ", " + numberText(high) + "] of `" + variable.name +
              "` are not two finite numbers, the lower one first");
     }
     if (low < lower || high > upper) {
-      refuse("limits [" + numberText(low) + ", " + numberText(high) + "] of `" + variable.name +
-             "` are not within the robot's [" + numberText(lower) + ", " + numberText(upper) + "]");
+      const std::vector<std::string> texts = distinctNumbers(std::array{low, high, lower, upper});
+      refuse("limits [" + texts[0] + ", " + texts[1] + "] of `" + variable.name +
+             "` are not within the robot's [" + texts[2] + ", " + texts[3] + "]");
     }
-    return narrower->second;
+    return {low, high};
   }
   if (!std::isfinite(lower)) {
     lower = std::isfinite(upper) ? upper - 2.0 * kUnboundedTranslation : -kUnboundedTranslation;
@@ -141,6 +147,10 @@ void requireOptions(const Robot& robot, const Group& group, const StateSpaceOpti
     const int place = *index - joint.firstVariable;
     const bool turns = variable.cyclic || (joint.type == JointType::Floating && place >= 3);
     if (turns) refuse("`" + name + "` is an angle without limits, or part of an orientation");
+    for (const double value : {limits.first, limits.second}) {
+      const std::optional<double> limit = limitNear(variable, value);
+      if (limit) detail::warnOfLimit({name, value, *limit, unitOf(robot, variable)}, "limits");
+    }
   }
   for (const auto& [name, weight] : options.weights) {
     const std::optional<int> index = robot.findJoint(name);

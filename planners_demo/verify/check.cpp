@@ -11,8 +11,9 @@
 namespace swept::verify {
 namespace {
 
-/// rad or m. How far beyond a limit a state may be: rounding.
-constexpr double kLimit = 1e-9;
+/// rad or m. How far beyond a limit a state may be: 1e-5, and what such a decimal rounds by. What
+/// is proven is proven of the state as it is.
+constexpr double kLimit = 1.000001e-5;
 const std::string kChanged = ": is not as it was when the path was certified";
 
 const Json& readArray(const Json& json, const char* key, const std::string& where) {

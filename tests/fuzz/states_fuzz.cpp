@@ -12,7 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Group& group = *kRobot->findGroup("whole_body");
   try {
     const std::string text(fuzz::textOf(data, size));
-    const std::vector<double> q = readState(*kRobot, group, text, "state 1");
+    const std::vector<double> q =
+        readState(*kRobot, group, text, "state 1", [](const std::string&) {});
     for (std::size_t i = 0; i < q.size(); ++i) {
       const Variable& variable = kRobot->variables()[group.variables[i]];
       if (!(q[i] >= variable.lower && q[i] <= variable.upper)) fuzz::fail("outside its limits");

@@ -106,7 +106,7 @@ TEST(Check, AnglesWithoutLimitsMayHaveAnyNumberOfTurns) {
 TEST(Check, LimitsHoldToWithinTheRoundingOfFiles) {
   const Gantry gantry;
   EXPECT_EQ(gantry.run("check", {"2.5,1", "-0.5,0", "2.5000000001,0"}).exitCode, 0);
-  EXPECT_EQ(gantry.run("check", {"2.50001,0"}).exitCode, 3);
+  EXPECT_EQ(gantry.run("check", {"2.50002,0"}).exitCode, 3);
 }
 
 }  // namespace

@@ -56,6 +56,20 @@ TEST(NeverPairs, AreLeftOutWithinTheLimits) {
   EXPECT_EQ(within.verdict, Verdict::Free);
 }
 
+TEST(NeverPairs, HoldWhereAHeldJointIsAHairBeyondItsLimit) {
+  const auto robot = fencedArm();
+  const auto explained = [&](double lid) {
+    CheckerOptions options;
+    options.reference = robot->defaultState();
+    (*options.reference)[*robot->findVariable("jl")] = lid;
+    return Checker(robot, "arm", std::make_shared<World>(), options).explain("base", "hand");
+  };
+  for (const double lid : {0.5, 0.5 + 2e-9, -0.5 - 9e-6})
+    EXPECT_THAT(explained(lid), HasSubstr(std::string(kNever))) << lid;
+  for (const double lid : {0.5 + 1.1e-5, -0.6})
+    EXPECT_THAT(explained(lid), Not(HasSubstr(std::string(kNever)))) << lid;
+}
+
 TEST(NeverPairs, AreCheckedBeyondTheLimits) {
   const Checker checker = fenced();
   Workspace workspace(checker);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -90,7 +91,8 @@ RunResult Worker::run(const RunKey& key) {
   PlanOutcome outcome;
   try {
     const PlanningProblem problem = batch_.problems->problem(key.set, key.index);
-    const ProblemStates ends = problemStates(*batch_.model.robot, group_, problem);
+    const ProblemStates ends =
+        problemStates(*batch_.model.robot, group_, problem, std::ref(warnings_));
     std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
     for (const std::vector<double>& q : ends.goals) states.push_back({.label = "goal", .q = q});
     outcome = plan(checkerOf(problem), states, request);

@@ -14,6 +14,7 @@
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "swept/robot_model/input.hpp"
+#include "swept/robot_model/limits.hpp"
 #include "verify/check.hpp"
 
 namespace swept {
@@ -47,13 +48,36 @@ bool needsFiles(const Arguments& args, const Json& path) {
          !args.verify.scene.empty() || !args.page.file.empty();
 }
 
+/// Of a path that holds: names what is a little beyond a limit.
+void warnOfLimits(const Json& path, const Json& model, Warnings& warnings) {
+  const Json& variables = model["variables"];
+  const auto limitOf = [](const Json& limit, double none) {
+    return limit.is_null() ? none : limit.get<double>();
+  };
+  for (const Json& state : path["states"]) {
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      Variable variable;
+      variable.name = variables[i]["name"];
+      variable.lower = limitOf(variables[i]["lower"], -HUGE_VAL);
+      variable.upper = limitOf(variables[i]["upper"], HUGE_VAL);
+      variable.cyclic = variables[i]["cyclic"];
+      const double value = state[i];
+      if (const auto limit = limitNear(variable, value))
+        warnings("swept: warning: " +
+                 limitRemark({variable.name, value, *limit, ""}, "proven as it is"));
+    }
+  }
+}
+
 /// `files`: those of filesOf(), or null.
-VerifyOutcome examine(const Json& path, const Files* files) {
+VerifyOutcome examine(const Json& path, const Files* files, Warnings& warnings) {
   VerifyOutcome outcome;
   try {
     const Json model = files == nullptr ? Json() : modelJson(*files->task.checker);
-    outcome.summary = verify::checkProof(path, path.contains("model") ? path["model"] : model);
+    const Json& own = path.contains("model") ? path["model"] : model;
+    outcome.summary = verify::checkProof(path, own);
     if (files != nullptr && path.contains("model")) verify::requireSameModel(path["proof"], model);
+    warnOfLimits(path, own, warnings);
   } catch (const verify::Refusal& refusal) {
     outcome.refusal = refusal.what();
   }
@@ -104,7 +128,7 @@ ExitCode runVerify(const Arguments& args) {
   {
     Progress progress("verifying", args.quiet);
     if (needsFiles(args, path)) files = filesOf(args, path, warnings);
-    outcome = examine(path, files ? &*files : nullptr);
+    outcome = examine(path, files ? &*files : nullptr, warnings);
   }
   if (args.json)
     std::cout << dumped(outcomeJson(outcome)) << '\n';

@@ -32,7 +32,8 @@ class SelfFilter {
     if (args.states.empty())
       throw UsageError("--self-filter needs a state: that in which the robot was seen");
     const Group& group = chooseGroup(robot, args.group);
-    const std::vector<double> q = readState(robot, group, args.states.front(), "--self-filter");
+    const std::vector<double> q =
+        readState(robot, group, args.states.front(), "--self-filter", options.warn);
     const Eigen::VectorXd others = robot.defaultState();
     state_.assign(others.begin(), others.end());
     for (std::size_t i = 0; i < q.size(); ++i)

@@ -10,7 +10,7 @@
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
 #include "output/text_output.hpp"
-#include "swept/core/tolerances.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 namespace {
@@ -56,25 +56,22 @@ void normaliseOrientation(const Robot& robot, const Group& group, std::vector<do
   }
 }
 
-/// Refuses values outside the limits; takes those within rounding of a limit to the limit, and
+/// Refuses values outside the limits; takes those a little beyond a limit to it, with a remark, and
 /// angles of joints without limits to the turn around zero.
 void keepLimits(const Robot& robot, const Group& group, std::vector<double>& q,
-                const std::string& label) {
+                const std::string& label, const Warn& warn) {
   for (std::size_t i = 0; i < group.variables.size(); ++i) {
     const Variable& variable = robot.variables()[group.variables[i]];
     double& value = q[i];
     if (variable.cyclic && !(value >= variable.lower && value <= variable.upper))
       value = std::remainder(value, 2.0 * std::numbers::pi);
-    const bool within =
-        value >= variable.lower - tolerance::kLimit && value <= variable.upper + tolerance::kLimit;
-    if (!within) {
-      const std::string unit = unitOf(robot, variable);
-      throw UsageError(label + ": " + variable.name + " is " + shortNumber(value) +
-                       ", allowed is " + shortNumber(variable.lower) + " to " +
-                       shortNumber(variable.upper) + (unit.empty() ? "" : " " + unit));
-    }
-    value = std::clamp(value, variable.lower, variable.upper);
+    if (!isWithin(value, variable.lower, variable.upper))
+      throw UsageError(label + ": " +
+                       outsideText(variable.name, value, variable.lower, variable.upper,
+                                   unitOf(robot, variable)));
   }
+  for (const TakenToLimit& taken : takeToLimits(robot, group, q))
+    warn("swept: warning: " + limitRemark(taken));
 }
 
 std::vector<double> namedState(const Robot& robot, const Group& group, const NamedState& state,
@@ -103,11 +100,12 @@ std::vector<double> namedState(const Robot& robot, const Group& group, const Nam
 
 std::vector<double> reordered(const Robot& robot, const Group& group,
                               const std::vector<std::size_t>& order,
-                              const std::vector<double>& values, const std::string& label) {
+                              const std::vector<double>& values, const std::string& label,
+                              const Warn& warn) {
   std::vector<double> q;
   for (const std::size_t place : order) q.push_back(values.at(place));
   normaliseOrientation(robot, group, q, label);
-  keepLimits(robot, group, q, label);
+  keepLimits(robot, group, q, label, warn);
   return q;
 }
 
@@ -121,21 +119,6 @@ std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
   std::vector<std::string> names;
   for (const int v : group.variables) names.push_back(robot.variables()[v].name);
   return names;
-}
-
-std::string unitOf(const Robot& robot, const Variable& variable) {
-  const Joint& joint = robot.joints()[variable.joint];
-  const int place = static_cast<int>(&variable - robot.variables().data()) - joint.firstVariable;
-  switch (joint.type) {
-    case JointType::Prismatic:
-      return "m";
-    case JointType::Planar:
-      return place < 2 ? "m" : "rad";
-    case JointType::Floating:
-      return place < 3 ? "m" : "";
-    default:
-      return "rad";
-  }
 }
 
 std::vector<double> readValues(const std::string& text, std::span<const std::string> names,
@@ -156,7 +139,7 @@ std::vector<double> readValues(const std::string& text, std::span<const std::str
 }
 
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
-                              const std::string& label) {
+                              const std::string& label, const Warn& warn) {
   const std::string wanted = trimmed(text);
   std::vector<double> q;
   if (const NamedState* state = robot.findNamedState(wanted, group.name))
@@ -166,7 +149,7 @@ std::vector<double> readState(const Robot& robot, const Group& group, const std:
   else
     refuseName(robot, group, wanted, label);
   normaliseOrientation(robot, group, q, label);
-  keepLimits(robot, group, q, label);
+  keepLimits(robot, group, q, label, warn);
   return q;
 }
 
@@ -183,14 +166,14 @@ std::vector<std::size_t> problemOrder(const Robot& robot, const Group& group,
   return order;
 }
 
-ProblemStates problemStates(const Robot& robot, const Group& group,
-                            const PlanningProblem& problem) {
+ProblemStates problemStates(const Robot& robot, const Group& group, const PlanningProblem& problem,
+                            const Warn& warn) {
   const std::string label = labelOf(problem);
   const std::vector<std::size_t> order = problemOrder(robot, group, problem);
   ProblemStates states;
-  states.start = reordered(robot, group, order, problem.start, label + ", start");
+  states.start = reordered(robot, group, order, problem.start, label + ", start", warn);
   for (const std::vector<double>& goal : problem.goals)
-    states.goals.push_back(reordered(robot, group, order, goal, label + ", goal"));
+    states.goals.push_back(reordered(robot, group, order, goal, label + ", goal", warn));
   if (states.goals.empty()) throw UsageError(label + ": it has no goal");
   return states;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ namespace swept {
 /// Those that the group moves, in the order of its values.
 std::vector<std::string> variableNames(const Robot& robot, const Group& group);
 
-/// `rad` or `m`; empty for the components of a quaternion.
-std::string unitOf(const Robot& robot, const Variable& variable);
+/// Takes a line for stderr: `swept: warning: ...`.
+using Warn = std::function<void(const std::string& line)>;
 
 /// Comma-separated values, one for each name. Throws UsageError, which starts with `label`, for
 /// another number of them and for anything that is not a finite number.
@@ -24,9 +25,10 @@ std::vector<double> readValues(const std::string& text, std::span<const std::str
 
 /// A configuration of the group from a named state or comma-separated values. Throws UsageError,
 /// which starts with `label`, for an unknown name, a wrong count, anything that is not a finite
-/// number, and a value outside its limits. The result is within the limits exactly.
+/// number, and a value outside its limits. The result is within the limits exactly: of each value
+/// that is taken to one (takeToLimits()) `warn` is told.
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
-                              const std::string& label);
+                              const std::string& label, const Warn& warn);
 
 /// For each variable of the group, its place in the problem's joint names. Throws UsageError when
 /// those are not exactly the group's variables.
@@ -34,11 +36,13 @@ std::vector<std::size_t> problemOrder(const Robot& robot, const Group& group,
                                       const PlanningProblem& problem);
 
 /// The problem's start and goals in the order of the group's variables. Throws UsageError when the
-/// problem's joints are not exactly the group's variables, or a value is outside its limits.
+/// problem's joints are not exactly the group's variables, or a value is outside its limits. Limits
+/// are kept as readState() does.
 struct ProblemStates {
   std::vector<double> start;
   std::vector<std::vector<double>> goals;
 };
-ProblemStates problemStates(const Robot& robot, const Group& group, const PlanningProblem& problem);
+ProblemStates problemStates(const Robot& robot, const Group& group, const PlanningProblem& problem,
+                            const Warn& warn);
 
 }  // namespace swept

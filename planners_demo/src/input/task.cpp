@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 namespace {
@@ -59,13 +61,14 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
                  Warnings& warnings) {
   const ProblemFile file = ProblemFile::load(args.problems);
   const PlanningProblem problem = file.problem(args.set, *args.index);
-  const ProblemStates states = problemStates(*model.robot, group, problem);
+  const ProblemStates states = problemStates(*model.robot, group, problem, std::ref(warnings));
   Task task;
   task.alternatives = true;
   const auto world = std::make_shared<const World>(problem.world);
   if (args.command == &kReplayCommand) {
     // The rules are those of a run over many problems.
-    requireBodiesOfRules(args, model, file, chosenProblems(file, {}));
+    const Arguments all;
+    requireBodiesOfRules(args, model, file, chosenProblems(file, all));
     task.checker = makeFirstChecker(args, model, group, world, warnings);
   } else {
     task.checker = makeChecker(args, model, group, world, warnings);
@@ -81,7 +84,7 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
 /// The group's values among a request's. Throws UsageError for one that is missing or wrong.
 std::vector<double> requestState(const Robot& robot, const Group& group,
                                  const PlanningRequest::JointValues& values,
-                                 const std::string& label) {
+                                 const std::string& label, const Warn& warn) {
   std::string text;
   for (const int v : group.variables) {
     const std::string& name = robot.variables()[v].name;
@@ -90,7 +93,7 @@ std::vector<double> requestState(const Robot& robot, const Group& group,
     if (found == values.end()) throw UsageError(label + ": it has no value for " + name);
     text += (text.empty() ? "" : ",") + exactNumber(found->second);
   }
-  return readState(robot, group, text, label);
+  return readState(robot, group, text, label, warn);
 }
 
 /// With those of bases. Throws UsageError.
@@ -103,15 +106,22 @@ PlanningRequest::JointValues startOf(const Robot& robot, const PlanningRequest& 
   }
 }
 
-/// The start's values of all joints, those outside the group too.
+/// The start's values of all joints, those outside the group too: they have limits as well, and are
+/// taken to them as the group's are.
 Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest::JointValues& start,
-                            const std::string& file) {
+                            const std::string& file, const Warn& warn) {
   Eigen::VectorXd reference = robot.defaultState();
   for (const auto& [name, value] : start) {
     const std::optional<int> variable = robot.findVariable(name);
     if (!variable && !robot.findJoint(name))
       throw UsageError(file + ", start: robot '" + robot.name() + "' has no joint '" + name + "'");
-    if (variable) reference[*variable] = value;  // a joint without one mimics another
+    if (!variable) continue;  // it mimics another
+    reference[*variable] = value;
+    if (const auto limit = limitNear(robot.variables()[*variable], value)) {
+      const std::string unit = unitOf(robot, robot.variables()[*variable]);
+      warn("swept: warning: " + limitRemark({name, value, *limit, unit}));
+      reference[*variable] = *limit;
+    }
   }
   return reference;
 }
@@ -124,18 +134,18 @@ Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) 
   if (request.goals.size() + request.poseGoals.size() > 1 && !request.poseGoals.empty())
     throw UsageError(args.request + ": a goal pose has to be its only goal");
   const PlanningRequest::JointValues start = startOf(robot, request, args.request);
+  const auto stateOf = [&](const PlanningRequest::JointValues& values, const std::string& label) {
+    return requestState(robot, group, values, args.request + ", " + label, std::ref(warnings));
+  };
   Task task;
   task.alternatives = true;
   task.checker = makeChecker(args, model, group, model.world, warnings,
-                             referenceOf(robot, start, args.request));
-  task.states.push_back(
-      {.label = "start", .q = requestState(robot, group, start, args.request + ", start")});
+                             referenceOf(robot, start, args.request, std::ref(warnings)));
+  task.states.push_back({.label = "start", .q = stateOf(start, "start")});
   for (std::size_t i = 0; i < request.goals.size(); ++i) {
     const std::string goal =
         request.goals.size() > 1 ? "goal " + std::to_string(i + 1) : std::string("goal");
-    task.states.push_back(
-        {.label = goal,
-         .q = requestState(robot, group, request.goals[i], args.request + ", " + goal)});
+    task.states.push_back({.label = goal, .q = stateOf(request.goals[i], goal)});
   }
   if (!request.poseGoals.empty()) task.poseGoal = request.poseGoals.front();
   return task;
@@ -269,7 +279,7 @@ Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
     const std::string& text = args.states[i];
     const std::string goal = args.states.size() > 2 ? "goal " + std::to_string(i) : "goal";
     const std::string label = plan ? (i == 0 ? "start" : goal) : "state " + std::to_string(i + 1);
-    const std::vector<double> q = readState(*model.robot, group, text, label);
+    const std::vector<double> q = readState(*model.robot, group, text, label, std::ref(warnings));
     const bool named = model.robot->findNamedState(text, group.name) != nullptr;
     task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});
   }

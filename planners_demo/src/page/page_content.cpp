@@ -11,6 +11,7 @@
 #include "page/page_clearances.hpp"
 #include "page/page_frames.hpp"
 #include "page/page_pieces.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 namespace {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <mutex>
 #include <thread>
@@ -30,7 +31,7 @@ PlanOutcome solveProblem(const Arguments& args, const ProblemFile& file, const E
   const PlanningProblem problem = file.problem(entry.set, entry.index);
   ProblemStates ends;
   try {
-    ends = problemStates(like.robot(), like.group(), problem);
+    ends = problemStates(like.robot(), like.group(), problem, std::ref(warnings));
   } catch (const UsageError& error) {
     // One problem with values outside the robot's limits does not end the run.
     PlanOutcome outcome;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "input/states.hpp"
 #include "replay/replay_cases.hpp"
 
 namespace swept {
@@ -24,6 +25,7 @@ struct Answer {
 };
 
 Answer answerTo(const PairQuestion& question);
-Answer answerTo(const RobotQuestion& question);
+/// `warn`: of values taken to a limit (readState()).
+Answer answerTo(const RobotQuestion& question, const Warn& warn);
 
 }  // namespace swept

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <functional>
 #include <iostream>
 
 #include "command_line/commands.hpp"
+#include "input/task.hpp"
 #include "output/text_output.hpp"
 #include "replay/answer.hpp"
 #include "replay/replay_cases.hpp"
@@ -10,9 +12,9 @@
 namespace swept {
 namespace {
 
-Answer answerTo(const ReplayCase& item) {
+Answer answerTo(const ReplayCase& item, const Warn& warn) {
   if (item.pair) return answerTo(*item.pair);
-  if (item.robot) return answerTo(*item.robot);
+  if (item.robot) return answerTo(*item.robot, warn);
   Answer answer;
   answer.result = Answer::Result::Skipped;
   answer.reason = item.skipReason;
@@ -67,9 +69,10 @@ ExitCode runReplay(const Arguments& args) {
   TextTable table(
       {{"id"}, {"query"}, {"answer", true}, {"expected", true}, {"error", true}, {"result"}});
   Json json = {{"cases", Json::array()}};
+  Warnings warnings(args.quiet);
   int passed = 0, failed = 0, skipped = 0;
   const auto ask = [&](const ReplayCase& item) {
-    const Answer answer = answerTo(item);
+    const Answer answer = answerTo(item, std::ref(warnings));
     ++(answer.result == Answer::Result::Passed   ? passed
        : answer.result == Answer::Result::Failed ? failed
                                                  : skipped);

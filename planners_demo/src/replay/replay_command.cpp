@@ -11,6 +11,7 @@ void addOptions(CLI::App& app, Arguments& args) {
       ->required()
       ->type_name("FILE.json");
   addJsonOption(app, args);
+  addQuietOption(app, args);
 }
 
 }  // namespace

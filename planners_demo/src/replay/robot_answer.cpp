@@ -58,14 +58,14 @@ void answerMotion(const RobotQuestion& question, const MotionCertificate& found,
                   shortNumber(answer.upper);
 }
 
-void ask(const RobotQuestion& question, Answer& answer) {
+void ask(const RobotQuestion& question, const Warn& warn, Answer& answer) {
   using Clock = std::chrono::steady_clock;
   const std::shared_ptr<const Checker> checker = checkerOf(question);
   requireJoints(question, *checker);
   std::vector<std::vector<double>> states;
   for (const std::vector<double>& values : question.states)
     states.push_back(
-        readState(checker->robot(), checker->group(), valuesText(values), "its values"));
+        readState(checker->robot(), checker->group(), valuesText(values), "its values", warn));
   Workspace workspace(*checker);
   const Clock::time_point start = Clock::now();
   if (states.size() == 1)
@@ -78,10 +78,10 @@ void ask(const RobotQuestion& question, Answer& answer) {
 
 }  // namespace
 
-Answer answerTo(const RobotQuestion& question) {
+Answer answerTo(const RobotQuestion& question, const Warn& warn) {
   Answer answer;
   try {
-    ask(question, answer);
+    ask(question, warn, answer);
   } catch (const std::exception& error) {
     answer.result = Answer::Result::Failed;
     answer.reason = std::string("threw: ") + error.what();

@@ -12,6 +12,7 @@
 #include "certify/state_check.hpp"
 #include "io/numbers.hpp"
 #include "kinematics/whole_state.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 
@@ -161,8 +162,7 @@ bool Checker::withinLimits(std::span<const double> q) const {
   requireSize(q);
   const auto& kinematics = model_->kinematics;
   for (int i = 0; i < kinematics.dimension; ++i) {
-    const bool inside = q[i] >= kinematics.lower[i] - tolerance::kLimit &&
-                        q[i] <= kinematics.upper[i] + tolerance::kLimit;
+    const bool inside = isWithin(q[i], kinematics.lower[i], kinematics.upper[i]);
     if (!inside || !std::isfinite(q[i])) return false;
   }
   return true;

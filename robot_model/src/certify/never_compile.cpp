@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "matrix/never_pairs.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
 
@@ -18,12 +19,13 @@ constexpr std::int64_t kBudget = 3'000;
 /// pairs, takes 0.8 of it; in what has more, links that are far apart along the chain go without.
 constexpr std::int64_t kMostWork = 1'000'000'000;
 
-/// Values of joints outside the group, too: proofs are about values within the limits.
+/// Values of joints outside the group, too: proofs are about values within the limits, and as far
+/// beyond as isWithin() has it (LinkChain::box).
 bool referenceWithinLimits(const CheckerModel& model) {
   const std::vector<Variable>& variables = model.robot->variables();
   for (std::size_t v = 0; v < variables.size(); ++v) {
     const double value = (*model.options.reference)[static_cast<Eigen::Index>(v)];
-    if (!variables[v].cyclic && !(value >= variables[v].lower && value <= variables[v].upper))
+    if (!variables[v].cyclic && !isWithin(value, variables[v].lower, variables[v].upper))
       return false;
   }
   return true;

@@ -14,6 +14,7 @@
 #include "certify/obstacle_clock.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
 
@@ -132,10 +133,7 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   StateReport report;
   report.finite = std::all_of(q.begin(), q.end(), [](double v) { return std::isfinite(v); });
   for (std::size_t i = 0; i < model.group.variables.size(); ++i) {
-    const double slack = tolerance::kLimit;
-    const bool inside =
-        q[i] >= model.kinematics.lower[i] - slack && q[i] <= model.kinematics.upper[i] + slack;
-    if (!inside) {
+    if (!isWithin(q[i], model.kinematics.lower[i], model.kinematics.upper[i])) {
       report.outsideLimits.push_back(model.robot->variables()[model.group.variables[i]].name);
     }
   }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "io/numbers.hpp"
 #include "io/srdf.hpp"
-#include "swept/core/tolerances.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
 
@@ -57,9 +58,12 @@ void addValue(SrdfDocument::JointValue value, const InputSource& source, const R
   for (int i = 0; i < count; ++i) {
     const int v = joint.firstVariable + i;
     const Variable& variable = robot.variables[v];
-    const double number = value.values[i];
-    if (!variable.cyclic && (number < variable.lower - tolerance::kLimit ||
-                             number > variable.upper + tolerance::kLimit)) {
+    double number = value.values[i];
+    if (const std::optional<double> limit = limitNear(variable, number)) {
+      const TakenToLimit taken{variable.name, number, *limit, unitOf(joint, i)};
+      source.warn(value.line, owner + ": " + limitRemark(taken));
+      number = *limit;
+    } else if (!variable.cyclic && !isWithin(number, variable.lower, variable.upper)) {
       source.warn(value.line, owner + ": " + variable.name + " = " + formatNumber(number) +
                                   " is outside its limits [" + formatNumber(variable.lower) + ", " +
                                   formatNumber(variable.upper) + "]");

@@ -10,7 +10,7 @@
 #include "io/mesh_store.hpp"
 #include "io/numbers.hpp"
 #include "io/urdfdom_parse.hpp"
-#include "swept/core/tolerances.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
 
@@ -221,10 +221,10 @@ void Assembler::warnOfMimicRange(const Joint& joint) {
   }
   if (joint.type == JointType::Continuous) return;
   const auto limits = model_->getJoint(joint.name)->limits;
-  if (std::min(a, b) >= limits->lower - tolerance::kLimit &&
-      std::max(a, b) <= limits->upper + tolerance::kLimit) {
+  // A multiplier of five digits may miss a limit by a hair: that changes nothing, for the joint
+  // goes where its master takes it.
+  if (isWithin(a, limits->lower, limits->upper) && isWithin(b, limits->lower, limits->upper))
     return;
-  }
   source_.warn(outline.mimic->line,
                start + " and takes values in [" + formatNumber(std::min(a, b)) + ", " +
                    formatNumber(std::max(a, b)) + "], beyond its limits [" +

@@ -14,6 +14,7 @@
 #include "kinematics/motion_model.hpp"
 #include "kinematics/rigid_transform.hpp"
 #include "kinematics/whole_state.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 
@@ -241,10 +242,13 @@ InverseKinematics InverseKinematics::within(std::span<const double> lower,
   auto chain = std::make_shared<ToolChain>(*chain_);
   for (Degree& degree : chain->degrees) {
     if (degree.turn || degree.cyclic) continue;
-    const double low = lower[degree.variable], high = upper[degree.variable];
+    double low = lower[degree.variable], high = upper[degree.variable];
+    const bool ordered = low <= high;
+    if (low > degree.high && isWithin(low, degree.low, degree.high)) low = degree.high;
+    if (high < degree.low && isWithin(high, degree.low, degree.high)) high = degree.low;
     degree.low = std::max(degree.low, low);
     degree.high = std::min(degree.high, high);
-    if (!(low <= high) || !(degree.low <= degree.high)) {
+    if (!ordered || !(degree.low <= degree.high)) {
       refuse("the limits leave no value to variable '" +
              robot().variables()[group().variables[degree.variable]].name + "'");
     }

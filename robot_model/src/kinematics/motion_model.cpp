@@ -123,11 +123,13 @@ MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group)
   const Variable& variable = robot.variables()[source.firstVariable];
   const double atLower = body.multiplier * variable.lower + body.offset;
   const double atUpper = body.multiplier * variable.upper + body.offset;
-  // compileMotion lets values pass their limits by this much, and by what they round.
-  const double largest =
-      std::abs(body.multiplier) * std::max(std::abs(variable.lower), std::abs(variable.upper)) +
-      std::abs(body.offset);
-  const double slack = std::abs(body.multiplier) * tolerance::kLimit + kValueRounding * largest;
+  // compileMotion lets values pass their limits by this much: as far as isWithin() does, and, of
+  // what slides and is refused beyond, by what is computed of such a value.
+  double slack = std::abs(body.multiplier) * tolerance::kLimit;
+  if (body.type == JointType::Prismatic)
+    slack += kValueRounding * (std::abs(body.multiplier) *
+                                   std::max(std::abs(variable.lower), std::abs(variable.upper)) +
+                               std::abs(body.offset));
   body.lower = std::min(atLower, atUpper) - slack;
   body.upper = std::max(atLower, atUpper) + slack;
   return body;

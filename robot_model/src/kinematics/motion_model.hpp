@@ -34,8 +34,8 @@ struct MovingBody {
   int variable = -1;                ///< first index into the group's configuration
   double multiplier = 1.0;          ///< joint value = multiplier * variable + offset
   double offset = 0.0;              ///< rad or m
-  double lower = 0.0;               ///< m, prismatic: range of the joint value
-  double upper = 0.0;               ///< m
+  double lower = 0.0;  ///< m or rad: range of the joint value, with the slack of limits
+  double upper = 0.0;  ///< m
 };
 
 /// The group's tree of moving frames. Joints outside the group are folded at their reference

@@ -44,9 +44,11 @@ inline constexpr double kLibccdDistance = 1e-6;
 /// report, and queries add, that much more error.
 inline constexpr double kHull = 1e-12;
 
-/// rad, and m for a prismatic value. How far a value may pass its limit and still be within it: the
-/// rounding of degrees to radians in files. Larger: hardware limits are not kept.
-inline constexpr double kLimit = 1e-9;
+/// rad, and m for a prismatic value. How far a value may be beyond its limit and still stand for
+/// it: 1e-5, and as much more as such a decimal rounds by. Messages of ROS carry single precision
+/// (3 rad round by 1e-7), and files and people give five digits. Smaller: such values are refused.
+/// Larger: hardware limits are not kept.
+inline constexpr double kLimit = 1.000001e-5;
 
 /// Enforced cap on the intervals examined in one motion whose caller asks for no other; what is
 /// left is Undecided.

@@ -32,9 +32,10 @@ ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> c
                                                 const SetupOptions& options = {});
 
 /// Start and goal of a setup, in place of those that it had, as configurations of the checker's
-/// group. Throws std::invalid_argument when the setup's space is not of that group, and unless
-/// either configuration has a value for each of the group's variables; the setup stays as it was
-/// then.
+/// group. A value at most tolerance::kLimit beyond a bound of the space is taken to that, with a
+/// warning to OMPL's console: the path begins and ends at the bound. Throws std::invalid_argument
+/// when the setup's space is not of that group, and unless either configuration has a value for
+/// each of the group's variables; the setup stays as it was then.
 void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
                      std::span<const double> start, std::span<const double> goal);
 

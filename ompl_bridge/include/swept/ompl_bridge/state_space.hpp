@@ -21,8 +21,10 @@ enum class SubspaceKind : std::uint8_t { RealVector, SO2, SE2, SE3 };
 
 /// What the space of a group is to have besides what the robot says.
 struct StateSpaceOptions {
-  /// Limits of variables by name, lower and upper (rad or m): within the robot's own. Where the
-  /// robot has none, they replace the default below. Not for continuous joints and orientations.
+  /// Limits of variables by name, lower and upper (rad or m): within the robot's own. One that is
+  /// beyond those by at most tolerance::kLimit is taken to them, with a warning to OMPL's console.
+  /// Where the robot has none, they replace the default below. Not for continuous joints and
+  /// orientations.
   std::map<std::string, std::pair<double, double>> limits = {};
   /// Factors (> 0) of joints, by name, in the distance between states; of the others 1.
   std::map<std::string, double> weights = {};
@@ -35,8 +37,12 @@ struct StateSpaceOptions {
 ///
 /// The space has the group's name, a dimension its variable's, a subspace its joint's
 /// (`first..last` where joints share one). Unbounded prismatic, planar or floating translations
-/// need bounds: they are +-10 m unless the options have others (limitsAround() makes some). longestValidSegmentFraction is
-/// OMPL's 1 %: it plays no part in validity, only in how densely paths are interpolated for show.
+/// need bounds: they are +-10 m unless the options have others (limitsAround() makes some).
+/// longestValidSegmentFraction is OMPL's 1 %: it plays no part in validity, only in how densely
+/// paths are interpolated for show. Its bounds are these limits. `satisfiesBounds` takes a limited
+/// joint's value for inside that is at most tolerance::kLimit beyond, as Checker::withinLimits
+/// does; `enforceBounds` and samples are within the bounds themselves.
+///
 /// The default projection, for planners that keep grids, is the position of the group's tip (its
 /// first two values where the group has none that it moves).
 ///
@@ -63,7 +69,9 @@ class StateConversion {
   /// Fills `q` with the values as they are: rad, m, components of quaternions.
   void toConfiguration(const ompl::base::State* state, std::span<double> q) const;
   /// Puts angles of cyclic variables into [-pi, pi) and scales quaternions to unit length, as OMPL
-  /// wants them. A zero or non-finite quaternion is copied as it is; such a state is never valid.
+  /// wants them, and takes what is at most tolerance::kLimit beyond a limit of the robot to it
+  /// (limitNear()). A zero or non-finite quaternion is copied as it is; such a state is never
+  /// valid.
   void toState(std::span<const double> q, ompl::base::State* state) const;
 
  private:
@@ -72,7 +80,8 @@ class StateConversion {
     int first;  ///< into the configuration
     int size;   ///< numbers in the configuration
   };
-  std::vector<Block> blocks_;  ///< one per subspace, in order
+  std::vector<Block> blocks_;        ///< one per subspace, in order
+  std::vector<Variable> variables_;  ///< one per value of a configuration
   bool compound_ = false;
   int dimension_ = 0;
 };

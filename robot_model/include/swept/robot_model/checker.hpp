@@ -65,7 +65,8 @@ struct Witness {
 struct StateReport {
   Verdict verdict = Verdict::Undecided;  ///< of checkState
   bool finite = false;  ///< every value of the state is a number; otherwise nothing else is known
-  /// Variables (names) outside their limits. Says nothing about geometry; a planner refuses both.
+  /// Variables (names) outside their limits, see withinLimits(). Says nothing about geometry; a
+  /// planner refuses both.
   std::vector<std::string> outsideLimits;
   std::vector<Witness> contacts;  ///< one per violating pair, in the checker's pair order
   /// m. Proven lower bound of the least distance over all checked pairs, with all of their pieces;
@@ -210,7 +211,8 @@ class Checker {
   int dimension() const;  ///< size of a configuration of the group
 
   /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
-  /// prismatic value outside its limits (what is out of reach within them is not looked at).
+  /// prismatic value more than tolerance::kLimit outside its limits (what is out of reach up to
+  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of it.
   Verdict checkState(std::span<const double> q, Workspace& workspace) const;
   /// The same verdicts for many states, which follow each other in `states`; faster than one by
   /// one. Throws std::invalid_argument unless there is one verdict for each.
@@ -234,7 +236,8 @@ class Checker {
                                   std::span<double> gradient = {}) const;
 
   /// What is proven about the motion from one configuration to another. Undecided, too, where an
-  /// end is not finite. Limits do not enter it, but for those of prismatic joints (see checkState).
+  /// end is not finite. Limits do not enter it, but for those of prismatic joints (see checkState):
+  /// an end that is a little beyond a limit is where it is given.
   MotionCertificate certifyMotion(std::span<const double> from, std::span<const double> to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
@@ -249,8 +252,8 @@ class Checker {
   MotionClearance motionClearance(std::span<const double> from, std::span<const double> to,
                                   double accuracy, Workspace& workspace) const;
 
-  /// Each variable is within its limits, give or take tolerance::kLimit. False for what is not
-  /// finite.
+  /// Each variable is within its limits, or at most tolerance::kLimit beyond (isWithin()). False
+  /// for what is not finite. Who wants the robot at the limit then uses takeToLimits() first.
   bool withinLimits(std::span<const double> q) const;
   /// The configuration at t on the motion that certifyMotion checks.
   Eigen::VectorXd interpolate(std::span<const double> from, std::span<const double> to,

@@ -59,15 +59,16 @@ class InverseKinematics {
 
   /// `reference` has a value for each variable of the robot; those outside the group keep it.
   /// Default: Robot::defaultState(). Throws std::invalid_argument without a robot, for a group or
-  /// link that is not there, a link that the group does not move, a reference of the wrong size, not
-  /// finite or with a quaternion without direction, and a tool that is not a rigid transform.
+  /// link that is not there, a link that the group does not move, a reference of the wrong size,
+  /// not finite or with a quaternion without direction, and a tool that is not a rigid transform.
   InverseKinematics(std::shared_ptr<const Robot> robot, std::string_view group,
                     std::string_view link, const std::optional<Eigen::VectorXd>& reference = {},
                     const Eigen::Isometry3d& link_from_tool = Eigen::Isometry3d::Identity());
 
   /// The same with limits (rad or m, a value for each variable of the group) within the robot's
-  /// own, which hold as well. Those of cyclic variables and of quaternions are not looked at.
-  /// Throws std::invalid_argument for spans of the wrong size, and where no value is left.
+  /// own, which hold as well: one that is beyond those by at most tolerance::kLimit is taken for
+  /// them. Those of cyclic variables and of quaternions are not looked at. Throws
+  /// std::invalid_argument for spans of the wrong size, and where no value is left.
   InverseKinematics within(std::span<const double> lower, std::span<const double> upper) const;
 
   ///@{
@@ -81,7 +82,7 @@ class InverseKinematics {
 
   /// The tool's frame: model_from_tool. Throws std::invalid_argument for a configuration that has
   /// the wrong size or a value that is not finite, a quaternion without direction, and a prismatic
-  /// value outside its limits.
+  /// value outside its limits by more than tolerance::kLimit.
   Eigen::Isometry3d pose(std::span<const double> q) const;
   /// The same, and nothing where `pose` throws for a value. Throws for the wrong size.
   std::optional<Eigen::Isometry3d> findPose(std::span<const double> q) const;

@@ -25,7 +25,7 @@ class LinkMotion : public Motion {
   /// `reference` has a value for each variable of the robot; those outside the group keep it.
   /// Default: Robot::defaultState(). Throws std::invalid_argument for a group or link that is not
   /// there, a span or reference of the wrong size, a value that is not finite, a quaternion without
-  /// direction, and a prismatic value outside its limits.
+  /// direction, and a prismatic value outside its limits by more than tolerance::kLimit.
   LinkMotion(const Robot& robot, std::string_view group, std::string_view link,
              std::span<const double> from, std::span<const double> to,
              const std::optional<Eigen::VectorXd>& reference = {});
