@@ -14,6 +14,7 @@
 #include "data_folder.hpp"
 #include "input_files.hpp"
 #include "matrix_robots.hpp"
+#include "swept/core/tolerances.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "version_arms.hpp"
 
@@ -91,9 +92,13 @@ TEST(CollisionMatrix, LimitsCount) {
   };
   // Balls of 0.1 m, 0.65 m and 0.5 m from the axis, meet at this angle between them.
   const double meet = std::acos((0.65 * 0.65 + 0.5 * 0.5 - 0.2 * 0.2) / (2.0 * 0.65 * 0.5));
-  EXPECT_EQ(turned(-3.0, 1.0 - meet - 1e-5), PairStatus::Never);
+  // A hair beyond a limit is a configuration, too, though none to show.
+  const double beyond = tolerance::kLimit + 1e-5;
+  EXPECT_EQ(turned(-3.0, 1.0 - meet - beyond), PairStatus::Never);
+  EXPECT_EQ(turned(-3.0, 1.0 - meet - 5e-6), PairStatus::Unknown);
   EXPECT_EQ(turned(-3.0, 1.0 - meet + 1e-5), PairStatus::MayCollide);
-  EXPECT_EQ(turned(1.0 + meet + 1e-5, 6.0), PairStatus::Never);
+  EXPECT_EQ(turned(1.0 + meet + beyond, 6.0), PairStatus::Never);
+  EXPECT_EQ(turned(1.0 + meet + 5e-6, 6.0), PairStatus::Unknown);
   EXPECT_EQ(turned(1.0 + meet - 1e-5, 6.0), PairStatus::MayCollide);
   EXPECT_EQ(turned(9.0, 13.0), PairStatus::Never);         // a turn and a half on
   EXPECT_EQ(turned(-40.0, 40.0), PairStatus::MayCollide);  // many turns are one
