@@ -12,6 +12,7 @@
 #include "broadphase/world_box.hpp"
 #include "bv/box_pair.hpp"
 #include "geometry/nearest_rotation.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace {
@@ -168,6 +169,10 @@ class BodyTree::Builder {
 };
 
 BodyTree::BodyTree(std::vector<Body> bodies) : bodies_(std::move(bodies)) {
+  if (detail::inForeignEnvironment()) {
+    *this = inDefaultEnvironment([&] { return BodyTree(std::move(bodies_)); });
+    return;
+  }
   constexpr std::size_t kMaxBodies = std::size_t{1} << 30;
   if (bodies_.size() > kMaxBodies) {
     throw std::invalid_argument("tree of " + std::to_string(bodies_.size()) +
@@ -222,6 +227,9 @@ bool BodyTree::apart(const LocalBox& a, const LocalBox& b, const Isometry3d& a_f
 }
 
 BodyTree::Hit BodyTree::collides(const Shape& shape, const Isometry3d& given) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return collides(shape, given); });
+  }
   const Isometry3d world_from_shape = detail::rigidPose(given);
   Hit result{Contact::Separate, -1};
   const Aabb box = detail::worldBox(shape, world_from_shape, detail::BoxFit::Quick);
@@ -288,6 +296,9 @@ void BodyTree::descend(std::size_t index, const Aabb& box, const Shape& shape, d
 
 BodyTree::Nearest BodyTree::nearest(const Shape& shape, const Isometry3d& given,
                                     double tolerance) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, tolerance] { return nearest(shape, given, tolerance); });
+  }
   const Isometry3d world_from_shape = detail::rigidPose(given);
   Nearest best;
   if (!world_from_shape.matrix().allFinite()) return best;

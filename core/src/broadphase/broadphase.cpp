@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 namespace {
 
@@ -21,6 +23,9 @@ double gap(double lowerA, double upperA, double lowerB, double upperB) {
 /// another is not nearer, whatever the rounding. Doubles that differ do so by the least denormal at
 /// least, and so do boxes that do not overlap.
 double boxDistance(const Aabb& a, const Aabb& b) {
+  if (detail::inForeignEnvironment() || detail::inForeignPrecision()) {
+    return inDefaultEnvironment([&] { return boxDistance(a, b); });
+  }
   long double sum = 0.0L;
   int apart = 0;
   for (int k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 #include "swept/core/broadphase/brute_force.hpp"
 
 #include "broadphase/handles.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -12,6 +13,9 @@ void BruteForce::require(BoxHandle handle) const {
 }
 
 BoxHandle BruteForce::registerBox(const Aabb& box) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return registerBox(box); });
+  }
   const Aabb bounded =
       boundedOrEverywhere(box);  // before its memory, if it is ours, goes elsewhere
   const auto free = std::find(boxes_.begin(), boxes_.end(), std::nullopt);
@@ -23,30 +27,45 @@ BoxHandle BruteForce::registerBox(const Aabb& box) {
 }
 
 std::vector<BoxHandle> BruteForce::registerBoxes(std::span<const Aabb> boxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, boxes] { return registerBoxes(boxes); });
+  }
   std::vector<BoxHandle> handles;
   for (const Aabb& box : boxes) handles.push_back(registerBox(box));
   return handles;
 }
 
 void BruteForce::unregisterBox(BoxHandle handle) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, handle] { return unregisterBox(handle); });
+  }
   require(handle);
   boxes_[handle].reset();
   changes_.add();
 }
 
 void BruteForce::update(BoxHandle handle, const Aabb& box) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, handle] { return update(handle, box); });
+  }
   require(handle);
   boxes_[handle] = boundedOrEverywhere(box);
   changes_.add();
 }
 
 void BruteForce::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, handles, boxes] { return update(handles, boxes); });
+  }
   detail::Handles::requireAsMany(handles.size(), boxes.size());
   for (const BoxHandle handle : handles) require(handle);
   for (std::size_t i = 0; i < handles.size(); ++i) update(handles[i], boxes[i]);
 }
 
 void BruteForce::updateAll(std::span<const Aabb> boxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, boxes] { return updateAll(boxes); });
+  }
   detail::Handles::requireAsMany(size(), boxes.size());
   std::size_t next = 0;
   for (std::optional<Aabb>& box : boxes_)

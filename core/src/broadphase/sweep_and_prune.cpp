@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "broadphase/sweep_and_prune_state.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -56,29 +57,47 @@ SweepAndPrune& SweepAndPrune::operator=(const SweepAndPrune& other) {
 }
 
 BoxHandle SweepAndPrune::registerBox(const Aabb& box) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return registerBox(box); });
+  }
   return registerBoxes({&box, 1}).front();
 }
 
 std::vector<BoxHandle> SweepAndPrune::registerBoxes(std::span<const Aabb> boxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, boxes] { return registerBoxes(boxes); });
+  }
   changes_.add();
   return state_->add(boxes);
 }
 
 void SweepAndPrune::unregisterBox(BoxHandle handle) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, handle] { return unregisterBox(handle); });
+  }
   changes_.add();
   state_->remove(handle);
 }
 
 void SweepAndPrune::update(BoxHandle handle, const Aabb& box) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, handle] { return update(handle, box); });
+  }
   update({&handle, 1}, {&box, 1});
 }
 
 void SweepAndPrune::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, handles, boxes] { return update(handles, boxes); });
+  }
   changes_.add();
   state_->update(handles, boxes);
 }
 
 void SweepAndPrune::updateAll(std::span<const Aabb> boxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, boxes] { return updateAll(boxes); });
+  }
   changes_.add();
   state_->updateAll(boxes);
 }

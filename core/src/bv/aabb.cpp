@@ -5,6 +5,7 @@
 
 #include "bv/box_pair.hpp"
 #include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -32,6 +33,9 @@ detail::BoxPair pairOf(const Aabb& a, const Aabb& b, const Isometry3d& a_from_b)
 }  // namespace
 
 Aabb Aabb::fit(std::span<const Vector3d> points) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points] { return fit(points); });
+  }
   if (points.empty()) return {Vector3d::Constant(NAN), Vector3d::Constant(NAN)};
   Vector3d lower = points.front();
   Vector3d upper = points.front();
@@ -48,6 +52,9 @@ Aabb Aabb::fit(std::span<const Vector3d> points) {
 }
 
 Aabb Aabb::merge(const Aabb& a, const Aabb& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return merge(a, b); });
+  }
   // Minimum and maximum may drop a NaN; the product does not.
   const double poison = 0.0 * (a.lower.sum() + b.lower.sum());
   if (!(poison == 0.0) && !(a.lower.allFinite() && b.lower.allFinite())) {
@@ -57,16 +64,25 @@ Aabb Aabb::merge(const Aabb& a, const Aabb& b) {
 }
 
 Aabb Aabb::inflated(double by) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, by] { return inflated(by); });
+  }
   // Each sum rounds by at most half an epsilon of its terms.
   const double rounding = 4e-16 * (by + detail::magnitude(lower) + detail::magnitude(upper));
   return {lower.array() - (by + rounding), upper.array() + (by + rounding)};
 }
 
 bool Aabb::overlaps(const Aabb& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return overlaps(other, a_from_b); });
+  }
   return !detail::separatedByFaces(pairOf(*this, other, a_from_b));
 }
 
 double Aabb::distanceBound(const Aabb& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return distanceBound(other, a_from_b); });
+  }
   return detail::boundFromSquare(detail::squaredFaceBound(pairOf(*this, other, a_from_b)));
 }
 

@@ -6,6 +6,7 @@
 
 #include "bv/box_pair.hpp"
 #include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -139,6 +140,9 @@ double squaredBound(const KDop<K>& a, const KDop<K>& b, const Isometry3d& a_from
 
 template <int K>
 KDop<K> KDop<K>::fit(std::span<const Vector3d> points) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points] { return fit(points); });
+  }
   KDop dop;
   dop.lower.fill(NAN);
   dop.upper.fill(NAN);
@@ -165,6 +169,9 @@ KDop<K> KDop<K>::fit(std::span<const Vector3d> points) {
 
 template <int K>
 KDop<K> KDop<K>::merge(const KDop& a, const KDop& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return merge(a, b); });
+  }
   KDop dop;
   for (int k = 0; k < kSlabs; ++k) {
     // The products keep a NaN that minimum and maximum may drop.
@@ -177,6 +184,9 @@ KDop<K> KDop<K>::merge(const KDop& a, const KDop& b) {
 
 template <int K>
 KDop<K> KDop<K>::inflated(double by) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, by] { return inflated(by); });
+  }
   KDop dop;
   const double rounding = 2e-15 * (by + reachOf(*this));
   for (int k = 0; k < kSlabs; ++k) {
@@ -189,6 +199,9 @@ KDop<K> KDop<K>::inflated(double by) const {
 
 template <int K>
 bool KDop<K>::overlaps(const KDop& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return overlaps(other, a_from_b); });
+  }
   const detail::BoxPair p = pairOf(*this, other, a_from_b);
   if (detail::separatedByFaces(p)) return false;
   return !(squaredBound(*this, other, a_from_b, p.margin) > 0.0);
@@ -196,6 +209,9 @@ bool KDop<K>::overlaps(const KDop& other, const Isometry3d& a_from_b) const {
 
 template <int K>
 double KDop<K>::distanceBound(const KDop& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return distanceBound(other, a_from_b); });
+  }
   const detail::BoxPair p = pairOf(*this, other, a_from_b);
   return detail::boundFromSquare(
       std::max(squaredBound(*this, other, a_from_b, p.margin), detail::squaredFaceBound(p)));
@@ -203,6 +219,9 @@ double KDop<K>::distanceBound(const KDop& other, const Isometry3d& a_from_b) con
 
 template <int K>
 bool KDop<K>::contains(const Vector3d& p) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return contains(p); });
+  }
   for (int k = 0; k < kSlabs; ++k) {
     const double at = along(k, p);
     if (at < lower[k] || at > upper[k]) return false;

@@ -8,6 +8,7 @@
 #include "bv/extents.hpp"
 #include "bv/principal_axes.hpp"
 #include "swept/core/bv/bounding_volume.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -112,6 +113,9 @@ Matrix3d chooseAxes(std::span<const Vector3d> points) {
 }  // namespace
 
 Obb Obb::fit(std::span<const Vector3d> points) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points] { return fit(points); });
+  }
   if (points.empty()) return everything();
   std::array<Vector3d, kSample> buffer;
   Matrix3d axes = chooseAxes(sampleOf(points, buffer));
@@ -122,6 +126,9 @@ Obb Obb::fit(std::span<const Vector3d> points) {
 }
 
 Obb Obb::merge(const Obb& a, const Obb& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return merge(a, b); });
+  }
   if (!(a.halfExtents + b.halfExtents).allFinite()) return everything();
   const Vector3d& origin = a.middle;
   Matrix3d axes;
@@ -148,27 +155,42 @@ Obb Obb::merge(const Obb& a, const Obb& b) {
 }
 
 Obb Obb::inflated(double by) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, by] { return inflated(by); });
+  }
   const double growth = by + 4e-16 * (by + detail::magnitude(halfExtents));
   return {axes, middle, halfExtents.array() + growth};
 }
 
 bool Obb::overlaps(const Obb& other) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return overlaps(other); });
+  }
   const BoxPair p = pairOf(*this, other);
   return !detail::separatedByFaces(p) && !detail::separatedByEdges(p);
 }
 
 bool Obb::overlaps(const Obb& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return overlaps(other, a_from_b); });
+  }
   const BoxPair p = pairOf(*this, other, a_from_b);
   return !detail::separatedByFaces(p) && !detail::separatedByEdges(p);
 }
 
 double Obb::distanceBound(const Obb& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return distanceBound(other, a_from_b); });
+  }
   const BoxPair p = pairOf(*this, other, a_from_b);
   return detail::boundFromSquare(
       std::max(detail::squaredFaceBound(p), detail::squaredEdgeBound(p)));
 }
 
 bool Obb::contains(const Vector3d& p) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return contains(p); });
+  }
   const Vector3d local = axes.transpose() * (p - middle);
   for (int k = 0; k < 3; ++k) {
     if (std::abs(local[k]) > halfExtents[k]) return false;

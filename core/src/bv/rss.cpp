@@ -11,6 +11,7 @@
 #include "bv/rectangle_pair.hpp"
 #include "swept/core/bv/bounding_volume.hpp"
 #include "swept/core/bv/obb.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -161,10 +162,16 @@ RectanglePair pairOf(const Rss& a, const Rss& b, const Isometry3d& a_from_b) {
 }  // namespace
 
 Rss Rss::fit(std::span<const Vector3d> points) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points] { return fit(points); });
+  }
   return fitWithin(points, Obb::fit(points));
 }
 
 Rss Rss::fitWithin(std::span<const Vector3d> points, const Obb& box) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points] { return fitWithin(points, box); });
+  }
   if (points.empty() || !box.halfExtents.allFinite()) return everything();
   const Matrix3d& axes = box.axes;
   const auto ballAt = [&](std::size_t i) {
@@ -179,6 +186,9 @@ Rss Rss::fitWithin(std::span<const Vector3d> points, const Obb& box) {
 }
 
 Rss Rss::merge(const Rss& a, const Rss& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return merge(a, b); });
+  }
   if (!(a.halfLengths + b.halfLengths).allFinite()) return everything();
   const std::array<Vector3d, 8> corners = cornersOf(a, b);
   const Vector3d origin = corners.front();
@@ -212,22 +222,37 @@ Rss Rss::merge(const Rss& a, const Rss& b) {
 }
 
 Rss Rss::inflated(double by) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, by] { return inflated(by); });
+  }
   return {axes, middle, halfLengths, radius + by + 4e-16 * (by + radius)};
 }
 
 bool Rss::overlaps(const Rss& other) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return overlaps(other); });
+  }
   return !detail::separated(pairOf(*this, other));
 }
 
 bool Rss::overlaps(const Rss& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return overlaps(other, a_from_b); });
+  }
   return !detail::separated(pairOf(*this, other, a_from_b));
 }
 
 double Rss::distanceBound(const Rss& other, const Isometry3d& a_from_b) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return distanceBound(other, a_from_b); });
+  }
   return detail::gapBound(pairOf(*this, other, a_from_b));
 }
 
 bool Rss::contains(const Vector3d& p) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return contains(p); });
+  }
   const Vector3d local = axes.transpose() * (p - middle);
   double squared = local.z() * local.z();
   for (int k = 0; k < 2; ++k) {

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 namespace {
@@ -91,6 +93,9 @@ class TopologyBuilder {
 
 TreeTopology TreeTopology::build(const PrimitivePoints& primitives, const SplitFunction& split,
                                  int maxLeaf) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, maxLeaf] { return build(primitives, split, maxLeaf); });
+  }
   if (maxLeaf < 1) refuse("maxLeaf is " + std::to_string(maxLeaf) + "; allowed: at least 1");
   requireUsable(primitives);
   std::vector<SplitItem> items = itemsOf(primitives);

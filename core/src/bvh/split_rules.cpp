@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bv/principal_axes.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -110,6 +111,9 @@ int cheapestCut(std::span<const SplitItem> items, const Bins& bins) {
 }  // namespace
 
 std::size_t MeanSplit::operator()(std::span<SplitItem> items) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, items] { return (*this)(items); });
+  }
   const Centers centers = centersOf(items);
   const int axis = centers.longestAxis;
   const double mean = centers.mean[axis];
@@ -117,6 +121,9 @@ std::size_t MeanSplit::operator()(std::span<SplitItem> items) const {
 }
 
 std::size_t MedianSplit::operator()(std::span<SplitItem> items) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, items] { return (*this)(items); });
+  }
   const int axis = centersOf(items).longestAxis;
   const std::size_t half = items.size() / 2;
   std::nth_element(
@@ -126,6 +133,9 @@ std::size_t MedianSplit::operator()(std::span<SplitItem> items) const {
 }
 
 std::size_t PrincipalAxisSplit::operator()(std::span<SplitItem> items) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, items] { return (*this)(items); });
+  }
   const Vector3d mean = centersOf(items).mean;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const SplitItem& item : items) {
@@ -137,6 +147,9 @@ std::size_t PrincipalAxisSplit::operator()(std::span<SplitItem> items) const {
 }
 
 std::size_t SurfaceAreaSplit::operator()(std::span<SplitItem> items) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, items] { return (*this)(items); });
+  }
   const Centers centers = centersOf(items);
   const int axis = centers.longestAxis;
   const double length = centers.bounds.upper[axis] - centers.bounds.lower[axis];

@@ -15,6 +15,7 @@
 #include "clearance_grid/build_field.hpp"
 #include "geometry/point_text.hpp"
 #include "simd/grid_bounds.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -263,6 +264,9 @@ std::shared_ptr<const ClearanceField> fieldOf(const Body& body,
 }  // namespace
 
 ClearanceGrid ClearanceGrid::build(const Shape& shape, const ClearanceGridOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return build(shape, options); });
+  }
   requireUsable(options);
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape))
     return ClearanceGrid(std::make_shared<const Data>(fieldOf(*mesh, options)));
@@ -273,12 +277,18 @@ ClearanceGrid ClearanceGrid::build(const Shape& shape, const ClearanceGridOption
 }
 
 double ClearanceGrid::clearance(const Vector3d& point) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return clearance(point); });
+  }
   const double size = point.lpNorm<1>();
   if (!(size < kFar)) return data_->farClearance(point);
   return positive(std::sqrt(data_->squaredBound(point)) - data_->rounding(size));
 }
 
 void ClearanceGrid::clearances(std::span<const Vector3d> points, std::span<double> bounds) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points, bounds] { return clearances(points, bounds); });
+  }
   if (points.size() != bounds.size()) {
     std::ostringstream message;
     message << "clearance grid: " << points.size() << " points and " << bounds.size() << " bounds";
@@ -300,6 +310,9 @@ void ClearanceGrid::clearances(std::span<const Vector3d> points, std::span<doubl
 
 /// As squares, whose own rounding is small beside that of the rest.
 bool ClearanceGrid::isFarther(const Vector3d& center, double radius) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return isFarther(center, radius); });
+  }
   if (radius < 0.0) return center.allFinite();
   const double size = center.lpNorm<1>();
   if (!(size < kFar)) return data_->farClearance(center) > radius;
@@ -311,9 +324,15 @@ double ClearanceGrid::voxel() const {
   return data_->voxel;
 }
 double ClearanceGrid::error() const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return error(); });
+  }
   return 9.0 * data_->voxel;
 }
 double ClearanceGrid::reach() const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return reach(); });
+  }
   return 37.0 * data_->voxel;
 }
 const Aabb& ClearanceGrid::box() const {

@@ -13,6 +13,7 @@
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/enclosure.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -300,11 +301,18 @@ class TimeSearch {
 ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
                                    const Motion& motionB, const ContinuousOptions& options,
                                    ContinuousWorkspace& workspace) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return continuousCollide(a, motionA, b, motionB, options, workspace); });
+  }
   return TimeSearch(a, motionA, b, motionB, options, workspace.data()).run();
 }
 
 ContinuousResult continuousCollide(const Shape& a, const Motion& motionA, const Shape& b,
                                    const Motion& motionB, const ContinuousOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return continuousCollide(a, motionA, b, motionB, options); });
+  }
   ContinuousWorkspace workspace;
   return continuousCollide(a, motionA, b, motionB, options, workspace);
 }

@@ -3,6 +3,7 @@
 
 #include "continuous/deforming_data.hpp"
 #include "continuous/deforming_workspace.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
 namespace swept {
@@ -57,11 +58,17 @@ void touching(const Mesh& a, const Mesh& b, const MeshCollisionOptions& options,
 
 void selfCollide(const DeformingMesh& mesh, const MeshCollisionOptions& options,
                  MeshCollisionResult& result, DeformingWorkspace& workspace) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return selfCollide(mesh, options, result, workspace); });
+  }
   touching(mesh.data(), mesh.data(), options, result, workspace);
 }
 
 void collide(const DeformingMesh& a, const DeformingMesh& b, const MeshCollisionOptions& options,
              MeshCollisionResult& result, DeformingWorkspace& workspace) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return collide(a, b, options, result, workspace); });
+  }
   touching(a.data(), b.data(), options, result, workspace);
 }
 

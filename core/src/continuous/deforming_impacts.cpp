@@ -7,6 +7,7 @@
 #include "continuous/deforming_workspace.hpp"
 #include "simd/meeting_features.hpp"
 #include "swept/core/continuous/impact.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
 /// Lemma. The distance of two triangles that do not touch is that of a corner of one from the
@@ -227,12 +228,20 @@ void impacts(const Mesh& a, const Mesh& b, const DeformingOptions& options, Defo
 
 void selfCollideContinuous(const DeformingMesh& mesh, const DeformingOptions& options,
                            DeformingResult& result, DeformingWorkspace& workspace) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return selfCollideContinuous(mesh, options, result, workspace); });
+  }
   impacts(mesh.data(), mesh.data(), options, result, workspace);
 }
 
 void collideContinuous(const DeformingMesh& a, const DeformingMesh& b,
                        const DeformingOptions& options, DeformingResult& result,
                        DeformingWorkspace& workspace) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return collideContinuous(a, b, options, result, workspace); });
+  }
   impacts(a.data(), b.data(), options, result, workspace);
 }
 

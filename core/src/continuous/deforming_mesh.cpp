@@ -9,6 +9,7 @@
 #include "continuous/deforming_data.hpp"
 #include "continuous/deforming_refit.hpp"
 #include "simd/follow_corners.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -101,6 +102,9 @@ DeformingMesh::~DeformingMesh() = default;
 
 DeformingMesh DeformingMesh::build(std::span<const Vector3d> vertices,
                                    std::span<const Triangle> triangles) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, vertices, triangles] { return build(vertices, triangles); });
+  }
   if (triangles.empty()) throw std::invalid_argument("DeformingMesh: no triangles");
   for (const Triangle& t : triangles) {
     if (t.minCoeff() < 0 || static_cast<std::size_t>(t.maxCoeff()) >= vertices.size())
@@ -114,6 +118,9 @@ DeformingMesh DeformingMesh::build(std::span<const Vector3d> vertices,
 }
 
 void DeformingMesh::moveTo(std::span<const Vector3d> vertices, unsigned threads) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, vertices, threads] { return moveTo(vertices, threads); });
+  }
   Data& data = *data_;
   if (vertices.size() != data.vertexCount)
     throw std::invalid_argument("DeformingMesh: another number of vertices");
@@ -124,11 +131,17 @@ void DeformingMesh::moveTo(std::span<const Vector3d> vertices, unsigned threads)
 }
 
 void DeformingMesh::place(std::span<const Vector3d> vertices, unsigned threads) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, vertices, threads] { return place(vertices, threads); });
+  }
   moveTo(vertices, threads);
   data_->still = true;
 }
 
 void DeformingMesh::rebuild() {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return rebuild(); });
+  }
   data_->arrangeAnew();
   ++data_->rebuilds;
 }
@@ -143,6 +156,9 @@ std::size_t DeformingMesh::rebuilds() const {
   return data_->rebuilds;
 }
 double DeformingMesh::growth() const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return growth(); });
+  }
   if (data_->builtRatio > 0.0) return data_->areaRatio / data_->builtRatio;
   // Built of points alone, so in no order.
   return data_->areaRatio > 0.0 ? std::numeric_limits<double>::infinity() : 1.0;

@@ -7,6 +7,7 @@
 
 #include "continuous/corner_paths.hpp"
 #include "narrowphase/exact_sign.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
 /// Conservative advancement with separating directions that turn.
@@ -368,6 +369,9 @@ Impact impactOf(const Fill& fill, const ImpactOptions& options) {
 
 Impact vertexFaceImpact(const LinearPath& vertex, const std::array<LinearPath, 3>& face,
                         const ImpactOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return vertexFaceImpact(vertex, face, options); });
+  }
   const auto fill = [&](CornerPaths& paths, double scale) {
     for (int k = 0; k < 4; ++k) setCorner(paths, k, vertex, face[k % 3], scale);
   };
@@ -376,6 +380,9 @@ Impact vertexFaceImpact(const LinearPath& vertex, const std::array<LinearPath, 3
 
 Impact edgeEdgeImpact(const std::array<LinearPath, 2>& first,
                       const std::array<LinearPath, 2>& second, const ImpactOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return edgeEdgeImpact(first, second, options); });
+  }
   const auto fill = [&](CornerPaths& paths, double scale) {
     for (int k = 0; k < 4; ++k) setCorner(paths, k, first[k % 2], second[k / 2], scale);
   };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "continuous/moving_ball.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -18,16 +19,25 @@ constexpr double kUp = 1.0 + 1e-14;
 }  // namespace
 
 double MotionBound::along(const Vector3d& n) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return along(n); });
+  }
   const double directed =
       std::abs(n.dot(linear)) + detail::times(n.cross(spin).norm(), radius) + curvature;
   return std::min(travel, directed * kUp);
 }
 
 double MotionBound::most() const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return most(); });
+  }
   return std::min(travel, (linear.norm() + detail::times(spin.norm(), radius) + curvature) * kUp);
 }
 
 MotionBound Motion::bound(const BoundingSphere& ball, double from, double to) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to] { return bound(ball, from, to); });
+  }
   const double middle = 0.5 * (from + to);
   const double half = std::max(middle - from, to - middle);
   const detail::MovingBall moving(*this, ball, from, to, middle);

@@ -8,6 +8,7 @@
 
 #include "continuous/motion_input.hpp"
 #include "swept/core/continuous/motions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
@@ -171,6 +172,10 @@ SplineMotion::SplineMotion(const Matrix3d& orientation, std::vector<ControlPose>
 
 SplineMotion SplineMotion::bezier(const Matrix3d& orientation,
                                   std::span<const ControlPose> control) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, control] { return SplineMotion::bezier(orientation, control); });
+  }
   requireControl(control, 2, kMaxDegree + 1);
   return {detail::checkedRotation(orientation, "orientation"),
           {control.begin(), control.end()},
@@ -180,6 +185,10 @@ SplineMotion SplineMotion::bezier(const Matrix3d& orientation,
 // Each span of the B-spline as a Bézier curve.
 SplineMotion SplineMotion::uniformCubic(const Matrix3d& orientation,
                                         std::span<const ControlPose> control) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, control] { return SplineMotion::uniformCubic(orientation, control); });
+  }
   requireControl(control, 4, 0);
   std::vector<ControlPose> pieces;
   for (std::size_t i = 0; i + 3 < control.size(); ++i) {
@@ -194,6 +203,9 @@ SplineMotion SplineMotion::uniformCubic(const Matrix3d& orientation,
 }
 
 Isometry3d SplineMotion::at(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return SplineMotion::at(t); });
+  }
   const Place place = placeOf(t, spans_);
   const ControlPose pose =
       divide(curveOf(control_, degree_, place.span), place.u, nullptr, nullptr);
@@ -205,6 +217,9 @@ Isometry3d SplineMotion::at(double t) const {
 }
 
 Twist SplineMotion::velocity(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return SplineMotion::velocity(t); });
+  }
   const Place place = placeOf(t, spans_);
   const Curve curve = curveOf(control_, degree_, place.span);
   const ControlPose pose = divide(curve, place.u, nullptr, nullptr);
@@ -216,6 +231,9 @@ Twist SplineMotion::velocity(double t) const {
 // s in [0, 1], so |J| <= 1. exp(s p) turns at most s |p'| when p changes by p', hence J' is at most
 // |p'| / 2 long, and the angular acceleration J p'' + J' p' at most |p''| + |p'|^2 / 2.
 MotionRates SplineMotion::rates(double from, double to) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to] { return SplineMotion::rates(from, to); });
+  }
   // t times the number of spans rounds: an end may belong to either of two.
   const Place first = placeOf(from - 1e-14, spans_), last = placeOf(to + 1e-14, spans_);
   MotionRates most;
@@ -242,6 +260,9 @@ MotionRates SplineMotion::rates(double from, double to) const {
 // Lengths of control vectors bound those of the curve; its derivative's are at most 2 degree spans
 // times as long, and round in proportion.
 double SplineMotion::rounding(double reach) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, reach] { return SplineMotion::rounding(reach); });
+  }
   const double perUnit = 2.0 * degree_ * spans_;
   return tolerance::kRoundingPerJoint * (1.0 + perUnit) * ((1.0 + turn_) * reach + reach_);
 }

@@ -3,6 +3,7 @@
 
 #include "continuous/motion_input.hpp"
 #include "swept/core/continuous/motions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
@@ -35,15 +36,25 @@ UniformMotion::UniformMotion(const Isometry3d& start, const Vector3d& turn,
       angle_(turn.stableNorm()) {}
 
 UniformMotion UniformMotion::still(const Isometry3d& pose) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return UniformMotion::still(pose); });
+  }
   return translation(pose, Vector3d::Zero());
 }
 
 UniformMotion UniformMotion::translation(const Isometry3d& start, const Vector3d& displacement) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return UniformMotion::translation(start, displacement); });
+  }
   return turning(start, Vector3d::Zero(), displacement);
 }
 
 UniformMotion UniformMotion::interpolation(const Isometry3d& start, const Isometry3d& end,
                                            const Vector3d& reference) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return UniformMotion::interpolation(start, end, reference); });
+  }
   const Isometry3d from = detail::checkedPose(start, "start");
   const Isometry3d to = detail::checkedPose(end, "end");
   detail::requireFinite(reference, "reference");
@@ -54,6 +65,9 @@ UniformMotion UniformMotion::interpolation(const Isometry3d& start, const Isomet
 // Chasles: with the displacement d of the origin and the turn by theta about u, a point of the axis
 // is the origin's middle plus (u x d) / (2 tan(theta / 2)).
 UniformMotion UniformMotion::screw(const Isometry3d& start, const Isometry3d& end) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return UniformMotion::screw(start, end); });
+  }
   const Isometry3d from = detail::checkedPose(start, "start");
   const Isometry3d to = detail::checkedPose(end, "end");
   const Vector3d turn = turnBetween(from.linear(), to.linear());
@@ -69,6 +83,10 @@ UniformMotion UniformMotion::screw(const Isometry3d& start, const Isometry3d& en
 
 UniformMotion UniformMotion::turning(const Isometry3d& start, const Vector3d& turn,
                                      const Vector3d& displacement, const Vector3d& reference) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return UniformMotion::turning(start, turn, displacement, reference); });
+  }
   detail::requireFinite(turn, "turn");
   detail::requireFinite(displacement, "displacement");
   detail::requireFinite(reference, "reference");
@@ -76,6 +94,9 @@ UniformMotion UniformMotion::turning(const Isometry3d& start, const Vector3d& tu
 }
 
 Isometry3d UniformMotion::at(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return UniformMotion::at(t); });
+  }
   Isometry3d pose;
   if (angle_ > 0.0) {
     pose.linear() = Eigen::AngleAxisd(t * angle_, axis_).toRotationMatrix() * rotation_;
@@ -87,16 +108,25 @@ Isometry3d UniformMotion::at(double t) const {
   return pose;
 }
 
-Twist UniformMotion::velocity(double /*t*/) const {
+Twist UniformMotion::velocity(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return UniformMotion::velocity(t); });
+  }
   return {displacement_, angle_ * axis_};
 }
 
-MotionRates UniformMotion::rates(double /*from*/, double /*to*/) const {
+MotionRates UniformMotion::rates(double from, double to) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to] { return UniformMotion::rates(from, to); });
+  }
   return {displacement_.norm() * (1.0 + 1e-15), 0.0, angle_ * (1.0 + 1e-15), 0.0};
 }
 
 // An angle of many turns is known to an ulp of itself only.
 double UniformMotion::rounding(double reach) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, reach] { return UniformMotion::rounding(reach); });
+  }
   return tolerance::kRoundingPerJoint *
          ((1.0 + angle_) * (reach + reference().norm()) + position_.norm() + displacement_.norm());
 }

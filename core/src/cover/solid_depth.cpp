@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cover/nearest.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/signed_distance.hpp"
 
 namespace swept {
@@ -25,6 +26,9 @@ double meshDepth(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
 }  // namespace
 
 double solidDepth(const Shape& shape, const Eigen::Vector3d& point) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return solidDepth(shape, point); });
+  }
   if (!point.allFinite()) return 0.0;
   double depth = 0.0;
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {

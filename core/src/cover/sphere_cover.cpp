@@ -7,6 +7,7 @@
 
 #include "cover/cover_builder.hpp"
 #include "cover/rounded.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace {
@@ -61,6 +62,9 @@ std::vector<int> SphereCover::cut(int level) const {
 }
 
 SphereCover sphereCover(const Shape& shape, const SphereCoverOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return sphereCover(shape, options); });
+  }
   requireOption("finestOverhang", options.finestOverhang, 0.0);
   requireOption("finestRelative", options.finestRelative, 0.0);
   requireOption("mostBalls", options.mostBalls, 1.0);

@@ -6,6 +6,7 @@
 #include "geometry/support_points.hpp"
 #include "swept/core/convex_hull.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
@@ -20,6 +21,9 @@ using Eigen::Vector3d;
 // What support queries read of kCoarse points stays in the fastest cache, that of many more does
 // not; an outer hull of so few reaches some hundredths of its width beyond a round body.
 ConvexHull ConvexHull::coarser(const ConvexHull& hull) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return coarser(hull); });
+  }
   const std::vector<Vector3d>& vertices = hull.vertices();
   if (vertices.size() <= kFew) return hull;
   std::vector<Vector3d> points;

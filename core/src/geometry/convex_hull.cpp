@@ -14,6 +14,7 @@
 #include "geometry/small_ball.hpp"
 #include "geometry/support_points.hpp"
 #include "geometry/weld.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
@@ -238,6 +239,9 @@ double normalizingScale(Points points) {
 }  // namespace
 
 ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points] { return of(points); });
+  }
   requireUsable(points);
   const std::vector<Eigen::Vector3d> candidates = distinct(points);
   const double scale = normalizingScale(candidates);
@@ -267,6 +271,9 @@ ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
 
 ConvexHull ConvexHull::scaled(const ConvexHull& hull, double factor,
                               const Eigen::Vector3d& middle) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, factor] { return scaled(hull, factor, middle); });
+  }
   std::vector<Eigen::Vector3d> points;
   points.reserve(hull.vertices().size());
   for (const Eigen::Vector3d& vertex : hull.vertices())

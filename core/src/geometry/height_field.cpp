@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 namespace {
 
@@ -57,6 +59,10 @@ std::vector<int> borderOf(int rows, int columns) {
 }  // namespace
 
 TriangleMesh heightField(double xSize, double ySize, const Eigen::MatrixXd& heights, double base) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, xSize, ySize, base] { return heightField(xSize, ySize, heights, base); });
+  }
   requireSize("x size", xSize);
   requireSize("y size", ySize);
   requireHeights(heights, base);

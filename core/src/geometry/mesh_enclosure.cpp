@@ -10,6 +10,7 @@
 #include "bvh/wide_bvh.hpp"
 #include "geometry/ray_crossing.hpp"
 #include "simd/box_bounds.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace swept {
@@ -167,6 +168,9 @@ double scaleFor(double size) {
 }  // namespace
 
 bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return encloses(point); });
+  }
   if (data_->interior == MeshInterior::Surface) return false;
   CrossingCounts counts;
   double size = 0.0;

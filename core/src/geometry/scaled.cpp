@@ -7,6 +7,8 @@
 
 #include "swept/core/shapes.hpp"
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 namespace {
@@ -55,6 +57,9 @@ struct Scaling {
 }  // namespace
 
 Shape scaled(const Shape& shape, double factor) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, factor] { return scaled(shape, factor); });
+  }
   if (!(factor > 0.0) || !std::isfinite(factor)) {
     std::ostringstream message;
     message << "scaled: the factor is " << factor << "; allowed: finite and above zero";

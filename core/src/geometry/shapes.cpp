@@ -11,6 +11,7 @@
 
 #include "geometry/point_text.hpp"
 #include "geometry/small_ball.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace {
@@ -149,11 +150,17 @@ struct BoxOf {
 }  // namespace
 
 Sphere makeSphere(double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return makeSphere(radius); });
+  }
   requireSize("sphere radius", radius);
   return {radius};
 }
 
 Box makeBox(const Eigen::Vector3d& fullExtents) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return makeBox(fullExtents); });
+  }
   requireSize("box size x", fullExtents.x());
   requireSize("box size y", fullExtents.y());
   requireSize("box size z", fullExtents.z());
@@ -161,24 +168,38 @@ Box makeBox(const Eigen::Vector3d& fullExtents) {
 }
 
 Cylinder makeCylinder(double radius, double fullLength) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, radius, fullLength] { return makeCylinder(radius, fullLength); });
+  }
   requireSize("cylinder radius", radius);
   requireSize("cylinder length", fullLength);
   return {radius, 0.5 * fullLength};
 }
 
 Capsule makeCapsule(double radius, double segmentLength) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, radius, segmentLength] { return makeCapsule(radius, segmentLength); });
+  }
   requireSize("capsule radius", radius);
   requireSize("capsule length", segmentLength);
   return {radius, 0.5 * segmentLength};
 }
 
 Cone makeCone(double radius, double fullHeight) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius, fullHeight] { return makeCone(radius, fullHeight); });
+  }
   requireSize("cone radius", radius);
   requireSize("cone height", fullHeight);
   return {radius, 0.5 * fullHeight};
 }
 
 Ellipsoid makeEllipsoid(const Eigen::Vector3d& semiAxes) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return makeEllipsoid(semiAxes); });
+  }
   requireSize("ellipsoid semi-axis x", semiAxes.x());
   requireSize("ellipsoid semi-axis y", semiAxes.y());
   requireSize("ellipsoid semi-axis z", semiAxes.z());
@@ -187,6 +208,9 @@ Ellipsoid makeEllipsoid(const Eigen::Vector3d& semiAxes) {
 
 Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       const Eigen::Vector3d& c) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return makeTriangle(a, b, c); });
+  }
   Triangle triangle{{a, b, c}};
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d& corner = triangle.corners[i];
@@ -200,20 +224,32 @@ Triangle makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 }
 
 Plane makePlane(const Eigen::Vector3d& normal, double offset) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, offset] { return makePlane(normal, offset); });
+  }
   const double length = requireNormal("plane", normal, offset);
   return {normal / length, offset / length};
 }
 
 HalfSpace makeHalfSpace(const Eigen::Vector3d& normal, double offset) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, offset] { return makeHalfSpace(normal, offset); });
+  }
   const double length = requireNormal("half-space", normal, offset);
   return {normal / length, offset / length};
 }
 
 BoundingSphere boundingSphere(const Shape& shape) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return boundingSphere(shape); });
+  }
   return std::visit(SphereOf{}, shape);
 }
 
 Aabb boundingBox(const Shape& shape) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return boundingBox(shape); });
+  }
   return std::visit(BoxOf{}, shape);
 }
 

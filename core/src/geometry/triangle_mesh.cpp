@@ -14,6 +14,7 @@
 #include "geometry/point_text.hpp"
 #include "geometry/weld.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace {
@@ -116,6 +117,11 @@ void moveKept(std::span<const Eigen::Vector3d> given, std::span<const int> keptA
 TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
                                  std::span<const Triangle> triangles, MeshInterior interior,
                                  double crackWidth) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, vertices, triangles, interior, crackWidth] {
+      return build(vertices, triangles, interior, crackWidth);
+    });
+  }
   requireCounts(vertices.size(), triangles.size());
   requireFinite(vertices);
   requireWidth(crackWidth);
@@ -166,6 +172,9 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
 }
 
 TriangleMesh TriangleMesh::moved(std::span<const Eigen::Vector3d> vertices) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, vertices] { return moved(vertices); });
+  }
   if (vertices.size() != data_->keptAs.size()) {
     std::ostringstream message;
     message << "mesh of " << data_->keptAs.size() << " vertices is moved to " << vertices.size();

@@ -7,6 +7,7 @@
 
 #include "bvh/pending_boxes.hpp"
 #include "simd/near_boxes.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/segment_query.hpp"
 
 namespace swept {
@@ -84,6 +85,9 @@ class NearestBall {
 }  // namespace
 
 double clearance(const PointCloud& cloud, const Vector3d& point, double enough) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, enough] { return clearance(cloud, point, enough); });
+  }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!point.allFinite() || std::isnan(enough)) return -kInfinity;
   const double rounding =

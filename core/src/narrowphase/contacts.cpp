@@ -4,6 +4,7 @@
 #include "geometry/nearest_rotation.hpp"
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/piece_pair.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/signed_distance.hpp"
 
 namespace swept {
@@ -116,6 +117,9 @@ ContactsResult wholeContact(const Shape& a, const Shape& b, const Isometry3d& a_
 
 ContactsResult findContacts(const Shape& a, const Shape& b, const Isometry3d& a_from_b,
                             std::size_t most, std::vector<ContactPoint>& contacts) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, most] { return findContacts(a, b, a_from_b, most, contacts); });
+  }
   if (!detail::isRigidPose(a_from_b)) {
     const auto rigid = detail::nearestRigidPose(a_from_b);
     return rigid ? findContacts(a, b, *rigid, most, contacts) : ContactsResult{};

@@ -8,6 +8,7 @@
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/libccd_backend.hpp"
 #include "narrowphase/piecewise.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -44,6 +45,9 @@ DistanceResult distanceOfPieces(const Shape& a, const Shape& b, const Eigen::Iso
 
 DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                         const DistanceOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return distance(a, b, a_from_b, options); });
+  }
   if (!detail::isRigidPose(a_from_b)) {
     const auto rigid = detail::nearestRigidPose(a_from_b);
     return rigid ? distance(a, b, *rigid, options) : DistanceResult{};
@@ -56,6 +60,9 @@ DistanceResult distance(const Shape& a, const Shape& b, const Eigen::Isometry3d&
 
 Contact collide(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                 Backend backend) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, backend] { return collide(a, b, a_from_b, backend); });
+  }
   if (!detail::isRigidPose(a_from_b)) {
     const auto rigid = detail::nearestRigidPose(a_from_b);
     return rigid ? collide(a, b, *rigid, backend) : Contact::Unknown;

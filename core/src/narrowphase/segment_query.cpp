@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bvh/any_near.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
 namespace swept {
@@ -99,6 +100,9 @@ bool isFinite(const LineSegment& segment, double radius) {
 }  // namespace
 
 bool isFarther(const TriangleMesh& mesh, const LineSegment& segment, double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return isFarther(mesh, segment, radius); });
+  }
   if (!isFinite(segment, radius)) return false;
   return !anyNear(mesh.bvh(), segment, radius, [&](int triangle) {
     return !isTriangleFarther(cornersOf(mesh, triangle), segment, radius);
@@ -108,6 +112,9 @@ bool isFarther(const TriangleMesh& mesh, const LineSegment& segment, double radi
 /// Lemma: the parameter of the nearest point of the segment is off by a few roundings of |y| /
 /// |half|, which changes the distance by far less than the roundings of y itself.
 bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return isFarther(cloud, segment, radius); });
+  }
   if (!isFinite(segment, radius)) return false;
   const double squaredLength = segment.half.squaredNorm();
   const double inverse = squaredLength > 0.0 ? 1.0 / squaredLength : 0.0;
@@ -124,6 +131,9 @@ bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radiu
 
 std::optional<Vector3d> pointWithin(const TriangleMesh& mesh, const Vector3d& point,
                                     double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return pointWithin(mesh, point, radius); });
+  }
   std::optional<Vector3d> found;
   if (!isFinite({point}, radius)) return found;
   anyNear(mesh.bvh(), {point}, radius, [&](int triangle) {
@@ -135,6 +145,9 @@ std::optional<Vector3d> pointWithin(const TriangleMesh& mesh, const Vector3d& po
 }
 
 std::optional<Vector3d> pointWithin(const PointCloud& cloud, const Vector3d& point, double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return pointWithin(cloud, point, radius); });
+  }
   std::optional<Vector3d> found;
   if (!isFinite({point}, radius)) return found;
   anyNear(cloud.bvh(), {point}, radius, [&](int index) {

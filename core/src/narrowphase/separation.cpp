@@ -3,11 +3,15 @@
 
 #include "geometry/nearest_rotation.hpp"
 #include "narrowphase/piecewise.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
 SeparationResult separate(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                           const SeparationQuery& query) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return separate(a, b, a_from_b, query); });
+  }
   if (!detail::isRigidPose(a_from_b)) {
     const auto rigid = detail::nearestRigidPose(a_from_b);
     return rigid ? separate(a, b, *rigid, query) : SeparationResult{};

@@ -7,6 +7,7 @@
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/mesh_depth.hpp"
 #include "narrowphase/piecewise.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -15,6 +16,10 @@ using Eigen::Vector3d;
 
 SignedDistanceResult signedDistance(const Shape& a, const Shape& b, const Isometry3d& a_from_b,
                                     double tolerance) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, tolerance] { return signedDistance(a, b, a_from_b, tolerance); });
+  }
   if (!detail::isRigidPose(a_from_b)) {
     const auto rigid = detail::nearestRigidPose(a_from_b);
     return rigid ? signedDistance(a, b, *rigid, tolerance) : SignedDistanceResult{};

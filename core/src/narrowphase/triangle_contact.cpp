@@ -5,6 +5,7 @@
 
 #include "narrowphase/exact_sign.hpp"
 #include "narrowphase/triangle_features.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
 namespace swept {
@@ -225,6 +226,9 @@ void keepShallower(Candidate& best, const Passage& passage, const Vector3d& comm
 }  // namespace
 
 TriangleContact triangleContact(const TriangleCorners& a, const TriangleCorners& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return triangleContact(a, b); });
+  }
   const TrianglePair pair(a, b);
   if (!std::isfinite(pair.size)) return {a[0], a[0], a[0], Vector3d::UnitX(), 0.0};
   std::array<Passage, 2> passages;

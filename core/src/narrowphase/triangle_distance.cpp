@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "narrowphase/triangle_features.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
 /// The nearest points are guessed fast and then proven: for any direction n, the gap between the
@@ -180,11 +181,17 @@ TriangleDistance hardDistance(const TrianglePair& pair, const TriangleCorners& a
 }  // namespace
 
 TriangleDistance triangleDistance(const TriangleCorners& a, const TriangleCorners& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return triangleDistance(a, b); });
+  }
   return triangleDistance(a, b, std::numeric_limits<double>::infinity());
 }
 
 TriangleDistance triangleDistance(const TriangleCorners& a, const TriangleCorners& b,
                                   double enough) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, enough] { return triangleDistance(a, b, enough); });
+  }
   const TrianglePair pair(a, b);
   if (enough < std::numeric_limits<double>::infinity()) {
     const Vector3d between = (pair.q[0] + pair.q[1] + pair.q[2]) - (pair.p[1] + pair.p[2]);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "narrowphase/exact_sign.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
 namespace swept {
@@ -223,6 +224,9 @@ bool touchExactly(const TriangleCorners& a, const TriangleCorners& b) {
 }  // namespace
 
 bool trianglesTouch(const TriangleCorners& a, const TriangleCorners& b) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return trianglesTouch(a, b); });
+  }
   const Heights heightsA = heightsOver(b, a);
   if (clearsPlane(heightsA)) return false;
   const Heights heightsB = heightsOver(a, b);

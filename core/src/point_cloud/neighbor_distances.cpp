@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bvh/any_near.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/sensed_space.hpp"
 
 namespace swept {
@@ -42,6 +43,9 @@ class Nearest {
 /// Points that are near in the order of the hierarchy are near: the k before and after give a
 /// radius that the k-th nearest is within.
 std::vector<double> neighborDistances(const PointCloud& cloud, int k) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, k] { return neighborDistances(cloud, k); });
+  }
   if (k < 1) {
     throw std::invalid_argument("neighborDistances: k is " + std::to_string(k) +
                                 "; allowed: at least 1");

@@ -9,6 +9,7 @@
 #include "geometry/point_text.hpp"
 #include "point_cloud/noisy_cloud_data.hpp"
 #include "swept/core/collision_probability.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -143,6 +144,10 @@ double spreadOf(const Matrix3d& factor) {
 NoisyPointCloud NoisyPointCloud::build(std::span<const Vector3d> points,
                                        std::span<const double> radii,
                                        std::span<const Matrix3d> covariances) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, points, radii, covariances] { return build(points, radii, covariances); });
+  }
   requireFinite(points);
   requireAsMany(points.size(), radii.size(), "radii");
   requireAsMany(points.size(), covariances.size(), "covariances");
@@ -159,6 +164,11 @@ NoisyPointCloud NoisyPointCloud::build(std::span<const Vector3d> points,
 
 NoisyPointCloud NoisyPointCloud::build(std::span<const Vector3d> points, double radius,
                                        double standardDeviation) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points, radius, standardDeviation] {
+      return build(points, radius, standardDeviation);
+    });
+  }
   requireFinite(points);
   requireLength(radius, "radius");
   requireLength(standardDeviation, "standard deviation");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/point_text.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/sensed_space.hpp"
 
 namespace swept {
@@ -69,6 +70,10 @@ void addShadow(const Vector3d& away, double radius, const Vector3d& sensor, doub
 
 Balls occludedBalls(std::span<const Vector3d> points, double radius, const Vector3d& sensor,
                     double range) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, points, radius, range] { return occludedBalls(points, radius, sensor, range); });
+  }
   require(radius, "radius");
   require(range, "range");
   requireFinite(sensor, "sensor");

@@ -12,6 +12,7 @@
 #include "point_cloud/cloud_hull.hpp"
 #include "point_cloud/cloud_tree.hpp"
 #include "point_cloud/curve_order.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -40,6 +41,9 @@ bool isRadius(double radius) {
 }  // namespace
 
 PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points, radius] { return build(points, radius); });
+  }
   if (!isRadius(radius)) {
     std::ostringstream message;
     message << "point cloud radius is " << radius << "; allowed: finite and not negative";
@@ -51,6 +55,9 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points, double rad
 
 PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points,
                              std::span<const double> radii) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, points, radii] { return build(points, radii); });
+  }
   requireUsable(points);
   if (radii.size() != points.size()) {
     std::ostringstream message;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/core/traversal/mesh_shape.hpp"
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 static_assert(TriangleLeaf<ShapeLeaf>);
@@ -12,11 +14,17 @@ ShapeLeaf::ShapeLeaf(const Shape& shape, const Eigen::Isometry3d& mesh_from_shap
           Triangle{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}) {}
 
 Contact ShapeLeaf::collide(const TriangleCorners& corners) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return collide(corners); });
+  }
   std::get<Triangle>(triangle_).corners = corners;
   return swept::collide(triangle_, shape_, mesh_from_shape_);
 }
 
 DistanceResult ShapeLeaf::distance(const TriangleCorners& corners, double enough) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, enough] { return distance(corners, enough); });
+  }
   std::get<Triangle>(triangle_).corners = corners;
   DistanceOptions options;
   options.enough = enough;
@@ -25,6 +33,9 @@ DistanceResult ShapeLeaf::distance(const TriangleCorners& corners, double enough
 
 std::array<Eigen::Vector3d, 8> boxCorners(const Shape& shape,
                                           const Eigen::Isometry3d& mesh_from_shape) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return boxCorners(shape, mesh_from_shape); });
+  }
   Aabb box = boundingBox(shape);
   // Placing the corners rounds by a few epsilons of their coordinates; a box larger by more than
   // that makes up for it. What is unbounded stays so.

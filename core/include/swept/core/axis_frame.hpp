@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "swept/core/arithmetic.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -13,6 +13,9 @@ namespace swept {
 /// not zero. Within a few roundings of a rotation for every axis; the quaternion between the two
 /// vectors is not, for axes near -z.
 inline Eigen::Matrix3d axisFrame(const Eigen::Vector3d& axis) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return axisFrame(axis); });
+  }
   // Scaled first: the squares of very small or large components would not be numbers.
   const Eigen::Vector3d z = (axis / axis.cwiseAbs().maxCoeff()).normalized();
   const double sine = std::hypot(z.x(), z.y());

@@ -8,6 +8,7 @@
 
 #include "swept/core/bv/aabb.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept {
@@ -60,6 +61,9 @@ class BodyTree {
   /// meets every body.
   template <typename Visitor>
   bool forEachOverlap(const Aabb& box, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return forEachOverlap(box, visitor); });
+    }
     for (const int body : aside_)
       if (visitor(bodies_[static_cast<std::size_t>(body)])) return true;
     const std::size_t count = nodes_.size();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swept/core/bv/aabb.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -21,6 +22,9 @@ using BoxHandle = std::uint32_t;
 /// upper coordinate. Such a box bounds nothing, and it must not hide a contact. Infinite
 /// coordinates are like any other.
 inline Aabb boundedOrEverywhere(const Aabb& box) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return boundedOrEverywhere(box); });
+  }
   int ordered = 1;
   for (int k = 0; k < 3; ++k) ordered &= static_cast<int>(box.lower[k] <= box.upper[k]);
   if (ordered != 0) return box;

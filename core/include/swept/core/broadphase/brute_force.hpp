@@ -11,6 +11,7 @@
 #include "swept/core/broadphase/broadphase.hpp"
 #include "swept/core/broadphase/visits.hpp"
 #include "swept/core/bv/aabb.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -36,6 +37,9 @@ class BruteForce {
 
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return collide(visitor); });
+    }
     const detail::Unchanged unchanged(changes_);
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
       for (BoxHandle b = a + 1; b < boxes_.size(); ++b) {
@@ -48,7 +52,10 @@ class BruteForce {
   }
 
   template <typename Visitor>
-  bool collide(const Aabb& box, BroadphaseScratch&, Visitor&& visitor) const {
+  bool collide(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return collide(box, scratch, visitor); });
+    }
     const detail::Unchanged unchanged(changes_);
     const Aabb bounded = boundedOrEverywhere(box);
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
@@ -61,6 +68,9 @@ class BruteForce {
 
   template <typename Visitor>
   bool collide(const BruteForce& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return collide(other, scratch, visitor); });
+    }
     const detail::Unchanged unchanged(changes_);
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
       if (!contains(a)) continue;
@@ -76,6 +86,9 @@ class BruteForce {
 
   template <typename Visitor>
   double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return distance(box, scratch, visitor); });
+    }
     sortByDistance(box, scratch);
     const detail::Unchanged unchanged(changes_);
     detail::Lent nearest(scratch.nearest);
@@ -91,6 +104,9 @@ class BruteForce {
 
   template <typename Visitor>
   double distance(BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return distance(scratch, visitor); });
+    }
     scratch.pairs.clear();
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
       for (BoxHandle b = a + 1; b < boxes_.size(); ++b)
@@ -101,6 +117,9 @@ class BruteForce {
 
   template <typename Visitor>
   double distance(const BruteForce& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return distance(other, scratch, visitor); });
+    }
     scratch.pairs.clear();
     for (BoxHandle a = 0; a < boxes_.size(); ++a) {
       for (BoxHandle b = 0; b < other.boxes_.size(); ++b)

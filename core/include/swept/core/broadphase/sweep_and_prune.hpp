@@ -11,6 +11,7 @@
 #include "swept/core/broadphase/broadphase.hpp"
 #include "swept/core/broadphase/visits.hpp"
 #include "swept/core/bv/aabb.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -58,6 +59,9 @@ class SweepAndPrune {
   /// As `Broadphase` says. The pairs are known already: this takes their number.
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return collide(visitor); });
+    }
     const Pairs pairs = this->pairs();
     const detail::Unchanged unchanged(changes_);
     auto from = pairs.sorted.begin();
@@ -77,6 +81,9 @@ class SweepAndPrune {
   /// As `Broadphase` says.
   template <typename Visitor>
   bool collide(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return collide(box, scratch, visitor); });
+    }
     findOverlapping(box, scratch);
     const detail::Unchanged unchanged(changes_);
     detail::Lent handles(scratch.handles);
@@ -90,6 +97,9 @@ class SweepAndPrune {
   /// As `Broadphase` says: a search in `other` for each box.
   template <typename Visitor>
   bool collide(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return collide(other, scratch, visitor); });
+    }
     const detail::Unchanged unchanged(changes_);
     for (BoxHandle handle = 0; handle < handleEnd(); ++handle) {
       if (!contains(handle)) continue;
@@ -106,6 +116,9 @@ class SweepAndPrune {
   /// As `Broadphase` says.
   template <typename Visitor>
   double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return distance(box, scratch, visitor); });
+    }
     double bound = std::numeric_limits<double>::infinity();
     Near near;
     const detail::Unchanged unchanged(changes_);
@@ -123,6 +136,9 @@ class SweepAndPrune {
   /// Pairs that overlap take no memory; the others up to eight times that of those visited.
   template <typename Visitor>
   double distance(BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return distance(scratch, visitor); });
+    }
     double bound = std::numeric_limits<double>::infinity();
     const auto visitPair = [&](BoxHandle a, BoxHandle b) {
       return !visitNear({0.0, a, b}, bound, visitor);
@@ -134,6 +150,9 @@ class SweepAndPrune {
   /// As `Broadphase` says; memory as above.
   template <typename Visitor>
   double distance(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return distance(other, scratch, visitor); });
+    }
     double bound = std::numeric_limits<double>::infinity();
     const auto visitPair = [&](BoxHandle a, BoxHandle b) {
       return !visitNear({0.0, a, b}, bound, visitor);

@@ -16,6 +16,7 @@
 #include "swept/core/bv/rss.hpp"
 #include "swept/core/bvh/fit_rules.hpp"
 #include "swept/core/bvh/split_rules.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -116,6 +117,9 @@ class BvTree {
 template <BoundingVolume BV>
 BvTree<BV> BvTree<BV>::build(const PrimitivePoints& primitives, const SplitFunction& split,
                              const FitFunction<BV>& fit, int maxLeaf) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, maxLeaf] { return build(primitives, split, fit, maxLeaf); });
+  }
   TreeTopology topology = TreeTopology::build(primitives, split, maxLeaf);
   BvTree tree;
   tree.order_ = std::move(topology.order);
@@ -132,6 +136,9 @@ BvTree<BV> BvTree<BV>::build(const PrimitivePoints& primitives, const SplitFunct
 
 template <BoundingVolume BV>
 void BvTree<BV>::refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return refit(primitives, fit); });
+  }
   detail::requireAsAtBuild(primitives, order_.size());
   const std::size_t per = primitives.perPrimitive;
   // In leaf order, so that the points of any node are one span.

@@ -16,6 +16,7 @@
 #include "swept/core/bvh/fit_rules.hpp"
 #include "swept/core/bvh/model_geometry.hpp"
 #include "swept/core/bvh/split_rules.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -64,6 +65,9 @@ class BvhModel : public ModelGeometry {
 
 template <BoundingVolume BV>
 void BvhModel<BV>::end() {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return end(); });
+  }
   requireState("end", {BvhState::Building});
   requirePrimitives();
   refresh(Refresh::Rebuild);
@@ -72,6 +76,9 @@ void BvhModel<BV>::end() {
 
 template <BoundingVolume BV>
 void BvhModel<BV>::endReplace(Refresh how) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, how] { return endReplace(how); });
+  }
   requireState("endReplace", {BvhState::Replacing});
   refresh(how);
   enter(BvhState::Built);
@@ -79,6 +86,9 @@ void BvhModel<BV>::endReplace(Refresh how) {
 
 template <BoundingVolume BV>
 void BvhModel<BV>::endUpdate(Refresh how) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, how] { return endUpdate(how); });
+  }
   requireState("endUpdate", {BvhState::Updating});
   refresh(how);
   enter(BvhState::Updated);

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/traversal/traversal.hpp"
 
 namespace swept {
@@ -89,6 +90,9 @@ class FrontTraversal {
 
   /// Calls leafTesting for the pairs of leaves that may touch, until the node can stop.
   void run() {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return run(); });
+    }
     if (front_.pairs_.empty()) front_.pairs_.push_back({0, 0, -1});
     ++front_.turn_;
     visit(0);

@@ -11,6 +11,7 @@
 #include "swept/core/bv/obb_rss.hpp"
 #include "swept/core/bv/rss.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/traversal/front_list.hpp"
 #include "swept/core/traversal/mesh_pair.hpp"
 #include "swept/core/traversal/traversal.hpp"
@@ -89,6 +90,10 @@ template <BoundingVolume BV>
 void collideMeshes(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                    const MeshCollisionOptions& options, MeshCollisionResult& result,
                    FrontList* front = nullptr) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, front] { return collideMeshes(a, b, a_from_b, options, result, front); });
+  }
   result.reset();
   MeshCollisionNode<BV> node(a, b, a_from_b, options, result);
   if (!node.pose().matrix().allFinite()) {

@@ -11,6 +11,7 @@
 #include "swept/core/bv/obb_rss.hpp"
 #include "swept/core/bv/rss.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 #include "swept/core/traversal/mesh_pair.hpp"
 #include "swept/core/traversal/traversal.hpp"
@@ -79,8 +80,10 @@ class MeshDistanceNode : public MeshPair<BV> {
         search_(options),
         // Lemma: a corner placed in a's frame is off by at most 4 roundings of its coordinates' sum
         // in each coordinate.
-        rounding_(tolerance::kSupportRounding *
-                  (b.extent() + a_from_b.translation().template lpNorm<1>())),
+        rounding_(inDefaultEnvironment([&] {
+          return tolerance::kSupportRounding *
+                 (b.extent() + a_from_b.translation().template lpNorm<1>());
+        })),
         out_(result) {}
 
   ///@{
@@ -126,6 +129,9 @@ template <BoundingVolume BV>
 MeshDistanceResult meshDistance(const BvhModel<BV>& a, const BvhModel<BV>& b,
                                 const Eigen::Isometry3d& a_from_b,
                                 const MeshDistanceOptions& options = {}) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return meshDistance(a, b, a_from_b, options); });
+  }
   MeshDistanceResult result;
   MeshDistanceNode<BV> node(a, b, a_from_b, options, result);
   if (!node.pose().matrix().allFinite()) return result;

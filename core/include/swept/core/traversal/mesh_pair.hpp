@@ -8,6 +8,7 @@
 #include "swept/core/bv/bounding_volume.hpp"
 #include "swept/core/bvh/bv_tree.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/traversal/traversal.hpp"
 #include "swept/core/triangle_pair.hpp"
 
@@ -43,7 +44,7 @@ class MeshPair {
   /// Throws, naming `call`, unless both models can be queried and have triangles.
   MeshPair(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
            std::string_view call)
-      : a_(a), b_(b), a_from_b_(detail::rigidPose(a_from_b)) {
+      : a_(a), b_(b), a_from_b_(inDefaultEnvironment([&] { return detail::rigidPose(a_from_b); })) {
     a.requireTriangles(call);
     b.requireTriangles(call);
   }

@@ -8,6 +8,7 @@
 #include "swept/core/bv/obb_rss.hpp"
 #include "swept/core/bv/rss.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/traversal/mesh_collision.hpp"
 #include "swept/core/traversal/mesh_pair.hpp"
 
@@ -60,6 +61,9 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
 template <BoundingVolume BV>
 void selfCollideMesh(const BvhModel<BV>& model, const MeshCollisionOptions& options,
                      MeshCollisionResult& result) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return selfCollideMesh(model, options, result); });
+  }
   result.reset();
   MeshSelfCollisionNode<BV> node(model, options, result);
   selfCollisionTraverse(node);

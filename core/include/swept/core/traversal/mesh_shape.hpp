@@ -14,6 +14,7 @@
 #include "swept/core/bvh/bv_tree.hpp"
 #include "swept/core/bvh/bvh_model.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/shapes.hpp"
 #include "swept/core/traversal/mesh_distance.hpp"
 #include "swept/core/traversal/mesh_pair.hpp"
@@ -185,6 +186,9 @@ class MeshShapeDistanceNode : public MeshAndOne<BV> {
 template <BoundingVolume BV>
 MeshShapeCollisionResult collideMeshShape(const BvhModel<BV>& mesh, const Shape& shape,
                                           const Eigen::Isometry3d& mesh_from_shape) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return collideMeshShape(mesh, shape, mesh_from_shape); });
+  }
   MeshShapeCollisionResult result;
   const Eigen::Isometry3d rigid = detail::rigidPose(mesh_from_shape);
   ShapeLeaf leaf(shape, rigid);
@@ -204,6 +208,10 @@ template <BoundingVolume BV>
 MeshDistanceResult meshShapeDistance(const BvhModel<BV>& mesh, const Shape& shape,
                                      const Eigen::Isometry3d& mesh_from_shape,
                                      const MeshDistanceOptions& options = {}) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return meshShapeDistance(mesh, shape, mesh_from_shape, options); });
+  }
   MeshDistanceResult result;
   const Eigen::Isometry3d rigid = detail::rigidPose(mesh_from_shape);
   ShapeLeaf leaf(shape, rigid);

@@ -5,7 +5,7 @@
 #include <concepts>
 #include <cstdint>
 
-#include "swept/core/arithmetic.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -78,21 +78,34 @@ bool areLeaves(const Node& node, int i, int j) {
 
 }  // namespace detail
 
-/// Visits all pairs of leaves below (i, j) whose volumes may touch, until the node can stop.
+namespace detail {
+
 template <CollisionTraversal Node>
-void collisionTraverse(Node& node, int i = 0, int j = 0) {
+void collisionDescend(Node& node, int i, int j) {
   if (node.bvTesting(i, j)) return;
-  if (detail::areLeaves(node, i, j)) {
+  if (areLeaves(node, i, j)) {
     node.leafTesting(i, j);
     return;
   }
-  for (const auto& [below, beside] : detail::pairsBelow(node, i, j)) {
-    collisionTraverse(node, below, beside);
+  for (const auto& [below, beside] : pairsBelow(node, i, j)) {
+    collisionDescend(node, below, beside);
     if (node.canStop()) return;
   }
 }
 
-namespace detail {
+template <SelfCollisionTraversal Node>
+void selfCollisionDescend(Node& node, int i) {
+  if (node.isFirstLeaf(i)) {
+    node.leafTesting(i, i);
+    return;
+  }
+  const std::array<int, 2> children = node.firstChildren(i);
+  selfCollisionDescend(node, children[0]);
+  if (node.canStop()) return;
+  selfCollisionDescend(node, children[1]);
+  if (node.canStop()) return;
+  collisionDescend(node, children[0], children[1]);
+}
 
 template <DistanceTraversal Node>
 void distanceDescend(Node& node, int i, int j) {
@@ -111,25 +124,31 @@ void distanceDescend(Node& node, int i, int j) {
 
 }  // namespace detail
 
+/// Visits all pairs of leaves below (i, j) whose volumes may touch, until the node can stop.
+template <CollisionTraversal Node>
+void collisionTraverse(Node& node, int i = 0, int j = 0) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, i, j] { return collisionTraverse(node, i, j); });
+  }
+  detail::collisionDescend(node, i, j);
+}
+
 /// Branch and bound over the pairs of leaves below (i, j), the nearer pair of children first.
 template <DistanceTraversal Node>
 void distanceTraverse(Node& node, int i = 0, int j = 0) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, i, j] { return distanceTraverse(node, i, j); });
+  }
   if (!node.canStop(node.bvTesting(i, j))) detail::distanceDescend(node, i, j);
 }
 
 /// Visits all pairs of leaves below i, in one order each, and each leaf with itself.
 template <SelfCollisionTraversal Node>
 void selfCollisionTraverse(Node& node, int i = 0) {
-  if (node.isFirstLeaf(i)) {
-    node.leafTesting(i, i);
-    return;
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, i] { return selfCollisionTraverse(node, i); });
   }
-  const std::array<int, 2> children = node.firstChildren(i);
-  selfCollisionTraverse(node, children[0]);
-  if (node.canStop()) return;
-  selfCollisionTraverse(node, children[1]);
-  if (node.canStop()) return;
-  collisionTraverse(node, children[0], children[1]);
+  detail::selfCollisionDescend(node, i);
 }
 
 }  // namespace swept
