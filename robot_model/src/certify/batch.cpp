@@ -15,6 +15,8 @@
 
 #include "swept/robot_model/checker.hpp"
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 namespace {
@@ -89,6 +91,10 @@ void forRanges(const Checker& checker, std::size_t count, std::size_t grain, uns
 
 void Checker::checkStates(std::span<const double> states, std::span<Verdict> verdicts,
                           unsigned threads) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, states, verdicts, threads] { return checkStates(states, verdicts, threads); });
+  }
   requireSizes(states, verdicts.size());
   const auto each = static_cast<std::size_t>(dimension());
   forRanges(*this, verdicts.size(), kTogether * kBlocksPerTask, threads,
@@ -101,6 +107,11 @@ void Checker::checkStates(std::span<const double> states, std::span<Verdict> ver
 void Checker::certifyMotions(std::span<const double> from, std::span<const double> to,
                              std::span<MotionCertificate> certificates, MotionQuery query,
                              unsigned threads) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to, certificates, query, threads] {
+      return certifyMotions(from, to, certificates, query, threads);
+    });
+  }
   requireSizes(from, certificates.size());
   requireSizes(to, certificates.size());
   const auto each = static_cast<std::size_t>(dimension());

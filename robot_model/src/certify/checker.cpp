@@ -12,6 +12,7 @@
 #include "certify/state_check.hpp"
 #include "io/numbers.hpp"
 #include "kinematics/whole_state.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
@@ -46,13 +47,19 @@ const Group& findGroup(const Robot& robot, std::string_view name) {
 }  // namespace
 
 Workspace::Workspace(const Checker& checker)
-    : data_(std::make_unique<detail::WorkspaceData>(*checker.model_)) {}
+    : data_(inDefaultEnvironment(
+          [&] { return std::make_unique<detail::WorkspaceData>(*checker.model_); })) {}
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
 Workspace::~Workspace() = default;
 
 Checker::Checker(std::shared_ptr<const Robot> robot, std::string_view group,
                  std::shared_ptr<const World> world, const CheckerOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    *this = inDefaultEnvironment(
+        [&] { return Checker(std::move(robot), group, std::move(world), options); });
+    return;
+  }
   if (!robot || !world) throw std::invalid_argument("Checker: robot and world must not be null");
   validate(*robot, options);
   const Group& found = findGroup(*robot, group);
@@ -84,16 +91,19 @@ int Checker::dimension() const {
 }
 
 const std::vector<Checker::Pair>& Checker::checkedPairs() const {
-  return detail::pairLists(*model_).checked;
+  return *inDefaultEnvironment([this] { return &detail::pairLists(*model_).checked; });
 }
 const std::vector<Checker::Pair>& Checker::skippedPairs() const {
-  return detail::pairLists(*model_).skipped;
+  return *inDefaultEnvironment([this] { return &detail::pairLists(*model_).skipped; });
 }
 const std::vector<Checker::Pair>& Checker::standingContacts() const {
-  return detail::pairLists(*model_).standing;
+  return *inDefaultEnvironment([this] { return &detail::pairLists(*model_).standing; });
 }
 
 std::string Checker::explain(std::string_view bodyA, std::string_view bodyB) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, bodyA, bodyB] { return explain(bodyA, bodyB); });
+  }
   return detail::explainPair(*model_, bodyA, bodyB);
 }
 
@@ -113,28 +123,45 @@ void Checker::requireSizes(std::span<const double> states, std::size_t count) co
 }
 
 Verdict Checker::checkState(std::span<const double> q, Workspace& workspace) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return checkState(q, workspace); });
+  }
   requireSize(q);
   return detail::checkState(*model_, q, dataOf(workspace));
 }
 
 void Checker::checkStates(std::span<const double> states, std::span<Verdict> verdicts,
                           Workspace& workspace) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, states, verdicts] { return checkStates(states, verdicts, workspace); });
+  }
   requireSizes(states, verdicts.size());
   detail::checkStates(*model_, states, verdicts, dataOf(workspace));
 }
 
 StateReport Checker::reportState(std::span<const double> q, Workspace& workspace) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return reportState(q, workspace); });
+  }
   requireSize(q);
   return detail::reportState(*model_, q, dataOf(workspace));
 }
 
 double Checker::clearance(std::span<const double> q, Workspace& workspace) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return clearance(q, workspace); });
+  }
   requireSize(q);
   return detail::stateClearance(*model_, q, dataOf(workspace));
 }
 
 SignedClearance Checker::signedClearance(std::span<const double> q, Workspace& workspace,
                                          std::span<double> gradient) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, q, gradient] { return signedClearance(q, workspace, gradient); });
+  }
   requireSize(q);
   if (!gradient.empty()) requireSize(gradient);
   return detail::signedClearance(*model_, q, gradient, dataOf(workspace));
@@ -142,6 +169,10 @@ SignedClearance Checker::signedClearance(std::span<const double> q, Workspace& w
 
 MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span<const double> to,
                                          Workspace& workspace, MotionQuery query) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, from, to, query] { return certifyMotion(from, to, workspace, query); });
+  }
   requireSize(from);
   requireSize(to);
   return detail::certifyMotion(*model_, from, to, query, dataOf(workspace));
@@ -149,6 +180,10 @@ MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span
 
 MotionClearance Checker::motionClearance(std::span<const double> from, std::span<const double> to,
                                          double accuracy, Workspace& workspace) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, from, to, accuracy] { return motionClearance(from, to, accuracy, workspace); });
+  }
   requireSize(from);
   requireSize(to);
   if (!(accuracy > 0.0)) {
@@ -159,6 +194,9 @@ MotionClearance Checker::motionClearance(std::span<const double> from, std::span
 }
 
 bool Checker::withinLimits(std::span<const double> q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return withinLimits(q); });
+  }
   requireSize(q);
   const auto& kinematics = model_->kinematics;
   for (int i = 0; i < kinematics.dimension; ++i) {
@@ -170,6 +208,9 @@ bool Checker::withinLimits(std::span<const double> q) const {
 
 Eigen::VectorXd Checker::interpolate(std::span<const double> from, std::span<const double> to,
                                      double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to, t] { return interpolate(from, to, t); });
+  }
   requireSize(from);
   requireSize(to);
   Eigen::VectorXd q(dimension());
@@ -180,6 +221,9 @@ Eigen::VectorXd Checker::interpolate(std::span<const double> from, std::span<con
 
 void Checker::interpolate(std::span<const double> from, std::span<const double> to, double t,
                           std::span<double> q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to, t, q] { return interpolate(from, to, t, q); });
+  }
   requireSize(from);
   requireSize(to);
   requireSize(q);

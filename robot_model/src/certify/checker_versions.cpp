@@ -6,6 +6,7 @@
 
 #include "certify/checker_model.hpp"
 #include "certify/obstacle_clock.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept {
@@ -38,6 +39,9 @@ Checker Checker::version(std::shared_ptr<const World> world, CheckerOptions opti
 }
 
 Checker Checker::withWorld(std::shared_ptr<const World> next) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withWorld(std::move(next)); });
+  }
   if (!next) throw std::invalid_argument("Checker: the world must not be null");
   CheckerOptions changed = options();
   // A link may have the name of a body that stands still; rules that name both are still about it.
@@ -57,36 +61,54 @@ Checker Checker::withWorld(std::shared_ptr<const World> next) const {
 }
 
 Checker Checker::withBody(WorldBody body) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withBody(std::move(body)); });
+  }
   World next = world();
   next.add(std::move(body));
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
 Checker Checker::withReplaced(WorldBody body) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withReplaced(std::move(body)); });
+  }
   World next = world();
   next.replace(std::move(body));
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
 Checker Checker::withObstacle(MovingObstacle obstacle) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withObstacle(std::move(obstacle)); });
+  }
   World next = world();
   next.add(std::move(obstacle));
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
 Checker Checker::withoutBody(std::string_view name) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, name] { return withoutBody(name); });
+  }
   World next = world();
   if (!next.remove(name)) failUnknown("body of the world", name);
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
 Checker Checker::withAttached(AttachedBody body) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withAttached(std::move(body)); });
+  }
   CheckerOptions changed = options();
   changed.attached.push_back(std::move(body));
   return version(model_->world, std::move(changed));
 }
 
 Checker Checker::withoutAttached(std::string_view name) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, name] { return withoutAttached(name); });
+  }
   CheckerOptions changed = options();
   const auto named = [name](const AttachedBody& body) { return body.name == name; };
   if (std::erase_if(changed.attached, named) == 0) failUnknown("attached body", name);
@@ -95,12 +117,18 @@ Checker Checker::withoutAttached(std::string_view name) const {
 }
 
 Checker Checker::withRules(CollisionRules rules) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withRules(std::move(rules)); });
+  }
   CheckerOptions changed = options();
   changed.rules = std::move(rules);
   return version(model_->world, std::move(changed));
 }
 
 WorldBody Checker::placed(std::string_view attached, std::span<const double> q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, attached, q] { return placed(attached, q); });
+  }
   requireSize(q);
   const auto body = std::ranges::find(options().attached, attached, &AttachedBody::name);
   if (body == options().attached.end()) failUnknown("attached body", attached);

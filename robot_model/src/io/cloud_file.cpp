@@ -4,11 +4,15 @@
 #include <string>
 
 #include "io/point_file.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
 std::vector<Eigen::Vector3d> loadPoints(const std::filesystem::path& file,
                                         const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return loadPoints(file, options); });
+  }
   const std::string ending = detail::lowerEnding(file);
   using Reader = std::vector<Eigen::Vector3d> (*)(const detail::PointFile&);
   Reader read = nullptr;

@@ -7,6 +7,7 @@
 #include "io/octomap_header.hpp"
 #include "io/point_file.hpp"
 #include "io/scalar.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/cloud_file.hpp"
 
 namespace swept {
@@ -163,6 +164,9 @@ OccupancyMap TreeReader::read(OctomapForm form) {
 }  // namespace detail
 
 OccupancyMap loadOctomap(const std::filesystem::path& file, const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return loadOctomap(file, options); });
+  }
   const std::string ending = detail::lowerEnding(file);
   if (ending != ".bt" && ending != ".ot") {
     throw InputError(file.string(), 0,

@@ -8,6 +8,7 @@
 #include "io/input_source.hpp"
 #include "io/robot_state_yaml.hpp"
 #include "io/yaml.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -202,6 +203,9 @@ PlanningRequest readRequest(const YamlPlace& root, const LoadOptions& options) {
 
 PlanningRequest PlanningRequest::load(const std::filesystem::path& yaml,
                                       const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(yaml, options); });
+  }
   const detail::InputSource source(yaml.string(), options);
   const YamlPlace root = YamlPlace::parse(readTextFile(yaml), source);
   try {

@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -46,6 +47,9 @@ void addValues(const Robot& robot, const Joint& joint, std::span<const double> v
 }  // namespace
 
 PlanningRequest::JointValues PlanningRequest::startOf(const Robot& robot) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return startOf(robot); });
+  }
   JointValues values = start;
   for (const BasePose& base : bases) {
     const std::optional<int> index = robot.findJoint(base.joint);

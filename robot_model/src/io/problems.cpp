@@ -15,6 +15,7 @@
 
 #include "io/input_source.hpp"
 #include "io/numbers.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -252,6 +253,9 @@ std::string listed(std::vector<Value> values, const Value& wanted) {
 }  // namespace
 
 ProblemFile ProblemFile::load(const std::filesystem::path& json) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(json); });
+  }
   ProblemFile result;
   result.file_ = json.string();
   const auto root = parseJson(readTextFile(json), result.file_);
@@ -285,6 +289,9 @@ std::vector<int> ProblemFile::indices(const std::string& set) const {
 }
 
 PlanningProblem ProblemFile::problem(const std::string& set, int index) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, index] { return problem(set, index); });
+  }
   const auto known = sets_.find(set);
   if (known == sets_.end()) {
     const std::string instead =

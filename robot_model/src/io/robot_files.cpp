@@ -6,6 +6,7 @@
 #include "io/srdf.hpp"
 #include "io/urdf_model.hpp"
 #include "io/urdf_outline.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -25,6 +26,10 @@ std::shared_ptr<const Robot> RobotBuilder::build(detail::RobotParts parts) {
 std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std::string& urdfName,
                                           const std::string& srdfText, const std::string& srdfName,
                                           const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return parse(urdfText, urdfName, srdfText, srdfName, options); });
+  }
   const detail::InputSource urdfSource(urdfName, options);
   const detail::InputSource srdfSource(srdfName, options);
   const detail::UrdfOutline outline = detail::outlineUrdf(urdfText, urdfSource);
@@ -39,6 +44,9 @@ std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std
 std::shared_ptr<const Robot> Robot::load(const std::filesystem::path& urdf,
                                          const std::filesystem::path& srdf,
                                          const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(urdf, srdf, options); });
+  }
   const std::string urdfText = readTextFile(urdf);
   if (srdf.empty()) return parse(urdfText, urdf.string(), {}, {}, options);
   const std::string srdfText = readTextFile(srdf);

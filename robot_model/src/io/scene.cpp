@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scene.hpp"
 
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 
 World World::load(const std::filesystem::path& scene, const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(scene, options); });
+  }
   const std::string ending = scene.extension().string();
   if (ending == ".urdf") return detail::readSceneUrdf(scene, options);
   const bool yaml = ending == ".yaml" || ending == ".yml";

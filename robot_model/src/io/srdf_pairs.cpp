@@ -5,6 +5,7 @@
 
 #include "io/srdf.hpp"
 #include "io/xml_places.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/collision_matrix.hpp"
 
 namespace swept {
@@ -120,6 +121,10 @@ std::string appended(const std::string& text, const XmlPlaces& places,
 
 std::string srdfWithPairs(const Robot& robot, std::span<const LinkPairReport> pairs,
                           const std::string& srdfText, const std::string& srdfName) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, pairs] { return srdfWithPairs(robot, pairs, srdfText, srdfName); });
+  }
   if (srdfText.empty()) {
     return "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(robot.name()) + "\">\n" +
            inLines(elementsFor(robot, pairs, {}), "  ", "\n") + "</robot>\n";

@@ -14,6 +14,7 @@
 #include "kinematics/motion_model.hpp"
 #include "kinematics/rigid_transform.hpp"
 #include "kinematics/whole_state.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
@@ -191,6 +192,9 @@ void addColumns(const ToolChain& chain, const MovingBody& body, const Matrix3d& 
 }  // namespace
 
 PoseError poseError(const Isometry3d& actual, const Isometry3d& wanted) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return poseError(actual, wanted); });
+  }
   return {(wanted.translation() - actual.translation()).norm(),
           rotationVector(wanted.linear() * actual.linear().transpose()).norm()};
 }
@@ -206,6 +210,12 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, std::st
                                      std::string_view link,
                                      const std::optional<Eigen::VectorXd>& reference,
                                      const Isometry3d& link_from_tool) {
+  if (detail::inForeignEnvironment()) {
+    *this = inDefaultEnvironment([&] {
+      return InverseKinematics(std::move(robot), group, link, reference, link_from_tool);
+    });
+    return;
+  }
   if (!robot) refuse("no robot given");
   const std::string of = "robot '" + robot->name() + "'";
   auto chain = std::make_shared<ToolChain>();
@@ -237,6 +247,9 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const ToolChain> chain)
 
 InverseKinematics InverseKinematics::within(std::span<const double> lower,
                                             std::span<const double> upper) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, lower, upper] { return within(lower, upper); });
+  }
   requireSize(lower.size(), chain_->degreeOf.size(), "the lower limit");
   requireSize(upper.size(), chain_->degreeOf.size(), "the upper limit");
   auto chain = std::make_shared<ToolChain>(*chain_);
@@ -273,6 +286,9 @@ int InverseKinematics::degreesOfFreedom() const {
 }
 
 std::optional<Isometry3d> InverseKinematics::findPose(std::span<const double> q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return findPose(q); });
+  }
   requireSize(q.size(), chain_->degreeOf.size(), "the configuration");
   if (!allFinite(q)) return {};
   Isometry3d world_from_body;
@@ -284,6 +300,9 @@ std::optional<Isometry3d> InverseKinematics::findPose(std::span<const double> q)
 }
 
 Isometry3d InverseKinematics::pose(std::span<const double> q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return pose(q); });
+  }
   const std::optional<Isometry3d> found = findPose(q);
   if (!found) refuse(kUnusable);
   return *found;
@@ -344,6 +363,9 @@ void requireSensible(const InverseKinematicsOptions& options) {
 }  // namespace
 
 Jacobian InverseKinematics::jacobian(std::span<const double> q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return jacobian(q); });
+  }
   requireSize(q.size(), chain_->degreeOf.size(), "the configuration");
   Workspace workspace(*this);
   const auto keep = [&](std::size_t i, const Isometry3d& joint, const Isometry3d& body) {
@@ -483,6 +505,9 @@ class InverseKinematics::Search {
 
 bool InverseKinematics::solve(const Isometry3d& model_from_tool, std::span<double> q,
                               const InverseKinematicsOptions& options, Workspace& workspace) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return solve(model_from_tool, q, options, workspace); });
+  }
   requireRigid(model_from_tool, "the target");
   requireSeed(*chain_, q);
   requireSensible(options);

@@ -9,6 +9,7 @@
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
 #include "kinematics/whole_state.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
@@ -84,6 +85,11 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
                        std::span<const double> from, std::span<const double> to,
                        const std::optional<Eigen::VectorXd>& reference)
     : Motion(Vector3d::Zero()) {
+  if (detail::inForeignEnvironment()) {
+    *this =
+        inDefaultEnvironment([&] { return LinkMotion(robot, group, link, from, to, reference); });
+    return;
+  }
   const Group* const moved = robot.findGroup(group);
   if (moved == nullptr) {
     refuse("robot '" + robot.name() + "' has no group '" + std::string(group) + "'");
@@ -135,24 +141,39 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
 }
 
 Isometry3d LinkMotion::at(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return LinkMotion::at(t); });
+  }
   return state(t).pose;
 }
 
 Twist LinkMotion::velocity(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return LinkMotion::velocity(t); });
+  }
   return state(t).twist;
 }
 
 MotionState LinkMotion::state(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, t] { return LinkMotion::state(t); });
+  }
   const detail::BodyState body = path_->at(t);
   const Isometry3d pose = body.world_from_body * path_->body_from_link;
   return {pose, {body.linear + body.angular.cross(pose.translation()), body.angular}};
 }
 
-MotionRates LinkMotion::rates(double /*from*/, double /*to*/) const {
+MotionRates LinkMotion::rates(double from, double to) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, from, to] { return LinkMotion::rates(from, to); });
+  }
   return path_->rates;
 }
 
 double LinkMotion::rounding(double reach) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, reach] { return LinkMotion::rounding(reach); });
+  }
   // Of places and of velocities: joints that turn take the span to these, the others their speeds.
   const double relative = tolerance::kRoundingPerJoint * (path_->transforms + 2.0);
   const double span = path_->span + reach;
@@ -162,6 +183,10 @@ double LinkMotion::rounding(double reach) const {
 
 Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,
                     std::span<const double> q, const std::optional<Eigen::VectorXd>& reference) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, group, link, q] { return linkPose(robot, group, link, q, reference); });
+  }
   return LinkMotion(robot, group, link, q, q, reference).at(0.0);
 }
 

@@ -5,10 +5,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
                                        std::string_view name) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, name] { return namedConfiguration(robot, group, name); });
+  }
   const NamedState* state = robot.findNamedState(name, group.name);
   if (state == nullptr) {
     std::string known;
@@ -30,6 +35,9 @@ std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
 }
 
 NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q] { return makeNamedState(group, std::move(name), q); });
+  }
   if (q.size() != group.variables.size())
     throw std::invalid_argument("a configuration of the group has " +
                                 std::to_string(group.variables.size()) + " values, not " +

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 namespace {
@@ -42,6 +44,9 @@ const NamedState* Robot::findNamedState(std::string_view name, std::string_view 
 }
 
 Eigen::VectorXd Robot::defaultState() const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return defaultState(); });
+  }
   Eigen::VectorXd q(static_cast<Eigen::Index>(variables_.size()));
   for (std::size_t v = 0; v < variables_.size(); ++v) {
     const double lower = variables_[v].lower;

@@ -12,6 +12,7 @@
 #include "kinematics/motion_model.hpp"
 #include "kinematics/whole_state.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/core/segment_query.hpp"
 
 namespace swept {
@@ -147,6 +148,10 @@ class CubeFilter {
 
 std::vector<Vector3d> withoutRobot(std::span<const Vector3d> points, const Robot& robot,
                                    std::span<const double> state, double margin) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, points, state, margin] { return withoutRobot(points, robot, state, margin); });
+  }
   const PlacedRobot placed(robot, state, margin);
   std::vector<Vector3d> kept;
   std::ranges::remove_copy_if(points, std::back_inserter(kept),
@@ -156,6 +161,10 @@ std::vector<Vector3d> withoutRobot(std::span<const Vector3d> points, const Robot
 
 Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const double> state,
                         double margin) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, state, margin] { return ballsWithoutRobot(balls, robot, state, margin); });
+  }
   if (balls.centers.size() != balls.radii.size()) {
     refuse(std::to_string(balls.centers.size()) + " balls have " +
            std::to_string(balls.radii.size()) + " radii");
@@ -172,6 +181,10 @@ Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const 
 
 OccupancyMap mapWithoutRobot(const OccupancyMap& map, const Isometry3d& world_from_map,
                              const Robot& robot, std::span<const double> state, double margin) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, state, margin] { return mapWithoutRobot(map, world_from_map, robot, state, margin); });
+  }
   if (!(map.resolution > 0.0)) {
     refuse("the map's resolution is " + detail::formatNumber(map.resolution) +
            "; it must be above 0");

@@ -5,10 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 WorldBody occupiedBody(std::string name, const OccupancyMap& map,
                        const Eigen::Isometry3d& world_from_map) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return occupiedBody(std::move(name), map, world_from_map); });
+  }
   WorldBody body{.name = std::move(name)};
   std::vector<Eigen::Vector3d> centers;
   double reach = 0.0;

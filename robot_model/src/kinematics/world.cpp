@@ -11,6 +11,7 @@
 #include "kinematics/obstacle_pose.hpp"
 #include "kinematics/rigid_transform.hpp"
 #include "kinematics/shape_cover.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -63,12 +64,19 @@ void World::requireFree(const std::string& name) const {
 }
 
 void World::add(WorldBody body) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return add(std::move(body)); });
+  }
   requireFree(body.name);
   makeRigid(body);
   append(std::move(body), bodies_, placeOfBody_);
 }
 
 void World::add(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return add(std::move(name), std::move(shape), world_from_shape); });
+  }
   WorldBody body;
   body.name = std::move(name);
   body.parts.push_back({std::move(shape), world_from_shape});
@@ -76,6 +84,9 @@ void World::add(std::string name, Shape shape, const Eigen::Isometry3d& world_fr
 }
 
 void World::add(MovingObstacle obstacle) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return add(std::move(obstacle)); });
+  }
   requireFree(obstacle.name);
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument("World: obstacle '" + obstacle.name + "' " + what);
@@ -100,6 +111,9 @@ void World::add(MovingObstacle obstacle) {
 }
 
 void World::replace(WorldBody body) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return replace(std::move(body)); });
+  }
   const auto old = placeOfBody_.find(body.name);
   if (old == placeOfBody_.end())
     throw std::invalid_argument("World: there is no body '" + body.name + "' to replace");
@@ -123,6 +137,9 @@ const MovingObstacle* World::findObstacle(std::string_view name) const {
 }
 
 Eigen::Isometry3d MovingObstacle::poseAt(double time) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, time] { return poseAt(time); });
+  }
   return detail::obstaclePose(*this, time).world_from_body;
 }
 

@@ -12,6 +12,7 @@
 #include "kinematics/for_each_index.hpp"
 #include "matrix/contact_search.hpp"
 #include "matrix/never_proof.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -195,6 +196,9 @@ std::string_view toString(PairStatus status) {
 
 std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
                                             const CollisionMatrixOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return collisionMatrix(robot, options); });
+  }
   requireUsable(options);
   const Examiner examiner(robot, options);
   std::vector<LinkPairReport> reports = examiner.pairs();
