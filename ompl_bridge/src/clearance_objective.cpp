@@ -8,6 +8,7 @@
 
 #include "number_text.hpp"
 #include "preconditions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "workspace_pool.hpp"
 
 namespace swept {
@@ -31,6 +32,10 @@ CertifiedClearanceObjective::CertifiedClearanceObjective(const ompl::base::Space
 CertifiedClearanceObjective::~CertifiedClearanceObjective() = default;
 
 ompl::base::Cost CertifiedClearanceObjective::stateCost(const ompl::base::State* state) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, state] { return CertifiedClearanceObjective::stateCost(state); });
+  }
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(state, scratch->from);
   return ompl::base::Cost(checker_->clearance(scratch->from, scratch->workspace));
@@ -38,6 +43,10 @@ ompl::base::Cost CertifiedClearanceObjective::stateCost(const ompl::base::State*
 
 ompl::base::Cost CertifiedClearanceObjective::motionCost(const ompl::base::State* s1,
                                                          const ompl::base::State* s2) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, s1, s2] { return CertifiedClearanceObjective::motionCost(s1, s2); });
+  }
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "preconditions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/paths.hpp"
 #include "swept/robot_model/limits.hpp"
@@ -55,6 +56,10 @@ bool CertifiedMotionValidator::count(bool free) const {
 // The bounds are convex under the space's interpolation, so two ends inside keep the motion inside.
 bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1,
                                            const ompl::base::State* s2) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, s1, s2] { return CertifiedMotionValidator::checkMotion(s1, s2); });
+  }
   if (!si_->satisfiesBounds(s1) || !si_->satisfiesBounds(s2)) return count(false);
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
@@ -66,6 +71,10 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1,
 
 bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                                            std::pair<ompl::base::State*, double>& lastValid) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, s1, s2] { return CertifiedMotionValidator::checkMotion(s1, s2, lastValid); });
+  }
   if (!si_->satisfiesBounds(s1) || !si_->satisfiesBounds(s2)) {
     if (lastValid.first != nullptr) si_->copyState(lastValid.first, s1);
     lastValid.second = 0.0;

@@ -11,12 +11,16 @@
 
 #include "number_text.hpp"
 #include "preconditions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 
 namespace swept {
 
 std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
                                                   const Checker& checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return configurationsOf(path, checker); });
+  }
   detail::requireSpaceOf(checker, *path.getSpaceInformation()->getStateSpace());
   const StateConversion conversion(checker.robot(), checker.group());
   std::vector<std::vector<double>> states(path.getStateCount(),
@@ -29,6 +33,10 @@ std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeo
 MotionCertificate certifyByEither(const Checker& checker, std::span<const double> from,
                                   std::span<const double> to, Workspace& workspace,
                                   MotionQuery first) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, from, to, first] { return certifyByEither(checker, from, to, workspace, first); });
+  }
   MotionCertificate certificate = checker.certifyMotion(from, to, workspace, first);
   if (certificate.verdict != Verdict::Undecided) return certificate;
   const MotionQuery second =
@@ -39,6 +47,9 @@ MotionCertificate certifyByEither(const Checker& checker, std::span<const double
 
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return certifyPath(path, checker); });
+  }
   const std::vector<std::vector<double>> states = configurationsOf(path, checker);
   std::vector<MotionCertificate> certificates;
   Workspace workspace(checker);
@@ -50,6 +61,9 @@ std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric&
 std::vector<MotionCertificate> simplifyPath(ompl::geometric::PathGeometric& path,
                                             const Checker& checker, double time,
                                             const ompl::base::GoalPtr& goal) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, time] { return simplifyPath(path, checker, time, goal); });
+  }
   if (!(time > 0.0) || !std::isfinite(time)) {
     throw std::invalid_argument("simplifyPath: time " + detail::numberText(time) +
                                 " s must be a finite number greater than zero");
@@ -68,6 +82,9 @@ std::vector<MotionCertificate> simplifyPath(ompl::geometric::PathGeometric& path
 }
 
 unsigned certifyEdges(ompl::base::PlannerData& data, const Checker& checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return certifyEdges(data, checker); });
+  }
   detail::requireSpaceOf(checker, *data.getSpaceInformation()->getStateSpace());
   const StateConversion conversion(checker.robot(), checker.group());
   Workspace workspace(checker);

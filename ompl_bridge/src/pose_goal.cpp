@@ -15,6 +15,7 @@
 #include "number_text.hpp"
 #include "preconditions.hpp"
 #include "state_layout.hpp"
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace ob = ompl::base;
@@ -119,8 +120,9 @@ PoseGoal::PoseGoal(const ob::SpaceInformationPtr& si, const std::shared_ptr<cons
   requireSensible(options);
   requireTarget();
   setThreshold(1.0);
-  // Not by the base's constructor: the thread uses the members of this class.
-  startSampling();
+  // Not by the base's constructor: the thread uses the members of this class. It begins in the
+  // environment of who starts it.
+  inDefaultEnvironment([this] { startSampling(); });
 }
 
 PoseGoal::~PoseGoal() {
@@ -133,6 +135,9 @@ InverseKinematicsOptions PoseGoal::search() const {
 
 // A search of no steps refuses what sample() must not throw for, which would end the program.
 void PoseGoal::requireTarget() {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return requireTarget(); });
+  }
   InverseKinematicsOptions none = search();
   none.maxIterations = 0;
   drawSeed();
@@ -140,6 +145,9 @@ void PoseGoal::requireTarget() {
 }
 
 double PoseGoal::distanceGoal(const ob::State* state) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, state] { return PoseGoal::distanceGoal(state); });
+  }
   std::vector<double> q(q_.size());
   conversion_.toConfiguration(state, q);
   const std::optional<Eigen::Isometry3d> pose = kinematics_.findPose(q);
@@ -158,6 +166,9 @@ void PoseGoal::drawSeed() {
 
 // The caller, OMPL, keeps the state if it is valid and differs from those before it.
 bool PoseGoal::sample(ob::State* state) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, state] { return sample(state); });
+  }
   while (isSampling() && seeds_ < options_.maxSeeds &&
          getStateCount() < static_cast<std::size_t>(options_.maxSamples)) {
     ++seeds_;

@@ -10,17 +10,40 @@
 
 #include "limit_warning.hpp"
 #include "preconditions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/validity_checker.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
+namespace {
+
+/// Plans in the default environment, so that OMPL's own arithmetic gives the same path, too.
+class Setup final : public ompl::geometric::SimpleSetup {
+ public:
+  using SimpleSetup::SimpleSetup;
+  void setup() override {
+    inDefaultEnvironment([this] { SimpleSetup::setup(); });
+  }
+  ompl::base::PlannerStatus solve(double time) override {
+    return inDefaultEnvironment([&] { return SimpleSetup::solve(time); });
+  }
+  ompl::base::PlannerStatus solve(
+      const ompl::base::PlannerTerminationCondition& condition) override {
+    return inDefaultEnvironment([&] { return SimpleSetup::solve(condition); });
+  }
+};
+
+}  // namespace
 
 ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> checker,
                                                 const SetupOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return makeSimpleSetup(std::move(checker), options); });
+  }
   if (!checker) throw std::invalid_argument("no checker given");
-  auto setup = std::make_shared<ompl::geometric::SimpleSetup>(
-      makeStateSpace(checker->robot(), checker->group(), options.space));
+  auto setup =
+      std::make_shared<Setup>(makeStateSpace(checker->robot(), checker->group(), options.space));
   const ompl::base::SpaceInformationPtr& si = setup->getSpaceInformation();
   setup->setStateValidityChecker(std::make_shared<ValidityChecker>(si, checker));
   if (options.motions == MotionCheck::Discrete) {
@@ -62,6 +85,10 @@ ompl::base::ScopedState<> stateOf(const ompl::base::StateSpacePtr& space, const 
 
 void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
                      std::span<const double> start, std::span<const double> goal) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, start, goal] { return setStartAndGoal(setup, checker, start, goal); });
+  }
   detail::requireSpaceOf(checker, *setup.getStateSpace());
   const ompl::base::ScopedState<> from = stateOf(setup.getStateSpace(), checker, start, "start");
   const ompl::base::ScopedState<> to = stateOf(setup.getStateSpace(), checker, goal, "goal");

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "state_layout.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/limits.hpp"
 
@@ -90,6 +91,9 @@ void StateConversion::toConfiguration(const ob::State* state, std::span<double> 
 }
 
 void StateConversion::toState(std::span<const double> q, ob::State* state) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, q, state] { return toState(q, state); });
+  }
   requireSize(q.size(), dimension_);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     ob::State* part = compound_ ? state->as<ob::CompoundState>()->components[i] : state;

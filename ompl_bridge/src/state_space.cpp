@@ -22,6 +22,7 @@
 #include "number_text.hpp"
 #include "preconditions.hpp"
 #include "state_layout.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "tip_projection.hpp"
@@ -177,6 +178,10 @@ ob::StateSpacePtr finished(const std::shared_ptr<Space>& space, const Robot& rob
 
 std::map<std::string, std::pair<double, double>> limitsAround(
     const Robot& robot, const Group& group, std::span<const std::vector<double>> configurations) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, configurations] { return limitsAround(robot, group, configurations); });
+  }
   std::map<std::string, std::pair<double, double>> limits;
   for (const std::vector<double>& q : configurations) {
     if (q.size() != group.variables.size())
@@ -199,6 +204,9 @@ std::map<std::string, std::pair<double, double>> limitsAround(
 
 ob::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
                                  const StateSpaceOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return makeStateSpace(robot, group, options); });
+  }
   const std::vector<JointRun> runs = detail::jointRuns(robot, group);
   requireOptions(robot, group, options);
   if (detail::isSingleRealVector(runs)) {

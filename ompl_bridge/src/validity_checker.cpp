@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "preconditions.hpp"
+#include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/validity_checker.hpp"
 #include "workspace_pool.hpp"
 
@@ -25,6 +26,9 @@ ValidityChecker::ValidityChecker(const ompl::base::SpaceInformationPtr& si,
 ValidityChecker::~ValidityChecker() = default;
 
 bool ValidityChecker::isValid(const ompl::base::State* state) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, state] { return ValidityChecker::isValid(state); });
+  }
   // OMPL's bounds let NaN through; checkState does not.
   if (!si_->satisfiesBounds(state)) return false;
   const WorkspacePool::Lease scratch = pool_->lease();
@@ -33,6 +37,9 @@ bool ValidityChecker::isValid(const ompl::base::State* state) const {
 }
 
 double ValidityChecker::clearance(const ompl::base::State* state) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, state] { return ValidityChecker::clearance(state); });
+  }
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(state, scratch->from);
   const double apart = checker_->clearance(scratch->from, scratch->workspace);
@@ -41,6 +48,11 @@ double ValidityChecker::clearance(const ompl::base::State* state) const {
 
 double ValidityChecker::clearance(const ompl::base::State* state, ompl::base::State* validState,
                                   bool& validStateAvailable) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, state, validState] {
+      return ValidityChecker::clearance(state, validState, validStateAvailable);
+    });
+  }
   validStateAvailable = !isValid(state) && findValid(state, validState);
   return clearance(state);
 }

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "swept/core/floating_point_environment.hpp"
 namespace swept {
 
 namespace detail {
@@ -97,6 +98,9 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   using ompl::NearestNeighbors<T>::add;
   /// Its state must not change until it is removed.
   void add(const T& data) override {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return NearestStates::add(data); });
+    }
     if (others_ == nullptr && place(data)) return;
     if (others_ == nullptr) useOthers();
     others_->add(data);
@@ -104,6 +108,9 @@ class NearestStates : public ompl::NearestNeighbors<T> {
 
   /// False: it is not there.
   bool remove(const T& data) override {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return NearestStates::remove(data); });
+    }
     if (others_) return others_->remove(data);
     for (const auto& [distance, index] : closest(data, items_.size(), 0.0)) {
       if (*items_[index] != data) continue;
@@ -117,6 +124,9 @@ class NearestStates : public ompl::NearestNeighbors<T> {
 
   /// Throws ompl::Exception when there is none.
   T nearest(const T& data) const override {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return NearestStates::nearest(data); });
+    }
     if (others_) return others_->nearest(data);
     if (size() == 0) throw ompl::Exception("No elements found in nearest neighbors data structure");
     if constexpr (kHasState) {
@@ -128,6 +138,9 @@ class NearestStates : public ompl::NearestNeighbors<T> {
 
   /// The k nearest, or all if there are fewer; instead of what is in `found`.
   void nearestK(const T& data, std::size_t k, std::vector<T>& found) const override {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment([&, k] { return NearestStates::nearestK(data, k, found); });
+    }
     if (others_) return others_->nearestK(data, k, found);
     found.clear();
     if (k > 0) collect(closest(data, k, kAnywhere), found);
@@ -135,6 +148,10 @@ class NearestStates : public ompl::NearestNeighbors<T> {
 
   /// Those not farther than `radius`, in the metric; instead of what is in `found`.
   void nearestR(const T& data, double radius, std::vector<T>& found) const override {
+    if (detail::inForeignEnvironment()) {
+      return inDefaultEnvironment(
+          [&, radius] { return NearestStates::nearestR(data, radius, found); });
+    }
     if (others_) return others_->nearestR(data, radius, found);
     found.clear();
     collect(closest(data, items_.size(), radius), found);
