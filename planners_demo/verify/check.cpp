@@ -5,6 +5,7 @@
 
 #include "enclosed.hpp"
 #include "encoding.hpp"
+#include "environment.hpp"
 #include "motion.hpp"
 #include "proof.hpp"
 
@@ -187,7 +188,9 @@ std::string pairDigest(Json pair) {
 }
 
 Summary checkProof(const Json& path, const Json& model) {
-  return ProofCheck(path, model).run();
+  Summary summary;
+  inDefaultEnvironment([&] { summary = ProofCheck(path, model).run(); });
+  return summary;
 }
 
 }  // namespace swept::verify
