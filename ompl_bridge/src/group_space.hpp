@@ -2,11 +2,17 @@
 #pragma once
 
 #include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/base/StateSampler.h>
+#include <ompl/base/StateSpace.h>
 
+#include <limits>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "default_sampler.hpp"
 #include "swept/core/floating_point_environment.hpp"
 namespace swept::detail {
 
@@ -37,11 +43,23 @@ class GroupSpace : public Space {
     }
     Space::interpolate(from, to, t, state);
   }
+  bool satisfiesBounds(const ompl::base::State* state) const override {
+    if (inForeignEnvironment()) {
+      return inDefaultEnvironment([&] { return Space::satisfiesBounds(state); });
+    }
+    return Space::satisfiesBounds(state);
+  }
+  void enforceBounds(ompl::base::State* state) const override {
+    inDefaultEnvironment([&] { Space::enforceBounds(state); });
+  }
   double getMaximumExtent() const override {
     return inDefaultEnvironment([&] { return Space::getMaximumExtent(); });
   }
   double getMeasure() const override {
     return inDefaultEnvironment([&] { return Space::getMeasure(); });
+  }
+  ompl::base::StateSamplerPtr allocDefaultStateSampler() const override {
+    return inDefaultEnvironment([this] { return sampler(); });
   }
   ///@}
   void registerProjections() override {
@@ -50,6 +68,20 @@ class GroupSpace : public Space {
   }
 
  private:
+  /// Of a space that is made of several, put together as OMPL does.
+  ompl::base::StateSamplerPtr sampler() const {
+    if constexpr (std::is_same_v<Space, ompl::base::CompoundStateSpace>) {
+      const auto all = std::make_shared<DefaultSampler<ompl::base::CompoundStateSampler>>(this);
+      const bool weighed = !(this->weightSum_ < std::numeric_limits<double>::epsilon());
+      for (unsigned i = 0; i < this->componentCount_; ++i)
+        all->addSampler(this->components_[i]->allocStateSampler(),
+                        weighed ? this->weights_[i] / this->weightSum_ : 1.0);
+      return all;
+    } else {
+      return Space::allocDefaultStateSampler();
+    }
+  }
+
   ompl::base::ProjectionEvaluatorPtr projection_;
   std::vector<std::string> variables_;
 };

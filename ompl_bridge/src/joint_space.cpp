@@ -8,6 +8,7 @@
 #include <typeinfo>
 #include <utility>
 
+#include "default_sampler.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
@@ -87,7 +88,7 @@ double JointSpace::getMeasure() const {
 }
 
 ob::StateSamplerPtr JointSpace::allocDefaultStateSampler() const {
-  return std::make_shared<Sampler>(*this);
+  return std::make_shared<DefaultSampler<Sampler>>(*this);
 }
 
 ob::State* JointSpace::allocState() const {

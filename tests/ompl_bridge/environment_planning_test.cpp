@@ -115,8 +115,23 @@ TEST_P(EnvironmentOfPlanning, IsTheDefaultForStatesAndMotions) {
           for (std::size_t i = 0; i + 1 < states_.size(); ++i) {
             const ob::State *from = states_[i].get(), *to = states_[i + 1].get();
             space_->interpolate(from, to, 1.0 / 3.0, between.get());
-            t.add(space_->distance(from, to));
+            t.add(space_->distance(from, to), space_->satisfiesBounds(to));
+            space_->enforceBounds(between.get());
             tell(t, between.get());
+          }
+        }},
+       {"samples",
+        [&](Transcript& t) {
+          ompl::RNG::setSeed(3);
+          const ob::StateSamplerPtr sampler = space_->allocStateSampler();
+          ob::ScopedState<> sample(space_);
+          for (const auto& state : states_) {
+            sampler->sampleUniform(sample.get());
+            tell(t, sample.get());
+            sampler->sampleUniformNear(sample.get(), state.get(), 0.3);
+            tell(t, sample.get());
+            sampler->sampleGaussian(sample.get(), state.get(), 0.3);
+            tell(t, sample.get());
           }
         }},
        {"made", [&](Transcript& t) {
@@ -188,6 +203,30 @@ TEST_P(EnvironmentOfPlanning, IsTheDefaultForNearestStates) {
                                      t.add(nearest.nearest(&node) - nodes.data(), found.size());
                                    }
                                  }}});
+}
+
+// The sampler of a space that is made of several is OMPL's, put together here.
+TEST_P(EnvironmentOfPlanning, LeavesOmplsSamplesAsTheyAre) {
+  const auto* compound = dynamic_cast<const ob::CompoundStateSpace*>(space_.get());
+  if (compound == nullptr) return;
+  const StateConversion conversion(checker_->robot(), checker_->group());
+  const auto drawn = [&](const auto& alloc) {
+    ompl::RNG::setSeed(3);
+    const ob::StateSamplerPtr sampler = alloc();
+    ob::ScopedState<> sample(space_);
+    std::vector<std::vector<double>> all;
+    for (const auto& state : states_) {
+      all.emplace_back(static_cast<std::size_t>(checker_->dimension()));
+      sampler->sampleUniformNear(sample.get(), state.get(), 0.3);
+      conversion.toConfiguration(sample.get(), all.back());
+      all.emplace_back(all.back());
+      sampler->sampleUniform(sample.get());
+      conversion.toConfiguration(sample.get(), all.back());
+    }
+    return all;
+  };
+  EXPECT_EQ(drawn([&] { return compound->allocDefaultStateSampler(); }),
+            drawn([&] { return compound->ob::CompoundStateSpace::allocDefaultStateSampler(); }));
 }
 
 INSTANTIATE_TEST_SUITE_P(Groups, EnvironmentOfPlanning, testing::Bool(), [](const auto& tested) {
