@@ -39,35 +39,13 @@ using test::expectSameRefusals;
 using test::Query;
 using test::Transcript;
 
-/// Numbers with all their digits; those of the last kind are denormal, or their squares are.
-class Numbers {
- public:
-  explicit Numbers(unsigned seed) : random_(seed) {}
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  Vector3d vector(double size) {
-    const double x = number(-size, size), y = number(-size, size);
-    return {x, y, number(-size, size)};
-  }
-  std::vector<Vector3d> vectors(std::size_t count, double size) {
-    std::vector<Vector3d> all;
-    for (std::size_t i = 0; i < count; ++i) all.push_back(vector(size));
-    return all;
-  }
-  Isometry3d pose(double reach) {
-    Isometry3d pose = Isometry3d::Identity();
-    pose.linear() = Eigen::Quaterniond(number(-1, 1), number(-1, 1), number(-1, 1), 0.3)
-                        .normalized()
-                        .toRotationMatrix();
-    pose.translation() = vector(reach);
-    return pose;
-  }
+std::vector<Vector3d> manyPoints(std::mt19937& random, std::size_t count, double size) {
+  std::vector<Vector3d> all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back(test::uniformPoint(random, size));
+  return all;
+}
 
- private:
-  std::mt19937 random_;
-};
-
+/// m. Coordinates are denormal at the last one, and squares at the one before.
 constexpr std::array kSizes{1.0, 3e-155, 2e-309};
 
 void tell(Transcript& answers, const DistanceResult& d) {
@@ -149,10 +127,10 @@ INSTANTIATE_TEST_SUITE_P(EnvironmentOfShapes, EnvironmentOfPairs,
 TEST(EnvironmentOfShapes, IsTheDefaultForSmallOnes) {
   std::vector<Query> queries;
   for (const double size : kSizes) {
-    Numbers numbers(3);
-    const std::vector<Vector3d> points = numbers.vectors(12, size);
-    const Isometry3d pose = numbers.pose(2.0 * size);
-    const double r = numbers.number(0.1, 1.0) * size;
+    std::mt19937 random(3);
+    const std::vector<Vector3d> points = manyPoints(random, 12, size);
+    const Isometry3d pose = test::randomPose(random, 2.0 * size);
+    const double r = test::uniform(random, 0.1, 1.0) * size;
     const double s = r / 3.0;
     queries.push_back({"size " + std::to_string(std::log10(size)), [=](Transcript& answers) {
                          const std::vector<Shape> shapes{
@@ -175,14 +153,14 @@ TEST(EnvironmentOfShapes, IsTheDefaultForSmallOnes) {
 }
 
 TEST(EnvironmentOfShapes, IsTheDefaultWhereTheyAreMade) {
-  Numbers numbers(4);
-  const std::vector<Vector3d> points = numbers.vectors(600, 1000.0);
+  std::mt19937 random(4);
+  const std::vector<Vector3d> points = manyPoints(random, 600, 1000.0);
   std::vector<double> radii;
-  for (std::size_t i = 0; i < points.size(); ++i) radii.push_back(numbers.number(0.0, 0.3));
-  const Vector3d normal = numbers.vector(1.0);
-  const Vector3d axis = numbers.vector(1e-3);
+  for (std::size_t i = 0; i < points.size(); ++i) radii.push_back(test::uniform(random, 0.0, 0.3));
+  const Vector3d normal = test::uniformPoint(random, 1.0);
+  const Vector3d axis = test::uniformPoint(random, 1e-3);
   Eigen::MatrixXd heights(4, 5);
-  for (double& height : heights.reshaped()) height = numbers.number(0.1, 1.0);
+  for (double& height : heights.reshaped()) height = test::uniform(random, 0.1, 1.0);
   expectSameInEveryEnvironment(
       {{"plane", [=](Transcript& t) { t.add(makePlane(normal, 0.1).normal); }},
        {"half-space", [=](Transcript& t) { t.add(makeHalfSpace(normal, 0.1).offset); }},
@@ -215,12 +193,12 @@ TEST(EnvironmentOfShapes, IsTheDefaultWhereTheyAreMade) {
 }
 
 TEST(EnvironmentOfShapes, IsTheDefaultForPointsAndSegments) {
-  Numbers numbers(5);
+  std::mt19937 random(5);
   Eigen::MatrixXd heights(12, 12);
-  for (double& height : heights.reshaped()) height = numbers.number(0.1, 0.4);
+  for (double& height : heights.reshaped()) height = test::uniform(random, 0.1, 0.4);
   const TriangleMesh mesh = heightField(2.0, 2.0, heights, 0.0);
-  const PointCloud cloud = PointCloud::build(numbers.vectors(300, 1.0), 0.03);
-  const std::vector<Vector3d> asked = numbers.vectors(64, 1.2);
+  const PointCloud cloud = PointCloud::build(manyPoints(random, 300, 1.0), 0.03);
+  const std::vector<Vector3d> asked = manyPoints(random, 64, 1.2);
   const double radius = 0.1 / 3.0;
   const Vector3d half = 0.1 * asked.front();
   expectSameInEveryEnvironment(
@@ -256,9 +234,9 @@ TEST(EnvironmentOfShapes, IsTheDefaultForPointsAndSegments) {
 }
 
 TEST(EnvironmentOfShapes, IsTheDefaultForProbabilities) {
-  Numbers numbers(6);
-  const std::vector<Vector3d> points = numbers.vectors(12, 0.3);
-  const Isometry3d pose = numbers.pose(0.3);
+  std::mt19937 random(6);
+  const std::vector<Vector3d> points = manyPoints(random, 12, 0.3);
+  const Isometry3d pose = test::randomPose(random, 0.3);
   const NoisyPointCloud cloud = NoisyPointCloud::build(points, 0.02, 0.05);
   expectSameInEveryEnvironment(
       {{"made",
@@ -283,8 +261,8 @@ TEST(EnvironmentOfShapes, IsTheDefaultForProbabilities) {
 TEST(EnvironmentOfShapes, IsTheDefaultForTrianglesAndTheirImpacts) {
   std::vector<Query> queries;
   for (const double size : kSizes) {
-    Numbers numbers(8);
-    const std::vector<Vector3d> points = numbers.vectors(200, size);
+    std::mt19937 random(8);
+    const std::vector<Vector3d> points = manyPoints(random, 200, size);
     const double enough = size / 30.0;
     queries.push_back({"size " + std::to_string(std::log10(size)), [points, enough](Transcript& t) {
                          for (std::size_t i = 0; i + 8 <= points.size(); i += 4) {
@@ -308,12 +286,14 @@ TEST(EnvironmentOfShapes, IsTheDefaultForTrianglesAndTheirImpacts) {
 }
 
 TEST(EnvironmentOfShapes, IsTheDefaultForMotions) {
-  Numbers numbers(9);
-  const Isometry3d start = numbers.pose(1.0), end = numbers.pose(1.0);
-  const Vector3d turn = numbers.vector(2.0), reference = numbers.vector(0.3);
+  std::mt19937 random(9);
+  const Isometry3d start = test::randomPose(random, 1.0), end = test::randomPose(random, 1.0);
+  const Vector3d turn = test::uniformPoint(random, 2.0),
+                 reference = test::uniformPoint(random, 0.3);
   std::vector<ControlPose> control;
-  for (int i = 0; i < 6; ++i) control.push_back({numbers.vector(1.0), numbers.vector(1.0)});
-  const BoundingSphere ball{numbers.vector(0.1), 0.3};
+  for (int i = 0; i < 6; ++i)
+    control.push_back({test::uniformPoint(random, 1.0), test::uniformPoint(random, 1.0)});
+  const BoundingSphere ball{test::uniformPoint(random, 0.1), 0.3};
   const Vector3d along = ball.center.normalized();
   const auto ask = [ball, along](const Motion& motion, Transcript& t) {
     for (const double at : {0.1, 1.0 / 3.0, 0.77}) {

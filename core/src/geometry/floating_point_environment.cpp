@@ -7,94 +7,85 @@
 namespace swept::detail {
 namespace {
 
+// What of the control registers makes an environment. What is set leaves the rest as it is by then:
+// masks, and flags that were raised meanwhile.
 #if defined(__GNUC__) && defined(__SSE2__)
 
 constexpr std::uint32_t kRoundingOrZeros = 0xE040;
 constexpr std::uint16_t kRoundingAndPrecision = 0x0F00;
-constexpr std::uint16_t kDefaultPrecision = 0x0300;
 
-std::uint32_t vectorControl() {
-  std::uint32_t control = 0;
-  __asm__ volatile("stmxcsr %0" : "=m"(control));
-  return control;
-}
-
-/// Flags that were raised meanwhile, and masks, stay.
-void setVectorControl(std::uint32_t bits) {
-  const std::uint32_t control = (vectorControl() & ~kRoundingOrZeros) | bits;
-  __asm__ volatile("ldmxcsr %0" : : "m"(control) : "memory");
-}
-
-std::uint16_t longControl() {
-  std::uint16_t control = 0;
-  __asm__ volatile("fnstcw %0" : "=m"(control));
-  return control;
-}
-
-void setLongControl(std::uint16_t bits) {
-  const auto control = static_cast<std::uint16_t>((longControl() & ~kRoundingAndPrecision) | bits);
-  __asm__ volatile("fldcw %0" : : "m"(control) : "memory");
-}
-
-class DefaultEnvironment {
- public:
-  DefaultEnvironment()
-      : vector_(vectorControl() & kRoundingOrZeros), long_(longControl() & kRoundingAndPrecision) {
-    setVectorControl(0);
-    setLongControl(kDefaultPrecision);
-  }
-  ~DefaultEnvironment() {
-    setVectorControl(vector_);
-    setLongControl(long_);
-  }
-  DefaultEnvironment(const DefaultEnvironment&) = delete;
-  DefaultEnvironment& operator=(const DefaultEnvironment&) = delete;
-
- private:
-  std::uint32_t vector_;
-  std::uint16_t long_;
+struct Control {
+  std::uint32_t vector;
+  std::uint16_t extended;
 };
+constexpr Control kDefault{0, 0x0300};
+
+Control wholeControl() {
+  Control whole{};
+  __asm__ volatile("stmxcsr %0" : "=m"(whole.vector));
+  __asm__ volatile("fnstcw %0" : "=m"(whole.extended));
+  return whole;
+}
+
+Control control() {
+  const Control whole = wholeControl();
+  return {whole.vector & kRoundingOrZeros,
+          static_cast<std::uint16_t>(whole.extended & kRoundingAndPrecision)};
+}
+
+void setControl(const Control& bits) {
+  Control whole = wholeControl();
+  whole.vector = (whole.vector & ~kRoundingOrZeros) | bits.vector;
+  whole.extended =
+      static_cast<std::uint16_t>((whole.extended & ~kRoundingAndPrecision) | bits.extended);
+  __asm__ volatile("ldmxcsr %0" : : "m"(whole.vector) : "memory");
+  __asm__ volatile("fldcw %0" : : "m"(whole.extended) : "memory");
+}
 
 #elif defined(__GNUC__) && defined(__aarch64__)
 
 constexpr std::uint64_t kRoundingOrZeros = 0x1C00003;
+using Control = std::uint64_t;
+constexpr Control kDefault = 0;
 
-std::uint64_t control() {
-  std::uint64_t value = 0;
-  __asm__ volatile("mrs %0, fpcr" : "=r"(value));
-  return value;
+Control wholeControl() {
+  Control whole = 0;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(whole));
+  return whole;
 }
 
-void setControl(std::uint64_t bits) {
-  const std::uint64_t value = (control() & ~kRoundingOrZeros) | bits;
-  __asm__ volatile("msr fpcr, %0" : : "r"(value) : "memory");
+Control control() {
+  return wholeControl() & kRoundingOrZeros;
 }
 
-class DefaultEnvironment {
- public:
-  DefaultEnvironment() : bits_(control() & kRoundingOrZeros) { setControl(0); }
-  ~DefaultEnvironment() { setControl(bits_); }
-  DefaultEnvironment(const DefaultEnvironment&) = delete;
-  DefaultEnvironment& operator=(const DefaultEnvironment&) = delete;
-
- private:
-  std::uint64_t bits_;
-};
+void setControl(Control bits) {
+  const Control whole = (wholeControl() & ~kRoundingOrZeros) | bits;
+  __asm__ volatile("msr fpcr, %0" : : "r"(whole) : "memory");
+}
 
 #else
 
+using Control = int;
+constexpr Control kDefault = FE_TONEAREST;
+Control control() {
+  return std::fegetround();
+}
+void setControl(Control rounding) {
+  std::fesetround(rounding);
+}
+
+#endif
+
 class DefaultEnvironment {
  public:
-  DefaultEnvironment() : rounding_(std::fegetround()) { std::fesetround(FE_TONEAREST); }
-  ~DefaultEnvironment() { std::fesetround(rounding_); }
+  DefaultEnvironment() : callers_(control()) { setControl(kDefault); }
+  ~DefaultEnvironment() { setControl(callers_); }
   DefaultEnvironment(const DefaultEnvironment&) = delete;
   DefaultEnvironment& operator=(const DefaultEnvironment&) = delete;
 
  private:
-  int rounding_;
+  Control callers_;
 };
-
-#endif
 
 }  // namespace
 
