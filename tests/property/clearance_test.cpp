@@ -31,7 +31,7 @@ class Clearances : public testing::TestWithParam<int> {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string("clearances_") + test->name();
     std::ranges::replace(name, '/', '_');
-    const auto made = std::filesystem::path(testing::TempDir()) / name;
+    auto made = std::filesystem::path(testing::TempDir()) / name;
     std::filesystem::create_directories(made);
     return made;
   }
@@ -99,7 +99,7 @@ class Clearances : public testing::TestWithParam<int> {
 
 TEST_P(Clearances, AreOfAllPieces) {
   for (int i = 0; i < 25; ++i) {
-    const auto seed = static_cast<std::uint64_t>(1000 * GetParam() + i);
+    const auto seed = 1000 * static_cast<std::uint64_t>(GetParam()) + static_cast<std::uint64_t>(i);
     SCOPED_TRACE("seed " + std::to_string(seed));
     ClearanceCase one(seed, folder());
     Workspace workspace(one.checker());
