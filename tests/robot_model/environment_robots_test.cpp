@@ -33,9 +33,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using test::expectSameInEveryEnvironment;
-using test::expectSameRefusals;
-using test::Query;
 using test::Transcript;
 
 const std::filesystem::path kModels = modelsDir();
@@ -152,7 +149,7 @@ std::shared_ptr<const World> shelf() {
 
 TEST(EnvironmentOfRobots, IsTheDefaultForFiles) {
   const Isometry3d pose(Eigen::AngleAxisd(0.3, Vector3d::UnitZ()));
-  expectSameInEveryEnvironment(
+  test::expectSameInEveryEnvironment(
       {{"robot", [](Transcript& t) { tell(t, *load("rook7")); }},
        {"scene",
         [](Transcript& t) {
@@ -188,15 +185,15 @@ TEST(EnvironmentOfRobots, IsTheDefaultForNumbersInText) {
       "xyz='0.1 0.2 0.3' rpy='0.1 0.2 0.3'/><parent link='a'/><child link='b'/><axis xyz='1 2 3'/>"
       "<limit lower='-0.1' upper='2.2250738585072011e-308' effort='1' velocity='1'/></joint>"
       "</robot>";
-  expectSameInEveryEnvironment(
+  test::expectSameInEveryEnvironment(
       {{"urdf", [=](Transcript& t) { tell(t, *Robot::parse(urdf, "r.urdf")); }}});
-  expectSameRefusals({{"no robot", [](Transcript&) { Robot::load("none.urdf"); }},
-                      {"no scene", [](Transcript&) { World::load("none.yaml"); }},
-                      {"no number", [=](Transcript&) {
-                         std::string text = urdf;
-                         text.replace(text.find("0.7'/>"), 3, "0,7");
-                         Robot::parse(text, "r.urdf");
-                       }}});
+  test::expectSameRefusals({{"no robot", [](Transcript&) { Robot::load("none.urdf"); }},
+                            {"no scene", [](Transcript&) { World::load("none.yaml"); }},
+                            {"no number", [=](Transcript&) {
+                               std::string text = urdf;
+                               text.replace(text.find("0.7'/>"), 3, "0,7");
+                               Robot::parse(text, "r.urdf");
+                             }}});
 }
 
 struct Moved {
@@ -218,13 +215,14 @@ TEST_P(EnvironmentOfCheckers, IsTheDefault) {
   for (const auto& q : states) ++seen[there.checkState(q, workspace)];
   EXPECT_GT(seen[Verdict::Free], 2);
   EXPECT_GT(seen[Verdict::Collision], 2);
-  expectSameInEveryEnvironment({{"states", [&](Transcript& t) { askStates(there, states, t); }},
-                                {"motions", [&](Transcript& t) { askMotions(there, states, t); }},
-                                {"made", [&, group = group](Transcript& t) {
-                                   const Checker checker(robot, group, world, options);
-                                   askStates(checker, {states.begin(), states.begin() + 4}, t);
-                                   askMotions(checker, {states.begin(), states.begin() + 4}, t);
-                                 }}});
+  test::expectSameInEveryEnvironment(
+      {{"states", [&](Transcript& t) { askStates(there, states, t); }},
+       {"motions", [&](Transcript& t) { askMotions(there, states, t); }},
+       {"made", [&, group = group](Transcript& t) {
+          const Checker checker(robot, group, world, options);
+          askStates(checker, {states.begin(), states.begin() + 4}, t);
+          askMotions(checker, {states.begin(), states.begin() + 4}, t);
+        }}});
 }
 
 INSTANTIATE_TEST_SUITE_P(EnvironmentOfRobots, EnvironmentOfCheckers,
@@ -246,7 +244,7 @@ TEST(EnvironmentOfRobots, IsTheDefaultForVersions) {
     askStates(checker, states, t);
     askMotions(checker, {states.begin(), states.begin() + 3}, t);
   };
-  expectSameInEveryEnvironment(
+  test::expectSameInEveryEnvironment(
       {{"bodies",
         [&](Transcript& t) {
           const Checker cloud =
@@ -274,14 +272,14 @@ TEST(EnvironmentOfRobots, IsTheDefaultForVersions) {
           t.add(obstacle.poseAt(0.1), obstacle.poseAt(0.5));
           askMotions(first.withObstacle(obstacle), timed, t);
         }}});
-  expectSameRefusals({{"taken",
-                       [&](Transcript&) {
-                         (void)first.withBody({"mote", {}});
-                       }},
-                      {"size", [&](Transcript&) {
-                         Workspace workspace(first);
-                         (void)first.checkState(std::vector<double>(3), workspace);
-                       }}});
+  test::expectSameRefusals({{"taken",
+                             [&](Transcript&) {
+                               (void)first.withBody({"mote", {}});
+                             }},
+                            {"size", [&](Transcript&) {
+                               Workspace workspace(first);
+                               (void)first.checkState(std::vector<double>(3), workspace);
+                             }}});
 }
 
 TEST(EnvironmentOfRobots, IsTheDefaultForKinematics) {
@@ -291,7 +289,7 @@ TEST(EnvironmentOfRobots, IsTheDefaultForKinematics) {
   const Isometry3d tool(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   const InverseKinematics there(robot, "arm", "hand", {}, tool);
   const Isometry3d wanted = there.pose(states[1]);
-  expectSameInEveryEnvironment(
+  test::expectSameInEveryEnvironment(
       {{"inverse",
         [&](Transcript& t) {
           const InverseKinematics made(robot, "arm", "hand", {}, tool);
@@ -332,28 +330,28 @@ TEST(EnvironmentOfRobots, IsTheDefaultForWhatASensorSees) {
     map.occupied.push_back({balls.centers.back(), 0.2});
   }
   const Isometry3d pose(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
-  expectSameInEveryEnvironment({{"filters", [&](Transcript& t) {
-                                   t.add(withoutRobot(balls.centers, *robot, values, 0.01));
-                                   t.add(ballsWithoutRobot(balls, *robot, values, 0.01).centers);
-                                   for (const auto& cube :
-                                        mapWithoutRobot(map, pose, *robot, values, 0.01).occupied)
-                                     t.add(cube.center, cube.side);
-                                 }}});
+  test::expectSameInEveryEnvironment(
+      {{"filters", [&](Transcript& t) {
+          t.add(withoutRobot(balls.centers, *robot, values, 0.01));
+          t.add(ballsWithoutRobot(balls, *robot, values, 0.01).centers);
+          for (const auto& cube : mapWithoutRobot(map, pose, *robot, values, 0.01).occupied)
+            t.add(cube.center, cube.side);
+        }}});
 }
 
 TEST(EnvironmentOfRobots, IsTheDefaultForPairsThatNeverMeet) {
   const std::shared_ptr<const Robot> robot = load("rook6");
-  expectSameInEveryEnvironment({{"matrix", [&](Transcript& t) {
-                                   CollisionMatrixOptions options;
-                                   options.budget = 20'000;
-                                   options.samples = 50;
-                                   const auto pairs = collisionMatrix(*robot, options);
-                                   for (const LinkPairReport& pair : pairs) {
-                                     t.add(pair.status, pair.proven, pair.nearest);
-                                     if (pair.witness) t.add(*pair.witness);
-                                   }
-                                   t.add(srdfWithPairs(*robot, pairs));
-                                 }}});
+  test::expectSameInEveryEnvironment({{"matrix", [&](Transcript& t) {
+                                         CollisionMatrixOptions options;
+                                         options.budget = 20'000;
+                                         options.samples = 50;
+                                         const auto pairs = collisionMatrix(*robot, options);
+                                         for (const LinkPairReport& pair : pairs) {
+                                           t.add(pair.status, pair.proven, pair.nearest);
+                                           if (pair.witness) t.add(*pair.witness);
+                                         }
+                                         t.add(srdfWithPairs(*robot, pairs));
+                                       }}});
 }
 
 TEST(EnvironmentOfRobots, IsTheDefaultForRequests) {
@@ -365,13 +363,14 @@ TEST(EnvironmentOfRobots, IsTheDefaultForRequests) {
                          "goal_constraints: [{joint_constraints: [{joint_name: joint1, position: "
                          "0.7}]}]\n";
   const std::shared_ptr<const Robot> robot = load("rook7");
-  expectSameInEveryEnvironment({{"request", [&](Transcript& t) {
-                                   const auto request = PlanningRequest::load(file, kNoWarnings);
-                                   for (const auto& [joint, value] : request.startOf(*robot))
-                                     t.add(joint, value);
-                                   for (const auto& [joint, value] : request.goals.front())
-                                     t.add(joint, value);
-                                 }}});
+  test::expectSameInEveryEnvironment({{"request", [&](Transcript& t) {
+                                         const auto request =
+                                             PlanningRequest::load(file, kNoWarnings);
+                                         for (const auto& [joint, value] : request.startOf(*robot))
+                                           t.add(joint, value);
+                                         for (const auto& [joint, value] : request.goals.front())
+                                           t.add(joint, value);
+                                       }}});
 }
 
 }  // namespace
