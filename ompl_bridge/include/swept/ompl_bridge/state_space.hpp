@@ -39,9 +39,9 @@ struct StateSpaceOptions {
 /// (`first..last` where joints share one). Unbounded prismatic, planar or floating translations
 /// need bounds: they are +-10 m unless the options have others (limitsAround() makes some).
 /// longestValidSegmentFraction is OMPL's 1 %: it plays no part in validity, only in how densely
-/// paths are interpolated for show. Its bounds are these limits. `satisfiesBounds` takes a limited
-/// joint's value for inside that is at most tolerance::kLimit beyond, as Checker::withinLimits
-/// does; `enforceBounds` and samples are within the bounds themselves.
+/// paths are interpolated for show. `satisfiesBounds` takes a limited joint's value for inside that
+/// is at most tolerance::kLimit beyond its bounds, as Checker::withinLimits does; `enforceBounds`
+/// and samples are within the bounds themselves.
 ///
 /// The default projection, for planners that keep grids, is the position of the group's tip (its
 /// first two values where the group has none that it moves).
