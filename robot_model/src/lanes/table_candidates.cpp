@@ -106,8 +106,8 @@ TableCandidates tableCandidates(const CheckerModel& model, const LaneModel& lane
   for (const Candidate& candidate : candidates) result.bodyPairs.push_back(candidate.bodyPair);
   std::ranges::sort(result.bodyPairs);
   const auto fits = [&](int coarseness) {
-    const auto times = static_cast<std::size_t>(coarseness * coarseness);
-    return candidates.size() <= kFineTables * times;
+    const auto times = static_cast<std::size_t>(coarseness);
+    return candidates.size() <= kFineTables * times * times;
   };
   while (!fits(result.coarseness)) result.coarseness *= 2;
   return result;
