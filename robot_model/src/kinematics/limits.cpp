@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept {
 
 namespace {
@@ -41,6 +43,9 @@ std::string excessText(double excess) {
 }  // namespace
 
 std::optional<double> limitNear(const Variable& variable, double value) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return limitNear(variable, value); });
+  }
   if (variable.cyclic || !isWithin(value, variable.lower, variable.upper)) return std::nullopt;
   if (value < variable.lower) return variable.lower;
   if (value > variable.upper) return variable.upper;
@@ -49,6 +54,9 @@ std::optional<double> limitNear(const Variable& variable, double value) {
 
 std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group,
                                        std::span<double> q) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return takeToLimits(robot, group, q); });
+  }
   if (q.size() != group.variables.size())
     throw std::invalid_argument("a configuration of the group has " +
                                 std::to_string(group.variables.size()) + " values, not " +
@@ -68,6 +76,9 @@ std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group,
 }
 
 std::string limitRemark(const TakenToLimit& taken, const std::string& done) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return limitRemark(taken, done); });
+  }
   const std::array numbers{taken.value, taken.limit};
   const std::vector<std::string> texts = distinctNumbers(numbers);
   return taken.variable + " is " + texts[0] + (taken.unit.empty() ? "" : " " + taken.unit) + ", " +
@@ -76,6 +87,9 @@ std::string limitRemark(const TakenToLimit& taken, const std::string& done) {
 
 std::string outsideText(const std::string& name, double value, double lower, double upper,
                         const std::string& unit) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return outsideText(name, value, lower, upper, unit); });
+  }
   constexpr double kSmall = 1e-3;  // rad or m
   const std::array numbers{value, lower, upper};
   const std::vector<std::string> texts = distinctNumbers(numbers);
@@ -86,6 +100,9 @@ std::string outsideText(const std::string& name, double value, double lower, dou
 }
 
 std::vector<std::string> distinctNumbers(std::span<const double> values) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return distinctNumbers(values); });
+  }
   constexpr int kFewest = 6;
   constexpr int kMost = 17;  // tell all doubles apart
   std::vector<std::string> texts(values.size());
