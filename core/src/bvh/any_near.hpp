@@ -44,9 +44,9 @@ bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, cons
     }
     // Lemma: see segmentBoxes. The square, rounded to single precision, is off by less than one
     // more 2^-24 of the size: no bound is larger than that, so where the square is nothing is left
-    // out. Where squares underflow they are off by less than kLeastSquare.
+    // out. Where squares underflow they are off by less than kNormalSquare.
     const double reach = radius + 50.0 * 0x1p-24 * size;
-    const auto most = static_cast<float>(reach * reach + kLeastSquare);
+    const auto most = static_cast<float>(reach * reach + kNormalSquare);
     alignas(32) std::array<float, WideNode::kLanes> squared;
     for (std::uint32_t open = segmentBoxes(node, near, most, squared); open != 0;
          open &= open - 1) {

@@ -70,7 +70,7 @@ class NearestBall {
   float limit() const {
     constexpr double kGreatest = 1e38;
     const double most = std::max(least_, 0.0) + boxRounding_;
-    const double squared = most * most * (1.0 + 0x1p-22) + detail::kLeastSquare;
+    const double squared = most * most * (1.0 + 0x1p-22) + detail::kNormalSquare;
     if (!(squared < kGreatest)) return std::numeric_limits<float>::infinity();
     return static_cast<float>(squared);
   }

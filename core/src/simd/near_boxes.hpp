@@ -17,7 +17,7 @@ struct NearSegment {
 
 /// m^2, the least normal number of single precision. Where squares underflow, the sums below are
 /// off by less.
-inline constexpr double kLeastSquare = 0x1p-126;
+inline constexpr double kNormalSquare = 0x1p-126;
 
 // Of each: bit i of the result says that box i is in use and that its square is not above `most`
 // (m^2), or no number. Lanes not in use hold anything.

@@ -2,8 +2,10 @@
 #include "sample.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "../../core/mesh_samples.hpp"
 #include "swept/core/height_field.hpp"

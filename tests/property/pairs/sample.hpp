@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
 #include "../../core/error_table_arithmetic.hpp"
 #include "../sweeps/body.hpp"
