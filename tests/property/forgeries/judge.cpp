@@ -29,9 +29,9 @@ Real support(const Solid& solid, const Pose& pose, const Vec& direction) {
 class Pair {
  public:
   Pair(const Json& path, std::size_t segment, const std::string& a, const std::string& b)
-      : motion_(path["model"], path["states"][segment], path["states"][segment + 1]) {
+      : motion_(path["model"], path["states"][segment], path["states"][segment + 1]),
+        keep_(path["model"]["margin"].get<double>()) {
     const Json& model = path["model"];
-    keep_ = Real(model["margin"].get<double>());
     for (const Json& body : model["bodies"]) {
       const std::string name = body["name"];
       if (name != a && name != b) continue;
