@@ -23,19 +23,29 @@ class MovingRobot {
     options.types = typesOf(random, round);
     options.link = random.scale(1e-3, 1e2);
     options.branches = random.chance(0.5) ? 0.4 : 0.0;
-    model = robotOf(random, options);
-    addPairs();
-    lanes = detail::compileLanes(model);
-    EXPECT_TRUE(lanes.usable);
-    scratch.emplace(lanes);
+    make(random, options);
     const double turn = random.scale(0.01, 20.0);
     from = configuration(random, model.kinematics, turn, 3.0 * options.link);
     to = configuration(random, model.kinematics, turn, 3.0 * options.link);
-    moves = detail::compileLaneMotion(lanes, model.kinematics, from, to, *scratch);
-    for (const auto& motion : scratch->motion) {
-      spins += static_cast<Real>(motion.spin);
-      speeds += static_cast<Real>(motion.speed);
-    }
+    move();
+  }
+
+  /// A chain of more than kLongPath joints. Its first one turns alone, and the others are slid far
+  /// longer than the links are.
+  static MovingRobot longChain(Random& random) {
+    MovingRobot robot;
+    ChainOptions options;
+    options.types = {Revolute};
+    options.slides = 100.0;
+    options.mimics = 0.0;
+    while (options.types.size() < detail::kLongPath + 20)
+      options.types.push_back(random.chance(0.3) ? Prismatic : Revolute);
+    robot.make(random, options);
+    robot.from = configuration(random, robot.model.kinematics, 3.0, 0.0);
+    robot.to = robot.from;
+    robot.to[robot.model.kinematics.bodies[1].variable] += random.uniform(-2.0, 2.0);
+    robot.move();
+    return robot;
   }
 
   Vector at(Real t, int body, int reference, const Vector& point) const {
@@ -83,6 +93,24 @@ class MovingRobot {
   Real speeds = 0;  ///< m per unit t
 
  private:
+  MovingRobot() = default;
+
+  void make(Random& random, const ChainOptions& options) {
+    model = robotOf(random, options);
+    addPairs();
+    lanes = detail::compileLanes(model);
+    EXPECT_TRUE(lanes.usable);
+  }
+
+  void move() {
+    scratch.emplace(lanes);
+    moves = detail::compileLaneMotion(lanes, model.kinematics, from, to, *scratch);
+    for (const auto& motion : scratch->motion) {
+      spins += static_cast<Real>(motion.spin);
+      speeds += static_cast<Real>(motion.speed);
+    }
+  }
+
   static std::vector<JointType> typesOf(Random& random, int round) {
     if (round % 6 == 0) return {Floating, Revolute, Prismatic, Revolute};
     if (round % 6 == 1) return {Planar, Prismatic, Revolute, Continuous};
@@ -185,6 +213,32 @@ TEST(LaneBounds, NoPointOfAGeometryAcceleratesMore) {
   EXPECT_GT(tightness.tightest, 0.9L) << "the bound is idle";
   EXPECT_GT(tightness.attained, tightness.compared / 100);
   EXPECT_GT(tightness.compared, 5000);
+}
+
+/// What slides in a chain takes points farther from the axes of joints before it.
+TEST(LaneBounds, NoPointOfALongChainAcceleratesMore) {
+  Random random(23);
+  Tightness ofCentres, ofPoints;
+  for (int round = 0; round < 5; ++round) {
+    MovingRobot robot = MovingRobot::longChain(random);
+    ASSERT_TRUE(robot.moves);
+    ASSERT_FALSE(robot.lanes.carried.empty()) << "not bounded as long chains are";
+    for (std::size_t i = 0; i < robot.model.robotGeometry.size(); ++i) {
+      const detail::RobotGeometry& piece = robot.model.robotGeometry[i];
+      const Vector centre = robot.centers(piece.body).front();
+      const Real t = random.uniform(0.0, 1.0);
+      ofCentres.add(robot.acceleration(t, piece.body, 0, centre).norm(), robot.bound(0, piece.body),
+                    robot.noise(), piece.body, 0);
+      const auto bound = static_cast<Real>(
+          detail::accelerationOfPoints(robot.lanes, 0, static_cast<int>(i), *robot.scratch));
+      ofPoints.add(robot.acceleration(t, piece.body, 0, piece.center.cast<Real>()).norm(), bound,
+                   robot.noise(), piece.body, 0);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(ofCentres.compared, 500);
+  EXPECT_GT(ofCentres.attained, ofCentres.compared / 50);
+  EXPECT_GT(ofPoints.attained, ofPoints.compared / 50);
 }
 
 /// Least distance of the origin from the points y + s h, |s| <= 1.

@@ -53,6 +53,7 @@ class Random {
 struct ChainOptions {
   std::vector<JointType> types;  ///< planar and floating ones first
   double link = 0.4;             ///< m, between joints
+  double slides = 1.0;           ///< times that: limits of prismatic joints
   double branches = 0.0;         ///< share of bodies that hang on any earlier one
   double mimics = 0.2;           ///< share of turning joints that mimic one
   double squared = 0.3;          ///< share of joints whose axis is at right angles to the last
@@ -87,8 +88,8 @@ inline void addBody(Random& random, const ChainOptions& options, JointType type,
     body.axis = Eigen::Vector3d::UnitZ();
   }
   body.planarBasis = axisFrame(body.axis);
-  const double range =
-      type == JointType::Prismatic ? options.link : std::numeric_limits<double>::infinity();
+  const double range = type == JointType::Prismatic ? options.slides * options.link
+                                                    : std::numeric_limits<double>::infinity();
   body.lower = -range;
   body.upper = range;
   body.variable = model.dimension;

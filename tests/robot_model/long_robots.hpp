@@ -31,6 +31,19 @@ inline std::shared_ptr<const Robot> ballChain(int links, double limit, double ra
   return Robot::parse(urdf + "</robot>", "chain.urdf");
 }
 
+/// The same, of which every other joint slides by up to 0.1 m instead.
+inline std::shared_ptr<const Robot> telescope(int links) {
+  std::string urdf = "<robot name='telescope'><link name='l0'/>\n";
+  for (int i = 1; i <= links; ++i) {
+    urdf += smallLink(i, "sphere radius='0.02'");
+    urdf += i % 2 != 0 ? smallJoint(i - 1, i, "0 0 0.1", 3.0)
+                       : joint("j" + std::to_string(i), "prismatic", "l" + std::to_string(i - 1),
+                               "l" + std::to_string(i),
+                               "<origin xyz='0 0 0.1'/>" + limited("0 0 1", 0.0, 0.1));
+  }
+  return Robot::parse(urdf + "</robot>", "telescope.urdf");
+}
+
 /// Arms of one link each, 6 m long and turning about their middle, 0.1 m apart in a row: any two of
 /// the nearer ones can meet.
 inline std::shared_ptr<const Robot> combOfArms(int arms) {

@@ -11,13 +11,6 @@
 
 namespace swept::detail {
 
-namespace {
-
-/// Joints. Bounds on travel relative to all ancestors together are a little larger than one by one.
-constexpr std::size_t kLongPath = 128;
-
-}  // namespace
-
 std::string CheckerModel::nameOfA(const GeometryPair& pair) const {
   return carriers[robotGeometry[pair.a].carrier].name;
 }
@@ -69,6 +62,7 @@ WorkspaceData::WorkspaceData(const CheckerModel& model)
       hintStamps(model.pairs.size(), -1),
       lanes(model.lanes),
       probe(model.kinematics.dimension) {
+  // Bounds on travel relative to all ancestors together are a little larger than one by one.
   const bool nested = std::ranges::any_of(model.robotGeometry, [](const RobotGeometry& geometry) {
     return geometry.levers.path.size() > kLongPath;
   });

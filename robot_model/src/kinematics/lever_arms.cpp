@@ -189,15 +189,20 @@ void motionArms(const KinematicModel& model, int body, const Vector3d& center, d
             [&](int /*i*/, double arm, double /*reach*/) { arms[--joint] = arm; });
 }
 
+std::vector<double> armsAtRest(const KinematicModel& model, int body, const Vector3d& center,
+                               double radius) {
+  std::vector<double> arms;
+  visitArms(model, body, center, radius, atRest,
+            [&](int /*i*/, double arm, double /*reach*/) { arms.push_back(arm); });
+  std::reverse(arms.begin(), arms.end());
+  return arms;
+}
+
 RestArms restArms(const KinematicModel& model, int body, const Vector3d& center, double radius) {
-  RestArms result;
+  RestArms result{armsAtRest(model, body, center, radius), {}};
   std::vector<int> path;
-  visitArms(model, body, center, radius, atRest, [&](int i, double arm, double /*reach*/) {
-    path.push_back(i);
-    result.arms.push_back(arm);
-  });
+  for (int i = body; i > 0; i = model.bodies[i].parent) path.push_back(i);
   std::reverse(path.begin(), path.end());
-  std::reverse(result.arms.begin(), result.arms.end());
   for (const int i : path)
     if (model.bodies[i].type == JointType::Prismatic) addGrowths(model, i, path, result.growths);
   return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,14 @@ LeverArms leverArms(const KinematicModel& model, int body, const Eigen::Vector3d
 /// Of the same ball: arms over one motion alone, into `arms`, one per joint of the path.
 void motionArms(const KinematicModel& model, int body, const Eigen::Vector3d& center, double radius,
                 std::span<const JointMotion> motion, std::span<double> arms);
+
+/// Paths of more joints take time and room as their length does, not as its square.
+inline constexpr std::size_t kLongPath = 128;
+
+/// m, per joint of the path: arms with all prismatic joints at zero. Those beyond a joint make its
+/// arm longer by no more than what they are off zero, all together.
+std::vector<double> armsAtRest(const KinematicModel& model, int body, const Eigen::Vector3d& center,
+                               double radius);
 
 /// Arms that are linear in what the prismatic joints slide, for bounds that have no time for more.
 struct RestArms {

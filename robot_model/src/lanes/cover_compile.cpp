@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -201,8 +202,16 @@ class CoverCompiler {
     auto hulls = std::make_shared<LaneHulls>();
     for (const RobotGeometry& geometry : model_.robotGeometry)
       hulls->add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
-                 restArms(model_.kinematics, geometry.body, geometry.center, geometry.radius));
+                 hullArms(geometry));
     lanes_.hulls = std::move(hulls);
+  }
+
+  /// Growths are as many as pairs of a joint that turns and one beyond that slides.
+  RestArms hullArms(const RobotGeometry& geometry) const {
+    const auto& [body, center, radius] = std::tie(geometry.body, geometry.center, geometry.radius);
+    if (geometry.levers.path.size() > kLongPath)
+      return {armsAtRest(model_.kinematics, body, center, radius), {}};
+    return restArms(model_.kinematics, body, center, radius);
   }
 
   void setCenter(LaneNode& node, const RobotGeometry& geometry, const Vector3d& center) const {

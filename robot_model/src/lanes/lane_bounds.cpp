@@ -14,11 +14,13 @@ constexpr double kRounding = 8.0 * 0x1p-53;
 
 /// V and d of the lemma, per body.
 void boundTurning(const LaneModel& model, LaneScratch& scratch) {
-  auto& [turning, excess, carried, driven] = scratch.nested;
+  auto& [turning, excess, carried, driven, slid] = scratch.nested;
   turning[0] = 0.0;
+  slid[0] = 0.0;
   for (const int body : model.allBodies) {
     const LaneBody& joint = model.bodies[body];
     const auto spin = static_cast<double>(scratch.motion[body].spin);
+    slid[body] = slid[joint.parent] + static_cast<double>(scratch.motion[body].slid);
     turning[body] = turning[joint.parent] + spin;
     excess[body] = 0.0;
     if (joint.cosine < 0.0F) continue;
@@ -52,7 +54,7 @@ void boundPath(const LaneModel& model, const std::vector<int>& path, std::size_t
 
 void boundCarried(const LaneModel& model, LaneScratch& scratch) {
   boundTurning(model, scratch);
-  auto& [turning, excess, carried, driven] = scratch.nested;
+  auto& [turning, excess, carried, driven, slid] = scratch.nested;
   std::ranges::fill(carried, 0.0);
   std::ranges::fill(driven, 0.0);
   const double rounding = kRounding * static_cast<double>(model.bodies.size());
@@ -65,7 +67,9 @@ void boundCarried(const LaneModel& model, LaneScratch& scratch) {
     const double largest = around + excess[at];
     for (std::size_t i = 0; i < joint.bodies.size(); ++i) {
       const int body = joint.bodies[i];
-      const auto arm = static_cast<double>(joint.arms[i]);
+      // What slides beyond this joint takes the body away from its axis.
+      const double grown = slid[body] - slid[at] + rounding * slid[body];
+      const double arm = static_cast<double>(joint.arms[i]) + grown;
       const double own = spin * spin * arm;
       if (joint.around >= 0) {
         const double sum = driven[body] + own - 2.0 * less * carried[body];
@@ -89,16 +93,20 @@ float accelerationOfPoints(const LaneModel& model, int index, int geometry, Lane
   const LaneHull& hull = model.hulls->of[geometry];
   const float* arms = model.hulls->arms.data() + hull.firstArm;
   boundPath(model, path, first, scratch);
+  const bool isLong = path.size() > kLongPath;
   float sum = 0.0F;
-  for (std::size_t i = first; i < path.size(); ++i)
-    sum += scratch.turned[i] * arms[i] + scratch.slid[i];
+  float beyond = 0.0F;  // m, of what slides
+  for (std::size_t i = path.size(); i-- > first;) {
+    sum += scratch.turned[i] * (arms[i] + beyond) + scratch.slid[i];
+    if (isLong) beyond += scratch.motion[path[i]].slid;
+  }
   for (std::int32_t i = 0; i < hull.growthCount; ++i) {
     const LaneHulls::Growth& growth = model.hulls->growths[hull.firstGrowth + i];
     if (static_cast<std::size_t>(growth.joint) >= first)
       sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
   }
   // One rounding for each term, and what the last products round.
-  const auto terms = static_cast<float>(path.size() + hull.growthCount);
+  const auto terms = static_cast<float>(path.size() * (isLong ? 2 : 1) + hull.growthCount);
   return sum * (kOutward + 0x1p-22F * terms);
 }
 

@@ -36,7 +36,8 @@ struct LaneHulls {
   /// m, rounded up: no point of the geometry is farther from the joint's axis while all prismatic
   /// joints are at zero.
   std::vector<float> arms;
-  /// See RestArms::Growth; `joint` is an index into LaneModel::ancestors, shares are rounded up.
+  /// See RestArms::Growth; of none of a long path (kLongPath), whose arms grow by all that slides
+  /// beyond. `joint` is an index into LaneModel::ancestors, shares are rounded up.
   struct Growth {
     std::int32_t joint = 0;
     std::int32_t slide = 0;

@@ -82,7 +82,7 @@ struct LaneReference {
 /// references: see boundCarried.
 struct LaneCarried {
   std::vector<int> bodies;   ///< its own one included, ascending
-  std::vector<float> arms;   ///< m, of each, within the limits of prismatic joints
+  std::vector<float> arms;   ///< m, of each, see armsAtRest
   std::int32_t around = -1;  ///< of LaneModel::references, that of the body it hangs on; -1: none
 };
 

@@ -60,11 +60,12 @@ class ReferenceCompiler {
       Vector3d middle;
       double radius = 0.0;
       centersOf(body, middle, radius);
-      const LeverArms levers = leverArms(model_.kinematics, static_cast<int>(body), middle, radius);
-      for (std::size_t i = 0; i < levers.path.size(); ++i) {
-        LaneCarried& joint = joints[levers.path[i]];
+      const std::vector<double> arms =
+          armsAtRest(model_.kinematics, static_cast<int>(body), middle, radius);
+      for (std::size_t i = 0; i < arms.size(); ++i) {
+        LaneCarried& joint = joints[lanes_.ancestors[body][i]];
         joint.bodies.push_back(static_cast<int>(body));
-        joint.arms.push_back(armOf(levers, i));
+        joint.arms.push_back(static_cast<float>(arms[i] * (1.0 + 1e-6)));
       }
     }
     std::vector<std::int32_t> indexOf(lanes_.bodies.size(), -1);
@@ -104,10 +105,6 @@ class ReferenceCompiler {
     step.turnsAfter = lanes_.bodies[body].cosine >= 0.0F;
     step.grandparent = reference.slot[model_.kinematics.bodies[moving.parent].parent];
     return step;
-  }
-
-  static float armOf(const LeverArms& levers, std::size_t i) {
-    return static_cast<float>(levers.arms[i] * (1.0 + 1e-6));
   }
 
   void fillArms(int body, LaneReference& reference) const {
@@ -150,10 +147,15 @@ void compileReferences(const CheckerModel& model, const std::vector<int>& bodies
   std::vector<LaneReference> references;
   std::size_t arms = 0;
   for (const int body : bodies) {
-    references.push_back(compiler.places(body));
-    const auto moved =
-        std::ranges::count_if(references.back().slot, [](int at) { return at >= 0; });
-    arms += static_cast<std::size_t>(moved * references.back().rows) * kLanes;
+    const LaneReference& reference = references.emplace_back(compiler.places(body));
+    std::size_t moved = 0;
+    std::size_t slides = 0;
+    for (std::size_t i = 1; i < lanes.bodies.size(); ++i) {
+      if (reference.slot[i] < 0) continue;
+      ++moved;
+      if (model.kinematics.bodies[i].type == JointType::Prismatic) ++slides;
+    }
+    arms += moved * reference.rows * kLanes * (1 + slides);  // each slide has shares of them
   }
   if (arms > mostArms) {
     lanes.carried = SharedArray(compiler.carried(bodies));

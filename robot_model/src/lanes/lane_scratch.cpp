@@ -14,7 +14,8 @@ LaneScratch::LaneScratch(const LaneModel& model) {
   for (auto* perStep : {&together, &turning, &turned, &slid})
     perStep->resize(model.bodies.size(), 0.0F);
   if (!model.carried.empty())
-    for (auto* perBody : {&nested.turning, &nested.excess, &nested.carried, &nested.driven})
+    for (auto* perBody :
+         {&nested.turning, &nested.excess, &nested.carried, &nested.driven, &nested.slid})
       perBody->resize(model.bodies.size(), 0.0);
   block.angle.resize(model.bodies.size(), Row{});
   block.slide.resize(3 * model.bodies.size(), Row{});

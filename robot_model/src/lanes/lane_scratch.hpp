@@ -120,6 +120,7 @@ struct LaneScratch {
     std::vector<double> excess;   ///< rad per unit t, d of its lemma, where the joint is c
     std::vector<double> carried;  ///< m per unit t, sum of w of the joints on the way to it so far
     std::vector<double> driven;   ///< m per unit t squared, of 2 V w + s^2 arm
+    std::vector<double> slid;     ///< m, of all slides on the way to it
   };
   Nested nested;
   LaneBlock block;
