@@ -198,6 +198,7 @@ TEST(LaneGrazing, NoContactIsEverPassedOver) {
     Stage stage(robot.robot, robot.group);
     Random random(61);
     int contacts = 0;
+    int asked = 0;  // on each instruction set
     int inLanes = 0;
     int brief = 0;
     for (int round = 0; round < 400; ++round) {
@@ -209,6 +210,7 @@ TEST(LaneGrazing, NoContactIsEverPassedOver) {
         const OnTarget on(target);
         const auto found = stage.certify(true, MotionQuery::VerdictOnly);
         ASSERT_NE(found.verdict, Verdict::Free) << "round " << round << ", depth " << depth;
+        ++asked;
         inLanes += found.effort.lanes > 0 ? 1 : 0;
       }
       // As brief as they are, the exact tier alone is seldom sure of them.
@@ -217,7 +219,7 @@ TEST(LaneGrazing, NoContactIsEverPassedOver) {
     RecordProperty(std::string(robot.robot) + "_contacts", contacts);
     RecordProperty(std::string(robot.robot) + "_brief", brief);
     EXPECT_GT(contacts, 300);
-    EXPECT_GT(inLanes, contacts * 4);
+    EXPECT_GT(5 * inLanes, 4 * asked);
     EXPECT_GT(brief, contacts / 25);
   }
 }
