@@ -27,8 +27,10 @@ HWY_INLINE Lanes byteOf(const std::uint32_t* words, Words word, Words of) {
   const hn::RebindToUnsigned<WordTag> tag;
   const auto found = hn::BitCast(
       tag, hn::GatherIndex(WordTag(), reinterpret_cast<const std::int32_t*>(words), word));
-  const auto shifted = hn::Shr(found, hn::BitCast(tag, hn::ShiftLeft<3>(of)));
-  const auto byte = hn::And(shifted, hn::Set(tag, 255U));
+  // Up and down again: where SSE4 shifts right by 0, Highway converts 2^32 to an integer, which is
+  // an invalid operation to whoever traps these.
+  const auto above = hn::BitCast(tag, hn::AndNot(of, hn::Set(WordTag(), 3)));
+  const auto byte = hn::ShiftRight<24>(hn::Shl(found, hn::ShiftLeft<3>(above)));
   return hn::PromoteTo(Tag(), hn::BitCast(WordTag(), byte));
 }
 

@@ -135,8 +135,10 @@ HWY_INLINE F8 bytesAt(const std::uint32_t* words, const hn::Vec<LanePart> (&inde
   F8 value;
   for (int i = 0; i < kParts; ++i) {
     const auto found = hn::GatherIndex(word, words, hn::ShiftRight<2>(index[i]));
-    const auto at = hn::BitCast(word, hn::And(index[i], hn::Set(LanePart(), 3)));
-    const auto byte = hn::And(hn::Shr(found, hn::ShiftLeft<3>(at)), hn::Set(word, 255U));
+    // Up and down again: where SSE4 shifts right by 0, Highway converts 2^32 to an integer, which
+    // is an invalid operation to whoever traps these.
+    const auto above = hn::BitCast(word, hn::AndNot(index[i], hn::Set(LanePart(), 3)));
+    const auto byte = hn::ShiftRight<24>(hn::Shl(found, hn::ShiftLeft<3>(above)));
     value.part[i] = hn::ConvertTo(Part(), hn::BitCast(LanePart(), byte));
   }
   return value;
