@@ -73,8 +73,7 @@ constinit hwy::ChosenTarget chosen;
 }  // namespace
 
 std::int64_t processorTargets() {
-  // NOLINTNEXTLINE(misc-redundant-expression): Highway adds up all sets there are, most as 0.
-  static const std::int64_t targets = HWY_BASELINE_TARGETS | detectedTargets();
+  static const std::int64_t targets = HWY_STATIC_TARGET | detectedTargets();
   return targets;
 }
 

@@ -15,8 +15,8 @@
 namespace swept::detail {
 
 /// Bits of Highway (`HWY_AVX2`, ...): instruction sets that the processor has and the operating
-/// system saves, and those that the library is compiled for anyway. Of those that Highway has for
-/// other processors than x86-64, only the latter.
+/// system saves, and the one that the library is compiled for anyway. On other processors than
+/// x86-64, the latter alone.
 std::int64_t processorTargets();
 
 /// What dispatch goes by: processorTargets(), until a test says otherwise (`Update`).
