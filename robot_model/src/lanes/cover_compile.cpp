@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -202,16 +201,19 @@ class CoverCompiler {
     auto hulls = std::make_shared<LaneHulls>();
     for (const RobotGeometry& geometry : model_.robotGeometry)
       hulls->add(geometry.shape, geometry.body_from_shape, lanes_.bodyFromLane[geometry.body],
-                 hullArms(geometry));
+                 hullArms(geometry), isLong(geometry));
     lanes_.hulls = std::move(hulls);
   }
 
-  /// Growths are as many as pairs of a joint that turns and one beyond that slides.
+  /// Growths are as many as pairs of a joint that turns and one beyond that slides: too many for
+  /// long paths (LaneHull::growsByAll).
   RestArms hullArms(const RobotGeometry& geometry) const {
-    const auto& [body, center, radius] = std::tie(geometry.body, geometry.center, geometry.radius);
-    if (geometry.levers.path.size() > kLongPath)
-      return {armsAtRest(model_.kinematics, body, center, radius), {}};
-    return restArms(model_.kinematics, body, center, radius);
+    if (!isLong(geometry))
+      return restArms(model_.kinematics, geometry.body, geometry.center, geometry.radius);
+    return {armsAtRest(model_.kinematics, geometry.body, geometry.center, geometry.radius), {}};
+  }
+  static bool isLong(const RobotGeometry& geometry) {
+    return geometry.levers.path.size() > kLongPath;
   }
 
   void setCenter(LaneNode& node, const RobotGeometry& geometry, const Vector3d& center) const {

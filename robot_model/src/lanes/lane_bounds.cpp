@@ -93,12 +93,11 @@ float accelerationOfPoints(const LaneModel& model, int index, int geometry, Lane
   const LaneHull& hull = model.hulls->of[geometry];
   const float* arms = model.hulls->arms.data() + hull.firstArm;
   boundPath(model, path, first, scratch);
-  const bool isLong = path.size() > kLongPath;
   float sum = 0.0F;
   float beyond = 0.0F;  // m, of what slides
   for (std::size_t i = path.size(); i-- > first;) {
     sum += scratch.turned[i] * (arms[i] + beyond) + scratch.slid[i];
-    if (isLong) beyond += scratch.motion[path[i]].slid;
+    if (hull.growsByAll) beyond += scratch.motion[path[i]].slid;
   }
   for (std::int32_t i = 0; i < hull.growthCount; ++i) {
     const LaneHulls::Growth& growth = model.hulls->growths[hull.firstGrowth + i];
@@ -106,7 +105,7 @@ float accelerationOfPoints(const LaneModel& model, int index, int geometry, Lane
       sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
   }
   // One rounding for each term, and what the last products round.
-  const auto terms = static_cast<float>(path.size() * (isLong ? 2 : 1) + hull.growthCount);
+  const auto terms = static_cast<float>(path.size() * (hull.growsByAll ? 2 : 1) + hull.growthCount);
   return sum * (kOutward + 0x1p-22F * terms);
 }
 

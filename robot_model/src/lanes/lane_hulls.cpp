@@ -71,10 +71,12 @@ struct GrownHull {
 }  // namespace
 
 void LaneHulls::add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
-                    const Eigen::Matrix3d& bodyFromLane, const RestArms& armsOfPath) {
+                    const Eigen::Matrix3d& bodyFromLane, const RestArms& armsOfPath,
+                    bool growsByAll) {
   const Grown grown = std::visit(GrownHull(), shape);
   LaneHull hull;
   hull.first = static_cast<std::int32_t>(points.size());
+  hull.growsByAll = growsByAll;
   hull.firstArm = static_cast<std::int32_t>(arms.size());
   for (const double arm : armsOfPath.arms) arms.push_back(static_cast<float>(arm * (1.0 + 1e-6)));
   hull.firstGrowth = static_cast<std::int32_t>(growths.size());

@@ -21,6 +21,8 @@ struct LaneHull {
   std::int32_t firstArm = 0;     ///< into LaneHulls::arms; one for each of LaneModel::ancestors
   std::int32_t firstGrowth = 0;  ///< into LaneHulls::growths
   std::int32_t growthCount = 0;
+  /// Arms grow by all that slides beyond their joints, and there are no growths.
+  bool growsByAll = false;
 };
 
 /// Of all geometries, in the frames of their bodies.
@@ -36,8 +38,7 @@ struct LaneHulls {
   /// m, rounded up: no point of the geometry is farther from the joint's axis while all prismatic
   /// joints are at zero.
   std::vector<float> arms;
-  /// See RestArms::Growth; of none of a long path (kLongPath), whose arms grow by all that slides
-  /// beyond. `joint` is an index into LaneModel::ancestors, shares are rounded up.
+  /// See RestArms::Growth; `joint` is an index into LaneModel::ancestors, shares are rounded up.
   struct Growth {
     std::int32_t joint = 0;
     std::int32_t slide = 0;
@@ -47,7 +48,7 @@ struct LaneHulls {
 
   /// `bodyFromLane`: the kinematics' frame of the body from the lanes'.
   void add(const Shape& shape, const Eigen::Isometry3d& body_from_shape,
-           const Eigen::Matrix3d& bodyFromLane, const RestArms& armsOfPath);
+           const Eigen::Matrix3d& bodyFromLane, const RestArms& armsOfPath, bool growsByAll);
 };
 
 }  // namespace swept::detail

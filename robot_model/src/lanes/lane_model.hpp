@@ -72,8 +72,8 @@ struct LaneReference {
   std::vector<Step> steps;      ///< parents first
   int rows = 0;                 ///< per step
   std::vector<Row> arms;        ///< m, [step * rows + row]
-  std::vector<Growth> growths;  ///< one per prismatic joint behind one that turns
   std::vector<Row> carried;     ///< 1 or 0, likewise
+  std::vector<Growth> growths;  ///< one per prismatic joint behind one that turns
   std::vector<int> slot;        ///< per body: where it is in the rows; -1: not moved
 };
 

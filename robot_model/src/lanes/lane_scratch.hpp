@@ -22,7 +22,7 @@ struct LaneJointMotion {
   float after[9] = {};      ///< Floating: applied to the body before it turns
   float spin = 0.0F;        ///< rad per unit t, not below |angleRate|
   float speed = 0.0F;       ///< m per unit t, not below |slideRate|
-  float slid = 0.0F;        ///< m, Slide: not below what it is off zero during the motion
+  float slid = 0.0F;        ///< m, not below what it is off zero during the motion; 0: only turns
 };
 
 /// Frame and velocity field of one body in all lanes: p has velocity linear + angular x p.
@@ -120,7 +120,7 @@ struct LaneScratch {
     std::vector<double> excess;   ///< rad per unit t, d of its lemma, where the joint is c
     std::vector<double> carried;  ///< m per unit t, sum of w of the joints on the way to it so far
     std::vector<double> driven;   ///< m per unit t squared, of 2 V w + s^2 arm
-    std::vector<double> slid;     ///< m, of all slides on the way to it
+    std::vector<double> slid;     ///< m, of LaneJointMotion::slid on the way to it
   };
   Nested nested;
   LaneBlock block;
