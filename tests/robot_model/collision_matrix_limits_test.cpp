@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "matrix_robots.hpp"
+#include "swept/robot_model/checker.hpp"
 
 namespace swept {
 namespace {
@@ -48,22 +49,50 @@ TEST(CollisionMatrixLimits, RigidlyAttachedLinksNeedNoSamples) {
 }
 
 /// A ball that turns about an axis 0.5 m away, beside one that is in its way or is not.
+std::shared_ptr<const Robot> turningBall(const std::string& limits, const Eigen::Vector3d& other) {
+  return robotOf(linkText("a", ball(0.1), other) + linkText("between", "") +
+                 linkText("b", ball(0.1), {0.5, 0.0, 0.0}) +
+                 jointText("j", "revolute", "a", "between", limits) +
+                 jointText("rest", "fixed", "between", "b"));
+}
+
 PairStatus statusOfTurn(const std::string& limits, const Eigen::Vector3d& other) {
-  const auto robot = robotOf(linkText("a", ball(0.1), other) + linkText("between", "") +
-                             linkText("b", ball(0.1), {0.5, 0.0, 0.0}) +
-                             jointText("j", "revolute", "a", "between", limits) +
-                             jointText("rest", "fixed", "between", "b"));
+  const auto robot = turningBall(limits, other);
   return reportOf(*robot, collisionMatrix(*robot), "a", "b").status;
 }
 
+const std::vector<std::string> kManyTurns{"-4 4",     "-1e4 1e4",  "-1e9 1e9",     "-1e16 1e16",
+                                          "3 1e16",   "-2000 -10", "-1e6 -900",    "-1e16 -3",
+                                          "2000 1e4", "-990 -10",  "-1001 -990.5", "1000.5 1010"};
+
 /// However many turns a joint may do, one is all there is to look at.
 TEST(CollisionMatrixLimits, ManyTurnsAreAsOne) {
-  for (const std::string limits : {"-4 4", "-1e4 1e4", "-1e9 1e9", "-1e16 1e16", "3 1e16"}) {
+  for (const std::string& limits : kManyTurns) {
     EXPECT_EQ(statusOfTurn(limits, Eigen::Vector3d::Zero()), PairStatus::Never) << limits;
     for (const double angle : {0.0, 1.0, 3.1, 4.5})
       EXPECT_NE(statusOfTurn(limits, 0.5 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0)),
                 PairStatus::Never)
           << limits << " " << angle;
+  }
+}
+
+/// A box of values whose lower end was one turn's and whose upper one the limit, below that, had no
+/// values, and so whatever was asked of it was proven.
+TEST(CollisionMatrixLimits, WhatMeetsAfterManyTurnsIsACollision) {
+  for (const std::string& limits : kManyTurns) {
+    const auto robot = turningBall(limits, {-0.5, 0.0, 0.0});
+    const Checker checker(robot, "all", std::make_shared<const World>());
+    Workspace workspace(checker);
+    EXPECT_EQ(checker.explain("a", "b"), "a - b: checked, keeps more than 0 m") << limits;
+    const Variable& joint = robot->variables().front();
+    // Half a turn and whole ones; near the upper limit, and where that is known to 1e-6 rad.
+    const double most = std::min(joint.upper, 1e6);
+    double q = (2.0 * std::floor((most / M_PI - 1.0) / 2.0) + 1.0) * M_PI;
+    if (q < joint.lower) q = joint.lower > 0.0 ? q + 2.0 * M_PI : q;
+    ASSERT_TRUE(checker.withinLimits(std::vector{q})) << limits << " " << q;
+    EXPECT_EQ(checker.checkState(std::vector{q}, workspace), Verdict::Collision) << limits;
+    const auto motion = checker.certifyMotion(std::vector{q - 1e-3}, std::vector{q}, workspace);
+    EXPECT_EQ(motion.verdict, Verdict::Collision) << limits;
   }
 }
 

@@ -213,5 +213,70 @@ TEST(StatesBeyond, InverseKinematicsTakesLimitsAHairBeyond) {
   EXPECT_THROW(end(1.0 + 1.1e-5, 2.0), std::invalid_argument);
 }
 
+/// A ball of 0.1 m on a slide that follows a joint of far limits, most of which its offset takes
+/// back: what is left of a value rounds by as much as that rounded.
+struct TakenBack {
+  double limit, multiplier, offset;
+  double upper;  ///< m, farthest that a computed value is accepted
+
+  explicit TakenBack(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> share(0.5, 1.0);
+    limit = 1e9 * share(random);
+    multiplier = 2.0 * share(random);
+    offset = -multiplier * (limit - 1.0);
+    const double rounding = 0x1p-50 * (multiplier * limit + std::abs(offset));
+    upper = multiplier * limit + offset + multiplier * tolerance::kLimit + rounding;
+  }
+  double computed(double q) const { return multiplier * q + offset; }
+  long double exact(double q) const {
+    return static_cast<long double>(multiplier) * static_cast<long double>(q) +
+           static_cast<long double>(offset);
+  }
+  /// That goes farthest of those that are accepted, to a few roundings.
+  double farthest() const {
+    double best = limit;
+    double q = (upper - offset) / multiplier;
+    for (int i = 0; i < 40; ++i) q = std::nextafter(q, 0.0);
+    for (int i = 0; i < 80; ++i, q = std::nextafter(q, kInfinity))
+      if (computed(q) <= upper && exact(q) > exact(best)) best = q;
+    return best;
+  }
+  std::shared_ptr<const Robot> robot() const {
+    std::ostringstream text;
+    text.precision(17);
+    text << "<robot name='s'><link name='rail'/><link name='wheel'/>" << ball("ball", 0.1)
+         << test::joint("turn", "revolute", "rail", "wheel",
+                        test::limited("1 0 0", limit - 1.0, limit))
+         << "<joint name='slide' type='prismatic'><parent link='rail'/><child link='ball'/>"
+         << "<axis xyz='1 0 0'/><limit lower='-10' upper='10' effort='1' velocity='1'/>"
+         << "<mimic joint='turn' multiplier='" << multiplier << "' offset='" << offset
+         << "'/></joint></robot>";
+    return Robot::parse(text.str(), "s.urdf");
+  }
+};
+
+/// Reach holds for values in truth, not for those that are left of them.
+TEST(LimitStates, WhatAnOffsetTakesBackReachesAsFarAsItDoes) {
+  std::mt19937_64 random(44);
+  int beyond = 0;
+  int touching = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const TakenBack slide(random);
+    const double q = slide.farthest();
+    const auto over = static_cast<double>(slide.exact(q) - static_cast<long double>(slide.upper));
+    if (!(over > 1e-8)) continue;
+    ++beyond;
+    const auto world = std::make_shared<World>();
+    const double at = slide.upper + 0.2 + 0.3 * over;
+    world->add("post", makeSphere(0.1), Eigen::Isometry3d(Eigen::Translation3d(at, 0.0, 0.0)));
+    const Checker checker(slide.robot(), "all", world);
+    Workspace workspace(checker);
+    EXPECT_NE(checker.checkState(std::vector{q}, workspace), Verdict::Free) << i;
+    touching += checker.explain("ball", "post").find("out of reach") == std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(beyond, 20);
+  EXPECT_EQ(touching, beyond);
+}
+
 }  // namespace
 }  // namespace swept

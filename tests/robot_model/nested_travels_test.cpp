@@ -43,7 +43,7 @@ TEST(NestedTravels, AreNeverLessAndHardlyMoreThanOneByOne) {
       detail::nestedTravels(model.kinematics, levers.path, levers.arms, motion, all);
       for (std::size_t first = 0; first <= levers.path.size(); ++first) {
         const detail::TravelBound one =
-            detail::travelBound(model.kinematics, levers, first, motion);
+            detail::travelBound(model.kinematics, levers.path, levers.arms, first, motion);
         ASSERT_GE(all[first].speed, one.speed * (1.0 - 1e-12)) << "round " << round;
         ASSERT_LE(all[first].speed, one.speed * (1.0 + 1e-9));
         ASSERT_GE(all[first].acceleration, one.acceleration * (1.0 - 1e-12))

@@ -161,7 +161,8 @@ void addGrowths(const KinematicModel& model, int slide, std::span<const int> pat
 LeverArms leverArms(const KinematicModel& model, int body, const Vector3d& center, double radius) {
   LeverArms result;
   const auto withinLimits = [&](int i) {
-    return Range{model.bodies[i].lower, model.bodies[i].upper};
+    const MovingBody& slide = model.bodies[i];
+    return Range{slide.lower - slide.valueRounding, slide.upper + slide.valueRounding};
   };
   const ReachableSet set = setOf(model.bodies[body], center);
   result.spanAtRest = spanOf(model, body, set, atRest) + radius;

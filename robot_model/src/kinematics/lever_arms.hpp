@@ -74,10 +74,4 @@ struct TravelBound {
 TravelBound travelBound(const KinematicModel& model, std::span<const int> path,
                         std::span<const double> arms, std::size_t first,
                         std::span<const JointMotion> motion);
-/// With arms that hold within the limits.
-inline TravelBound travelBound(const KinematicModel& model, const LeverArms& levers,
-                               std::size_t first, std::span<const JointMotion> motion) {
-  return travelBound(model, levers.path, levers.arms, first, motion);
-}
-
 }  // namespace swept::detail

@@ -177,8 +177,8 @@ double LinkMotion::rounding(double reach) const {
   // Of places and of velocities: joints that turn take the span to these, the others their speeds.
   const double relative = tolerance::kRoundingPerJoint * (path_->transforms + 2.0);
   const double span = path_->span + reach;
-  const double turned = (relative + path_->carried.angleError) * span;
-  return path_->perUnit * (turned + path_->carried.slideError) + relative * path_->speeds;
+  const double turned = relative + path_->carried.angleError;
+  return path_->perUnit * (turned * span + path_->carried.slideError) + turned * path_->speeds;
 }
 
 Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,

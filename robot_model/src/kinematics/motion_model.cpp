@@ -125,11 +125,12 @@ MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group)
   const double atUpper = body.multiplier * variable.upper + body.offset;
   // compileMotion lets values pass their limits by this much: as far as isWithin() does, and, of
   // what slides and is refused beyond, by what is computed of such a value.
-  double slack = std::abs(body.multiplier) * tolerance::kLimit;
   if (body.type == JointType::Prismatic)
-    slack += kValueRounding * (std::abs(body.multiplier) *
-                                   std::max(std::abs(variable.lower), std::abs(variable.upper)) +
-                               std::abs(body.offset));
+    body.valueRounding =
+        kValueRounding *
+        (std::abs(body.multiplier) * std::max(std::abs(variable.lower), std::abs(variable.upper)) +
+         std::abs(body.offset));
+  const double slack = std::abs(body.multiplier) * tolerance::kLimit + body.valueRounding;
   body.lower = std::min(atLower, atUpper) - slack;
   body.upper = std::max(atLower, atUpper) + slack;
   return body;

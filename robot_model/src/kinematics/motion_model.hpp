@@ -35,7 +35,10 @@ struct MovingBody {
   double multiplier = 1.0;          ///< joint value = multiplier * variable + offset
   double offset = 0.0;              ///< rad or m
   double lower = 0.0;  ///< m or rad: range of the joint value, with the slack of limits
-  double upper = 0.0;  ///< m
+  double upper = 0.0;  ///< m or rad
+  /// m, prismatic: by how much a value computed within the range may be beyond it in truth. An
+  /// offset may leave little of what rounds.
+  double valueRounding = 0.0;
 };
 
 /// The group's tree of moving frames. Joints outside the group are folded at their reference

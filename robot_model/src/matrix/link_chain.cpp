@@ -51,7 +51,8 @@ LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA,
   }
   for (std::size_t k = 0; k < variables_.size(); ++k) {
     const bool near = std::abs(box_.lower[k]) <= kFarthest && std::abs(box_.upper[k]) <= kFarthest;
-    bounded_ = bounded_ && near;
+    // Of a box without values anything would be proven.
+    bounded_ = bounded_ && near && box_.lower[k] <= box_.upper[k];
     box_.lower[k] -= tolerance::kLimit;
     box_.upper[k] += tolerance::kLimit;
   }
@@ -102,8 +103,12 @@ void LinkChain::boundTurns() {
     if (!periodic) continue;
     // Of turns that are so far out that angles round, any other is as good.
     const bool far = !(std::abs(box_.lower[k]) <= kFarthest);
-    if (far && box_.upper[k] - box_.lower[k] >= turn) box_.lower[k] = -std::numbers::pi;
-    box_.upper[k] = std::min(box_.upper[k], box_.lower[k] + turn);
+    if (far && box_.upper[k] - box_.lower[k] >= turn) {
+      box_.lower[k] = -std::numbers::pi;
+      box_.upper[k] = std::numbers::pi;
+    } else {
+      box_.upper[k] = std::min(box_.upper[k], box_.lower[k] + turn);
+    }
   }
 }
 

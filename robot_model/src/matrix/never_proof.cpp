@@ -79,7 +79,6 @@ NeverProof::State NeverProof::run(std::int64_t budget, std::int64_t mostWork) {
     look(box);
   }
   if (contact_) return State::Contact;
-  // A box may have been left before all its pairs of balls had been looked at.
   if (!boxes_.empty() || outOfWork()) return State::Open;
   return stuck_ ? State::Stuck : State::Proven;
 }
@@ -93,9 +92,12 @@ void NeverProof::look(const Box& box) {
   moves_ += static_cast<std::int64_t>(chain_.joints().size());
   bounds_.setBox(box.values, place_);
   collectOpen(box);
-  if (contact_ || outOfWork()) return;
-  if (arena_.size() > firstOpen_) dropFar();
-  if (outOfWork()) return;
+  if (contact_) return;
+  if (!outOfWork() && arena_.size() > firstOpen_) dropFar();
+  if (outOfWork()) {  // left before all its pairs of balls have been looked at
+    stuck_ = true;
+    return;
+  }
   if (arena_.size() == firstOpen_) {
     share_ += box.share;
   } else {

@@ -71,11 +71,11 @@ struct LinkPairReport {
 ///
 /// Never is proven by branch and bound over the box of the values of the joints between the two
 /// (limits, and tolerance::kLimit beyond, since Checker answers for such values as they are; one
-/// turn for joints without), never by samples. With a planar or floating joint between them, a
-/// joint that follows a joint without limits by a factor that is no integer, or limits beyond 1000
-/// rad or m, nothing can be proven, and the pair is Unknown unless samples find a contact. Throws
-/// std::invalid_argument for a margin that is negative or not finite, and a negative budget or
-/// number of samples.
+/// turn of what can do one or has no limits), never by samples. With a planar or floating joint
+/// between them, a joint that follows a joint without limits by a factor that is no integer, or,
+/// where not a turn is done, limits beyond 1000 rad or m, nothing can be proven, and the pair is
+/// Unknown unless samples find a contact. Throws std::invalid_argument for a margin that is
+/// negative or not finite, and a negative budget or number of samples.
 std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
                                             const CollisionMatrixOptions& options = {});
 
