@@ -16,6 +16,7 @@
 #include "swept/core/segment_query.hpp"
 #include "swept/core/separation.hpp"
 #include "swept/core/signed_distance.hpp"
+#include "swept/core/sphere_cover.hpp"
 
 namespace swept {
 namespace {
@@ -120,6 +121,32 @@ TEST(LineTriangles, ThatOthersHaveAreDropped) {
 }
 
 /// Triangles by themselves, and joined ones, with corners that are equal by index or by place.
+/// Two lines with an end in common have each of their edges twice, as closed surfaces do, and were
+/// taken for a solid of no triangle where a mesh of two solids has covers.
+TEST(LineTriangles, ThatMeetBoundNoSolid) {
+  Soup soup = test::boxSoup(Vector3d::Zero(), Vector3d::Constant(0.01));
+  const Soup other = soup;
+  const auto count = static_cast<int>(soup.vertices.size());
+  for (const Vector3d& vertex : other.vertices)
+    soup.vertices.push_back(vertex + Vector3d::Constant(0.9));
+  for (const Vector3i& triangle : other.triangles)
+    soup.triangles.push_back(triangle + Vector3i::Constant(count));
+  for (int i = 0; i < 3; ++i) soup.vertices.push_back(Vector3d::Unit(i));
+  const int first = 2 * count;
+  soup.triangles.push_back({first, first + 2, first + 2});
+  soup.triangles.push_back({first + 1, first + 2, first + 2});
+  const TriangleMesh mesh = build(soup);
+  EXPECT_EQ(mesh.report().closedComponents, 2);
+  EXPECT_EQ(mesh.report().openComponents, 2);
+  const SphereCover cover = sphereCover(mesh, {});
+  // Their middles are in the cover, too.
+  for (const Vector3d& middle : {Vector3d(0.5, 0.0, 0.5), Vector3d(0.0, 0.5, 0.5)})
+    EXPECT_TRUE(std::ranges::any_of(cover.nodes, [&](const SphereCover::Node& node) {
+      return (node.ball.center.cast<double>() - middle).norm() <=
+             static_cast<double>(node.ball.radius) + 1e-6;
+    }));
+}
+
 TEST(LineTriangles, AreAsFarAsTheyAre) {
   std::mt19937 random(5);
   int lines = 0, nearest = 0, asked = 0;

@@ -10,9 +10,10 @@
 
 /// Which triangles of a mesh hang together, and which of these components bound a solid.
 ///
-/// A component is closed when each of its edges has an even number of triangles: a cycle modulo
-/// two, for which the parity of the crossings of a ray does not depend on the ray. Two shells that
-/// touch along an edge (four triangles there) are such a cycle.
+/// A component is closed when each of its edges has an even number of triangles, and no triangle is
+/// a line (two equal corners): a cycle modulo two, for which the parity of the crossings of a ray
+/// does not depend on the ray. Two shells that touch along an edge (four triangles there) are such
+/// a cycle.
 ///
 /// Repeated corner sets need a decision per component. A surface written twice (double-sided, or
 /// the same part twice) has parity zero everywhere, so repetitions are dropped when that leaves the
@@ -202,8 +203,10 @@ class ComponentFinder {
     const auto distinct = std::count_if(
         edge.begin(), edge.end(), [&](const HalfEdge& half) { return !repeats_[half.triangle]; });
     Part& part = parts_[find(edge.front().triangle)];
-    if (distinct % 2 == 1) part.evenWithoutRepetitions = false;
-    if (edge.size() % 2 == 1) part.evenWithRepetitions = false;
+    // Lines have each edge twice, and bound nothing.
+    const bool isPoint = edge.front().ends >> 32 == (edge.front().ends & 0xFFFFFFFF);
+    if (isPoint || distinct % 2 == 1) part.evenWithoutRepetitions = false;
+    if (isPoint || edge.size() % 2 == 1) part.evenWithRepetitions = false;
   }
 
   void compareDirections(std::span<const HalfEdge> edge) {
