@@ -134,15 +134,15 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
   WideNode room;
   while (!pending.isEmpty()) {
     const PendingBoxes::Box top = pending.pop();
-    if (top.squared > best.squared) continue;
+    if (top.squared > best.squared + kNormalSquare) continue;
     if (top.child < 0) {
       test(~top.child, p, best);
       continue;
     }
     const WideNode& node = bvh_.node(top.child, room);
     alignas(32) std::array<float, WideNode::kLanes> squared;
-    for (std::uint32_t near = pointBoxes(node, p, roundedUp(best.squared), squared); near != 0;
-         near &= near - 1) {
+    for (std::uint32_t near = pointBoxes(node, p, roundedUp(best.squared + kNormalSquare), squared);
+         near != 0; near &= near - 1) {
       const int lane = std::countr_zero(near);
       const std::int32_t child = node.child[lane];
       if (!hasParts_.empty() && child >= 0 && !hasParts_[child]) continue;

@@ -17,12 +17,13 @@ namespace swept::detail {
 /// is the distance of p from a convex combination of corners. Below: (1) a box is passed over when
 /// its distance, in single precision, exceeds the best; fewer than twelve roundings of coordinates
 /// relative to the origin of its node, each 2^-24 of at most twice the extent of the tree and the
-/// distance of p from its middle, are below 2e-6 of these. (2) The distance from the three sides of
-/// a triangle is exact up to rounding in double, about 1e-16 of the coordinates. A nearest point
-/// strictly inside it can be missed only where its barycentric coordinates, whose error is about u
-/// L / w for a triangle of length L and width w, have the wrong sign: then a side is as near up to
-/// the smaller of w and u L^2 / w, which is below 1e-7 L. All is covered by 4e-6 of the extent and
-/// the distance from the middle, and 1e-15 of the coordinates.
+/// distance of p from its middle, are below 2e-6 of these; where squares underflow they are off by
+/// less than kNormalSquare, by which they may exceed the best. (2) The distance from the three
+/// sides of a triangle is exact up to rounding in double, about 1e-16 of the coordinates. A nearest
+/// point strictly inside it can be missed only where its barycentric coordinates, whose error is
+/// about u L / w for a triangle of length L and width w, have the wrong sign: then a side is as
+/// near up to the smaller of w and u L^2 / w, which is below 1e-7 L. All is covered by 4e-6 of the
+/// extent and the distance from the middle, and 1e-15 of the coordinates.
 class Nearest {
  public:
   struct Found {
