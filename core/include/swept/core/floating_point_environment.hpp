@@ -18,7 +18,8 @@
 /// and gives the same bits. The caller's comes back when it ends, by return or exception, with the
 /// exceptions masked that were masked; flags that the function raised stay raised, as with any
 /// arithmetic. What the function calls of the program's own (visitors, motions, rules, distance
-/// functions, OMPL's callbacks) runs in the default environment, too, and leaves it as it was.
+/// functions, OMPL's callbacks) runs in the default environment, too, but for a shorter long
+/// double, and leaves it as it was.
 /// Left out are members defined within a class that compare or add a few numbers (Aabb::overlaps,
 /// center(), ApproachBound::along() ...): they compute where they are called. Comparisons err
 /// towards overlap there, and the bounds that queries put on roundings are wide enough for both.
