@@ -148,8 +148,12 @@ TEST(MeshFiles, FacesThatAreLinesOfNoOtherFaceAreKept) {
   const std::string cube = test::kCubeObj;
   folder.write("edge.obj", cube + "f 1 1 2\nf 7 7 7\nf 3 4 3\n");
   folder.write("line.obj", cube + "v 0.5 0.5 3\nv 0.5 0.5 3\nf 5 9 10\n");
-  const auto robot =
-      withMeshes(folder, {"filename='edge.obj'", "filename='line.obj' scale='1 1 2'"});
+  test::Warnings warnings;
+  const auto robot = withMeshes(
+      folder, {"filename='edge.obj'", "filename='line.obj' scale='1 1 2'"}, warnings.options());
+  ASSERT_EQ(warnings.lines.size(), 1U);
+  EXPECT_THAT(warnings.lines.front(),
+              testing::HasSubstr("mesh 'line.obj' has 1 open component without an inside"));
   EXPECT_TRUE(mesh(*robot, 0).isClosed());
   const auto gap = [&](double x, double y, double z) {
     return distance(mesh(*robot, 1), makeSphere(0.125),

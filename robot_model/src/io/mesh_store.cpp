@@ -90,9 +90,12 @@ void warnIfOpen(const TriangleMesh& mesh, const std::string& name, int line,
                 const InputSource& source) {
   const int open = mesh.report().openComponents;
   if (open == 0) return;
-  source.warn(line, "mesh '" + name + "' is an open surface (" + std::to_string(open) +
-                        " open component" + (open == 1 ? "" : "s") +
-                        "): its interior is not solid");
+  const std::string components = std::to_string(open) + " open component" + (open == 1 ? "" : "s");
+  if (mesh.report().closedComponents > 0)
+    source.warn(line, "mesh '" + name + "' has " + components + " without an inside");
+  else
+    source.warn(line, "mesh '" + name + "' is an open surface (" + components +
+                          "): its interior is not solid");
 }
 
 }  // namespace swept::detail
