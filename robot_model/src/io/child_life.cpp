@@ -31,7 +31,8 @@ rlimit limitOf(decltype(RLIMIT_AS) resource) {
   return limit;
 }
 
-/// Anew for each request: what those before it took does not count.
+/// Anew for each request: time that those before it took does not count, nor memory that they gave
+/// back.
 class Bounds {
  public:
   explicit Bounds(std::uint64_t parentMemory)

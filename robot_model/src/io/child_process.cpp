@@ -101,6 +101,9 @@ class ChildProcess::Process {
   Process& operator=(const Process&) = delete;
 
   std::string ask(std::span<const std::string_view> request, const ChildLimits& limits) {
+    // What it said beyond its last answer would be the head of the next.
+    if (char byte = 0; recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0)
+      throw ChildError("said too much");
     const unsigned wall = limits.seconds * kWallPerCpu;
     latest_ = Clock::now() + std::chrono::seconds(wall);
     late_ = "took more than " + std::to_string(wall) + " s";
