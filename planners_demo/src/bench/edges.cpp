@@ -16,6 +16,7 @@
 #include "output/progress.hpp"
 #include "output/text_output.hpp"
 #include "replay/query_dump.hpp"
+#include "swept/robot_model/limits.hpp"
 
 namespace swept {
 namespace {
@@ -150,9 +151,13 @@ class EdgeRun {
     }));
     like_ = checker;
     std::vector<BenchMotion> motions;
-    for (const std::size_t place : part.places)
+    for (const std::size_t place : part.places) {
       motions.push_back(
           {.from = inOrder(edges[place].from, order), .to = inOrder(edges[place].to, order)});
+      for (auto* q : {&motions.back().from, &motions.back().to})
+        for (const TakenToLimit& taken : takeToLimits(*model_.robot, group, *q))
+          warnings_("swept: warning: " + limitRemark(taken));
+    }
     const std::vector<EdgeResult> results = measure(*checker, motions, args_.passes, clock_);
     std::vector<FclResult> fcl;
     if (!args_.against.empty())

@@ -117,11 +117,11 @@ Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest::JointValu
       throw UsageError(file + ", start: robot '" + robot.name() + "' has no joint '" + name + "'");
     if (!variable) continue;  // it mimics another
     reference[*variable] = value;
-    if (const auto limit = limitNear(robot.variables()[*variable], value)) {
-      const std::string unit = unitOf(robot, robot.variables()[*variable]);
-      warn("swept: warning: " + limitRemark({name, value, *limit, unit}));
-      reference[*variable] = *limit;
-    }
+    const Variable& limited = robot.variables()[*variable];
+    const auto limit = limitNear(limited, value);
+    if (!limit || isOrientation(robot, limited)) continue;
+    warn("swept: warning: " + limitRemark({name, value, *limit, unitOf(robot, limited)}));
+    reference[*variable] = *limit;
   }
   return reference;
 }

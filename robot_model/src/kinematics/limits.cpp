@@ -35,6 +35,12 @@ bool showDifferences(std::span<const double> values, std::span<const std::string
   return true;  // of what is infinite or no number, six digits are as good as more
 }
 
+/// Of the variable among its joint's.
+int placeOf(const Robot& robot, const Variable& variable) {
+  const auto index = &variable - robot.variables().data();
+  return static_cast<int>(index) - robot.joints()[variable.joint].firstVariable;
+}
+
 /// `2e-05 beyond`
 std::string excessText(double excess) {
   return withDigits(excess, 3) + " beyond";
@@ -52,6 +58,11 @@ std::optional<double> limitNear(const Variable& variable, double value) {
   return std::nullopt;
 }
 
+bool isOrientation(const Robot& robot, const Variable& variable) {
+  return robot.joints()[variable.joint].type == JointType::Floating &&
+         placeOf(robot, variable) >= 3;
+}
+
 std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group,
                                        std::span<double> q) {
   if (detail::inForeignEnvironment()) {
@@ -64,11 +75,8 @@ std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group,
   std::vector<TakenToLimit> taken;
   for (std::size_t i = 0; i < q.size(); ++i) {
     const Variable& variable = robot.variables()[group.variables[i]];
-    const Joint& joint = robot.joints()[variable.joint];
-    if (joint.type == JointType::Floating && group.variables[i] >= joint.firstVariable + 3)
-      continue;
     const std::optional<double> limit = limitNear(variable, q[i]);
-    if (!limit) continue;
+    if (!limit || isOrientation(robot, variable)) continue;
     taken.push_back({variable.name, q[i], *limit, unitOf(robot, variable)});
     q[i] = *limit;
   }
@@ -128,9 +136,7 @@ std::string unitOf(const Joint& joint, int place) {
 }
 
 std::string unitOf(const Robot& robot, const Variable& variable) {
-  const Joint& joint = robot.joints()[variable.joint];
-  const auto index = &variable - robot.variables().data();
-  return unitOf(joint, static_cast<int>(index) - joint.firstVariable);
+  return unitOf(robot.joints()[variable.joint], placeOf(robot, variable));
 }
 
 }  // namespace swept

@@ -26,6 +26,9 @@ constexpr bool isWithin(double value, double lower, double upper) {
 /// outside by more than tolerance::kLimit, or no number; or of a cyclic variable, which has none.
 std::optional<double> limitNear(const Variable& variable, double value);
 
+/// Whether the variable is a component of an orientation, which has no limits.
+bool isOrientation(const Robot& robot, const Variable& variable);
+
 /// A value that was taken to a limit.
 struct TakenToLimit {
   std::string variable;  ///< its name
