@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "gantry.hpp"
 #include "urdf_text.hpp"
 
@@ -10,6 +12,7 @@ namespace {
 
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Takes its whole second: there is no path.
 std::vector<std::string> longWork(const Gantry& gantry) {
@@ -27,23 +30,51 @@ TEST(Terminal, LongWorkShowsProgressAndWipesIt) {
 }
 
 /// So many pairs that no computer looks at them in a blink.
-TEST(Terminal, BuildingACheckerOfManyLinksShows) {
-  const TemporaryFolder folder;
+constexpr int kManyLinks = 1500;
+
+std::string longChain() {
   std::string urdf = "<robot name='chain'><link name='l0'/>";
-  std::string state;
-  for (int i = 1; i <= 1500; ++i) {
+  for (int i = 1; i <= kManyLinks; ++i) {
     const std::string name = std::to_string(i);
     urdf += "<link name='l" + name +
             "'><collision><geometry><sphere radius='0.02'/></geometry></collision></link>" +
             joint("j" + name, "revolute", "l" + std::to_string(i - 1), "l" + name,
                   "<origin xyz='0 0 0.1'/>" + limited("1 0 0", -3.0, 3.0));
-    state += i > 1 ? ",0" : "0";
   }
-  folder.write("chain.urdf", urdf + "</robot>");
-  const Outcome run = runSwept({"check", folder.path("chain.urdf"), state}, Stderr::Terminal);
+  return urdf + "</robot>";
+}
+
+/// Straight, or folded twice, into itself.
+std::string stateOfChain(bool folded) {
+  std::string state;
+  for (int i = 1; i <= kManyLinks; ++i)
+    state += std::string(i > 1 ? "," : "") + (folded && (i == 2 || i == 5) ? "3" : "0");
+  return state;
+}
+
+TEST(Terminal, BuildingACheckerOfManyLinksShows) {
+  const TemporaryFolder folder;
+  folder.write("chain.urdf", longChain());
+  const Outcome run =
+      runSwept({"check", folder.path("chain.urdf"), stateOfChain(false)}, Stderr::Terminal);
   EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
   EXPECT_THAT(run.err, HasSubstr("building the checker of 1501 links ("));
   EXPECT_THAT(run.err, EndsWith("\r\033[K"));
+}
+
+/// The line is that of the cases, and of none when there is to be silence.
+TEST(Terminal, BuildingACheckerOfACaseDoesNotShow) {
+  const TemporaryFolder folder;
+  folder.write("chain.urdf", longChain());
+  const Outcome dumped = runSwept({"check", folder.path("chain.urdf"), stateOfChain(true), "-q",
+                                   "--dump", folder.path("dumps")});
+  ASSERT_EQ(dumped.exitCode, 1) << dumped.out << dumped.err;
+  const std::string file =
+      std::filesystem::directory_iterator(folder.path("dumps"))->path().string();
+  const Outcome quiet = runSwept({"replay", file, "-q"}, Stderr::Terminal);
+  EXPECT_EQ(quiet.exitCode, 0) << quiet.out;
+  EXPECT_EQ(quiet.err, "");
+  EXPECT_THAT(runSwept({"replay", file}, Stderr::Terminal).err, Not(HasSubstr("building")));
 }
 
 TEST(Terminal, PipedThereIsNothingButResults) {

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "certificate/model_json.hpp"
 #include "certificate/verify_outcome.hpp"
@@ -32,6 +34,7 @@ Files filesOf(const Arguments& args, const Json& path, Warnings& warnings) {
   const nlohmann::json recorded(path["inputs"]);
   Arguments inputs = inputsOf(JsonValue(recorded, "inputs", args.verify.path));
   inputs.command = &kPlanCommand;
+  inputs.quiet = true;  // verifying has a line of progress
   if (!args.verify.robot.empty()) inputs.robot = args.verify.robot;
   if (!args.verify.scene.empty()) inputs.scene = args.verify.scene;
   Files files;
@@ -48,9 +51,15 @@ bool needsFiles(const Arguments& args, const Json& path) {
          !args.verify.scene.empty() || !args.page.file.empty();
 }
 
-/// Of a path that holds: names what is a little beyond a limit.
-void warnOfLimits(const Json& path, const Json& model, Warnings& warnings) {
+/// Of a path that holds: remarks on what is a little beyond a limit. An orientation has none.
+std::vector<std::string> limitRemarks(const Json& path, const Json& model) {
+  std::vector<std::string> remarks;
   const Json& variables = model["variables"];
+  std::vector<bool> isLimited(variables.size(), true);
+  for (const Json& joint : model["joints"])
+    if (joint["type"] == "floating" && !joint["variable"].is_null())
+      for (std::size_t i = 3; i < 7; ++i)
+        isLimited[joint["variable"].get<std::size_t>() + i] = false;
   const auto limitOf = [](const Json& limit, double none) {
     return limit.is_null() ? none : limit.get<double>();
   };
@@ -62,22 +71,23 @@ void warnOfLimits(const Json& path, const Json& model, Warnings& warnings) {
       variable.upper = limitOf(variables[i]["upper"], HUGE_VAL);
       variable.cyclic = variables[i]["cyclic"];
       const double value = state[i];
-      if (const auto limit = limitNear(variable, value))
-        warnings("swept: warning: " +
-                 limitRemark({variable.name, value, *limit, ""}, "proven as it is"));
+      const auto limit = limitNear(variable, value);
+      if (limit && isLimited[i])
+        remarks.push_back(limitRemark({variable.name, value, *limit, ""}, "proven as it is"));
     }
   }
+  return remarks;
 }
 
 /// `files`: those of filesOf(), or null.
-VerifyOutcome examine(const Json& path, const Files* files, Warnings& warnings) {
+VerifyOutcome examine(const Json& path, const Files* files, std::vector<std::string>& remarks) {
   VerifyOutcome outcome;
   try {
     const Json model = files == nullptr ? Json() : modelJson(*files->task.checker);
     const Json& own = path.contains("model") ? path["model"] : model;
     outcome.summary = verify::checkProof(path, own);
     if (files != nullptr && path.contains("model")) verify::requireSameModel(path["proof"], model);
-    warnOfLimits(path, own, warnings);
+    remarks = limitRemarks(path, own);
   } catch (const verify::Refusal& refusal) {
     outcome.refusal = refusal.what();
   }
@@ -125,11 +135,13 @@ ExitCode runVerify(const Arguments& args) {
     throw InputError(args.verify.path, 0, "there is no proof in it");
   std::optional<Files> files;
   VerifyOutcome outcome;
+  std::vector<std::string> remarks;
   {
     Progress progress("verifying", args.quiet);
     if (needsFiles(args, path)) files = filesOf(args, path, warnings);
-    outcome = examine(path, files ? &*files : nullptr, warnings);
+    outcome = examine(path, files ? &*files : nullptr, remarks);
   }
+  for (const std::string& remark : remarks) warnings("swept: warning: " + remark);
   if (args.json)
     std::cout << dumped(outcomeJson(outcome)) << '\n';
   else

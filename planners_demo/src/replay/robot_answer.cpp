@@ -23,6 +23,7 @@ std::string valuesText(const std::vector<double>& values) {
 std::shared_ptr<const Checker> checkerOf(const RobotQuestion& question) {
   Arguments inputs = question.inputs;
   inputs.command = &kReplayCommand;
+  inputs.quiet = true;  // many cases have one line of progress
   if (inputs.states.empty() && inputs.problems.empty() && inputs.request.empty())
     inputs.states = {valuesText(question.states.front())};
   Warnings warnings(true);
