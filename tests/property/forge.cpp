@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
       std::cout << forgeries::forge(options, options.first, fields).dump() << std::endl;
       return 0;
     }
-    return runInParts(options, report, forgeries::runCampaign);
+    return runInParts(options, report, forgeries::runCampaign).failures.empty() ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 3;

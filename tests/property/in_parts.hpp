@@ -6,9 +6,9 @@
 #include <iostream>
 
 /// Runs a long campaign a part at a time and prints what came of it after each, failures first.
-/// Exit code 1 when there are any. `run` gives the report of one part.
+/// `run` gives the report of one part; returned is that of all.
 template <typename Options, typename Run>
-int runInParts(const Options& options, std::uint64_t size, const Run& run) {
+auto runInParts(const Options& options, std::uint64_t size, const Run& run) {
   auto total = decltype(run(options)){};
   const std::uint64_t end = options.first + options.count;
   for (Options part = options; part.first < end; part.first += part.count) {
@@ -18,5 +18,5 @@ int runInParts(const Options& options, std::uint64_t size, const Run& run) {
     total.add(found);
     std::cout << summary(total) << std::endl;
   }
-  return total.failures.empty() ? 0 : 1;
+  return total;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // pair_refute: tries to prove distances of random pairs of shapes wrong. Exit code 1 when it did.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <map>
 
+#include "in_parts.hpp"
 #include "pairs/campaign.hpp"
 
 namespace {
@@ -46,15 +46,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (first->count() > 0 && app.count("--count") == 0) options.count = 1;
   try {
-    pairs::CampaignReport total;
-    const std::uint64_t end = options.first + options.count;
-    for (pairs::CampaignOptions part = options; part.first < end; part.first += part.count) {
-      part.count = std::min(report, end - part.first);
-      const pairs::CampaignReport found = runCampaign(part);
-      for (const std::string& failure : found.failures) std::cout << "  " << failure << std::endl;
-      total.add(found);
-      std::cout << summary(total) << std::endl;
-    }
+    const pairs::CampaignReport total = runInParts(options, report, pairs::runCampaign);
     if (table) printPairs(total);
     return total.failures.empty() ? 0 : 1;
   } catch (const std::exception& error) {

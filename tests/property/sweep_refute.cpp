@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (code) std::cout << sweeps::makeSweep(options.seed, options.first).code();
-    return runInParts(options, report, sweeps::runCampaign);
+    return runInParts(options, report, sweeps::runCampaign).failures.empty() ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 3;

@@ -60,6 +60,7 @@ struct Solid {
 struct Wall {
   Vec normal;
   Real offset;
+  bool isSolid = false;  ///< the latter
 };
 
 /// Triangles of a solid mesh, in the frame of its body.

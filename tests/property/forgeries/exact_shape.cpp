@@ -105,7 +105,8 @@ ExactBody bodyOf(const Json& json) {
     };
     if (type == "plane" || type == "half_space") {
       const Vec normal = frame.turned(vecOf(shape["normal"]));
-      body.walls.push_back({normal, number("offset") + normal.dot(frame.translation)});
+      const Real offset = number("offset") + normal.dot(frame.translation);
+      body.walls.push_back({normal, offset, type == "half_space"});
     } else if (type == "mesh") {
       addMesh(shape, frame, body);
     } else if (type == "cloud") {

@@ -79,6 +79,9 @@ class PairJudge {
 
   std::string judge() {
     std::string found;
+    if (!pair_.b().solids.empty()) found = uncovered(proof_["intervals"]);
+    for (std::size_t i = 0; i < pair_.b().walls.size(); ++i)
+      if (found.empty()) found = uncovered(proof_["flats"][i]);
     if (!pair_.b().solids.empty())
       for (const Json& interval : proof_["intervals"])
         if (found.empty()) found = between(interval);
@@ -91,6 +94,15 @@ class PairJudge {
   }
 
  private:
+  /// The whole segment has to be spoken of.
+  static std::string uncovered(const Json& intervals) {
+    double end = 0.0;
+    for (const Json& interval : intervals) {
+      if (interval[0].get<double>() != end) return "a gap at " + std::to_string(end);
+      end = interval[1];
+    }
+    return end == 1.0 ? "" : "nothing from " + std::to_string(end);
+  }
   std::vector<double> timesOf(const Json& interval) {
     const double begin = interval[0], end = interval[1];
     return {begin, end, 0.5 * (begin + end), random_.uniform(begin, end)};
@@ -124,6 +136,7 @@ class PairJudge {
     const int side = interval[2][0];
     const Real bound(interval[2][1].get<double>());
     if (bound < pair_.keep()) return "a bound below the margin";
+    if (side < 0 && pair_.b().walls[wall].isSolid) return "inside of a half-space";
     for (const double t : timesOf(interval)) {
       const Real truth = pair_.fromWall(wall, side, pair_.poseOf(pair_.a(), t));
       if (truth < bound) return text(t, truth, bound);
