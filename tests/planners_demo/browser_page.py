@@ -65,8 +65,11 @@ class BrowserTest(unittest.TestCase):
             self.assertTrue(file.exists(), self.made[name].stderr)
         return file, self.made[name]
 
-    def open(self, name, arguments, width=800, height=500, phone=False, at=""):
-        """Opens a page, at what follows its name; what the browser logged so far is forgotten."""
+    def open(self, name, arguments, width=800, height=500, phone=False, at="#shadows=on"):
+        """Opens a page, at what follows its name; what the browser logged so far is forgotten.
+
+        A page leaves shadows out where they take too long: pictures of one test would differ.
+        """
         file, run = self.make(name, arguments)
         self.tell("Emulation.setDeviceMetricsOverride",
                   {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone})
@@ -106,7 +109,7 @@ class BrowserTest(unittest.TestCase):
 
     def picture(self):
         """Rows of pixels of the canvas, without what lies over it, a quarter as wide and high."""
-        over = "for (const id of ['tools', 'legend', 'contact-labels', 'picked'])" \
+        over = "for (const id of ['tools', 'views', 'notes', 'legend', 'contact-labels', 'picked'])" \
                "  document.getElementById(id).style.visibility = arguments[0];"
         self.js(over, "hidden")
         self.drawn()
