@@ -26,13 +26,27 @@ swept.joints = (function () {
     playback.setValues(values);
   }
 
+  // To what was typed, but no farther than a limit.
+  function changeTo(variable, text) {
+    const about = tree.variables[variable], value = text === '' ? NaN : Number(text);
+    const low = about.lower === null ? -Infinity : about.lower;
+    const high = about.upper === null ? Infinity : about.upper;
+    if (!Number.isFinite(value)) return show(playback.state);
+    if (value < low || value > high)
+      swept.notice(about.name + ' is limited to ' + low.toFixed(4) + ' to ' + high.toFixed(4));
+    return change(variable, Math.min(high, Math.max(low, value)));
+  }
+
   function input(type, variable, row) {
-    const about = tree.variables[variable], [low, high] = kinematics.range(about);
-    const element = make('input', '', row);
+    const about = tree.variables[variable], element = make('input', '', row);
     element.type = type;
-    element.min = low;
-    element.max = high;
-    element.step = type === 'range' ? (high - low) / 1000 || 1e-3 : 'any';
+    element.step = 'any';
+    if (type === 'range') {
+      const [low, high] = kinematics.range(about);
+      element.min = low;
+      element.max = high;
+      element.step = (high - low) / 1000 || 1e-3;
+    }
     element.setAttribute('aria-label', about.name + (about.unit ? ', ' + about.unit : ''));
     return element;
   }
@@ -43,10 +57,7 @@ swept.joints = (function () {
     const range = input('range', variable, row), number = input('number', variable, row);
     make('span', 'amount', row, about.unit);
     range.addEventListener('input', () => change(variable, Number(range.value)));
-    number.addEventListener('change', () => {
-      const [low, high] = kinematics.range(about);
-      change(variable, Math.min(high, Math.max(low, Number(number.value))));
-    });
+    number.addEventListener('change', () => changeTo(variable, number.value));
     sliders.push({variable: variable, range: range, number: number});
   }
 
@@ -117,7 +128,7 @@ swept.joints = (function () {
     for (const slider of sliders) {
       const value = values[slider.variable];
       slider.range.value = value;
-      if (document.activeElement !== slider.number) slider.number.value = value.toFixed(4);
+      slider.number.value = value.toFixed(4);
     }
     for (const follower of followers) {
       const mimic = follower.joint.mimic;

@@ -96,13 +96,17 @@ swept.kinematics = (function () {
   // The moment of the path, or the state, whose configuration is nearest: {time, variable, amount}.
   function nearestKnown(values) {
     let best = null;
-    const offer = (time) => {
-      const found = difference(values, valuesAt(time));
+    const offer = (time, known) => {
+      const found = difference(values, known);
       if (best === null || found.amount < best.amount) best = Object.assign({time: time}, found);
     };
-    if (!data.isPath) data.states.forEach((state, i) => offer(i));
+    if (!data.isPath) data.states.forEach((state, i) => offer(i, whole(state.values)));
     else data.motions.forEach((motion, m) => {
-      for (let i = 0; i <= motion.steps; ++i) offer(data.timeOf(m, i / motion.steps));
+      for (let i = 0; i <= motion.steps; ++i) {
+        const t = i / motion.steps;
+        // The end of a motion is not the start of the next one, which may begin elsewhere.
+        offer(data.timeOf(m, Math.min(t, 1 - 1e-9)), whole(between(motion.from, motion.to, t)));
+      }
     });
     return best;
   }

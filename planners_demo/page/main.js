@@ -68,10 +68,12 @@
     return presses && (target.type === 'checkbox' || target.tagName === 'SUMMARY');
   }
 
+  const keysWithoutPicture = ['d', 'h', '?', ' ', 'w', 'l', 'n', 'Escape'];
+
   function onKey(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const way = {ArrowLeft: -1, ArrowRight: 1}[event.key];
-    const action = keys[event.key];
+    const action = picture || keysWithoutPicture.includes(event.key) ? keys[event.key] : undefined;
     if (isTaken(event) || (way === undefined && action === undefined)) return;
     // A button that has the focus would take the blank for a click.
     event.preventDefault();
@@ -122,7 +124,7 @@
       if (swept.scene.canvas.dataset.fitted !== undefined) throw error;
       picture = false;
       byId('no-webgl').hidden = false;
-      byId('tools').hidden = byId('views').hidden = true;
+      for (const id of ['tools', 'views', 'picked-tools', 'bodies-box']) byId(id).hidden = true;
       swept.scene.canvas.hidden = true;
     }
   }
@@ -171,7 +173,6 @@
   swept.paths.build();
   swept.joints.build();
   if (picture) swept.bodies.build();
-  else byId('bodies-box').hidden = true;
   if (picture) {
     swept.scene.fit(); // all that is around it is there now
     swept.views.reset();

@@ -85,6 +85,7 @@ swept.views = (function () {
   // The picture without page around it; labels of contacts as they are on the page.
   function drawn() {
     scene.draw(true);
+    swept.overlays.placeLabels();
     const sheet = document.createElement('canvas');
     sheet.width = scene.canvas.width;
     sheet.height = scene.canvas.height;

@@ -151,6 +151,28 @@ class BrowserTest(unittest.TestCase):
     def now(self):
         return self.js("return swept.playback.state.time")
 
+    def unfold(self, selector):
+        """Opens a part of the panel that is folded at first."""
+        self.assertFalse(self.js("return document.querySelector(arguments[0]).open", selector))
+        self.find(selector + " summary")[0].click()
+        self.drawn()
+        self.assertTrue(self.js("return document.querySelector(arguments[0]).open", selector))
+
+    def camera(self):
+        return self.js("return swept.scene.camera.position.toArray()"
+                       "  .concat(swept.scene.controls().target.toArray());")
+
+    def body(self, name):
+        return self.js("return swept.data.bodies.findIndex((b) => b.name === arguments[0])", name)
+
+    def shown(self):
+        return self.js("return swept.scene.bodies.map((b) => b.group.visible)")
+
+    def assert_near(self, values, others, delta):
+        self.assertEqual(len(values), len(others))
+        for a, b in zip(values, others):
+            self.assertAlmostEqual(a, b, delta=delta)
+
     def click_on(self, name):
         """Presses the mouse where a body is seen; where that is."""
         found = self.js(
