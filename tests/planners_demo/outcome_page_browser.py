@@ -123,6 +123,15 @@ class OutcomePage(BrowserTest):
         self.assertEqual(self.find("#paths button")[1].get_attribute("aria-current"), "true")
         self.assertEqual(len(self.find(".segment")), counts[1])
         self.assertEqual(len(self.find("#list button")), counts[1])
+        # What is below and beside the picture is of the second path.
+        said = self.js("return Array.from(document.querySelectorAll('.piece')).map((p) => p.dataset.text)")
+        keeps = self.js("const d = swept.data; return [].concat(...d.allMotions.filter((m) => m.path === 1)"
+                        "  .map((m) => m.pieces.lower.map((v) => d.millimetres(v))));")
+        self.assertEqual([text.split("keeps ")[1] for text in said], [keep + " or more" for keep in keeps])
+        amounts = [b.text.split("\n")[1] for b in self.find("#list button")]
+        self.assertEqual(amounts, self.js(
+            "const d = swept.data; return d.allMotions.filter((m) => m.path === 1)"
+            "  .map((m) => '\u2265 ' + d.millimetres(Math.min(...m.pieces.lower)));"))
         self.assertGreater(picture_file.share_changed(first, self.picture(), 8), 0.001)
         # The robot is on the second path: at the frames that are stored for it.
         self.js("swept.playback.setTime(swept.data.duration)")

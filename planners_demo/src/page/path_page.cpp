@@ -61,7 +61,6 @@ void refuseRules(const Arguments& args) {
 struct ReadPath {
   Model model;
   Task task;
-  Json modelText;
   std::vector<std::vector<double>> states;
 };
 
@@ -75,7 +74,8 @@ void requireProvenModel(const Json& path, const Json& model, const std::string& 
   }
 }
 
-ReadPath readPath(const Arguments& args, const std::string& file, Warnings& warnings) {
+/// `model`: becomes what it is checked against.
+ReadPath readPath(const Arguments& args, const std::string& file, Json& model, Warnings& warnings) {
   const Json path = parseOrderedJson(file);
   if (!path.is_object() || !path.contains("inputs"))
     throw InputError(file, 0, "no path of swept plan: it does not say which files it is for");
@@ -88,8 +88,8 @@ ReadPath readPath(const Arguments& args, const std::string& file, Warnings& warn
   ReadPath read;
   read.model = loadModel(inputs, warnings);
   read.task = loadTask(inputs, read.model, warnings);
-  read.modelText = modelJson(*read.task.checker);
-  requireProvenModel(path, read.modelText, file);
+  model = modelJson(*read.task.checker);
+  requireProvenModel(path, model, file);
   read.states = pathStates(path, *read.task.checker, file);
   // What proves a path of one state is that the motion which stays there is free.
   if (read.states.size() == 1) read.states.push_back(read.states.front());
@@ -159,15 +159,16 @@ PathsToView pathsToView(const Arguments& args, Warnings& warnings) {
   Json first;
   std::vector<Verdict> verdicts;
   for (const std::string& file : args.states) {
-    ReadPath path = readPath(args, file, warnings);
+    Json model;
+    ReadPath path = readPath(args, file, model, warnings);
     if (view.checker == nullptr) {
-      first = path.modelText;
+      first = std::move(model);
       view.model = std::move(path.model);
       view.checker = path.task.checker;
-    } else if (path.modelText != first) {
+    } else if (model != first) {
       throw InputError(file, 0,
                        "not for the same robot, world and rules as '" + args.states.front() +
-                           "': " + differenceOf(first, path.modelText) + " differ");
+                           "': " + differenceOf(first, model) + " differ");
     }
     addPath(view.content, *view.checker, path, file, verdicts);
   }
