@@ -25,6 +25,17 @@ ValidityChecker::ValidityChecker(const ompl::base::SpaceInformationPtr& si,
 
 ValidityChecker::~ValidityChecker() = default;
 
+void ValidityChecker::setChecker(std::shared_ptr<const Checker> checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { setChecker(std::move(checker)); });
+  }
+  checker = detail::requireChecker(std::move(checker), *si_->getStateSpace());
+  auto pool = std::make_unique<WorkspacePool>(*checker);
+  conversion_ = StateConversion(checker->robot(), checker->group());
+  pool_ = std::move(pool);
+  checker_ = std::move(checker);
+}
+
 bool ValidityChecker::isValid(const ompl::base::State* state) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, state] { return ValidityChecker::isValid(state); });
