@@ -80,8 +80,9 @@ void addSceneOptions(CLI::App& app, Arguments& args) {
   app.add_option("--cloud-pose", args.cloudPose, "of the clouds' frame in the model frame")
       ->type_name("X,Y,Z,QX,QY,QZ,QW");
   app.add_option("--occluded", args.occluded,
-                 "m; what points hide from a sensor at the origin of their frame is occupied, too, "
-                 "up to so far from it; needs a radius above zero")
+                 "m; what points hide from their sensor is occupied, too, up to so far from it: it "
+                 "is where the file says (VIEWPOINT, camera), else at the origin of their frame; "
+                 "needs a radius above zero")
       ->type_name("RANGE")
       ->check(within(1e-3, 1e3, "between 0.001 and 1000 m"));
 }

@@ -128,14 +128,16 @@ WorldBody cloudBody(const Arguments& args, const std::string& file, const std::s
   if (!args.pointRadius)
     throw UsageError("--cloud " + file +
                      " needs --point-radius: how many metres the surface may be from a point");
-  std::vector<Eigen::Vector3d> seen = loadPoints(file, options);
+  SensedPoints sensed = loadSensedPoints(file, options);
+  std::vector<Eigen::Vector3d>& seen = sensed.points;
   for (Eigen::Vector3d& point : seen) point = pose * point;
+  const Eigen::Vector3d sensor = pose * sensed.sensor;
   Balls balls{.centers = filter.isOn() ? filter.left(seen, file) : seen, .radii = {}};
   requireSomething(file, !balls.centers.empty());
   balls.radii.assign(balls.centers.size(), *args.pointRadius);
   if (args.occluded) {
     const auto hiddenBy = [&](const std::vector<Eigen::Vector3d>& points) {
-      return occludedBalls(points, *args.pointRadius, pose.translation(), *args.occluded);
+      return occludedBalls(points, *args.pointRadius, sensor, *args.occluded);
     };
     const std::vector<Eigen::Vector3d> robot = leftOut(seen, balls.centers);
     append(hiddenBy(balls.centers), balls);

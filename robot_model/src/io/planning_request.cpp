@@ -9,6 +9,7 @@
 #include "io/robot_state_yaml.hpp"
 #include "io/yaml.hpp"
 #include "swept/core/floating_point_environment.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -211,7 +212,7 @@ PlanningRequest PlanningRequest::load(const std::filesystem::path& yaml,
   try {
     return readRequest(root, options);
   } catch (const YAML::Exception& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
   }
 }
 

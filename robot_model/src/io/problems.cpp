@@ -16,6 +16,7 @@
 #include "io/input_source.hpp"
 #include "io/numbers.hpp"
 #include "swept/core/floating_point_environment.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -63,7 +64,7 @@ struct Place {
     }
     return result;
   }
-  std::string shown() const { return value.dump(); }
+  std::string shown() const { return foreignText(value.dump()); }
   std::string text() const {
     if (!value.is_string()) fail("is " + shown() + "; it must be text");
     return value.get<std::string>();
@@ -179,7 +180,8 @@ PlanningProblem readProblem(const std::string& set, const Place& entry) {
 std::string reasonOf(const json::exception& error, const char* front) {
   const std::string what = error.what();
   const auto at = what.find(front);
-  return at == std::string::npos ? what : what.substr(at + std::string_view(front).size());
+  return foreignText(at == std::string::npos ? what
+                                             : what.substr(at + std::string_view(front).size()));
 }
 
 /// Of two values of one key in an object the library would keep one, in silence.

@@ -9,6 +9,7 @@
 #include "io/scene_extras.hpp"
 #include "io/scene_frames.hpp"
 #include "io/yaml.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 
 namespace swept::detail {
 
@@ -223,7 +224,7 @@ World readSceneYaml(const std::string& text, const InputSource& source) {
   try {
     return SceneReader(source).read(root);
   } catch (const YAML::Exception& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
   }
 }
 

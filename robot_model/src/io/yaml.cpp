@@ -9,6 +9,7 @@
 
 #include "io/numbers.hpp"
 #include "io/yaml_documents.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 
 namespace swept::detail {
 
@@ -46,7 +47,7 @@ YamlPlace YamlPlace::parse(const std::string& text, const InputSource& source) {
   } catch (const YAML::DeepRecursion& error) {
     source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
   } catch (const YAML::Exception& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
   }
 }
 

@@ -11,6 +11,7 @@ namespace swept {
 
 /// A file (or a value given by the user) that cannot be used. what() is
 /// `file:line: error: message`; the message names the element, the value seen and what is allowed.
+/// Of a message of more than 4000 bytes the middle is left out.
 class InputError : public std::runtime_error {
  public:
   /// line 0: the file has no lines that matter, and is named alone.
