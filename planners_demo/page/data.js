@@ -60,8 +60,24 @@ swept.data = (function () {
     }
     data.duration = start;
   }
-  if (data.isPath) layOutClock();
-  else data.duration = Math.max(0, data.states.length - 1);
+  // Of several paths one is shown: `motions` are its own.
+  data.allMotions = data.motions;
+  data.usePath = function (path) {
+    data.path = path;
+    data.motions = data.allMotions.filter((motion) => motion.path === path);
+    if (data.isPath) layOutClock();
+    else data.duration = Math.max(0, data.states.length - 1);
+  };
+  data.usePath(0);
+  // Those of what is shown, both included.
+  data.firstFrame = () => (data.isPath ? data.motions[0].first_frame : 0);
+  data.lastFrame = function () {
+    if (!data.isPath) return data.frames.count - 1;
+    const last = data.motions[data.motions.length - 1];
+    return last.first_frame + last.steps;
+  };
+  const pathColours = ['#2f6fbf', '#d9822b', '#2f9e6e', '#a04fb0', '#c2435b', '#7a6a3a'];
+  data.pathColour = (path) => pathColours[path % pathColours.length];
 
   // Which motion or state is at a time, the t in it, and the frame (with a fraction).
   data.locate = function (time) {
@@ -91,6 +107,16 @@ swept.data = (function () {
     const at = row * table.bodies + body;
     return table.partner[at] < 0
         ? null : {distance: table.distance[at], partner: table.partner[at], row: row};
+  };
+
+  // The body that is nearest to one it is checked against, at a row of the table.
+  data.leastAt = function (frame) {
+    let least = {body: -1, distance: Infinity};
+    for (let body = 0; body < data.clearances.bodies; ++body) {
+      const near = data.nearest(body, frame);
+      if (near !== null && near.distance < least.distance) least = {body: body, distance: near.distance};
+    }
+    return least;
   };
 
   // Rounded down: what is proven stays true.

@@ -28,24 +28,53 @@
     covers: toggler('tool-covers', (on) => swept.overlays.showCovers(on)),
     world: toggler('tool-world', (on) => swept.scene.seeThrough(on)),
     ghosts: toggler('tool-ghosts', (on) => swept.overlays.showEnds(on)),
-    reset: () => swept.scene.resetView(),
+    reset: () => swept.views.reset(),
+    front: () => swept.views.preset('front'),
+    side: () => swept.views.preset('side'),
+    top: () => swept.views.preset('top'),
+    isometric: () => swept.views.preset('isometric'),
+    fit: () => swept.views.fit(),
+    worst: () => swept.paths.showWorst(),
+    picture: () => swept.views.savePicture(),
+    link: () => swept.views.link(),
+    shadows: () => swept.pace.toggle(),
     theme: () => setTheme(!isDark()),
     help: () => { byId('help').hidden = !byId('help').hidden; }
   };
   const keys = {
     c: actions.covers, x: actions.world, g: actions.ghosts, r: actions.reset, d: actions.theme,
-    h: actions.help, '?': actions.help, ' ': playback.toggle,
+    h: actions.help, '?': actions.help, ' ': playback.toggle, '1': actions.front,
+    '2': actions.side, '3': actions.top, '4': actions.isometric, f: actions.fit,
+    w: actions.worst, p: actions.picture, l: actions.link, s: actions.shadows,
+    n: () => swept.paths.next(), a: () => swept.bodies.showAll(),
+    '/': () => { byId('bodies-box').open = true; byId('bodies-filter').focus(); },
     Escape: () => {
-      if (byId('help').hidden) swept.panel.pick(-1);
-      else byId('help').hidden = true;
+      if (!byId('help').hidden) byId('help').hidden = true;
+      else if (playback.state.values) playback.setTime(playback.state.time);
+      else swept.panel.pick(-1);
     }
   };
+
+  // Keys that a control with the focus takes itself.
+  function isTaken(event) {
+    const target = event.target;
+    if (event.key === 'Escape') {
+      if (target.tagName === 'INPUT') target.blur();
+      return false;
+    }
+    if (target.tagName === 'SELECT' || target.type === 'text' || target.type === 'number') return true;
+    const moves = /^Arrow/.test(event.key), presses = event.key === ' ';
+    if (target.type === 'range') return moves && target.id !== 'scrub';
+    return presses && (target.type === 'checkbox' || target.tagName === 'SUMMARY');
+  }
+
+  const keysWithoutPicture = ['d', 'h', '?', ' ', 'w', 'l', 'n', 'Escape'];
 
   function onKey(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const way = {ArrowLeft: -1, ArrowRight: 1}[event.key];
-    const action = keys[event.key];
-    if (event.target.tagName === 'SELECT' || (way === undefined && action === undefined)) return;
+    const action = picture || keysWithoutPicture.includes(event.key) ? keys[event.key] : undefined;
+    if (isTaken(event) || (way === undefined && action === undefined)) return;
     // A button that has the focus would take the blank for a click.
     event.preventDefault();
     if (way === undefined) action();
@@ -70,15 +99,19 @@
   function showMoment(state) {
     const at = data.locate(state.time);
     if (!picture) return;
-    swept.scene.pose(at.frame);
-    const entry = (data.isPath ? data.motions : data.states)[at.index];
+    if (state.values) swept.scene.poseLinks(swept.kinematics.poses(state.values));
+    else swept.scene.pose(at.frame);
+    // Contacts are of what was checked.
+    const entry = state.values ? null : (data.isPath ? data.motions : data.states)[at.index];
     if (entry !== showMoment.entry) swept.overlays.showContacts(entry ? entry.contacts : []);
     showMoment.entry = entry;
   }
 
   function loop(now) {
     playback.tick(now);
-    if (picture && swept.scene.draw()) swept.overlays.placeLabels();
+    const drawn = picture && swept.scene.draw();
+    if (drawn) swept.overlays.placeLabels();
+    swept.pace.frame(now, drawn);
     window.requestAnimationFrame(loop);
   }
 
@@ -91,7 +124,7 @@
       if (swept.scene.canvas.dataset.fitted !== undefined) throw error;
       picture = false;
       byId('no-webgl').hidden = false;
-      byId('tools').hidden = true;
+      for (const id of ['tools', 'views', 'picked-tools', 'bodies-box']) byId(id).hidden = true;
       swept.scene.canvas.hidden = true;
     }
   }
@@ -100,12 +133,33 @@
     for (const name of Object.keys(actions))
       byId('tool-' + name).addEventListener('click', actions[name]);
     byId('tool-ghosts').hidden = !data.isPath;
+    // Nothing is nearer to anything where nothing is judged.
+    byId('tool-worst').hidden = data.clearances === null;
     byId('help').addEventListener('click', actions.help);
     document.addEventListener('keydown', onKey);
-    window.addEventListener('resize', () => {
+    // Not the window's size alone: what is below the picture grows and shrinks, too.
+    new ResizeObserver(() => {
       if (picture) swept.scene.fit();
-      playback.setTime(playback.state.time);
-    });
+      playback.tell();
+    }).observe(byId('stage'));
+    window.addEventListener('hashchange', () => swept.views.open(window.location.hash, picture));
+  }
+
+  // A line in the corner, for a while.
+  swept.notice = function (text) {
+    byId('notice').textContent = text;
+    byId('notice').hidden = false;
+    clearTimeout(swept.notice.timer);
+    swept.notice.timer = setTimeout(() => { byId('notice').hidden = true; }, 6000);
+  };
+
+  // What is wrong, when something is, unless the address asks for another moment or view.
+  function openFirst() {
+    playback.setTime(data.opens_at === null ? 0 : data.opens_at);
+    const asked = swept.views.open(window.location.hash, picture);
+    if (asked || data.opens_at === null || !picture) return;
+    const contacts = data.states[data.opens_at].contacts;
+    if (contacts.length > 0) swept.views.focus(contacts);
   }
 
   const dark = window.matchMedia('(prefers-color-scheme: dark)');
@@ -116,9 +170,14 @@
   swept.panel.build();
   playback.onChange(showMoment);
   wire();
-  // page.html#t=0.4 begins at 40 % of the path.
-  const share = /^#t=([0-9.]+)$/.exec(window.location.hash);
-  playback.setTime(share ? Number(share[1]) * data.duration : 0);
+  swept.paths.build();
+  swept.joints.build();
+  if (picture) swept.bodies.build();
+  if (picture) {
+    swept.scene.fit(); // all that is around it is there now
+    swept.views.reset();
+  }
+  openFirst();
   window.requestAnimationFrame(loop);
   swept.ready = true;
 })();

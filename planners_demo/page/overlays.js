@@ -5,7 +5,7 @@
 swept.overlays = (function () {
   const data = swept.data, scene = swept.scene;
   let size = 1; // m, of what is shown
-  const trace = {mesh: null};
+  const traces = []; // of each path, {mesh, radius}
   const covers = {meshes: [], material: null, balls: 0, finest: 0};
   const ends = {group: null, material: null};
   const contacts = {group: new THREE.Group(), shown: []};
@@ -33,24 +33,44 @@ swept.overlays = (function () {
       }
   }
 
-  function addTrace() {
-    if (!data.isPath || data.tipIndex < 0) return;
+  // One path is coloured by its clearance; several have a colour each.
+  function colourAt(motion, step) {
+    const lower = motion.pieces.lower;
+    if (data.paths.length < 2)
+      return data.clearanceColour(lower[Math.floor(step * lower.length / motion.steps)]);
+    return new THREE.Color(data.pathColour(motion.path)).toArray().map((c) => 255 * c);
+  }
+
+  function addTrace(path) {
     const positions = [], colours = [];
-    for (const motion of data.motions) {
-      const lower = motion.pieces.lower;
+    for (const motion of data.allMotions.filter((m) => m.path === path))
       for (let i = 0; i < motion.steps; ++i) {
         const frame = motion.first_frame + i;
-        addRod(positions, colours, tipAt(frame), tipAt(frame + 1), 0.0028 * size,
-               data.clearanceColour(lower[Math.floor(i * lower.length / motion.steps)]));
+        addRod(positions, colours, tipAt(frame), tipAt(frame + 1), 0.0028 * size, colourAt(motion, i));
       }
-    }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
     geometry.setAttribute('color', new THREE.Float32BufferAttribute(colours, 3));
-    trace.mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(
         {vertexColors: THREE.VertexColors, side: THREE.DoubleSide}));
-    trace.mesh.raycast = () => {};
-    scene.scene.add(trace.mesh);
+    mesh.raycast = () => {};
+    scene.scene.add(mesh);
+    traces.push(mesh);
+  }
+
+  // The path that is shown stands out; the ends are its own.
+  function usePath() {
+    traces.forEach((mesh, path) => {
+      const own = path === data.path;
+      Object.assign(mesh.material, {transparent: !own, opacity: own ? 1 : 0.35, depthWrite: own});
+    });
+    if (ends.group !== null) {
+      const on = ends.group.visible;
+      scene.scene.remove(ends.group);
+      ends.group = null;
+      if (on) showEnds(true);
+    }
+    scene.changed();
   }
 
   function addCovers() {
@@ -80,6 +100,7 @@ swept.overlays = (function () {
     data.bodies.forEach((body, b) => {
       if (body.frame === null) return;
       const ghost = new THREE.Group();
+      ghost.userData.body = b;
       scene.place(ghost, data.poses, data.poseAt(frame, body.frame));
       for (const mesh of scene.bodies[b].meshes) {
         const copy = new THREE.Mesh(mesh.geometry, ends.material);
@@ -97,13 +118,19 @@ swept.overlays = (function () {
       ends.group = new THREE.Group();
       ends.material = new THREE.MeshStandardMaterial(
           {transparent: true, opacity: 0.2, depthWrite: false, roughness: 0.8});
-      addGhost(0);
-      addGhost(data.frames.count - 1);
+      addGhost(data.firstFrame());
+      addGhost(data.lastFrame());
       scene.scene.add(ends.group);
+      hideGhosts(scene.bodies.map((body) => body.group.visible));
       paint();
     }
     ends.group.visible = on;
     scene.changed();
+  }
+
+  function hideGhosts(shown) {
+    if (ends.group === null) return;
+    for (const ghost of ends.group.children) ghost.visible = shown[ghost.userData.body];
   }
 
   function addContact(contact) {
@@ -153,11 +180,14 @@ swept.overlays = (function () {
 
   function build(sceneSize) {
     size = Math.min(sceneSize, 4);
-    addTrace();
+    if (data.isPath && data.tipIndex >= 0)
+      for (let path = 0; path < Math.max(1, data.paths.length); ++path) addTrace(path);
+    usePath();
     addCovers();
     scene.scene.add(contacts.group);
     paint();
   }
 
-  return {build, showCovers, showEnds, showContacts, placeLabels, paint, covers, trace, contacts};
+  return {build, showCovers, showEnds, showContacts, placeLabels, paint, usePath,
+          hideGhosts, covers, traces, contacts};
 })();

@@ -33,6 +33,7 @@ swept.panel = (function () {
 
   function addList() {
     const entries = data.isPath ? data.motions : data.states;
+    byId('list').textContent = '';
     byId('list-title').textContent = data.isPath ? 'motions' : 'states';
     entries.forEach((entry, index) => {
       const button = make('button', '', make('li', '', byId('list')));
@@ -48,6 +49,8 @@ swept.panel = (function () {
 
   function addContacts() {
     const entries = data.isPath ? data.motions : data.states;
+    byId('contacts').textContent = '';
+    byId('contacts-title').hidden = true;
     entries.forEach((entry, index) => entry.contacts.forEach((contact) => {
       byId('contacts-title').hidden = false;
       const button = make('button', '', make('li', '', byId('contacts')));
@@ -72,11 +75,15 @@ swept.panel = (function () {
     });
   }
 
-  // All the rows of a body in the table of clearances.
+  // The rows of a body in the table of clearances, of what is shown.
   function course(body) {
     const table = data.clearances, values = [];
-    for (let at = body; at < table.distance.length; at += table.bodies)
+    const first = Math.round(data.firstFrame() / table.stride);
+    const rows = table.distance.length / table.bodies;
+    for (let row = first; row < rows && row * table.stride <= data.lastFrame(); ++row) {
+      const at = row * table.bodies + body;
       values.push({distance: table.distance[at], partner: table.partner[at]});
+    }
     return values;
   }
 
@@ -102,8 +109,10 @@ swept.panel = (function () {
     const list = byId('picked-facts'), body = data.bodies[picked];
     list.textContent = '';
     const frame = data.locate(playback.state.time).frame;
-    const near = data.nearest(picked, frame);
-    if (data.clearances && data.hasRow(frame))
+    const byHand = playback.state.values !== null; // of which no distance is known
+    const near = byHand ? null : data.nearest(picked, frame);
+    if (byHand) addFact(list, 'nearest now', 'moved by hand: not checked');
+    else if (data.clearances && data.hasRow(frame))
       addFact(list, 'nearest now', near ? withPartner(near) : 'no pair to check');
     if (near && data.isPath) {
       const all = course(picked);
@@ -117,7 +126,10 @@ swept.panel = (function () {
   function pick(body) {
     picked = body;
     byId('picked').hidden = body < 0;
-    if (body < 0) return swept.scene.highlight(-1, -1);
+    if (body < 0) {
+      swept.scene.highlight(-1, -1);
+      return;
+    }
     const shapes = data.bodies[body].parts.map((part) => part.shape);
     byId('picked-name').textContent = data.bodies[body].name;
     byId('picked-kind').textContent =
@@ -126,7 +138,7 @@ swept.panel = (function () {
     const charted = data.isPath && data.nearest(body, 0) !== null;
     byId('picked-chart').style.display = charted ? 'block' : 'none';
     if (charted) drawChart(course(body));
-    return showPickedClearance();
+    showPickedClearance();
   }
 
   function show(state) {
@@ -154,12 +166,26 @@ swept.panel = (function () {
     byId('clouds').textContent = data.clouds === '' ? '' : 'The proof is for: ' + data.clouds.trim();
     for (const shape of data.geometries.filter((s) => s.kind === 'balls' && s.drawn < s.of))
       byId('clouds').append('\nDrawn are only ' + shape.drawn + ' of ' + shape.of + ' balls.');
-    addList();
-    addContacts();
+    // Headlines are short; what is longer is below them.
+    byId('reason').hidden = data.reason === '';
+    byId('reason-text').textContent = data.reason;
+    rebuild();
     addFacts();
     byId('picked-close').addEventListener('click', () => pick(-1));
+    byId('picked-only').addEventListener('click', () => swept.bodies.only(picked));
+    byId('picked-hide').addEventListener('click', () => {
+      swept.bodies.set(picked, false);
+      pick(-1);
+    });
     playback.onChange(show);
   }
 
-  return {build, pick, picked: () => picked};
+  // What differs from path to path.
+  function rebuild() {
+    pick(-1);
+    addList();
+    addContacts();
+  }
+
+  return {build, rebuild, pick, picked: () => picked};
 })();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page's clock: where it is, and that it runs.
+// The page's clock: where it is, and that it runs; or the values that the robot was given by hand.
 'use strict';
 
 swept.playback = (function () {
   const data = swept.data;
   const listeners = [];
-  const state = {time: 0, playing: false, speed: 1};
+  const state = {time: 0, playing: false, speed: 1, values: null};
   let last = null;
 
   const tell = () => listeners.forEach((listener) => listener(state));
@@ -13,6 +13,14 @@ swept.playback = (function () {
   function setTime(time) {
     state.time = Math.min(data.duration, Math.max(0, time));
     if (!data.isPath) state.time = Math.round(state.time);
+    state.values = null;
+    tell();
+  }
+
+  // A value for each variable of the robot; the clock stands.
+  function setValues(values) {
+    state.playing = false;
+    state.values = values;
     tell();
   }
 
@@ -21,6 +29,7 @@ swept.playback = (function () {
     if (!data.isPath) return;
     if (state.time >= data.duration) state.time = 0;
     state.playing = true;
+    state.values = null;
     last = null;
     tell();
   }
@@ -62,7 +71,7 @@ swept.playback = (function () {
   }
 
   return {
-    state, setTime, play, pause, tick, step, skip,
+    state, setTime, setValues, tell, play, pause, tick, step, skip,
     toggle: () => (state.playing ? pause() : play()),
     setSpeed: (speed) => { state.speed = speed; },
     onChange: (listener) => listeners.push(listener)

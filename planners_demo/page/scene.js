@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera, light, bodies and their poses, themes, and what is under a pixel.
+// Light, bodies and their poses, themes, and what is under a pixel.
 'use strict';
 
 swept.scene = (function () {
@@ -12,7 +12,7 @@ swept.scene = (function () {
   const links = data.frames.links.map(() => new THREE.Group());
   const bodies = []; // per body of the data: {group, meshes, materials, name of its colour}
   const bounds = new THREE.Box3();
-  const ground = {};
+  const ground = {}, light = {};
   const changed = () => { needed = true; };
 
   function colour(name) {
@@ -62,24 +62,26 @@ swept.scene = (function () {
     bodies.push({group, meshes, materials: [single, many, thin], name: colourOf(body, index)});
   }
 
-  // What the camera should see: all but planes and half-spaces, over the first frame.
+  // What the camera should see, as it stands: all that is shown but planes and half-spaces.
   function measure() {
+    const box = new THREE.Box3();
     scene.updateMatrixWorld(true);
     data.bodies.forEach((body, b) => body.parts.forEach((part, i) => {
       const shape = data.geometries[part.geometry];
-      if (swept.geometry.isSheet(part.geometry)) return;
+      if (swept.geometry.isSheet(part.geometry) || !bodies[b].group.visible) return;
       const mesh = bodies[b].meshes[i];
       if (shape.kind !== 'balls') {
-        bounds.expandByObject(mesh);
+        box.expandByObject(mesh);
         return;
       }
       const numbers = data.floats(shape.balls), point = new THREE.Vector3();
       for (let k = 0; k < numbers.length; k += 4) {
         point.set(numbers[k], numbers[k + 1], numbers[k + 2]).applyMatrix4(mesh.matrixWorld);
-        bounds.expandByPoint(point);
+        box.expandByPoint(point);
       }
     }));
-    if (bounds.isEmpty()) bounds.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
+    return box;
   }
 
   function addLights(middle, size) {
@@ -98,6 +100,7 @@ swept.scene = (function () {
     const lamp = new THREE.DirectionalLight(0xffffff, 0.26);
     lamp.position.set(0.3, 0.2, 1);
     camera.add(lamp, lamp.target);
+    light.sun = sun;
     scene.add(sun, sun.target, camera);
   }
 
@@ -114,35 +117,6 @@ swept.scene = (function () {
                              bounds.min.z - 0.003);
     ground.grid.material.vertexColors = THREE.NoColors;
     scene.add(ground.shadow, ground.grid);
-  }
-
-  // All of the box is within the picture, but for a rim.
-  function seesAll() {
-    camera.updateMatrixWorld(true);
-    const corner = new THREE.Vector3();
-    for (let i = 0; i < 8; ++i) {
-      corner.set(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
-                 i & 4 ? bounds.max.z : bounds.min.z).project(camera);
-      if (Math.max(Math.abs(corner.x), Math.abs(corner.y)) > 1) return false;
-    }
-    return true;
-  }
-
-  // From a little above, as near as shows everything.
-  function resetView() {
-    const middle = bounds.getCenter(new THREE.Vector3());
-    const radius = 0.5 * bounds.getSize(new THREE.Vector3()).length();
-    const from = new THREE.Vector3(-0.62, -1, 0.5).normalize();
-    controls.target.copy(middle);
-    for (let distance = 1.2 * radius; distance < 20 * radius; distance *= 1.03) {
-      camera.position.copy(middle).addScaledVector(from, distance);
-      camera.near = Math.max(0.005, distance / 200);
-      camera.far = distance + 20 * radius;
-      camera.updateProjectionMatrix();
-      controls.update();
-      if (seesAll()) break;
-    }
-    changed();
   }
 
   function start() {
@@ -170,6 +144,29 @@ swept.scene = (function () {
       group.position.lerp(other.position, share);
       group.quaternion.slerp(other.quaternion, share);
     });
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
+  // As poses of all links of the tree say.
+  function poseLinks(poses) {
+    const scale = new THREE.Vector3();
+    data.frames.links.forEach((name, link) => {
+      const group = links[link];
+      poses[data.tree.links.indexOf(name)].decompose(group.position, group.quaternion, scale);
+    });
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
+  function setVisible(body, on) {
+    bodies[body].group.visible = on;
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
+  function setShadows(on) {
+    light.sun.castShadow = on;
     renderer.shadowMap.needsUpdate = true;
     changed();
   }
@@ -203,14 +200,27 @@ swept.scene = (function () {
     changed();
   }
 
-  // Index of the body at a pixel of the canvas; -1: none.
-  function bodyAt(x, y) {
-    const at = new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight);
+  function firstHit(at) {
     const caster = new THREE.Raycaster();
     caster.setFromCamera(at, camera);
-    const meshes = [].concat(...bodies.map((body) => body.meshes));
+    const meshes = [].concat(...bodies.filter((b) => b.group.visible).map((b) => b.meshes));
     const hits = caster.intersectObjects(meshes).sort((a, b) => a.distance - b.distance);
     return hits.length > 0 ? hits[0].object.userData.body : -1;
+  }
+
+  // Index of the body at a pixel of the canvas; -1: none.
+  function bodyAt(x, y) {
+    return firstHit(
+        new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight));
+  }
+
+  // Whether one of the bodies of a contact is what the camera sees at it.
+  function isSeen(contact) {
+    scene.updateMatrixWorld(true);
+    const middle = new THREE.Vector3().fromArray(contact.point_a)
+                       .add(new THREE.Vector3().fromArray(contact.point_b)).multiplyScalar(0.5);
+    const at = middle.project(camera), hit = firstHit(new THREE.Vector2(at.x, at.y));
+    return hit >= 0 && [contact.body_a, contact.body_b].includes(data.bodies[hit].name);
   }
 
   // Where a point (m, model frame) is on the canvas, in pixels.
@@ -221,18 +231,16 @@ swept.scene = (function () {
 
   function fit() {
     const width = canvas.parentElement.clientWidth, height = canvas.parentElement.clientHeight;
-    const first = canvas.dataset.fitted === undefined;
     camera.aspect = width / Math.max(1, height);
     camera.updateProjectionMatrix();
     renderer.setSize(width, height, false);
     canvas.dataset.fitted = 'yes';
-    if (first) resetView();
     changed();
   }
 
-  // Draws when something changed; true if it did.
-  function draw() {
-    if (!needed) return false;
+  // Draws when something changed, or when it must; true if it did.
+  function draw(must) {
+    if (!needed && !must) return false;
     needed = false;
     renderer.render(scene, camera);
     return true;
@@ -243,7 +251,7 @@ swept.scene = (function () {
     links.forEach((group) => scene.add(group));
     data.bodies.forEach(addBody);
     pose(0);
-    measure();
+    bounds.copy(measure());
     const middle = bounds.getCenter(new THREE.Vector3());
     const size = bounds.getSize(new THREE.Vector3()).length();
     addLights(middle, size);
@@ -253,6 +261,8 @@ swept.scene = (function () {
     return size;
   }
 
-  return {build, draw, pose, paint, highlight, seeThrough, bodyAt, project, fit, resetView, place,
-          colour, changed, scene, links, bodies, canvas, camera};
+  return {build, draw, pose, poseLinks, paint, highlight, seeThrough, setVisible, setShadows, bodyAt,
+          isSeen, project, fit, place, colour, changed, scene, links, bodies, canvas, camera,
+          controls: () => controls, wholeBounds: () => bounds, shownBounds: measure,
+          size: () => bounds.getSize(new THREE.Vector3()).length()};
 })();

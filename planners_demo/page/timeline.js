@@ -122,6 +122,7 @@ swept.timeline = (function () {
   function showPath(state) {
     const at = data.locate(state.time);
     const segment = box.querySelectorAll('.segment')[at.index];
+    if (!segment) return;
     cursor.style.left = segment.offsetLeft + at.t * segment.offsetWidth + 'px';
     byId('scrub').value = Math.round(1000 * state.time / data.duration);
     byId('clock').textContent = (at.index + 1) + ' / ' + data.motions.length + ', t ' +
@@ -136,13 +137,21 @@ swept.timeline = (function () {
         (chip, i) => chip.setAttribute('aria-current', i === state.time));
   }
 
-  function buildPath() {
+  // The motions of the path that is shown.
+  function rebuild() {
+    box.textContent = '';
+    byId('tiers').textContent = '';
     data.motions.forEach(addMotion);
     cursor = make('div', '', box);
     cursor.id = 'cursor';
-    listenToPointer();
     addTierLegend();
-    if (data.tipIndex >= 0) addClearanceLegend();
+  }
+
+  function buildPath() {
+    rebuild();
+    listenToPointer();
+    // Several paths have colours of their own.
+    if (data.tipIndex >= 0 && data.paths.length < 2) addClearanceLegend();
   }
 
   // A button for each state, or where these would be too narrow a scrub bar for all.
@@ -161,5 +170,5 @@ swept.timeline = (function () {
     playback.onChange(data.isPath ? showPath : showState);
   }
 
-  return {build};
+  return {build, rebuild};
 })();

@@ -65,8 +65,11 @@ class BrowserTest(unittest.TestCase):
             self.assertTrue(file.exists(), self.made[name].stderr)
         return file, self.made[name]
 
-    def open(self, name, arguments, width=800, height=500, phone=False, at=""):
-        """Opens a page, at what follows its name; what the browser logged so far is forgotten."""
+    def open(self, name, arguments, width=800, height=500, phone=False, at="#shadows=on"):
+        """Opens a page, at what follows its name; what the browser logged so far is forgotten.
+
+        A page leaves shadows out where they take too long: pictures of one test would differ.
+        """
         file, run = self.make(name, arguments)
         self.tell("Emulation.setDeviceMetricsOverride",
                   {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone})
@@ -106,7 +109,7 @@ class BrowserTest(unittest.TestCase):
 
     def picture(self):
         """Rows of pixels of the canvas, without what lies over it, a quarter as wide and high."""
-        over = "for (const id of ['tools', 'legend', 'contact-labels', 'picked'])" \
+        over = "for (const id of ['tools', 'views', 'notes', 'legend', 'contact-labels', 'picked'])" \
                "  document.getElementById(id).style.visibility = arguments[0];"
         self.js(over, "hidden")
         self.drawn()
@@ -147,6 +150,28 @@ class BrowserTest(unittest.TestCase):
 
     def now(self):
         return self.js("return swept.playback.state.time")
+
+    def unfold(self, selector):
+        """Opens a part of the panel that is folded at first."""
+        self.assertFalse(self.js("return document.querySelector(arguments[0]).open", selector))
+        self.find(selector + " summary")[0].click()
+        self.drawn()
+        self.assertTrue(self.js("return document.querySelector(arguments[0]).open", selector))
+
+    def camera(self):
+        return self.js("return swept.scene.camera.position.toArray()"
+                       "  .concat(swept.scene.controls().target.toArray());")
+
+    def body(self, name):
+        return self.js("return swept.data.bodies.findIndex((b) => b.name === arguments[0])", name)
+
+    def shown(self):
+        return self.js("return swept.scene.bodies.map((b) => b.group.visible)")
+
+    def assert_near(self, values, others, delta):
+        self.assertEqual(len(values), len(others))
+        for a, b in zip(values, others):
+            self.assertAlmostEqual(a, b, delta=delta)
 
     def click_on(self, name):
         """Presses the mouse where a body is seen; where that is."""

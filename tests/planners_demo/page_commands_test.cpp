@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "page_data.hpp"
 
@@ -103,10 +104,60 @@ TEST_F(Page, AnUnsolvedProblemShowsItsEnds) {
   const json data = pageOf(
       {"plan", kRook, "home", "0.2,0.4,0,1.2,0,0.8,0", "--group", "arm", "--scene", kSlot}, 1);
   EXPECT_EQ(data["tone"], "bad");
-  EXPECT_THAT(data["headline"].get<std::string>(),
-              testing::StartsWith("not solved: goal is in collision: link5 - plate_left ("));
+  EXPECT_EQ(data["headline"], "not solved: goal is in collision");
+  EXPECT_THAT(data["reason"].get<std::string>(),
+              testing::StartsWith("goal is in collision: link5 - plate_left ("));
   EXPECT_TRUE(data["motions"].empty());
   EXPECT_EQ(data["states"].size(), 2u);
+  EXPECT_EQ(data["opens_at"], 1);
+}
+
+/// However many goals there are, the headline stays a line.
+TEST_F(Page, AnUnsolvedProblemOfManyGoalsCountsThem) {
+  const std::string hit = "0.2,0.4,0,1.2,0,0.8,0", also = "0.21,0.4,0,1.2,0,0.8,0";
+  const std::vector<std::string> slot{"--group", "arm", "--scene", kSlot};
+  const auto headlineOf = [&](const std::vector<std::string>& states) {
+    std::vector<std::string> command{"plan", kRook};
+    command.insert(command.end(), states.begin(), states.end());
+    command.insert(command.end(), slot.begin(), slot.end());
+    return pageOf(command, 1);
+  };
+  const json several = headlineOf({"home", hit, also, hit});
+  EXPECT_EQ(several["headline"], "not solved: 3 ends are in collision");
+  EXPECT_EQ(several["opens_at"], 1);
+  const json both = headlineOf({hit, also});
+  EXPECT_EQ(both["headline"], "not solved: start and goal are in collision");
+  EXPECT_EQ(both["opens_at"], 0);
+}
+
+TEST_F(Page, HasTheTreeThatTheRobotIs) {
+  const std::string urdf =
+      folder_.write("r.urdf",
+                    "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+                    "<joint name='spin' type='revolute'><parent link='a'/><child link='b'/>"
+                    "<origin xyz='0.1 0.2 0.3' rpy='0 0 1.5707963267948966'/><axis xyz='0 0 2'/>"
+                    "<limit lower='-1' upper='2' effort='1' velocity='1'/></joint>"
+                    "<joint name='slave' type='prismatic'><parent link='b'/><child link='c'/>"
+                    "<limit lower='-9' upper='9' effort='1' velocity='1'/>"
+                    "<mimic joint='spin' multiplier='3' offset='0.5'/></joint></robot>");
+  const json tree = pageOf({"info", urdf})["tree"];
+  EXPECT_EQ(tree["links"], json({"a", "b", "c"}));
+  ASSERT_EQ(tree["joints"].size(), 2u);
+  const json& spin = tree["joints"][0];
+  EXPECT_EQ(spin["parent"], 0);
+  EXPECT_EQ(spin["child"], 1);
+  EXPECT_EQ(spin["position"], json({0.1, 0.2, 0.3}));
+  EXPECT_EQ(spin["axis"], json({0.0, 0.0, 1.0}));
+  EXPECT_NEAR(spin["turn"][2].get<double>(), std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(spin["variable"], 0);
+  EXPECT_TRUE(spin["mimic"].is_null());
+  EXPECT_EQ(tree["joints"][1]["variable"], 0);
+  EXPECT_EQ(tree["joints"][1]["mimic"],
+            json({{"joint", "spin"}, {"multiplier", 3.0}, {"offset", 0.5}}));
+  ASSERT_EQ(tree["variables"].size(), 1u);
+  EXPECT_EQ(tree["variables"][0]["upper"], 2.0);
+  EXPECT_EQ(tree["variables"][0]["unit"], "rad");
+  EXPECT_EQ(tree["reference"], json({0.0}));
 }
 
 TEST_F(Page, SaysWhatACloudsProofIsFor) {

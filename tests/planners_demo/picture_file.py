@@ -44,6 +44,17 @@ def read_png(data):
     return rows
 
 
+def shrunk(rows, times):
+    """The means of squares of so many pixels each way."""
+    small = []
+    for y in range(0, len(rows) - times + 1, times):
+        small.append([])
+        for x in range(0, len(rows[0]) - times + 1, times):
+            square = [pixel for row in rows[y : y + times] for pixel in row[x : x + times]]
+            small[-1].append(tuple(round(sum(p[k] for p in square) / len(square)) for k in range(3)))
+    return small
+
+
 def share_unlike(rows, colour, limit=24):
     """Share of the pixels that differ from a colour by more than `limit` in some channel."""
     count = sum(max(abs(a - b) for a, b in zip(p, colour)) > limit for row in rows for p in row)

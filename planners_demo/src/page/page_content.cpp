@@ -2,6 +2,7 @@
 #include "page/page_content.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "command_line/command.hpp"
 #include "input/clouds.hpp"
@@ -11,6 +12,7 @@
 #include "page/page_clearances.hpp"
 #include "page/page_frames.hpp"
 #include "page/page_pieces.hpp"
+#include "page/page_tree.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
@@ -75,6 +77,7 @@ Json motionsJson(const Checker& checker, const PageContent& content,
     const PageContent::Motion& motion = content.motions[i];
     const MotionCertificate& certificate = motion.certificate;
     Json entry = {{"label", motion.label},
+                  {"path", motion.path},
                   {"verdict", swept::toString(certificate.verdict)},
                   {"free_until", certificate.freeUntil},
                   {"from", toJson(motion.from)},
@@ -170,6 +173,41 @@ PageContent::Tone toneOf(Verdict verdict) {
   return PageContent::Tone::Unsure;
 }
 
+std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts) {
+  static constexpr std::array<std::pair<Verdict, const char*>, 3> kWords{
+      {{Verdict::Free, "free"},
+       {Verdict::Collision, "in collision"},
+       {Verdict::Undecided, "undecided"}}};
+  std::vector<std::string> counts;
+  for (const auto& [verdict, word] : kWords) {
+    const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
+    if (count == 0) continue;
+    const std::string number = count == verdicts.size() ? "all" : std::to_string(count);
+    counts.push_back(verdicts.size() == 1 ? word : number + " " + word);
+  }
+  if (verdicts.size() == 1) return what + ": " + counts.front();
+  return std::to_string(verdicts.size()) + " " + what + "s: " + joined(counts);
+}
+
+Verdict worst(const std::vector<Verdict>& verdicts) {
+  Verdict result = Verdict::Free;
+  for (const Verdict verdict : verdicts)
+    if (result != Verdict::Collision && verdict != Verdict::Free) result = verdict;
+  return result;
+}
+
+PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
+  PageContent content;
+  Workspace workspace(checker);
+  std::vector<Verdict> verdicts;
+  for (const LabelledState& state : states)
+    verdicts.push_back(checker.checkState(state.q, workspace));
+  content.tone = toneOf(worst(verdicts));
+  content.headline = countsText("state", verdicts);
+  content.states = std::move(states);
+  return content;
+}
+
 Json pageJson(const Arguments& args, const Robot& robot, const World& world, const Checker* checker,
               const PageContent& content) {
   const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
@@ -186,6 +224,12 @@ Json pageJson(const Arguments& args, const Robot& robot, const World& world, con
                {"clouds", cloudsText(world)},
                {"variables", variablesJson(robot, group)},
                {"bodies", bodiesJson(bodies, frames, geometries)}};
+  json["reason"] = content.reason;
+  json["opens_at"] = content.opensAt ? Json(*content.opensAt) : Json(nullptr);
+  json["paths"] = Json::array();
+  for (const PageContent::Path& path : content.paths)
+    json["paths"].push_back({{"label", path.label}, {"tone", toString(path.tone)}});
+  json["tree"] = treeJson(robot, group, reference);
   json["geometries"] = geometries.geometriesJson();
   json["covers"] = geometries.coversJson();
   json["frames"] = framesJson(robot, frames);

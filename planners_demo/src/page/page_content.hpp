@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,15 +21,34 @@ struct PageContent {
     std::string label;
     std::vector<double> from, to;
     MotionCertificate certificate;
+    int path = 0;  ///< index into `paths`, where there are several
+  };
+  /// One of several that are shown in turn.
+  struct Path {
+    std::string label;
+    Tone tone = Tone::Plain;
   };
   Tone tone = Tone::Plain;
   std::string headline;
+  std::string reason;  ///< the whole of what the headline says in short; may be empty
   std::vector<std::pair<std::string, std::string>> facts;  ///< name and value
   std::vector<LabelledState> states;  ///< shown one at a time, where there are no motions
   std::vector<Motion> motions;        ///< played one after the other
+  std::vector<Path> paths;            ///< that the motions are of; empty: of one
+  /// Index of the state that the page opens at, with the camera at its contacts. None: at the
+  /// first, with the camera at everything.
+  std::optional<std::size_t> opensAt;
 };
 
 PageContent::Tone toneOf(Verdict verdict);
+
+/// Collision if there is one, else Undecided if there is one, else Free.
+Verdict worst(const std::vector<Verdict>& verdicts);
+/// `3 motions: 1 free, 2 in collision`, of `what` = `motion`.
+std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts);
+
+/// Judges states, to be shown one at a time.
+PageContent statesContent(const Checker& checker, std::vector<LabelledState> states);
 
 /// Computes and writes the page of --html, and says so on stdout unless that is JSON.
 void writePage(const Arguments& args, const Robot& robot, const World& world,

@@ -13,47 +13,12 @@
 #include "output/terminal_text.hpp"
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
+#include "page/path_page.hpp"
 #include "page/view.hpp"
 #include "swept/robot_model/input.hpp"
 
 namespace swept {
 namespace {
-
-/// `3 motions: 1 free, 2 in collision`.
-std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts) {
-  static constexpr std::array<std::pair<Verdict, const char*>, 3> kWords{
-      {{Verdict::Free, "free"},
-       {Verdict::Collision, "in collision"},
-       {Verdict::Undecided, "undecided"}}};
-  std::vector<std::string> counts;
-  for (const auto& [verdict, word] : kWords) {
-    const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
-    if (count == 0) continue;
-    const std::string number = count == verdicts.size() ? "all" : std::to_string(count);
-    counts.push_back(verdicts.size() == 1 ? word : number + " " + word);
-  }
-  if (verdicts.size() == 1) return what + ": " + counts.front();
-  return std::to_string(verdicts.size()) + " " + what + "s: " + joined(counts);
-}
-
-Verdict worst(const std::vector<Verdict>& verdicts) {
-  Verdict result = Verdict::Free;
-  for (const Verdict verdict : verdicts)
-    if (result != Verdict::Collision && verdict != Verdict::Free) result = verdict;
-  return result;
-}
-
-PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
-  PageContent content;
-  Workspace workspace(checker);
-  std::vector<Verdict> verdicts;
-  for (const LabelledState& state : states)
-    verdicts.push_back(checker.checkState(state.q, workspace));
-  content.tone = toneOf(worst(verdicts));
-  content.headline = countsText("state", verdicts);
-  content.states = std::move(states);
-  return content;
-}
 
 /// The group's values in the robot's default state.
 LabelledState defaultState(const Robot& robot, const Group& group) {
@@ -61,43 +26,6 @@ LabelledState defaultState(const Robot& robot, const Group& group) {
   LabelledState state{.label = "default state", .q = {}};
   for (const int variable : group.variables) state.q.push_back(all[variable]);
   return state;
-}
-
-std::string pathHeadline(const PlanOutcome& outcome) {
-  if (!outcome.solved()) return "not solved: " + outcome.failure;
-  const std::string segments = std::to_string(outcome.segments.size()) + " segment" +
-                               (outcome.segments.size() == 1 ? "" : "s");
-  return outcome.proven() ? "solved: " + segments + ", all proven free" : "not proven: " + segments;
-}
-
-void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOutcome& outcome) {
-  const auto add = [&](const char* name, std::string value) {
-    content.facts.emplace_back(name, std::move(value));
-  };
-  if (outcome.proven()) add("least certified clearance", clearanceText(outcome.leastClearance()));
-  add("planner", request.planner);
-  add("seed", std::to_string(request.seed));
-  add("planning time", secondsText(outcome.planningTime));
-  if (request.simplify && outcome.solved())
-    add("simplification", secondsText(outcome.simplifyTime));
-  add("motions certified",
-      std::to_string(outcome.certified) + ", refused " + std::to_string(outcome.refused));
-  if (outcome.solved()) add("path length", shortNumber(outcome.length));
-}
-
-/// The states of a path file, each within the limits. Throws InputError or UsageError.
-std::vector<std::vector<double>> pathStates(const Json& path, const Checker& checker,
-                                            const std::string& file) {
-  const nlohmann::json plain(path.contains("states") ? path["states"] : Json());
-  std::vector<std::vector<double>> states;
-  for (const JsonValue& place : JsonValue(plain, "states", file).elements()) {
-    std::vector<double> q;
-    for (const JsonValue& value : place.elements(checker.group().variables.size()))
-      q.push_back(value.number());
-    states.push_back(std::move(q));
-  }
-  if (states.empty()) throw InputError(file, 0, "states must hold one or more");
-  return states;
 }
 
 }  // namespace
@@ -154,31 +82,6 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   content.tone = toneOf(worst(verdicts));
   content.headline = countsText("motion", verdicts);
   writePage(args, *model.robot, checker.world(), &checker, content);
-}
-
-void writePlanPage(const Arguments& args, const Model& model, const Task& task,
-                   const PlanRequest& request, const PlanOutcome& outcome) {
-  if (args.page.file.empty()) return;
-  PageContent content;
-  if (outcome.solved()) {
-    std::vector<Verdict> verdicts;
-    for (std::size_t i = 0; i < outcome.segments.size(); ++i) {
-      content.motions.push_back({.label = "segment " + std::to_string(i + 1),
-                                 .from = outcome.states[i],
-                                 .to = outcome.states[i + 1],
-                                 .certificate = outcome.segments[i].certificate});
-      verdicts.push_back(outcome.segments[i].certificate.verdict);
-    }
-    content.tone = toneOf(worst(verdicts));
-  } else {
-    content = statesContent(*task.checker, task.states);
-    content.tone = PageContent::Tone::Bad;
-  }
-  content.headline = pathHeadline(outcome);
-  addPlanFacts(content, request, outcome);
-  // A path may consist of its start alone.
-  if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
 }
 
 void writeVerifyPage(const Arguments& args, const Model& model, const Task& task, const Json& file,

@@ -9,9 +9,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <memory>
 
 #include "output/whole_file.hpp"
+#include "page/page_content.hpp"
 #include "page/pages.hpp"
+#include "page/path_page.hpp"
 
 namespace swept {
 namespace {
@@ -42,12 +46,21 @@ bool showsStates(const Arguments& args) {
   return !args.states.empty() || !args.problems.empty();
 }
 
-void writePage(const Arguments& args, const Model& model, const Task& task,
-               const Checker* checker) {
-  if (showsStates(args))
-    writeCheckPage(args, model, task);
-  else
-    writeInfoPage(args, model, checker);
+/// Reads what is to be seen, before there is a file for it. What it returns writes the page.
+std::function<void(const Arguments&)> readPage(const Arguments& args, Warnings& warnings) {
+  if (namesPaths(args)) {
+    const auto view = std::make_shared<const PathsToView>(pathsToView(args, warnings));
+    return [view](const Arguments& to) {
+      writePage(to, *view->model.robot, view->checker->world(), view->checker.get(), view->content);
+    };
+  }
+  const auto model = std::make_shared<const Model>(loadModel(args, warnings));
+  if (showsStates(args)) {
+    const auto task = std::make_shared<const Task>(loadTask(args, *model, warnings));
+    return [model, task](const Arguments& to) { writeCheckPage(to, *model, *task); };
+  }
+  const auto checker = makeCheckerOfGroup(args, *model, warnings);
+  return [model, checker](const Arguments& to) { writeInfoPage(to, *model, checker.get()); };
 }
 
 }  // namespace
@@ -56,11 +69,9 @@ ExitCode runView(const Arguments& given) {
   Arguments args = given;
   requirePageFile(args);
   Warnings warnings(args.quiet);
-  const Model model = loadModel(args, warnings);
-  const Task task = showsStates(args) ? loadTask(args, model, warnings) : Task{};
-  const auto checker = showsStates(args) ? task.checker : makeCheckerOfGroup(args, model, warnings);
+  const auto write = readPage(args, warnings);
   if (!given.page.file.empty()) {
-    writePage(args, model, task, checker.get());
+    write(args);
     return ExitCode::Free;
   }
   const std::string pattern = temporaryPattern();
@@ -68,7 +79,7 @@ ExitCode runView(const Arguments& given) {
   if (page.descriptor() < 0)
     throw UsageError("cannot write '" + pattern + "': " + std::strerror(errno));
   args.page.file = page.name();
-  writePage(args, model, task, checker.get());
+  write(args);
   page.keep();
   openInBrowser(args.page.file);
   return ExitCode::Free;

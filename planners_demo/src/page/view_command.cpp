@@ -10,8 +10,10 @@ void addOptions(CLI::App& app, Arguments& args) {
   addRuleOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
-  app.add_option("states", args.states, "states to show; without: the default state")
-      ->type_name("STATE");
+  app.add_option("states", args.states,
+                 "states to show, or paths (.json of swept plan -o) of one robot in one world; "
+                 "without: the default state")
+      ->type_name("STATE|PATH.json");
   addProblemOptions(app, args, "shows start and goals in its world");
   app.add_option("-o,--output", args.page.file,
                  "where the page goes; without: a temporary file, opened with xdg-open")
@@ -22,7 +24,7 @@ void addOptions(CLI::App& app, Arguments& args) {
 }  // namespace
 
 const Command kViewCommand{.name = "view",
-                           .summary = "Look at a robot, a scene and states in a browser",
+                           .summary = "Look at a robot, a scene, states and paths in a browser",
                            .example =
                                "swept view models/robots/rook7/rook7.urdf ready --group arm "
                                "--scene models/scenes/shelf.yaml -o page.html",

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/clearance_text.hpp"
+#include "page/page_content.hpp"
+#include "page/pages.hpp"
+
+namespace swept {
+namespace {
+
+/// Longer reasons wait below the headline.
+constexpr std::size_t kMostHeadline = 72;
+
+/// `start and goal are in collision`, `7 ends are in collision`; empty: no end has the verdict.
+std::string endsText(const std::vector<EndReport>& ends, Verdict verdict, const std::string& what) {
+  std::vector<std::string> labels;
+  for (const EndReport& end : ends)
+    if (end.verdict == verdict) labels.push_back(end.label);
+  if (labels.empty()) return {};
+  if (labels.size() == 1) return labels.front() + " is " + what;
+  if (labels.size() == 2) return joined(labels, " and ") + " are " + what;
+  return std::to_string(labels.size()) + " ends are " + what;
+}
+
+/// Why there is no path, without the contacts: those are on the page.
+std::string shortReason(const PlanOutcome& outcome) {
+  std::vector<std::string> ends;
+  for (const auto& [verdict, what] :
+       {std::pair{Verdict::Collision, "in collision"}, std::pair{Verdict::Undecided, "undecided"}})
+    if (const std::string text = endsText(outcome.badEnds, verdict, what); !text.empty())
+      ends.push_back(text);
+  if (!ends.empty()) return joined(ends);
+  if (outcome.failure.size() <= kMostHeadline) return outcome.failure;
+  return outcome.failure.substr(0, outcome.failure.find_first_of(":;("));
+}
+
+/// The first end that cannot be used.
+std::optional<std::size_t> badEnd(const std::vector<LabelledState>& states,
+                                  const PlanOutcome& outcome) {
+  if (outcome.badEnds.empty()) return std::nullopt;
+  const auto found =
+      std::ranges::find(states, outcome.badEnds.front().label, &LabelledState::label);
+  if (found == states.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - states.begin());
+}
+
+std::string pathHeadline(const PlanOutcome& outcome) {
+  if (!outcome.solved()) return "not solved: " + shortReason(outcome);
+  const std::string segments = std::to_string(outcome.segments.size()) + " segment" +
+                               (outcome.segments.size() == 1 ? "" : "s");
+  return outcome.proven() ? "solved: " + segments + ", all proven free" : "not proven: " + segments;
+}
+
+void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOutcome& outcome) {
+  const auto add = [&](const char* name, std::string value) {
+    content.facts.emplace_back(name, std::move(value));
+  };
+  if (outcome.proven()) add("least certified clearance", clearanceText(outcome.leastClearance()));
+  add("planner", request.planner);
+  add("seed", std::to_string(request.seed));
+  add("planning time", secondsText(outcome.planningTime));
+  if (request.simplify && outcome.solved())
+    add("simplification", secondsText(outcome.simplifyTime));
+  add("motions certified",
+      std::to_string(outcome.certified) + ", refused " + std::to_string(outcome.refused));
+  if (outcome.solved()) add("path length", shortNumber(outcome.length));
+}
+
+}  // namespace
+
+void writePlanPage(const Arguments& args, const Model& model, const Task& task,
+                   const PlanRequest& request, const PlanOutcome& outcome) {
+  if (args.page.file.empty()) return;
+  PageContent content;
+  if (outcome.solved()) {
+    std::vector<Verdict> verdicts;
+    for (std::size_t i = 0; i < outcome.segments.size(); ++i) {
+      content.motions.push_back({.label = "segment " + std::to_string(i + 1),
+                                 .from = outcome.states[i],
+                                 .to = outcome.states[i + 1],
+                                 .certificate = outcome.segments[i].certificate});
+      verdicts.push_back(outcome.segments[i].certificate.verdict);
+    }
+    content.tone = toneOf(worst(verdicts));
+  } else {
+    content = statesContent(*task.checker, task.states);
+    content.tone = PageContent::Tone::Bad;
+    content.reason = outcome.failure;
+    content.opensAt = badEnd(content.states, outcome);
+  }
+  content.headline = pathHeadline(outcome);
+  addPlanFacts(content, request, outcome);
+  // A path may consist of its start alone.
+  if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};
+  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+}
+
+}  // namespace swept
