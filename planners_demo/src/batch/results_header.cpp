@@ -117,6 +117,7 @@ Json resultsHeader(const Batch& batch) {
                  {"pad", args.pads},
                  {"scale", args.scales},
                  {"allow", args.allowed},
+                 {"without_default_contacts", leavesOutDefaultContacts(args)},
                  {"attach", args.attached},
                  {"time_limit", args.time},
                  {"hard_limit", hardLimitOf(args)},

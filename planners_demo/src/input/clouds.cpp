@@ -31,7 +31,7 @@ class SelfFilter {
     if (!margin_) return;
     if (args.states.empty())
       throw UsageError("--self-filter needs a state: that in which the robot was seen");
-    const Group& group = chooseGroup(robot, args.group);
+    const Group& group = chooseGroup(robot, args);
     const std::vector<double> q =
         readState(robot, group, args.states.front(), "--self-filter", options.warn);
     const Eigen::VectorXd others = robot.defaultState();

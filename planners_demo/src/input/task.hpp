@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command_line/arguments.hpp"
+#include "input/groups.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/problems.hpp"
@@ -39,19 +40,22 @@ struct SrdfChoice {
 };
 SrdfChoice chooseSrdf(const Arguments& args);
 
+/// Whether pairs of links in contact at the default state are left out, if there are any: without
+/// an SRDF nobody has said which pairs are to be checked.
+bool leavesOutDefaultContacts(const Arguments& args);
+
 /// What a subcommand works on: the files of the command line, read.
 struct Model {
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;  ///< of --attach
-  LoadOptions options;                 ///< how the files were read
+  /// Without an SRDF, unless --keep-default-contacts: the weakest rules of all.
+  CollisionRules defaultContacts;
+  LoadOptions options;  ///< how the files were read
 };
 /// Throws InputError or UsageError.
 Model loadModel(const Arguments& args, Warnings& warnings);
-
-/// The group asked for, or the only one. Throws UsageError, listing the groups.
-const Group& chooseGroup(const Robot& robot, const std::string& name);
 
 /// Throws UsageError when the group has nothing to move. Warns of standing contacts. `reference`:
 /// of the variables outside the group, as CheckerOptions has it.

@@ -170,7 +170,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
-  const Group& group = chooseGroup(*model.robot, args.group);
+  const Group& group = chooseGroup(*model.robot, args);
   const ProblemFile file = ProblemFile::load(args.problems);
   const std::vector<ProblemChoice> chosen = chosenProblems(file, args);
   requireBodiesOfRules(args, model, file, chosen);

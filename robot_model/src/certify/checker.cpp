@@ -38,6 +38,10 @@ void validate(const Robot& robot, const CheckerOptions& options) {
 
 const Group& findGroup(const Robot& robot, std::string_view name) {
   if (const Group* group = robot.findGroup(name)) return *group;
+  for (const LeftOut& out : robot.leftOut())
+    if (out.group == name && out.state.empty())
+      throw std::invalid_argument("Checker: group '" + out.group + "' of robot '" + robot.name() +
+                                  "' is left out: " + out.reason);
   std::string known;
   for (const Group& group : robot.groups()) known += (known.empty() ? "" : ", ") + group.name;
   throw std::invalid_argument("Checker: robot '" + robot.name() + "' has no group '" +

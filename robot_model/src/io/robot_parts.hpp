@@ -20,7 +20,8 @@ struct RobotParts {
   std::vector<Group> groups;
   std::vector<NamedState> namedStates;
   std::vector<DisabledPair> disabledPairs;
-  std::vector<bool> passive;  ///< per joint
+  std::vector<EnabledPair> enabledPairs;
+  std::vector<LeftOut> leftOut;
 };
 
 /// Index of the entry with that name, or -1.

@@ -42,7 +42,10 @@ struct CheckerOptions {
   int maxIntervals = tolerance::kMaxIntervals;
   /// Cap on the pairs of shapes that are checked, some 300 bytes each, and on the pairs of bodies.
   std::size_t maxPairs = 10'000'000;
-  /// On top of what the SRDF says, and of `margin`.
+  /// Above what the SRDF says, and `margin`. Of a pair of links, of what is said explicitly the
+  /// strongest counts: these rules, layer by layer; then the SRDF's `<enable_collisions>`; then its
+  /// `<disable_collisions>` and `<disable_default_collisions>`; then the defaults: a joint connects
+  /// the two. Of an attached body: these rules, then its touch links and the link that has it.
   CollisionRules rules = {};
   /// What links carry.
   std::vector<AttachedBody> attached = {};
@@ -154,9 +157,9 @@ class Workspace {
 /// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0), cyclic variables the shorter way, floating
 /// orientations by slerp along the shorter arc, mimicking joints following. Checked are: each link
 /// that the group moves, and each body attached to one, against each world body, and each pair of
-/// links or attached bodies whose relative pose the group changes, unless the rules or the SRDF
-/// disable the pair or a joint connects the two. Queries never throw on spans of the right size
-/// (std::invalid_argument otherwise).
+/// links or attached bodies whose relative pose the group changes, unless the rules, the SRDF, or
+/// by default a joint between the two, leave the pair out: see CheckerOptions::rules. Queries never
+/// throw on spans of the right size (std::invalid_argument otherwise).
 ///
 /// What changes makes a new version: `with...` and `without...` return another Checker that shares
 /// with this one what is the same, and is built in a fraction of the time. This one stays as it is,
@@ -212,7 +215,8 @@ class Checker {
 
   /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
   /// prismatic value more than tolerance::kLimit outside its limits (what is out of reach up to
-  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of it.
+  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of
+  /// it.
   Verdict checkState(std::span<const double> q, Workspace& workspace) const;
   /// The same verdicts for many states, which follow each other in `states`; faster than one by
   /// one. Throws std::invalid_argument unless there is one verdict for each.
@@ -281,8 +285,9 @@ class Checker {
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;
-  /// Why a pair is checked or not, and what it has to keep: one sentence. The names may come in
-  /// either order. Throws std::invalid_argument for a name that is neither a link's nor a body's.
+  /// Why a pair is checked or not, who says so, and what it has to keep: one sentence. The names
+  /// may come in either order. Throws std::invalid_argument for a name that is neither a link's nor
+  /// a body's.
   std::string explain(std::string_view bodyA, std::string_view bodyB) const;
 
  private:

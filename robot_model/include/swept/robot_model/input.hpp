@@ -47,6 +47,9 @@ struct LoadOptions {
   /// Receives one line per remark (`file:line: warning: ...`): open meshes, entries of an SRDF that
   /// name links the robot does not have, and the like. Nothing is printed without it.
   std::function<void(const std::string&)> warn;
+  /// Each remark of its own, where a robot has many of one kind. Else the first of them go to
+  /// `warn`, with how many there are.
+  bool everyWarning = false;
 };
 
 }  // namespace swept
