@@ -94,7 +94,9 @@ struct MotionCertificate {
   /// Largest proven t: [0, freeUntil] is Free. 1 when the verdict is Free; 0 when not even the
   /// start is (or nothing about the prefix was asked).
   double freeUntil = 0.0;
-  std::optional<Witness> witness;  ///< engaged exactly when the verdict is Collision
+  /// Engaged exactly when the verdict is Collision. Under MotionQuery::FirstContact, the first
+  /// contact; see there. Otherwise any.
+  std::optional<Witness> witness;
   /// First interval that could not be proven, when the verdict is Undecided.
   double undecidedAt = 0.0;
   Effort effort;  ///< spent, whatever the verdict
@@ -103,7 +105,12 @@ struct MotionCertificate {
 /// How much of a motion's certificate is wanted.
 enum class MotionQuery : std::uint8_t {
   VerdictOnly,   ///< stop at the first contact found, wherever it is; freeUntil is 0 unless Free
-  FirstContact,  ///< freeUntil is the supremum of the provable prefix, to within the tolerance
+  /// freeUntil is the supremum of the provable prefix, to within the tolerance. The witness is the
+  /// first contact: its t is in an interval on which the pair approaches by less than a 16th of the
+  /// tolerance, and before that interval no checked pair gets within its margin by more than this.
+  /// freeUntil is the begin of that interval, unless another pair comes so close to its margin
+  /// before. Where the cap on intervals ends the search, the witness is the earliest contact found.
+  FirstContact,
 };
 
 /// Least distance of the checked pairs over a motion, as an interval; infinite: there are none.
