@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "certify/exact_judge.hpp"
+#include "certify/nearest_points.hpp"
 #include "certify/obstacle_clock.hpp"
 #include "certify/pending_intervals.hpp"
 #include "certify/work_limits.hpp"
@@ -38,6 +39,15 @@ class MotionProver {
         judge_(model, from, to, query_, certificate) {}
 
   void run(std::span<const double> from, std::span<const double> to) {
+    search(from, to);
+    std::optional<Witness>& witness = certificate_.witness;
+    if (wanted_ == MotionQuery::VerdictOnly || !witness || !judge_.start()) return;
+    query_.moveTo(witness->t);
+    takeNearestPoints(model_, query_, *witness);
+  }
+
+ private:
+  void search(std::span<const double> from, std::span<const double> to) {
     if (settleInLanes(from, to) || !judge_.start()) return;
     if (!certificate_.witness) searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
@@ -60,7 +70,6 @@ class MotionProver {
     }
   }
 
- private:
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
   bool settleInLanes(std::span<const double> from, std::span<const double> to) {

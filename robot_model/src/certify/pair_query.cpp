@@ -357,6 +357,7 @@ Witness PairQuery::witness(std::uint32_t index, double t, const PairAnswer& answ
   witness.pointA = answer.pointA;
   witness.pointB = answer.pointB;
   witness.distance = (answer.pointB - answer.pointA).norm();
+  witness.margin = pair.margin;
   return witness;
 }
 
