@@ -83,7 +83,9 @@ bool ValidityChecker::findValid(const ompl::base::State* state,
     return true;
   }
   const WorkspacePool::Lease scratch = pool_->lease();
-  const double wanted = checker_->options().margin + 2.0 * checker_->options().tolerance;
+  const CheckerOptions& options = checker_->options();
+  const double margin = std::max(options.marginOf(true), options.marginOf(false));
+  const double wanted = margin + 2.0 * options.tolerance;
   for (int i = 0; i < kSteps; ++i) {
     conversion_.toConfiguration(there, scratch->from);
     const SignedClearance now =

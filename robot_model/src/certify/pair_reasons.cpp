@@ -94,7 +94,9 @@ std::string marginText(const CheckerModel& model, const Checker::Pair& pair) {
   for (const std::string* name : {&pair.bodyA, &pair.bodyB})
     if (const double padding = rules.padding(*name); padding > 0.0)
       parts += ", padding of " + *name + " " + metres(padding);
-  return parts.empty() ? text : text + " (margin " + metres(model.options.margin) + parts + ")";
+  return parts.empty()
+             ? text
+             : text + " (margin " + metres(model.options.marginOf(pair.selfPair)) + parts + ")";
 }
 
 /// Who has the pair checked, where defaults do not say it alone.
