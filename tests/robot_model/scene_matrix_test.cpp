@@ -108,6 +108,17 @@ TEST(SceneMatrix, TouchLinksTouchWhateverItSays) {
   EXPECT_EQ(fate(checker, "rod", "post"), "checked");
 }
 
+TEST(SceneMatrix, ASceneSaysWhetherItHasOne) {
+  const test::TemporaryFolder folder;
+  const auto has = [&](const std::string& text) {
+    return PlanningScene::load(folder.write("s.yaml", kWorld + text), *chain()).hasMatrix;
+  };
+  EXPECT_FALSE(has(""));
+  EXPECT_FALSE(has(matrix("entry_names: [], entry_values: []")));
+  EXPECT_TRUE(has(matrix("entry_names: [a], entry_values: [[true]]")));
+  EXPECT_TRUE(has(matrix("default_entry_names: [a], default_entry_values: [true]")));
+}
+
 TEST(SceneMatrix, TheProgramsRulesCountBeforeIt) {
   CheckerOptions own;
   own.rules.allow("l", "r").check("l", "post");

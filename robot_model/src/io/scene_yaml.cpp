@@ -104,6 +104,7 @@ void SceneReader::readObject(const YamlPlace& unnamed) {
 
 void SceneReader::addRules(const YamlPlace& root) {
   const SceneMatrix matrix = readMatrix(root);
+  scene_.hasMatrix = !matrix.isEmpty();
   try {
     scene_.rules =
         rulesOf(matrix, *robot_, scene_.attached, scene_.world, attached_->touchingBodies());

@@ -23,6 +23,9 @@ struct PlanningScene {
   /// their value in Robot::defaultState(). Empty: the scene names none.
   std::optional<Eigen::VectorXd> state = {};
   std::vector<AttachedBody> attached = {};  ///< what links carry
+  /// The scene has a collision matrix: it stands in place of all that a robot brings along, and no
+  /// weaker rules than these should allow anything.
+  bool hasMatrix = false;
   /// Where the scene's collision matrix differs from the SRDF and the robot's joints, and attached
   /// bodies that may touch each other.
   CollisionRules rules = {};
