@@ -44,8 +44,10 @@ struct Model {
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
-  std::vector<AttachedBody> attached;  ///< of --attach
-  LoadOptions options;                 ///< how the files were read
+  std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
+  std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none
+  CollisionRules sceneRules;                 ///< of --scene
+  LoadOptions options;                       ///< how the files were read
 };
 /// Throws InputError or UsageError.
 Model loadModel(const Arguments& args, Warnings& warnings);
@@ -66,7 +68,8 @@ std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Mod
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings);
 /// The same in another of them, with all rules about bodies that it has.
-std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Model& model,
+                                               const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings);
 /// For the group asked for, or the only one, in the world of --scene and --cloud. Null without a
