@@ -146,7 +146,7 @@ class EdgeRun {
     const auto world = std::make_shared<const World>(problem.world);
     std::shared_ptr<const Checker> checker;
     bench_.checkerTimes.push_back(secondsOf([&] {
-      checker = like_ ? makeNextChecker(args_, *like_, world, warnings_)
+      checker = like_ ? makeNextChecker(args_, model_, *like_, world, warnings_)
                       : makeFirstChecker(args_, model_, group, world, warnings_);
     }));
     like_ = checker;

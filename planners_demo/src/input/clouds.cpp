@@ -26,7 +26,8 @@ namespace {
 /// What --self-filter leaves of what was seen (m, world).
 class SelfFilter {
  public:
-  SelfFilter(const Arguments& args, const Robot& robot, const LoadOptions& options)
+  SelfFilter(const Arguments& args, const Robot& robot,
+             const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options)
       : robot_(robot), margin_(args.selfFilter), warn_(options.warn) {
     if (!margin_) return;
     if (args.states.empty())
@@ -34,7 +35,7 @@ class SelfFilter {
     const Group& group = chooseGroup(robot, args);
     const std::vector<double> q =
         readState(robot, group, args.states.front(), "--self-filter", options.warn);
-    const Eigen::VectorXd others = robot.defaultState();
+    const Eigen::VectorXd others = reference.value_or(robot.defaultState());
     state_.assign(others.begin(), others.end());
     for (std::size_t i = 0; i < q.size(); ++i)
       state_[static_cast<std::size_t>(group.variables[i])] = q[i];
@@ -163,7 +164,8 @@ void forEachCloud(const World& world, const Visit& visit) {
 
 }  // namespace
 
-void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& options,
+void addClouds(const Arguments& args, const Robot& robot,
+               const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options,
                World& world) {
   if (args.clouds.empty()) {
     if (args.pointRadius) throw UsageError("--point-radius needs --cloud");
@@ -178,7 +180,7 @@ void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& opt
     throw UsageError(
         "--point-radius is for points; the cubes of an OctoMap are as large as it says: " +
         args.clouds.front());
-  const SelfFilter filter(args, robot, options);
+  const SelfFilter filter(args, robot, reference, options);
   for (const std::string& file : args.clouds) {
     const std::string name = std::filesystem::path(file).stem().string();
     try {

@@ -12,14 +12,15 @@
 #include "input/attach.hpp"
 #include "input/clouds.hpp"
 #include "input/problem_choice.hpp"
+#include "input/request_task.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/collision_matrix.hpp"
-#include "swept/robot_model/limits.hpp"
 #include "swept/robot_model/named_states.hpp"
+#include "swept/robot_model/planning_scene.hpp"
 
 namespace swept {
 namespace {
@@ -93,76 +94,6 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
   return task;
 }
 
-/// The group's values among a request's. Throws UsageError for one that is missing or wrong.
-std::vector<double> requestState(const Robot& robot, const Group& group,
-                                 const PlanningRequest::JointValues& values,
-                                 const std::string& label, const Warn& warn) {
-  std::string text;
-  for (const int v : group.variables) {
-    const std::string& name = robot.variables()[v].name;
-    const auto found =
-        std::ranges::find(values, name, &PlanningRequest::JointValues::value_type::first);
-    if (found == values.end()) throw UsageError(label + ": it has no value for " + name);
-    text += (text.empty() ? "" : ",") + exactNumber(found->second);
-  }
-  return readState(robot, group, text, label, warn);
-}
-
-/// With those of bases. Throws UsageError.
-PlanningRequest::JointValues startOf(const Robot& robot, const PlanningRequest& request,
-                                     const std::string& file) {
-  try {
-    return request.startOf(robot);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(file + ", start: " + error.what());
-  }
-}
-
-/// The start's values of all joints, those outside the group too: they have limits as well, and are
-/// taken to them as the group's are.
-Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest::JointValues& start,
-                            const std::string& file, const Warn& warn) {
-  Eigen::VectorXd reference = robot.defaultState();
-  for (const auto& [name, value] : start) {
-    const std::optional<int> variable = robot.findVariable(name);
-    if (!variable && !robot.findJoint(name))
-      throw UsageError(file + ", start: robot '" + robot.name() + "' has no joint '" + name + "'");
-    if (!variable) continue;  // it mimics another
-    reference[*variable] = value;
-    const Variable& limited = robot.variables()[*variable];
-    const auto limit = limitNear(limited, value);
-    if (!limit || isOrientation(robot, limited)) continue;
-    warn("swept: warning: " + limitRemark({name, value, *limit, unitOf(robot, limited)}));
-    reference[*variable] = *limit;
-  }
-  return reference;
-}
-
-Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) {
-  const PlanningRequest request = PlanningRequest::load(args.request, model.options);
-  const Robot& robot = *model.robot;
-  const Group& group =
-      asksForGroup(args) ? chooseGroup(robot, args) : chooseGroup(robot, request.group);
-  if (request.goals.size() + request.poseGoals.size() > 1 && !request.poseGoals.empty())
-    throw UsageError(args.request + ": a goal pose has to be its only goal");
-  const PlanningRequest::JointValues start = startOf(robot, request, args.request);
-  const auto stateOf = [&](const PlanningRequest::JointValues& values, const std::string& label) {
-    return requestState(robot, group, values, args.request + ", " + label, std::ref(warnings));
-  };
-  Task task;
-  task.alternatives = true;
-  task.checker = makeChecker(args, model, group, model.world, warnings,
-                             referenceOf(robot, start, args.request, std::ref(warnings)));
-  task.states.push_back({.label = "start", .q = stateOf(start, "start")});
-  for (std::size_t i = 0; i < request.goals.size(); ++i) {
-    const std::string goal =
-        request.goals.size() > 1 ? "goal " + std::to_string(i + 1) : std::string("goal");
-    task.states.push_back({.label = goal, .q = stateOf(request.goals[i], goal)});
-  }
-  if (!request.poseGoals.empty()) task.poseGoal = request.poseGoals.front();
-  return task;
-}
-
 }  // namespace
 
 void Warnings::operator()(const std::string& line) {
@@ -194,11 +125,17 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   Model model;
   model.srdf = chooseSrdf(args);
   model.robot = withAskedGroup(Robot::load(args.robot, model.srdf.file, options), args);
-  if (leavesOutDefaultContacts(args)) model.defaultContacts = allowDefaultContacts(*model.robot);
-  options.modelFrame = model.robot->links().front().name;
-  World world = args.scene.empty() ? World{} : World::load(args.scene, options);
-  addClouds(args, *model.robot, options, world);
-  model.attached = attachedBodies(args, *model.robot, options);
+  options.modelFrame = model.robot->modelFrame();
+  PlanningScene scene;
+  if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
+  World world = std::move(scene.world);
+  model.reference = scene.state;
+  addClouds(args, *model.robot, model.reference, options, world);
+  model.attached = attachedBodies(args, *model.robot, options, std::move(scene.attached));
+  model.weakerRules = std::move(scene.rules);
+  // A scene's matrix stands in place of all that nobody decided.
+  if (leavesOutDefaultContacts(args) && !scene.hasMatrix)
+    model.weakerRules = model.weakerRules.over(allowDefaultContacts(*model.robot));
   model.options = options;
   model.world = std::make_shared<const World>(std::move(world));
   return model;
@@ -253,7 +190,7 @@ std::shared_ptr<const Checker> makeCheckerWith(
   options.tolerance = args.tolerance;
   options.rules = rules;
   options.attached = model.attached;
-  options.reference = reference;
+  options.reference = reference ? reference : model.reference;
   std::shared_ptr<const Checker> checker;
   const std::shared_ptr<const World> in = world;
   try {
@@ -274,7 +211,7 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
                                            const std::optional<Eigen::VectorXd>& reference) {
-  return makeCheckerWith(rulesOf(args).over(model.defaultContacts), args, model, group,
+  return makeCheckerWith(rulesOf(args).over(model.weakerRules), args, model, group,
                          std::move(world), warnings, true, reference);
 }
 
@@ -283,14 +220,15 @@ std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Mod
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings) {
   const CollisionRules rules =
-      rulesIn(*world, rulesOf(args).over(model.defaultContacts), *model.robot, model.attached);
+      rulesIn(*world, rulesOf(args).over(model.weakerRules), *model.robot, model.attached);
   return makeCheckerWith(rules, args, model, group, std::move(world), warnings, false);
 }
 
-std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Model& model,
+                                               const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings) {
-  CollisionRules rules = rulesIn(*world, rulesOf(args).over(defaultContactsOf(like)), like.robot(),
+  CollisionRules rules = rulesIn(*world, rulesOf(args).over(model.weakerRules), like.robot(),
                                  like.options().attached);
   auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
   // What it has kept of its own rules are some of these.

@@ -49,9 +49,11 @@ struct Model {
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
-  std::vector<AttachedBody> attached;  ///< of --attach
-  /// Without an SRDF, unless --keep-default-contacts: the weakest rules of all.
-  CollisionRules defaultContacts;
+  std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
+  std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none
+  /// Those of --scene and, without an SRDF, of what is in contact at the default state, unless
+  /// --keep-default-contacts: the command line's are over them.
+  CollisionRules weakerRules;
   LoadOptions options;  ///< how the files were read
 };
 /// Throws InputError or UsageError.
@@ -70,7 +72,8 @@ std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Mod
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings);
 /// The same in another of them, with all rules about bodies that it has.
-std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Model& model,
+                                               const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings);
 /// For the group asked for, or the only one, in the world of --scene and --cloud. Null without a

@@ -15,6 +15,7 @@ namespace swept {
 std::shared_ptr<const Robot> RobotBuilder::build(detail::RobotParts parts) {
   std::shared_ptr<Robot> robot(new Robot());
   robot->name_ = std::move(parts.name);
+  robot->modelFrame_ = std::move(parts.modelFrame);
   robot->links_ = std::move(parts.links);
   robot->joints_ = std::move(parts.joints);
   robot->variables_ = std::move(parts.variables);

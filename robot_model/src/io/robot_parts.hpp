@@ -14,6 +14,7 @@ namespace detail {
 /// A robot while it is being put together; the fields are those of Robot.
 struct RobotParts {
   std::string name;
+  std::string modelFrame;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Variable> variables;

@@ -113,6 +113,7 @@ void SrdfReader::readVirtualJoint(const XMLElement& element) {
     xml_.fail(element, owner + " is a second virtual joint; the root link has one parent");
   }
   joint.child = nameIn(element, "child_link", owner);
+  if (const char* frame = element.Attribute("parent_frame")) joint.parentFrame = frame;
   const std::string type = nameIn(element, "type", owner);
   if (type == "fixed") {
     joint.type = JointType::Fixed;

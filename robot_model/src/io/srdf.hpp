@@ -19,6 +19,7 @@ struct SrdfDocument {
   struct VirtualJoint {
     std::string name;
     std::string child;
+    std::string parentFrame;  ///< empty: it is not named
     JointType type = JointType::Fixed;
     int line = 0;
   };

@@ -129,6 +129,13 @@ int YamlPlace::integer() const {
   return static_cast<int>(value);
 }
 
+bool YamlPlace::boolean() const {
+  const std::string given = text();
+  if (given == "true" || given == "True" || given == "1") return true;
+  if (given == "false" || given == "False" || given == "0") return false;
+  fail("is '" + given + "'; allowed are true and false");
+}
+
 std::vector<double> YamlPlace::numbers(Keys keys) const {
   std::vector<double> values;
   if (isMap()) {

@@ -40,9 +40,8 @@ struct LoadOptions {
   /// Searched first for `package://NAME/...`; then a folder NAME beside the file or beside one of
   /// its parent folders; then the same below ROS_PACKAGE_PATH.
   std::vector<PackageFolder> packages;
-  /// What a scene may call the robot's model frame, besides `world` and no name: the URDF's root
-  /// link. Objects in any other frame that the scene does not place are put in the model frame,
-  /// with a remark.
+  /// What a file may call the robot's model frame, besides `world` and no name:
+  /// Robot::modelFrame(). A frame that neither this nor the file itself places is refused.
   std::string modelFrame;
   /// Receives one line per remark (`file:line: warning: ...`): open meshes, entries of an SRDF that
   /// name links the robot does not have, and the like. Nothing is printed without it.

@@ -134,6 +134,9 @@ class Robot {
 
   /// The URDF's.
   const std::string& name() const { return name_; }
+  /// What files call the frame that all poses are in: the parent frame of the SRDF's virtual joint;
+  /// without one, the root link's name.
+  const std::string& modelFrame() const { return modelFrame_; }
   ///@{
   /// Parents first; indices elsewhere are into these.
   const std::vector<Link>& links() const { return links_; }
@@ -183,6 +186,7 @@ class Robot {
   friend class RobotBuilder;
   Robot() = default;
   std::string name_;
+  std::string modelFrame_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<Variable> variables_;
