@@ -87,13 +87,14 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
   try {
     MeshFileContent content = files_.read(file);
     requirePrecise(content, scale);
-    const double rounding = roundingOf(content) * scale.cwiseAbs().minCoeff();
+    const double rounding = roundingOf(content);
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
     refuseLonePoints(content.vertices, content.triangles);
-    const double crackWidth = std::max(rounding, TriangleMesh::usualCrackWidth(content.vertices));
+    const double crackWidth = std::max(rounding * scale.cwiseAbs().minCoeff(),
+                                       TriangleMesh::usualCrackWidth(content.vertices));
     TriangleMesh mesh =
         TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
-    warnOfCracks(mesh, rounding, reference, line, source_);
+    warnOfCracks(mesh, rounding * scale.cwiseAbs().maxCoeff(), reference, line, source_);
     warnIfOpen(mesh, reference, line, source_);
     meshes_.emplace(key, mesh);
     return mesh;
