@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "command_line/exit_code.hpp"
+#include "input/groups.hpp"
 #include "input/states.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/limits.hpp"
-#include "swept/robot_model/planning_scene.hpp"
 
 namespace swept {
 namespace {
