@@ -150,7 +150,7 @@ TEST(UnusedMeshData, SourcesThatGiveNoCornerInCollada) {
       {"</mesh>", "<lines count=\"x\"><p>a</p></lines><extra><ph/></extra></mesh>", ""},
       {"</library_geometries>",
        "<geometry id=\"empty\"><mesh><source id=\"p\"><float_array>x</float_array></source>"
-       "<vertices/></mesh></geometry></library_geometries>",
+       "<vertices/></mesh></geometry><geometry id=\"empty\"/><geometry/></library_geometries>",
        ""}};
   for (const std::string& word : kNoNumbers) {
     if (word.find('\x01') != std::string::npos) continue;  // no XML
@@ -208,6 +208,9 @@ TEST(UnusedMeshData, WhatAFaceNeedsIsJudged) {
        {"</visual_scene>", "</visual_scene><visual_scene id=\"s\"/>",
         test::kLine + "23: <instance_visual_scene> has url=\"#s\"; the elements at lines 19 and 22 "
                       "both have that id"},
+       {"</library_geometries>", "<geometry id=\"g\"/></library_geometries>",
+        test::kLine + "17: <geometry> is a second one with the id 'g'"},
+       {"<geometry id=\"g\">", "<geometry>", test::kLine + "5: <geometry> has no attribute 'id'"},
        {"<p>0 0 0 2", "<p>0 0 0 -2", test::kLine + "16: <p> does not hold whole numbers only"}});
 }
 

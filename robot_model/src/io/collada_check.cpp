@@ -64,7 +64,7 @@ class SceneReader {
   Elements nodesByName_;
   std::map<std::string, Geometry> geometries_;
   std::map<const XMLElement*, bool> mayShow_;
-  std::set<const XMLElement*> shown_;           ///< the scene and nodes
+  std::set<const XMLElement*> shown_;           ///< the scene, nodes and instances
   std::set<const tinyxml2::XMLNode*> holders_;  ///< what these are in
   int nodesShown_ = 0;
   MeshClaim claim_;
@@ -73,7 +73,6 @@ class SceneReader {
 void SceneReader::collectGeometry(XMLElement& element) {
   const char* id = element.Attribute("id");
   XMLElement* mesh = element.FirstChildElement("mesh");
-  if (id == nullptr) fail(element, "has no attribute 'id'");
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr;
        e = e->NextSiblingElement()) {
     const std::string_view name = e->Name();
@@ -82,7 +81,11 @@ void SceneReader::collectGeometry(XMLElement& element) {
   }
   Geometry geometry{.element = &element, .mesh = {}};
   if (mesh != nullptr) geometry.mesh = readColladaMesh(*mesh, source_, claim_.crossing);
-  if (!geometries_.emplace(id, std::move(geometry)).second)
+  const bool hasFaces = geometry.mesh.triangles > 0;
+  if (id == nullptr && !hasFaces) return;
+  if (id == nullptr) fail(element, "has no attribute 'id'");
+  const auto [known, isFirst] = geometries_.try_emplace(id, std::move(geometry));
+  if (!isFirst && (hasFaces || known->second.mesh.triangles > 0))
     fail(element, std::string("is a second one with the id '") + id + "'");
 }
 
@@ -160,6 +163,8 @@ void SceneReader::showGeometry(const XMLElement& instance, const Eigen::Matrix4d
   if (found == geometries_.end()) fail(instance, "names a <geometry> that does not exist");
   Geometry& geometry = found->second;
   geometry.shown = true;
+  if (geometry.mesh.triangles == 0) return;
+  shown_.insert(&instance);
   claim_.triangles += geometry.mesh.triangles;
   requireFewTriangles(claim_.triangles);
   const Eigen::Matrix3d linear = file_from_node.topLeftCorner<3, 3>();
@@ -175,7 +180,9 @@ void SceneReader::showChild(const XMLElement& child, Eigen::Matrix4d& file_from_
   if (name == "node") {
     showNode(child, file_from_node, depth + 1);
   } else if (name == "instance_node") {
-    showNode(instancedNode(child), file_from_node, depth + 1);
+    const XMLElement& node = instancedNode(child);
+    if (mayShow(node)) shown_.insert(&child);
+    showNode(node, file_from_node, depth + 1);
   } else if (name == "instance_geometry") {
     showGeometry(child, file_from_node);
   } else if (name == "instance_controller" || name == "skew" || name == "lookat") {
@@ -207,10 +214,7 @@ bool SceneReader::isKept(const XMLElement& child, bool parentIsShown) const {
   const std::string_view name = child.Name();
   if (name == "node" || name == "visual_scene")
     return shown_.contains(&child) || holders_.contains(&child);
-  if (!parentIsShown) return false;
-  if (name == "instance_node") return shown_.contains(&instancedNode(child));
-  if (name != "instance_geometry") return isColladaTransform(name);
-  return geometries_.at(colladaTarget(child, "url")).mesh.triangles > 0;
+  return parentIsShown && (isColladaTransform(name) || shown_.contains(&child));
 }
 
 void SceneReader::keepShownIn(XMLElement& parent) {
@@ -229,9 +233,10 @@ void SceneReader::keepShown() {
   forEachChild(root_, "library_visual_scenes", [&](XMLElement& scenes) { keepShownIn(scenes); });
   forEachChild(root_, "library_geometries", [&](XMLElement& library) {
     keepChildren(library, [&](const XMLElement& child) {
-      if (std::string_view(child.Name()) != "geometry") return false;
-      const Geometry& geometry = geometries_.at(child.Attribute("id"));
-      return geometry.shown && geometry.mesh.triangles > 0;
+      const char* const id = child.Attribute("id");
+      const auto found = geometries_.find(id != nullptr ? id : "");
+      return found != geometries_.end() && found->second.element == &child && found->second.shown &&
+             found->second.mesh.triangles > 0;
     });
     forEachChild(library, nullptr, [](XMLElement& geometry) {
       keepChildren(geometry, [](const XMLElement& child) {

@@ -71,7 +71,7 @@ bool MeshReader::hasFaces() const {
   bool found = false;
   forEachChild(xml_, nullptr, [&](const XMLElement& group) {
     if (!isFaces(group)) return;
-    forEachChild(group, "p", [&](const XMLElement& list) { found |= !words(list).empty(); });
+    forEachChild(group, "p", [&](const XMLElement& list) { found |= !list.NoChildren(); });
   });
   return found;
 }

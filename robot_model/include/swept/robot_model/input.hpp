@@ -9,9 +9,8 @@
 
 namespace swept {
 
-/// A file (or a value given by the user) that cannot be used. what() is
-/// `file:line: error: message`; the message names the element, the value seen and what is allowed.
-/// Of a message of more than 4000 bytes the middle is left out.
+/// A file, or a user's value, that cannot be used. what() is `file:line: error: message`, which has
+/// the element, the value seen and what is allowed; beyond 4000 bytes its middle is left out.
 class InputError : public std::runtime_error {
  public:
   /// line 0: the file has no lines that matter, and is named alone.
