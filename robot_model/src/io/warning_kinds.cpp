@@ -13,9 +13,13 @@ namespace {
 /// Of one kind, before the rest is counted.
 constexpr int kShown = 3;
 
+constexpr const char* kFirst = " (first at line ";
+
 /// What warnings of one kind have in common: nothing in front of `warning: `, which is the place,
 /// nothing in quotation marks and no digits.
 std::string kindOf(const std::string& line) {
+  // Counted already: one line for each thing that is missing.
+  if (line.ends_with(")") && line.find(kFirst) != std::string::npos) return line;
   const std::string mark = "warning: ";
   const std::size_t place = line.find(mark);
   std::string kind;
@@ -72,7 +76,7 @@ void WarningKinds::flush() {
     std::string text = entry.kind;
     if (const std::size_t hash = text.find('#'); hash != std::string::npos)
       text.replace(hash, 1, std::to_string(entry.count));
-    source_.warn(entry.line, text + " (first at line " + std::to_string(entry.line) + ")");
+    source_.warn(entry.line, text + kFirst + std::to_string(entry.line) + ")");
   }
   entries_.clear();
 }
