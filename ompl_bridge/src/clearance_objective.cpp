@@ -50,8 +50,10 @@ ompl::base::Cost CertifiedClearanceObjective::motionCost(const ompl::base::State
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  return ompl::base::Cost(
-      checker_->motionClearance(scratch->from, scratch->to, accuracy_, scratch->workspace).lower);
+  return ompl::base::Cost(checker_
+                              ->motionClearance(scratch->from, scratch->to, accuracy_,
+                                                scratch->workspace, ClearanceQuery::Least)
+                              .lower);
 }
 
 }  // namespace swept

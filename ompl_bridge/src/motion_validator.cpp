@@ -47,6 +47,17 @@ CertifiedMotionValidator::CertifiedMotionValidator(const ompl::base::SpaceInform
 
 CertifiedMotionValidator::~CertifiedMotionValidator() = default;
 
+void CertifiedMotionValidator::setChecker(std::shared_ptr<const Checker> checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { setChecker(std::move(checker)); });
+  }
+  checker = detail::requireChecker(std::move(checker), *si_->getStateSpace());
+  auto pool = std::make_unique<WorkspacePool>(*checker);
+  conversion_ = StateConversion(checker->robot(), checker->group());
+  pool_ = std::move(pool);
+  checker_ = std::move(checker);
+}
+
 // The counters are plain integers of OMPL's base class, which other threads may be raising too.
 bool CertifiedMotionValidator::count(bool free) const {
   std::atomic_ref<unsigned int>(free ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);

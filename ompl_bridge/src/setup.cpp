@@ -54,6 +54,22 @@ ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> c
   return setup;
 }
 
+void setChecker(const ompl::base::SpaceInformation& si, std::shared_ptr<const Checker> checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { setChecker(si, std::move(checker)); });
+  }
+  auto* states = dynamic_cast<ValidityChecker*>(si.getStateValidityChecker().get());
+  auto* motions = dynamic_cast<CertifiedMotionValidator*>(si.getMotionValidator().get());
+  if (states == nullptr && motions == nullptr) {
+    throw std::invalid_argument(
+        "setChecker: the space information has neither a swept::ValidityChecker nor a "
+        "swept::CertifiedMotionValidator");
+  }
+  // What one refuses, the other one does, too: the first call throws, or none.
+  if (states != nullptr) states->setChecker(checker);
+  if (motions != nullptr) motions->setChecker(std::move(checker));
+}
+
 namespace {
 
 /// A configuration as a state of the space. What is a hair beyond the space's bounds, which may be

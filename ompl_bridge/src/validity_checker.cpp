@@ -25,6 +25,17 @@ ValidityChecker::ValidityChecker(const ompl::base::SpaceInformationPtr& si,
 
 ValidityChecker::~ValidityChecker() = default;
 
+void ValidityChecker::setChecker(std::shared_ptr<const Checker> checker) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { setChecker(std::move(checker)); });
+  }
+  checker = detail::requireChecker(std::move(checker), *si_->getStateSpace());
+  auto pool = std::make_unique<WorkspacePool>(*checker);
+  conversion_ = StateConversion(checker->robot(), checker->group());
+  pool_ = std::move(pool);
+  checker_ = std::move(checker);
+}
+
 bool ValidityChecker::isValid(const ompl::base::State* state) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, state] { return ValidityChecker::isValid(state); });
@@ -72,7 +83,9 @@ bool ValidityChecker::findValid(const ompl::base::State* state,
     return true;
   }
   const WorkspacePool::Lease scratch = pool_->lease();
-  const double wanted = checker_->options().margin + 2.0 * checker_->options().tolerance;
+  const CheckerOptions& options = checker_->options();
+  const double margin = std::max(options.marginOf(true), options.marginOf(false));
+  const double wanted = margin + 2.0 * options.tolerance;
   for (int i = 0; i < kSteps; ++i) {
     conversion_.toConfiguration(there, scratch->from);
     const SignedClearance now =

@@ -21,7 +21,7 @@ int plan(char** argv) {
   };
   swept::setStartAndGoal(*setup, *checker, state(argv[5]), state(argv[6]));
   const auto planner = std::make_shared<ompl::geometric::RRTConnect>(setup->getSpaceInformation());
-  planner->setNearestNeighbors<swept::NearestStates>();  // several times as fast as the default
+  swept::useNearestStates(*planner);  // several times as fast as the default
   setup->setPlanner(planner);
   if (setup->solve(10.0) != ompl::base::PlannerStatus::EXACT_SOLUTION) return 1;
 

@@ -14,6 +14,7 @@
 #include "command_line/exit_code.hpp"
 #include "command_line/last_resort.hpp"
 #include "output/terminal_text.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 #include "swept/robot_model/input.hpp"
 
 namespace {
@@ -47,6 +48,8 @@ int main(int argc, char** argv) {
     return guardedMain(argc, argv);
   } catch (const swept::InputError& error) {
     swept::printMessage(error.what());
+  } catch (const swept::UsageError& error) {
+    swept::printMessage(std::string("swept: error: ") + error.what());
   } catch (const std::bad_alloc&) {
     std::cerr << "swept: error: out of memory\n";
   } catch (const std::system_error& error) {
@@ -55,7 +58,7 @@ int main(int argc, char** argv) {
     swept::printMessage(std::string("swept: error: ") +
                         (threads ? "out of memory, or of threads" : error.what()));
   } catch (const std::exception& error) {
-    swept::printMessage(std::string("swept: error: ") + error.what());
+    swept::printMessage("swept: error: " + swept::foreignText(error.what()));
   } catch (...) {
     std::cerr << "swept: error: unknown exception\n";
   }

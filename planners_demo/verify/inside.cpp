@@ -38,21 +38,45 @@ class Joined {
 
 struct Edge {
   std::vector<int> triangles;
-  int net = 0;  ///< passed one way, less the other way
+  std::size_t left = 0;  ///< of those, without loose ones
+  int net = 0;           ///< passed one way, less the other way, by what is left
 };
+using Edges = std::map<std::pair<int, int>, Edge>;
 
-std::map<std::pair<int, int>, Edge> edgesOf(const Surface& surface) {
-  std::map<std::pair<int, int>, Edge> edges;
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const std::array<int, 3>& triangle = surface.triangles[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int from = triangle[k], to = triangle[(k + 1) % 3];
-      Edge& edge = edges[std::minmax(from, to)];
-      edge.triangles.push_back(static_cast<int>(i));
-      edge.net += from < to ? 1 : -1;
+std::pair<int, int> endsOf(const std::array<int, 3>& triangle, std::size_t k) {
+  return std::minmax(int{triangle[k]}, int{triangle[(k + 1) % 3]});
+}
+
+Edges edgesOf(const Surface& surface) {
+  Edges edges;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      edges[endsOf(surface.triangles[i], k)].triangles.push_back(static_cast<int>(i));
+  for (auto& [ends, edge] : edges) edge.left = edge.triangles.size();
+  return edges;
+}
+
+/// Triangles with an edge that no other has, and then those that have one without them: they are
+/// part of nothing closed, as a sheet that touches a solid is not.
+std::vector<bool> looseTriangles(const Surface& surface, Edges& edges) {
+  std::vector<bool> loose(surface.triangles.size(), false);
+  std::vector<const Edge*> pending;
+  for (const auto& [ends, edge] : edges)
+    if (edge.left == 1) pending.push_back(&edge);
+  while (!pending.empty()) {
+    const Edge& alone = *pending.back();
+    pending.pop_back();
+    for (const int triangle : alone.triangles) {
+      const auto i = static_cast<std::size_t>(triangle);
+      if (loose[i]) continue;
+      loose[i] = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        Edge& edge = edges.at(endsOf(surface.triangles[i], k));
+        if (--edge.left == 1) pending.push_back(&edge);
+      }
     }
   }
-  return edges;
+  return loose;
 }
 
 enum class Crossing { None, Out, In, Doubtful };
@@ -91,13 +115,26 @@ Enclosure::Enclosure(const Surface& surface)
     lower_ = lower_.cwiseMin(vertex);
     upper_ = upper_.cwiseMax(vertex);
   }
-  const std::map<std::pair<int, int>, Edge> edges = edgesOf(surface);
+  Edges edges = edgesOf(surface);
+  const std::vector<bool> loose = looseTriangles(surface, edges);
   Joined joined(surface.triangles.size());
-  for (const auto& [ends, edge] : edges)
+  for (auto& [ends, edge] : edges) {
+    std::erase_if(edge.triangles, [&](int i) { return loose[static_cast<std::size_t>(i)]; });
     for (const int triangle : edge.triangles) joined.join(triangle, edge.triangles.front());
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+  }
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     componentOf_.push_back(joined.find(static_cast<int>(i)));
+    if (loose[i]) {
+      components_[componentOf_.back()].closed = false;
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto ends = endsOf(surface.triangles[i], k);
+      edges.at(ends).net += surface.triangles[i][k] == ends.first ? 1 : -1;
+    }
+  }
   for (const auto& [ends, edge] : edges) {
+    if (edge.triangles.empty()) continue;
     Component& component = components_[joined.find(edge.triangles.front())];
     component.closed = component.closed && edge.triangles.size() % 2 == 0;
     component.oriented = component.oriented && edge.net == 0;

@@ -12,7 +12,7 @@ namespace swept::verify {
 enum class Side { Outside, Inside, Unknown };
 
 /// The closed components of a surface, which has to outlive it. Triangles with an edge in common
-/// are of one component.
+/// are of one component; those that hang on a solid, or have a border, are of none that is closed.
 class Enclosure {
  public:
   explicit Enclosure(const Surface& surface);

@@ -63,6 +63,8 @@ struct Model {
   std::vector<int> linkOf;  ///< per body: the link that it moves with; -1: the world
   /// Pairs of bodies, by index, smaller first, that may touch, and who says so.
   std::map<std::pair<int, int>, std::string> allowed;
+  /// Likewise, links that a joint connects and that are not to touch all the same.
+  std::set<std::pair<int, int>> asked;
   double margin = 0.0;           ///< m
   std::vector<double> paddings;  ///< m, per body
   /// m: what a pair has to keep.

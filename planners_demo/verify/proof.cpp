@@ -43,7 +43,8 @@ std::vector<PairToProve> pairsToProve(const Model& model) {
       const bool empty = model.bodies[static_cast<std::size_t>(a)].nodes().empty() ||
                          (model.bodies[static_cast<std::size_t>(b)].nodes().empty() &&
                           model.bodies[static_cast<std::size_t>(b)].flats().empty());
-      if (!moved || empty || model.allowed.contains({a, b}) || adjacent(model, a, b)) continue;
+      const bool connected = adjacent(model, a, b) && !model.asked.contains({a, b});
+      if (!moved || empty || connected || model.allowed.contains({a, b})) continue;
       pairs.push_back({a, b});
     }
   }

@@ -166,6 +166,11 @@ int bodyNamed(const Model& model, const Json& name, const std::string& where) {
   throw Refusal(where + ": no body " + name.dump());
 }
 
+/// Two bodies, by index, the smaller first.
+std::pair<int, int> readPair(const Model& model, const Json& entry, const std::string& where) {
+  return std::minmax({bodyNamed(model, entry[0], where), bodyNamed(model, entry[1], where)});
+}
+
 void readRules(const Json& json, Model& model) {
   model.margin = readNumber(at(json, "margin", "model"), "model, margin");
   model.paddings.assign(model.bodies.size(), 0.0);
@@ -175,10 +180,14 @@ void readRules(const Json& json, Model& model) {
   for (const Json& entry : readList(json, "allowed", "model")) {
     if (!entry.is_array() || entry.size() != 3 || !entry[2].is_string())
       throw Refusal("allowed: not two names and a reason: " + entry.dump());
-    const std::pair<int, int> pair =  // not auto: what std::minmax returns refers to these two
-        std::minmax(bodyNamed(model, entry[0], "allowed"), bodyNamed(model, entry[1], "allowed"));
-    model.allowed.emplace(pair, entry[2].get<std::string>());
+    model.allowed.emplace(readPair(model, entry, "allowed"), entry[2].get<std::string>());
   }
+  if (json.contains("asked"))
+    for (const Json& entry : readList(json, "asked", "model")) {
+      if (!entry.is_array() || entry.size() != 2)
+        throw Refusal("asked: not two names: " + entry.dump());
+      model.asked.insert(readPair(model, entry, "asked"));
+    }
   const bool negative = std::ranges::any_of(model.paddings, [](double p) { return !(p >= 0.0); });
   if (negative || !(model.margin >= 0.0)) throw Refusal("model: a margin or padding is negative");
 }

@@ -49,16 +49,21 @@ TEST(TriangleMeshReport, WeldsEqualPositionsAndDropsUnusedOnes) {
 
 TEST(TriangleMeshReport, DoesNotWeldNearlyEqualPositions) {
   Soup soup = test::boxSoup(Vector3d::Zero(), Vector3d::Ones());
-  // One triangle gets its own copy of a corner, one ulp away: a real, if tiny, gap.
+  // One triangle gets its own copy of a corner, one ulp away: a gap, which no body fits through.
   soup.vertices.push_back(soup.vertices[7] * (1.0 + std::numeric_limits<double>::epsilon()));
   for (int& corner : soup.triangles.back()) {
     if (corner == 7) corner = 8;
   }
+  const TriangleMesh exact =
+      TriangleMesh::build(soup.vertices, soup.triangles, MeshInterior::Solid, 0.0);
+  EXPECT_EQ(exact.report().verticesKept, 9);
+  EXPECT_EQ(exact.report().openComponents, 1);
+  EXPECT_EQ(exact.report().closedComponents, 0);
+  EXPECT_FALSE(exact.encloses(Vector3d::Constant(0.5)));
   const TriangleMesh mesh = build(soup);
   EXPECT_EQ(mesh.report().verticesKept, 9);
-  EXPECT_EQ(mesh.report().openComponents, 1);
-  EXPECT_EQ(mesh.report().closedComponents, 0);
-  EXPECT_FALSE(mesh.encloses(Vector3d::Constant(0.5)));
+  EXPECT_EQ(mesh.report().closedComponents, 1);
+  EXPECT_TRUE(mesh.encloses(Vector3d::Constant(0.5)));
 }
 
 TEST(TriangleMeshReport, DropsTrianglesWithEqualCornersOnly) {

@@ -19,6 +19,19 @@ case_files() {
   if grep -rlF -e "$root" -e "$build" -e "$temporary" "$prefix"; then
     fail "these files name a folder of the sources, of the build, or where they were first installed"
   fi
+  links_lead_somewhere
+}
+
+# Links of the installed pages, but those to other sites and within a page; words in brackets behind links of code are none.
+links_lead_somewhere() {
+  local page link count=0
+  while IFS= read -r page; do
+    while IFS= read -r link; do
+      [[ -e "$(dirname "$page")/$link" ]] || fail "$page has a link to $link, which is not installed"
+      count=$((count + 1))
+    done < <(sed '/^```/,/^```/d' "$page" | grep -oE '\]\([-A-Za-z0-9_./]+[)#]' | sed -E 's/^..(.*).$/\1/')
+  done < <(find "$prefix/share/doc/swept" -name '*.md')
+  ((count > 50)) || fail "only $count links"
 }
 
 # No package is there but those that the core is made for.

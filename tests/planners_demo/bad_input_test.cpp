@@ -70,14 +70,15 @@ const Case kStates[] = {
      kError + "start: slide is -9, allowed is -0.5 to 2.5 m"},
     {"UnknownName", both("check", {"lefft"}),
      kError +
-         "state 1: no named state 'lefft' in group 'both' (it has left, right, inside) and not "
-         "a list of values: slide,lift"},
+         "state 1: no named state 'lefft' in group 'both' (it has left, right, inside, default) "
+         "and not a list of values: slide,lift; did you mean 'left'?"},
     {"NameOfAnotherGroup",
      {"check", "%gantry.urdf", "left", "--group", "slider"},
-     kError + "state 1: no named state 'left' in group 'slider' (it has none) and not a list of "
+     kError + "state 1: no named state 'left' in group 'slider' (it has default) and not a list of "
               "values: slide"},
     {"EmptyState", both("check", {""}),
-     kError + "state 1: no named state '' in group 'both' (it has left, right, inside) and not a "
+     kError + "state 1: no named state '' in group 'both' (it has left, right, inside, default) "
+              "and not a "
               "list of values: slide,lift"},
     {"NoState", both("check", {}), kError + "check: no state given"},
     {"OneStateToPlan", both("plan", {"left"}), kError + "plan: a start and a goal are needed"},
@@ -88,13 +89,31 @@ const Case kOptions[] = {
     {"UnknownSubcommand",
      {"verfy"},
      kError + "no subcommand 'verfy'; there are info, check, motion, plan, verify, acm, replay, " +
-         (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
+         (programHasPages() ? "view, " : "") +
+         "bench, report, completion; did you mean 'verify'? (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},
     {"UnknownOption", both("check", {"left", "--frobnicate"}),
      kError + "The following argument was not expected: --frobnicate (try --help)"},
     {"GroupMissing",
-     {"check", "%gantry.urdf", "left"},
+     {"check", "%gantry.urdf", "0"},
      kError + "robot 'gantry' has several groups; choose one with --group: both, slider"},
+    {"GroupNearlyKnown",
+     {"check", "%gantry.urdf", "left", "--group", "Slidre"},
+     kError + "robot 'gantry' has no group 'Slidre'; it has both, slider; did you mean 'slider'?"},
+    {"OptionNearlyKnown", both("check", {"left", "--tolerence=1e-3"}),
+     kError + "The following argument was not expected: --tolerence=1e-3; did you mean "
+              "'--tolerance'? (try --help)"},
+    {"JointNearlyKnown",
+     {"check", "%gantry.urdf", "0", "--joints", "slide,lifft"},
+     kError + "--joints 'slide,lifft': robot 'gantry' has no joint 'lifft'; did you mean 'lift'?"},
+    {"ChainOfOneLink",
+     {"check", "%gantry.urdf", "0", "--chain", "cube"},
+     kError + "--chain 'cube': expected two names, A,B"},
+    {"JointsOfAGroup", both("check", {"left", "--joints", "slide"}),
+     kError + "--joints excludes --group (try --help)"},
+    {"LinkNearlyKnown", both("check", {"left", "--allow", "cubo,*"}),
+     kError + "Checker: a rule names 'cubo', which is no link, attached body or body of the "
+              "world; did you mean 'cube'?"},
     {"GroupUnknown",
      {"check", "%gantry.urdf", "left", "--group", "arm"},
      kError + "robot 'gantry' has no group 'arm'; it has both, slider"},

@@ -122,6 +122,56 @@ TEST(Cloud, WhatPointsHideIsOccupied) {
   EXPECT_THAT(run.out, HasSubstr(" - wall: "));
 }
 
+/// A ball on three slides. A point 1 m above the origin of the cloud's frame, and a sensor that is
+/// there or 1 m above the point: what it hides is above the point, or below.
+TEST(Cloud, PointsHideWhatIsBehindThemFromTheirSensor) {
+  const TemporaryFolder folder;
+  std::string robot = "<robot name='probe'><link name='base'/>";
+  std::string parent = "base";
+  for (const std::string axis : {"x", "y", "z"}) {
+    const std::string shape =
+        axis == "z" ? "<collision><geometry><sphere radius='0.02'/></geometry></collision>" : "";
+    robot += "<link name='l" + axis + "'>" + shape + "</link><joint name='" + axis +
+             "' type='prismatic'><parent link='" + parent + "'/><child link='l" + axis +
+             "'/><axis xyz='" +
+             (axis == "x"   ? "1 0 0"
+              : axis == "y" ? "0 1 0"
+                            : "0 0 1") +
+             "'/><limit lower='-10' upper='10' effort='1' velocity='1'/></joint>";
+    parent = "l" + axis;
+  }
+  const std::string urdf = folder.write("probe.urdf", robot + "</robot>");
+  const std::string pcd =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "VIEWPOINT ? 1 0 0 0\nPOINTS 1\nDATA ascii\n0 0 1\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nelement camera 1\nproperty float view_px\nproperty float view_py\n"
+      "property float view_pz\nend_header\n0 0 1\n?\n";
+  const auto write = [&](const std::string& name, std::string text, const std::string& sensor) {
+    return folder.write(name, text.replace(text.find('?'), 1, sensor));
+  };
+  const auto check = [&](const std::string& cloud, const std::string& pose,
+                         const std::string& state) {
+    return runSwept({"check", urdf, "--cloud", cloud, "--point-radius", "0.1", "--occluded", "5",
+                     "--cloud-pose", pose, "--", state})
+        .exitCode;
+  };
+  const std::string still = "0,0,0,0,0,0,1", moved = "3,0,0,0,1,0,0";  // half a turn about y
+  for (const auto& [low, high] :
+       {std::pair{write("low.pcd", pcd, "0 0 0"), write("high.pcd", pcd, "0 0 2")},
+        std::pair{write("low.ply", ply, "0 0 0"), write("high.ply", ply, "0 0 2")}}) {
+    EXPECT_EQ(check(low, still, "0,0,0.5"), 0);
+    EXPECT_EQ(check(low, still, "0,0,1.5"), 1);
+    EXPECT_EQ(check(high, still, "0,0,0.5"), 1);
+    EXPECT_EQ(check(high, still, "0,0,1.5"), 0);
+    // The sensor goes with the points.
+    EXPECT_EQ(check(high, moved, "3,0,-0.5"), 1);
+    EXPECT_EQ(check(high, moved, "3,0,-1.5"), 0);
+    EXPECT_EQ(check(high, moved, "0,0,0.5"), 0);
+  }
+}
+
 /// What the robot hid from the sensor was free.
 TEST(Cloud, WhatTheRobotHidesIsOccupied) {
   const TemporaryFolder folder;

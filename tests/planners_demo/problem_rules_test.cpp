@@ -72,9 +72,10 @@ TEST_F(ProblemRules, ScaleAndAllowEveryBodyOfTheirName) {
   EXPECT_EQ(edges({"--pad", "*=0.1", "--allow", "cube,post"})["free"], 2);
 }
 
-TEST_F(ProblemRules, TheLastOneCounts) {
-  EXPECT_EQ(edges({"--pad", "post=0.1", "--pad", "*=0"})["collision"], 0);
+TEST_F(ProblemRules, TheOneThatNamesTheBodyCountsAndOfEqualsTheLast) {
+  EXPECT_EQ(edges({"--pad", "post=0.1", "--pad", "*=0"})["collision"], 2);
   EXPECT_EQ(edges({"--pad", "*=0", "--pad", "post=0.1"})["collision"], 2);
+  EXPECT_EQ(edges({"--pad", "post=0.1", "--pad", "post=0"})["collision"], 0);
 }
 
 TEST_F(ProblemRules, HoldInBatchesAndReports) {

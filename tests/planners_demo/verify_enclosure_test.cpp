@@ -115,6 +115,52 @@ TEST(VerifyEnclosure, AgreesWhereShellsAreJoined) {
   expectAgreement(flap, {800, 1000});
 }
 
+/// What a model has of a mesh that the library read.
+verify::Surface asWritten(const verify::Surface& given, double crackWidth) {
+  std::vector<Eigen::Vector3i> triangles;
+  for (const auto& t : given.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  const TriangleMesh mesh =
+      TriangleMesh::build(given.vertices, triangles, MeshInterior::Solid, crackWidth);
+  verify::Surface written{mesh.vertices(), {}};
+  for (const Eigen::Vector3i& t : mesh.triangles()) written.triangles.push_back({t[0], t[1], t[2]});
+  return written;
+}
+
+TEST(VerifyEnclosure, AgreesWhereTheLibraryFoundSolids) {
+  const verify::Surface box = boxes({{-Vector3d::Ones(), Vector3d::Ones()}});
+  const int next = static_cast<int>(box.vertices.size());
+  // A flap along an edge, of two triangles.
+  verify::Surface flap = box;
+  flap.vertices.emplace_back(1.2, 1.1, 1.0);
+  flap.vertices.emplace_back(1.1, 1.2, 1.2);
+  flap.triangles.push_back({flap.triangles[0][0], flap.triangles[0][1], next});
+  flap.triangles.push_back({flap.triangles[0][1], next, next + 1});
+  expectAgreement(flap, {800, 1000});
+  expectAgreement(asWritten(flap, 0.0), {800, 1000});
+  // A corner on an edge, exactly and not.
+  for (const double off : {0.0, 1e-6}) {
+    verify::Surface divided = box;
+    const std::array<int, 3> whole = divided.triangles.front();
+    const Vector3d middle = 0.5 * (box.vertices[whole[0]] + box.vertices[whole[1]]);
+    divided.vertices.emplace_back(middle + Vector3d::Constant(off));
+    divided.triangles.front() = {whole[0], next, whole[2]};
+    divided.triangles.push_back({next, whole[1], whole[2]});
+    EXPECT_EQ(verify::Enclosure(divided).sideOf({0.1, 0.2, 0.3}), verify::Side::Outside);
+    expectAgreement(asWritten(divided, 1e-5), {800, 1000});
+  }
+  // A wall between two halves, written once, along the diagonals of two sides.
+  verify::Surface halves = box;
+  for (const auto& [a, b, c] : {std::array{1, 2, 6}, std::array{1, 6, 5}}) {
+    const auto at = [&](int corner) {
+      const Vector3d place((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
+                           (corner & 4) != 0 ? 1.0 : -1.0);
+      return static_cast<int>(std::ranges::find(halves.vertices, place) - halves.vertices.begin());
+    };
+    halves.triangles.push_back({at(a), at(b), at(c)});
+  }
+  expectAgreement(asWritten(halves, 0.0), {800, 1000});
+}
+
 /// Planes between a ball and each triangle of a box around it hold; that it is inside does not.
 TEST(VerifyEnclosure, WhatIsInsideIsRefused) {
   const verify::Surface cavity = hollow(false);

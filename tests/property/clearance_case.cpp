@@ -54,12 +54,13 @@ Isometry3d ClearanceCase::poseOf(const Body& body, const std::vector<double>& q,
 }
 
 template <typename Measure>
-ClearanceCase::Least ClearanceCase::least(const std::vector<double>& q,
+ClearanceCase::Least ClearanceCase::least(const std::vector<double>& q, std::optional<bool> self,
                                           const Measure& measure) const {
   std::vector<Isometry3d> links;
   arm_->poses(full(q), links);
   Least least;
   for (const swept::Checker::Pair& pair : checker_->checkedPairs()) {
+    if (self && pair.selfPair != *self) continue;
     const Body& a = find(pair.bodyA, true);
     const Body& b = find(pair.bodyB, pair.selfPair);
     const Isometry3d a_from_b = poseOf(a, q, links).inverse() * poseOf(b, q, links);
@@ -85,14 +86,15 @@ ClearanceCase::Least ClearanceCase::least(const std::vector<double>& q,
   return least;
 }
 
-ClearanceCase::Least ClearanceCase::distanceAt(const std::vector<double>& q) const {
-  return least(q, [](const auto& a, const auto& b, const Isometry3d& a_from_b) {
+ClearanceCase::Least ClearanceCase::distanceAt(const std::vector<double>& q,
+                                               std::optional<bool> self) const {
+  return least(q, self, [](const auto& a, const auto& b, const Isometry3d& a_from_b) {
     return swept::distance(a, b, a_from_b);
   });
 }
 
 ClearanceCase::Least ClearanceCase::signedDistanceAt(const std::vector<double>& q) const {
-  return least(q, [](const auto& a, const auto& b, const Isometry3d& a_from_b) {
+  return least(q, std::nullopt, [](const auto& a, const auto& b, const Isometry3d& a_from_b) {
     return swept::signedDistance(a, b, a_from_b);
   });
 }

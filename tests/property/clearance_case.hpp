@@ -32,7 +32,8 @@ class ClearanceCase {
     std::string bodyA, bodyB;                                ///< the pair that has it
     bool outOfReach = false;  ///< the pieces that have it are no pair that verdicts look at
   };
-  Least distanceAt(const std::vector<double>& q) const;
+  /// `self`: of pairs with `selfPair` like this alone.
+  Least distanceAt(const std::vector<double>& q, std::optional<bool> self = {}) const;
   /// Negative where bodies overlap.
   Least signedDistanceAt(const std::vector<double>& q) const;
   /// m. Of one pair of bodies.
@@ -80,7 +81,7 @@ class ClearanceCase {
                            const std::vector<Eigen::Isometry3d>& links) const;
   const Body& find(const std::string& name, bool ofRobot) const;
   template <typename Measure>
-  Least least(const std::vector<double>& q, const Measure& measure) const;
+  Least least(const std::vector<double>& q, std::optional<bool> self, const Measure& measure) const;
 
   swept::test::SplitMix random_;
   RandomPieces pieces_;

@@ -23,6 +23,8 @@ struct Counts {
   int outOfReach = 0;  ///< of the states: the nearest piece is
   int contacts = 0;    ///< of the states
   int moving = 0, outOfReachMoving = 0;
+  int hidden = 0;        ///< of the states: pairs of one kind are nearer, and there are others
+  int hiddenMoving = 0;  ///< of the motions, likewise
 };
 
 class Clearances : public testing::TestWithParam<int> {
@@ -46,10 +48,24 @@ class Clearances : public testing::TestWithParam<int> {
       EXPECT_LE(one.distanceOf(report.nearestA, report.nearestB, report.nearestSelfPair, q),
                 truth.upper + 1e-6);
     }
+    for (const bool self : {false, true}) askKind(one, report, q, self);
+    counts_.hidden += std::isfinite(report.world.clearance) && std::isfinite(report.self.clearance);
     askSigned(one, workspace, q, truth.upper);
     ++counts_.states;
     counts_.outOfReach += truth.outOfReach;
     counts_.contacts += truth.upper == 0.0;
+  }
+
+  static void askKind(const ClearanceCase& one, const StateReport& report,
+                      const std::vector<double>& q, bool self) {
+    const ClearanceCase::Least truth = one.distanceAt(q, self);
+    const NearestPair& found = self ? report.self : report.world;
+    EXPECT_LE(found.clearance, truth.upper + kPoses) << truth.bodyA << " - " << truth.bodyB;
+    EXPECT_GE(found.clearance, truth.lower - 1e-7);
+    EXPECT_EQ(found.bodyA.empty(), std::isinf(truth.upper));
+    if (std::isfinite(truth.upper)) {
+      EXPECT_LE(one.distanceOf(found.bodyA, found.bodyB, self, q), truth.upper + 1e-6);
+    }
   }
 
   /// `distance` in m.
@@ -79,6 +95,9 @@ class Clearances : public testing::TestWithParam<int> {
     // Attained: so it is not below the least over the motion, nor is `lower` far below that.
     const std::vector<double> there = one.between(from, to, found.t);
     EXPECT_LE(one.distanceAt(there).upper, found.upper + 1e-9);
+    for (const bool self : {false, true})
+      askKind(one, self ? found.self : found.world, from, to, accuracy, self);
+    counts_.hiddenMoving += std::isfinite(found.world.upper) && std::isfinite(found.self.upper);
     bool outOfReach = false;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= kSamples; ++i) {
@@ -91,6 +110,22 @@ class Clearances : public testing::TestWithParam<int> {
     }
     counts_.moving += found.lower > 0.0;
     counts_.outOfReachMoving += outOfReach && found.lower > 0.0;
+  }
+
+  static void askKind(ClearanceCase& one, const ClearanceInterval& found,
+                      const std::vector<double>& from, const std::vector<double>& to,
+                      double accuracy, bool self) {
+    EXPECT_LE(found.lower, found.upper);
+    if (std::isfinite(found.upper)) {
+      EXPECT_LE(found.upper - found.lower, accuracy + 1e-9);
+      const std::vector<double> there = one.between(from, to, found.t);
+      EXPECT_LE(one.distanceAt(there, self).upper, found.upper + 1e-9);
+      EXPECT_LE(one.distanceOf(found.bodyA, found.bodyB, self, there), found.upper + 1e-6);
+    }
+    for (int i = 0; i <= kSamples; ++i) {
+      const double t = i / static_cast<double>(kSamples);
+      EXPECT_LE(found.lower, one.distanceAt(one.between(from, to, t), self).upper + kPoses) << t;
+    }
   }
 
   static constexpr int kSamples = 16;
@@ -114,6 +149,8 @@ TEST_P(Clearances, AreOfAllPieces) {
   EXPECT_LE(counts_.contacts, counts_.states / 2) << counts_.states;
   EXPECT_GE(counts_.moving, counts_.motions / 4) << counts_.motions;
   EXPECT_GE(counts_.outOfReachMoving, counts_.motions / 20) << counts_.motions;
+  EXPECT_GE(counts_.hidden, counts_.states / 4) << counts_.states;
+  EXPECT_GE(counts_.hiddenMoving, counts_.motions / 4) << counts_.motions;
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Clearances, testing::Values(1, 2, 3));

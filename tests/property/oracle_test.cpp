@@ -228,12 +228,27 @@ TEST(Oracle, CracksAndFoldsLeaveASolid) {
   faces.pop_back();
   EXPECT_EQ(Mesh(own, faces, kCrack).closedParts(), 0);
 
-  // A fin on the edge from 0 to 1, out and back.
+  // A corner more on an edge of one face, at its place and off it.
+  for (const double off : {0.0, 0.5 * kCrack}) {
+    std::vector<Vector3d> divided = corners;
+    divided.push_back(0.5 * (corners[kCubeFaces[0][0]] + corners[kCubeFaces[0][1]]) +
+                      Vector3d::Constant(off));
+    faces = kCubeFaces;
+    const auto [a, b, c] = faces.front();
+    faces.front() = {a, 8, c};
+    faces.push_back({8, b, c});
+    EXPECT_EQ(Mesh(divided, faces).closedParts(), 0);
+    EXPECT_EQ(Mesh(divided, faces, kCrack).closedParts(), 1);
+    faces.pop_back();
+    EXPECT_EQ(Mesh(divided, faces, kCrack).closedParts(), 0);
+  }
+
+  // A fin on the edge from 0 to 1, by itself, and out and back.
   std::vector<Vector3d> folded = corners;
   folded.push_back(2 * corners[0]);
   faces = kCubeFaces;
   faces.push_back({0, 1, 8});
-  EXPECT_EQ(Mesh(folded, faces).closedParts(), 0);
+  EXPECT_EQ(Mesh(folded, faces).closedParts(), 1);
   faces.push_back({1, 0, 8});
   const Mesh fin(folded, faces);
   ASSERT_EQ(fin.closedParts(), 1);

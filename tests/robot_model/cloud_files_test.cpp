@@ -201,6 +201,9 @@ TEST_F(CloudFiles, PointsThatAreNotFiniteAreLeftOutWithOneRemark) {
   }
   expectRemark("a.xyz", test::xyz(points));
   expectRemark("a.xyz", "NaN NAN nan\n1 2 3\n4 5 Inf\n-infinity 1 2\n1 -nan 0\n7 8 9\n");
+  expectRemark(
+      "a.xyz",
+      "-1.#IND 1.#QNAN 1.#QNAN0\n1 2 3\n4 5 1.#INF00\n-1.#INF 1 2\n1 -nan(ind) 0\n7 8 9\n");
   // Nobody has to listen.
   EXPECT_EQ(loadPoints(folder_.write("a.xyz", test::xyz(points))).size(), 2u);
 }
@@ -214,19 +217,91 @@ TEST_F(CloudFiles, PcdHeadersMayBeShortOrCommented) {
   }
 }
 
-TEST_F(CloudFiles, AViewpointIsNotAppliedButNamed) {
-  const std::string text = test::pcd(kThree, kFloats, "ascii");
-  const std::string still = "VIEWPOINT 0 0 0 1 0 0 0";
-  for (const std::string moved : {"VIEWPOINT 0 0 1.5 1 0 0 0", "VIEWPOINT 0 0 0 0 1 0 0"}) {
-    std::string other = text;
-    other.replace(other.find(still), still.size(), moved);
-    expectSame(load("a.pcd", other), kThree, moved);
-    EXPECT_THAT(warnings_.lines,
-                ElementsAre(path("a.pcd") + ":9: warning: VIEWPOINT is not applied: points are "
-                                            "taken as the file has them"));
+/// What the Point Cloud Library writes and reads of older and shorter headers.
+TEST_F(CloudFiles, PcdHeadersMayBeOld) {
+  const Points two{{1, 2, 3}, {4, 5, 6}};
+  const std::string data = "DATA ascii\n1 2 3\n4 5 6\n";
+  const std::string typed = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n";
+  for (const std::string header :
+       {"COLUMNS x y z\nPOINTS 2\n", "VERSION .5\nCOLUMNS x y z\nPOINTS 2\n",
+        "VERSION 0.5\nFIELDS x y z\nWIDTH 0\nHEIGHT 0\nPOINTS 2\n"})
+    expectSame(load("a.pcd", header + data), two, header);
+  for (const std::string size : {"", "WIDTH 2\n", "WIDTH 2\nHEIGHT 0\n", "WIDTH 1\nHEIGHT 2\n"})
+    expectSame(load("a.pcd", typed + size + "POINTS 2\n" + data), two, size);
+  const std::string small = "SIZE 4 4 4 1\nTYPE f f F b\nPOINTS 1\nDATA ascii\n1 2 3 1\n";
+  expectSame(load("a.pcd", "FIELDS x y z seen\n" + small), {{1, 2, 3}}, "types");
+}
+
+/// Drivers of lidars write them for padding.
+TEST_F(CloudFiles, PcdFieldsOfNoValuesAreNotThere) {
+  const std::vector<CloudField> fields{{"_", 'U', 1, 0}, {"x"}, {"_", 'U', 2, 0}, {"y"}, {"z"},
+                                       {"_", 'F', 8, 0}};
+  for (const std::string form : {"ascii", "binary", "binary_compressed"})
+    expectSame(load("a.pcd", test::pcd(kThree, fields, form)), kThree, form);
+}
+
+class SensedFiles : public CloudFiles {
+ protected:
+  Vector3d sensorOf(const std::string& name, const std::string& text) {
+    warnings_.lines.clear();
+    const auto sensed = loadSensedPoints(folder_.write(name, text), warnings_.options());
+    expectSame(sensed.points, kThree, name);
+    return sensed.sensor;
   }
-  expectSame(load("a.pcd", text), kThree, "");
-  EXPECT_THAT(warnings_.lines, IsEmpty());
+  void expectRemark(const std::string& what) const {
+    EXPECT_THAT(
+        warnings_.lines,
+        ElementsAre(testing::EndsWith(
+            ": warning: " + what +
+            " is where the sensor was, in the frame of the points; it does not move them")));
+  }
+};
+
+TEST_F(SensedFiles, AViewpointIsTheSensor) {
+  const std::string still = "VIEWPOINT 0 0 0 1 0 0 0";
+  for (const std::string form : {"ascii", "binary", "binary_compressed"}) {
+    const std::string text = test::pcd(kThree, kFloats, form);
+    EXPECT_EQ(sensorOf("a.pcd", text), Vector3d(0, 0, 0));
+    EXPECT_THAT(warnings_.lines, IsEmpty());
+    const auto with = [&](const std::string& viewpoint) {
+      std::string other = text;
+      return other.replace(other.find(still), still.size(), viewpoint);
+    };
+    EXPECT_EQ(sensorOf("a.pcd", with("VIEWPOINT -1 0.25 1.5 1 0 0 0")), Vector3d(-1, 0.25, 1.5));
+    expectRemark("VIEWPOINT");
+    EXPECT_EQ(sensorOf("a.pcd", with("VIEWPOINT 0 0 0 0 1 0 0")), Vector3d(0, 0, 0));
+    expectRemark("VIEWPOINT");
+    // Which way it looked is nothing to what its rays pass.
+    EXPECT_EQ(sensorOf("a.pcd", with("VIEWPOINT 1 2 3 0 0 0 0")), Vector3d(1, 2, 3));
+    EXPECT_EQ(sensorOf("a.pcd", with("#")), Vector3d(0, 0, 0));
+    EXPECT_THAT(warnings_.lines, IsEmpty());
+  }
+}
+
+TEST_F(SensedFiles, ACameraOfAPlyIsTheSensor) {
+  for (const std::string form : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const bool big = form == "binary_big_endian";
+    const test::PlyPart vertex = test::plyVertex(kThree, kFloats, big);
+    const auto with = [&](const Vector3d& at, const std::vector<CloudField>& fields) {
+      test::PlyPart camera = test::plyVertex({at}, fields, big);
+      camera.header.replace(0, camera.header.find('\n'), "element camera 1");
+      for (const std::string axis : {"x", "y", "z"}) {
+        const auto place = camera.header.find(" " + axis + "\n");
+        camera.header.replace(place, 2, " view_p" + axis);
+      }
+      return camera;
+    };
+    const std::vector<CloudField> fields{{"x_axisx"}, {"z", 'F', 8}, {"x"}, {"y"}, {"focal"}};
+    const test::PlyPart camera = with({-1, 0.25, 1.5}, fields);
+    EXPECT_EQ(sensorOf("a.ply", test::ply({vertex, camera}, form)), Vector3d(-1, 0.25, 1.5));
+    expectRemark("the camera");
+    EXPECT_EQ(sensorOf("a.ply", test::ply({camera, vertex}, form)), Vector3d(-1, 0.25, 1.5));
+    EXPECT_EQ(sensorOf("a.ply", test::ply({vertex, with({0, 0, 0}, fields)}, form)),
+              Vector3d(0, 0, 0));
+    EXPECT_THAT(warnings_.lines, IsEmpty());
+    EXPECT_EQ(sensorOf("a.ply", test::ply({vertex}, form)), Vector3d(0, 0, 0));
+  }
+  EXPECT_EQ(sensorOf("a.xyz", test::xyz(kThree)), Vector3d(0, 0, 0));
 }
 
 TEST_F(CloudFiles, ZerosBehindABinaryPcdArePadding) {

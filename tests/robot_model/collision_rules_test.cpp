@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <string>
+#include <vector>
 
 #include "version_arms.hpp"
 
@@ -17,19 +21,144 @@ using test::messageOf;
 using test::parseArm;
 using test::shared;
 
-TEST(CollisionRules, ThePatternAddedLastCounts) {
+TEST(CollisionRules, TheRuleThatNamesMoreCountsAndOfEqualsTheLast) {
   CollisionRules rules;
-  rules.allow("*", "table").check("hand", "*").allow("left_*_tip", "ta*e", "it may lean on it");
+  rules.allow("*", "table").check("hand", "*").allow("left_*_tip", "ta*e", "two patterns are less");
   EXPECT_TRUE(rules.allowed("arm", "table").value());
   EXPECT_TRUE(rules.allowed("table", "arm").value());
   EXPECT_FALSE(rules.allowed("hand", "table").value());
   EXPECT_FALSE(rules.allowed("table", "hand").value());
-  EXPECT_TRUE(rules.allowed("left_finger_tip", "table").value());
-  EXPECT_TRUE(rules.allowed("table", "left__tip").value());
+  EXPECT_EQ(rules.decisive("left_finger_tip", "table")->reason, "");
+  EXPECT_EQ(rules.decisive("left__tip", "tale")->reason, "two patterns are less");
   EXPECT_FALSE(rules.allowed("left_tip", "shelf").has_value());
   EXPECT_FALSE(rules.allowed("arm", "shelf").has_value());
-  EXPECT_EQ(rules.find(CollisionRules::Kind::Allow, "left_finger_tip", "table")->reason,
-            "it may lean on it");
+  EXPECT_EQ(rules.decisive("arm", "shelf"), nullptr);
+  rules.allow("table", "hand", "both are named").check("*", "*", "all");
+  EXPECT_EQ(rules.decisive("hand", "table")->reason, "both are named");
+  EXPECT_EQ(rules.decisive("arm", "shelf")->reason, "all");
+  rules.check("hand", "table", "later");
+  EXPECT_EQ(rules.decisive("hand", "table")->reason, "later");
+  EXPECT_EQ(rules.find(CollisionRules::Kind::Allow, "hand", "table")->reason, "both are named");
+}
+
+TEST(CollisionRules, AWeakerLayerCountsWhereTheStrongerIsSilent) {
+  const CollisionRules scene = CollisionRules()
+                                   .check("hand", "table", "the scene")
+                                   .pad("hand", 0.03)
+                                   .margin("hand", "cup", 0.2)
+                                   .scale("cup", 2.0);
+  const CollisionRules srdf = CollisionRules().allow("arm", "base", "the SRDF");
+  CollisionRules rules = CollisionRules().allow("h*", "*", "the program").pad("*", 0.01);
+  rules = rules.over(scene.over(srdf));
+  // A pattern above wins from two names below.
+  EXPECT_EQ(rules.decisive("hand", "table")->reason, "the program");
+  EXPECT_EQ(rules.padding("hand"), 0.01);
+  // What is allowed above says nothing about margins.
+  EXPECT_EQ(rules.find(CollisionRules::Kind::Margin, "cup", "hand")->value, 0.2);
+  EXPECT_EQ(rules.scale("cup"), 2.0);
+  EXPECT_EQ(rules.decisive("base", "arm")->reason, "the SRDF");
+  EXPECT_EQ(rules.decisive("base", "arm")->layer, 2);
+  // What is added later is above all, and it does not matter how the layers were put together.
+  EXPECT_EQ(CollisionRules(rules).check("*", "*", "now").decisive("base", "arm")->reason, "now");
+  const CollisionRules again =
+      CollisionRules().allow("h*", "*").pad("*", 0.01).over(scene).over(srdf);
+  EXPECT_EQ(again.decisive("base", "arm")->layer, 2);
+  EXPECT_EQ(CollisionRules().over(srdf).decisive("base", "arm")->layer, 0);
+  EXPECT_EQ(rules.without("arm").decisive("base", "arm"), nullptr);
+  EXPECT_EQ(rules.without("arm").decisive("hand", "table")->reason, "the program");
+}
+
+/// By what is written in the documentation, and by nothing else.
+class Oracle {
+ public:
+  using Kind = CollisionRules::Kind;
+  struct Said {
+    Kind kind;
+    std::string a, b;  ///< `b` empty: about a body
+    double value;
+  };
+  std::vector<std::vector<Said>> layers;  ///< the strongest first
+
+  /// The last of those that name the most, in the first layer that has one.
+  const Said* find(const std::vector<Kind>& kinds, const std::string& a,
+                   const std::string& b) const {
+    for (const std::vector<Said>& layer : layers)
+      for (int named = 2; named >= 0; --named)
+        for (std::size_t i = layer.size(); i-- > 0;)
+          if (namesOf(layer[i]) == named && layer[i].b.empty() == b.empty() &&
+              std::ranges::find(kinds, layer[i].kind) != kinds.end() && isAbout(layer[i], a, b))
+            return &layer[i];
+    return nullptr;
+  }
+
+ private:
+  static int namesOf(const Said& said) {
+    int names = 0;
+    for (const std::string* name : {&said.a, &said.b})
+      names += !name->empty() && name->find('*') == std::string::npos ? 1 : 0;
+    return names;
+  }
+  static bool fits(const std::string& pattern, const std::string& name) {
+    if (pattern.empty()) return name.empty();
+    if (pattern[0] == '*')
+      return fits(pattern.substr(1), name) || (!name.empty() && fits(pattern, name.substr(1)));
+    return !name.empty() && name[0] == pattern[0] && fits(pattern.substr(1), name.substr(1));
+  }
+  static bool isAbout(const Said& said, const std::string& a, const std::string& b) {
+    return (fits(said.a, a) && fits(said.b, b)) || (fits(said.a, b) && fits(said.b, a));
+  }
+};
+
+TEST(CollisionRules, TheRuleThatCountsIsTheOracles) {
+  using Kind = CollisionRules::Kind;
+  std::mt19937 random(7);
+  const auto upTo = [&](std::size_t count) { return random() % count; };
+  const std::vector<std::string> names{"a", "b", "ab", "ba"};
+  const std::vector<std::string> patterns{"a", "b", "ab", "ba", "*", "a*", "*b", "*a*"};
+  int found = 0, missed = 0, weaker = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    Oracle oracle;
+    std::vector<CollisionRules> layers;
+    for (std::size_t layer = 0, count = 1 + upTo(4); layer < count; ++layer) {
+      layers.emplace_back();
+      oracle.layers.emplace_back();
+      for (std::size_t i = 0, rules = upTo(4); i < rules; ++i) {
+        const std::string a = patterns[upTo(patterns.size())];
+        const std::string b = patterns[upTo(patterns.size())];
+        const double value = 1.0 + 0.001 * static_cast<double>(upTo(1000000));
+        const auto kind = static_cast<Kind>(upTo(5));
+        const bool pair = kind == Kind::Allow || kind == Kind::Check || kind == Kind::Margin;
+        oracle.layers.back().push_back({kind, a, pair ? b : "", value});
+        const std::string reason = std::to_string(value);
+        if (kind == Kind::Allow) layers.back().allow(a, b, reason);
+        if (kind == Kind::Check) layers.back().check(a, b, reason);
+        if (kind == Kind::Margin) layers.back().margin(a, b, value, reason);
+        if (kind == Kind::Padding) layers.back().pad(a, value, reason);
+        if (kind == Kind::Scale) layers.back().scale(a, value, reason);
+      }
+    }
+    // From the top or from the bottom: it is the same.
+    CollisionRules rules = trial % 2 == 0 ? layers.front() : layers.back();
+    for (std::size_t i = 1; i < layers.size(); ++i)
+      rules = trial % 2 == 0 ? rules.over(layers[i]) : layers[layers.size() - 1 - i].over(rules);
+    const auto expectSame = [&](const CollisionRules::Rule* rule, const Oracle::Said* said) {
+      ASSERT_EQ(rule == nullptr, said == nullptr) << trial;
+      ++(rule == nullptr ? missed : found);
+      if (rule == nullptr) return;
+      EXPECT_EQ(rule->reason, std::to_string(said->value)) << trial;
+      EXPECT_EQ(rule->kind, said->kind) << trial;
+      weaker += rule->layer > 0 ? 1 : 0;
+    };
+    const std::string a = names[upTo(names.size())];
+    const std::string b = names[upTo(names.size())];
+    expectSame(rules.decisive(a, b), oracle.find({Kind::Allow, Kind::Check}, a, b));
+    expectSame(rules.find(Kind::Margin, a, b), oracle.find({Kind::Margin}, a, b));
+    expectSame(rules.find(Kind::Padding, a), oracle.find({Kind::Padding}, a, ""));
+    expectSame(rules.find(Kind::Scale, a), oracle.find({Kind::Scale}, a, ""));
+  }
+  EXPECT_GT(found, 2000);
+  EXPECT_GT(missed, 2000);
+  EXPECT_GT(weaker, 500);
 }
 
 TEST(CollisionRules, APatternMatchesWhatItSays) {

@@ -232,7 +232,7 @@ class Conformance {
       // Only what comes within the tolerance may be left open.
       const double tolerance = tiers_.exact.options.tolerance;
       const MotionClearance clearance = detail::motionClearance(
-          tiers_.exact, motion.from, motion.to, 0.1 * tolerance, exactWork_);
+          tiers_.exact, motion.from, motion.to, 0.1 * tolerance, ClearanceQuery::Least, exactWork_);
       EXPECT_LE(clearance.lower, margin_ + tolerance);
     }
     Geometry geometry(tiers_.exact, motion);

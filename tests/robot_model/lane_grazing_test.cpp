@@ -149,7 +149,9 @@ class Stage {
   /// Proven, m: the motion keeps this much.
   double clearance() {
     WorkspaceData workspace(model_);
-    return detail::motionClearance(model_, from_, to_, 0.1 * tolerance::kMotion, workspace).lower;
+    return detail::motionClearance(model_, from_, to_, 0.1 * tolerance::kMotion,
+                                   ClearanceQuery::Least, workspace)
+        .lower;
   }
 
   MotionCertificate certify(bool lanes, MotionQuery query) {

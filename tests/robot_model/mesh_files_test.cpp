@@ -125,21 +125,51 @@ TEST(MeshFiles, CracksOfSinglePrecisionAreNoHoles) {
   const test::TemporaryFolder folder;
   const float step = 3.0F * std::numeric_limits<float>::epsilon();
   folder.write("cracked.stl", tetrahedronStl(step));
-  folder.write("open.stl", tetrahedronStl(4.0F * step));
+  folder.write("wider.stl", tetrahedronStl(2e-5F));
+  folder.write("open.stl", tetrahedronStl(1e-3F));
   test::Warnings warnings;
   const auto robot =
       withMeshes(folder,
                  {"filename='cracked.stl'", "filename='cracked.stl' scale='-0.001 1 7'",
-                  "filename='open.stl'"},
+                  "filename='wider.stl'", "filename='open.stl'"},
                  warnings.options());
   EXPECT_GT(mesh(*robot, 0).report().cracksFilled, 0);
-  EXPECT_TRUE(mesh(*robot, 0).isClosed());
+  for (const int index : {0, 1, 2}) EXPECT_TRUE(mesh(*robot, index).isClosed()) << index;
   EXPECT_TRUE(mesh(*robot, 0).encloses({1.2, 0.3, 0.3}));
-  // A step along an axis that is scaled down is less than that.
-  EXPECT_TRUE(mesh(*robot, 1).isClosed());
-  EXPECT_FALSE(mesh(*robot, 2).isClosed());
-  ASSERT_EQ(warnings.lines.size(), 1U);
-  EXPECT_THAT(warnings.lines.front(), testing::HasSubstr("mesh 'open.stl' is an open surface"));
+  EXPECT_TRUE(mesh(*robot, 2).encloses({1.2, 0.3, 0.3}));
+  EXPECT_FALSE(mesh(*robot, 3).isClosed());
+  EXPECT_THAT(
+      warnings.lines,
+      ElementsAre(testing::MatchesRegex(".*m.urdf:4: warning: mesh 'wider.stl' has cracks of up to "
+                                        "[12]\\.[0-9]+e-05 m, more than rounding explains: they "
+                                        "are filled"),
+                  testing::MatchesRegex(".*m.urdf:5: warning: mesh 'open.stl' is an open surface "
+                                        "\\([0-9]+ open components?\\): its interior is not solid, "
+                                        "for openings of up to 0\\.00[0-9]+ m")));
+}
+
+/// A cube of 2 m, each side by itself as far as edges go: the top has a corner in the middle of an
+/// edge.
+TEST(MeshFiles, CornersOnEdgesOfOtherFacesAreNoHoles) {
+  const test::TemporaryFolder folder;
+  const std::string corners =
+      "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+  const std::string sides = "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  folder.write("exact.obj", corners + "v 0 -1 1\n" + sides + "f 5 9 8\nf 9 6 7\nf 9 7 8\n");
+  // As six decimals write it, in metres and in millimetres.
+  folder.write("off.obj",
+               corners + "v 0.1 -0.999999 1.000001\n" + sides + "f 5 9 8\nf 9 6 7\nf 9 7 8\n");
+  test::Warnings warnings;
+  const auto robot = withMeshes(
+      folder,
+      {"filename='exact.obj'", "filename='off.obj'", "filename='off.obj' scale='0.001 0.001 0.001'",
+       "filename='off.obj' scale='2 1 5'"},
+      warnings.options());
+  for (const int index : {0, 1, 2, 3}) EXPECT_TRUE(mesh(*robot, index).isClosed()) << index;
+  EXPECT_TRUE(mesh(*robot, 0).encloses({0.2, 0.2, 0.3}));
+  EXPECT_TRUE(mesh(*robot, 1).encloses({0.2, 0.2, 0.3}));
+  EXPECT_TRUE(mesh(*robot, 2).encloses({0.0002, 0.0002, 0.0003}));
+  EXPECT_THAT(warnings.lines, IsEmpty());
 }
 
 /// A face with two equal corners is a line: part of the shape where it is no edge of another.

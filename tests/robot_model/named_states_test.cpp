@@ -49,8 +49,9 @@ TEST(NamedStates, ThatAreMissingAreNamed) {
   };
   EXPECT_EQ(message("both", "full"), "");
   EXPECT_EQ(message("both", "half"), "named state `half` of group `both` has no value for `y`");
-  EXPECT_EQ(message("both", "home"), "group `both` has no named state `home`; it has half, full");
-  EXPECT_EQ(message("one", "full"), "group `one` has no named state `full`; it has none");
+  EXPECT_EQ(message("both", "home"),
+            "group `both` has no named state `home`; it has half, full, default");
+  EXPECT_EQ(message("one", "full"), "group `one` has no named state `full`; it has default");
   EXPECT_THROW(makeNamedState(*robot->findGroup("both"), "s", std::vector<double>{1.0}),
                std::invalid_argument);
 }

@@ -9,12 +9,14 @@
 
 #include "input_files.hpp"
 #include "message_of.hpp"
+#include "scene_summary.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::Pair;
 
 const std::string kStart = R"(group_name: arm
@@ -57,9 +59,10 @@ TEST(PlanningRequest, ReadsJointGoals) {
 
 TEST(PlanningRequest, ReadsAPoseGoal) {
   const test::TemporaryFolder folder;
-  test::Warnings warnings;
   const auto file = folder.write("r.yaml", kStart + kPose);
-  const PlanningRequest request = PlanningRequest::load(file, warnings.options());
+  LoadOptions options;
+  options.modelFrame = "base";
+  const PlanningRequest request = PlanningRequest::load(file, options);
   EXPECT_THAT(request.goals, ElementsAre());
   ASSERT_EQ(request.poseGoals.size(), 1u);
   const PlanningRequest::PoseGoal& goal = request.poseGoals.front();
@@ -69,10 +72,11 @@ TEST(PlanningRequest, ReadsAPoseGoal) {
   EXPECT_LE((goal.model_from_link.linear() - halfTurn).norm(), 1e-15);
   EXPECT_EQ(goal.positionTolerance, 0.01) << "half the box's least side";
   EXPECT_EQ(goal.orientationTolerance, 0.2);
-  EXPECT_THAT(warnings.lines, ElementsAre(file.string() + ":8: warning: goal_constraints[0]."
-                                                          "position_constraints[0].header.frame_id "
-                                                          "'base' is taken for the robot's model "
-                                                          "frame"));
+  EXPECT_EQ(test::inputError([&] { PlanningRequest::load(file); }),
+            file.string() +
+                ":8: error: goal_constraints[0].position_constraints[0].header.frame_id is 'base', "
+                "which is no frame of the file; those of a robot's links need "
+                "PlanningRequest::load with a robot; the model frame is 'world'");
 }
 
 TEST(PlanningRequest, ReadsBasesOfTheStart) {
@@ -162,10 +166,12 @@ cartesian_speed_end_effector_link: ''
 cartesian_speed_limited_link: ''
 max_cartesian_speed: 0
 )");
-  EXPECT_EQ(PlanningRequest::load(file, warnings.options()).goals.size(), 1u);
-  EXPECT_THAT(warnings.lines,
-              ElementsAre(file.string() + ":2: warning: workspace_parameters is ignored: it bounds "
-                                          "where a base may go, and nothing else"));
+  const PlanningRequest request = PlanningRequest::load(file, warnings.options());
+  EXPECT_EQ(request.goals.size(), 1u);
+  ASSERT_TRUE(request.workspace);
+  EXPECT_EQ(request.workspace->min(), Eigen::Vector3d(-1, -1, -1));
+  EXPECT_EQ(request.workspace->max(), Eigen::Vector3d(1, 1, 1));
+  EXPECT_THAT(warnings.lines, ElementsAre());
 }
 
 /// The message without the name of the file.
@@ -189,8 +195,8 @@ TEST(PlanningRequest, NothingIsLeftOutInSilence) {
   EXPECT_EQ(message(kStart + "goal_constraints:\n  - visibility_constraints: [{}]\n"),
             ":7: error: goal_constraints[0].visibility_constraints[0] is not supported");
   EXPECT_EQ(message(kStart + "  attached_collision_objects: [{link_name: hand}]\n" + goal),
-            ":6: error: start_state.attached_collision_objects[0] is not read from a request; "
-            "attach it to the robot instead");
+            ":6: error: start_state.attached_collision_objects[0] is read with a robot alone; "
+            "PlanningRequest::load takes one");
   EXPECT_EQ(message(kStart + "  multi_dof_joint_state: {joint_names: [base]}\n" + goal),
             ":6: error: start_state.multi_dof_joint_state has 1 names and 0 transforms");
   EXPECT_EQ(message("start_state: {joint_state: {name: [a, a], position: [0, 1]}}\n" + goal),
@@ -223,6 +229,57 @@ TEST(PlanningRequest, WhatIsMissingIsNamed) {
   EXPECT_EQ(message(kStart + other),
             ":7: error: goal_constraints[0] its position is of link 'hand', its orientation of "
             "another");
+}
+
+std::string attachedTo(const std::string& link, const std::string& object) {
+  return "start_state:\n  joint_state: {name: [jl], position: [1]}\n"
+         "  attached_collision_objects:\n    - {link_name: " +
+         link + ", object: {" + object +
+         ", primitives: [{type: sphere, dimensions: [0.1]}], primitive_poses: [{position: [0, 0, "
+         "2]}]}, touch_links: [r]}\n"
+         "goal_constraints: [{joint_constraints: [{joint_name: jl, position: 2}]}]\n";
+}
+
+TEST(PlanningRequest, WithARobotAttachedObjectsAreRead) {
+  const test::TemporaryFolder folder;
+  const auto robot = test::twoArms();
+  const auto read = [&](const std::string& text) {
+    return PlanningRequest::load(folder.write("r.yaml", text), *robot);
+  };
+  const PlanningRequest request = read(attachedTo("l", "id: can, header: {frame_id: l}"));
+  ASSERT_EQ(request.attached.size(), 1u);
+  EXPECT_EQ(request.attached[0].link, "l");
+  EXPECT_EQ(request.attached[0].touchLinks, std::vector<std::string>{"r"});
+  EXPECT_EQ(request.attached[0].parts[0].link_from_shape.translation(), Eigen::Vector3d(0, 0, 2));
+  const auto refusal = [&](const std::string& text) {
+    return test::inputError([&] { read(text); });
+  };
+  EXPECT_THAT(refusal(attachedTo("l", "id: can, header: {frame_id: odom}")),
+              EndsWith("object.header has to name the frame_id 'l', the link's, in a request"));
+  EXPECT_THAT(refusal(attachedTo("hand", "id: can, header: {frame_id: hand}")),
+              EndsWith("link_name is 'hand', which is no link of robot 'two'"));
+}
+
+TEST(PlanningRequest, WithARobotItsNamesAreLookedUp) {
+  const test::TemporaryFolder folder;
+  const auto robot = test::twoArms();
+  const auto refusal = [&](const std::string& joints, const std::string& frame) {
+    std::string goal = kPose;
+    goal.replace(goal.find("base"), 4, frame);
+    for (const char* way : {"link_name: hand", "link_name: hand"})
+      goal.replace(goal.find(way), 15, "link_name: lid ");
+    const auto file = folder.write("r.yaml", "start_state: {joint_state: " + joints + "}\n" + goal);
+    return test::inputError([&] { PlanningRequest::load(file, *robot); });
+  };
+  EXPECT_EQ(refusal("{name: [jl], position: [1]}", "odom"), "");
+  EXPECT_THAT(refusal("{name: [elbow], position: [1]}", "odom"),
+              EndsWith("name[0] is 'elbow', which is no joint of robot 'two'"));
+  EXPECT_THAT(refusal("{name: [jl, jf], position: [1, 1]}", "odom"),
+              EndsWith("position[1] of 'jf' is 1, but the joint follows 'jl' to 0.5"));
+  // The base moves, and what hangs on it.
+  EXPECT_THAT(refusal("{name: [jl], position: [1]}", "base"),
+              EndsWith("header.frame_id is 'base', which is no frame of the robot or of the file; "
+                       "the model frame is 'odom'"));
 }
 
 }  // namespace

@@ -150,38 +150,35 @@ world:
 
 /// MoveIt keeps them the other way round than tf does: read as tf has them, objects stood on the
 /// wrong side of the robot.
-TEST(SceneYaml, FixedTransformsPlaceObjectsAndUnknownFramesAreNamedOnce) {
+TEST(SceneYaml, FixedTransformsPlaceObjects) {
   test::Warnings warnings;
   const auto sphere = [](const std::string& id, const std::string& frame) {
     return "    - {id: " + id + ", header: {frame_id: " + frame +
            "}, pose: {position: [1, 0, 0]}, primitives: [{type: sphere, dimensions: [1]}]}\n";
   };
-  const World world =
-      load("s.yaml",
-           "fixed_frame_transforms:\n"
-           "  - {header: {frame_id: base}, child_frame_id: base, transform: {}}\n"
-           "  - header: {frame_id: table}\n"
-           "    child_frame_id: base\n"
-           "    transform: {translation: [0, 0, 1], rotation: [0, 0, 0.6, 0.8]}\n"
-           "  - header: {frame_id: /tray}\n"
-           "    child_frame_id: base\n"
-           "    transform: {translation: {x: 0, y: 3, z: 0}}\n"
-           "world:\n  collision_objects:\n" +
-               sphere("on_table", "table") + sphere("on_tray", "tray") + sphere("in_base", "base") +
-               sphere("in_world", "world") + sphere("lost", "camera") + sphere("too", "camera"),
-           warnings.options());
+  const World world = load("s.yaml",
+                           "fixed_frame_transforms:\n"
+                           "  - {header: {frame_id: base}, child_frame_id: base, transform: {}}\n"
+                           "  - header: {frame_id: table}\n"
+                           "    child_frame_id: base\n"
+                           "    transform: {translation: [0, 0, 1], rotation: [0, 0, 0.6, 0.8]}\n"
+                           "  - header: {frame_id: /tray}\n"
+                           "    child_frame_id: base\n"
+                           "    transform: {translation: {x: 0, y: 3, z: 0}}\n"
+                           "world:\n  collision_objects:\n" +
+                               sphere("on_table", "table") + sphere("on_tray", "tray") +
+                               sphere("in_base", "base") + sphere("in_world", "world"),
+                           warnings.options());
   const auto at = [&](const char* id) { return world.find(id)->parts[0].world_from_shape; };
   EXPECT_LT(difference(at("on_table"), pose({0, 0, 1}, kTurn) * pose({1, 0, 0}, 0)), 1e-15);
   EXPECT_LT(difference(at("on_tray"), pose({1, 3, 0}, 0)), 1e-15);
-  for (const char* id : {"in_base", "in_world", "lost"}) {
+  for (const char* id : {"in_base", "in_world"}) {
     EXPECT_LT(difference(at(id), pose({1, 0, 0}, 0)), 1e-15) << id;
   }
   EXPECT_THAT(
       warnings.lines,
       ElementsAre(EndsWith("s.yaml:4: warning: fixed_frame_transforms[1].child_frame_id 'base' is "
-                           "taken for the robot's model frame"),
-                  EndsWith("s.yaml:15: warning: object 'lost': header.frame_id 'camera' is taken "
-                           "for the robot's model frame")));
+                           "taken for the robot's model frame")));
 }
 
 /// As MotionBenchMaker, Robowflex and MoveIt's own programs write them.
@@ -219,29 +216,42 @@ collision_objects:
   EXPECT_EQ(world.find("ball")->parts[0].world_from_shape.translation(), Eigen::Vector3d(0, 0, -1));
 }
 
-TEST(SceneYaml, TheRobotsRootLinkIsAKnownFrame) {
+TEST(SceneYaml, TheModelFrameIsAKnownFrameAndNoOtherIs) {
   const std::string text =
       "world:\n  collision_objects:\n    - {id: ball, header: {frame_id: base_link}, "
       "pose: {position: [1, 0, 0]}, primitives: [{type: sphere, dimensions: [1]}]}\n";
-  test::Warnings warnings;
-  LoadOptions options = warnings.options();
+  LoadOptions options;
   options.modelFrame = "base_link";
   EXPECT_EQ(load("s.yaml", text, options).bodies().size(), 1u);
-  EXPECT_THAT(warnings.lines, IsEmpty());
   options.modelFrame = "pedestal";
-  load("s.yaml", text, options);
-  EXPECT_THAT(warnings.lines, ::testing::SizeIs(1));
+  EXPECT_THAT(
+      test::inputError([&] { load("s.yaml", text, options); }),
+      EndsWith("s.yaml:3: error: object 'ball': header.frame_id is 'base_link', which is no "
+               "frame of the file; those of a robot's links need PlanningScene::load; the "
+               "model frame is 'pedestal'"));
 }
 
-TEST(SceneYaml, AttachedObjectsAreNamedAndEmptyWorldsAreWorlds) {
-  test::Warnings warnings;
-  const World world = load("s.yaml",
-                           "robot_state:\n  attached_collision_objects:\n    - {link_name: hand}\n"
-                           "world:\n  collision_objects: []\n",
-                           warnings.options());
-  EXPECT_THAT(world.bodies(), IsEmpty());
-  ASSERT_EQ(warnings.lines.size(), 1u);
-  EXPECT_THAT(warnings.lines[0], ::testing::HasSubstr("s.yaml:3: warning: "));
+/// A proof in the world alone would be about less than the file says.
+TEST(SceneYaml, WhatMakesMoreToCollideWithThanTheWorldIsRefused) {
+  const auto refusal = [](const std::string& text) {
+    return test::inputError([&] { load("s.yaml", text + "collision_objects: []\n"); });
+  };
+  const std::string instead = ": PlanningScene::load reads it, World::load reads the world alone";
+  EXPECT_THAT(refusal("robot_state:\n  attached_collision_objects:\n    - {link_name: hand}\n"),
+              EndsWith("s.yaml:3: error: robot_state.attached_collision_objects[0] is carried by a "
+                       "link" +
+                       instead));
+  EXPECT_THAT(
+      refusal("robot_state:\n  multi_dof_joint_state: {joint_names: [base], transforms: "
+              "[{translation: [1, 0, 0]}]}\n"),
+      EndsWith("s.yaml:2: error: robot_state.multi_dof_joint_state moves 'base'" + instead));
+  EXPECT_THAT(refusal("allowed_collision_matrix: {entry_names: [a], entry_values: [[true]]}\n"),
+              EndsWith("s.yaml:1: error: allowed_collision_matrix stands in place of the SRDF's" +
+                       instead));
+  EXPECT_EQ(
+      refusal("robot_state: {multi_dof_joint_state: {joint_names: [base], transforms: [{}]}}\n"
+              "allowed_collision_matrix: {entry_names: [], entry_values: []}\n"),
+      "");
 }
 
 /// What messages that ROS prints have besides, down to the line that begins another one.
@@ -282,23 +292,6 @@ is_diff: False
                            warnings.options());
   EXPECT_EQ(world.bodies().size(), 1u);
   EXPECT_THAT(warnings.lines, IsEmpty());
-}
-
-TEST(SceneYaml, WhatWouldChangeAnswersIsNamed) {
-  test::Warnings warnings;
-  load("s.yaml", R"(
-robot_state:
-  multi_dof_joint_state: {joint_names: [base], transforms: [{translation: [1, 0, 0]}]}
-allowed_collision_matrix: {entry_names: [a], entry_values: [[true]]}
-collision_objects: []
-)",
-       warnings.options());
-  EXPECT_THAT(
-      warnings.lines,
-      ElementsAre(EndsWith("s.yaml:3: warning: robot_state.multi_dof_joint_state moves 'base' and "
-                           "is ignored: the robot is not part of the world"),
-                  EndsWith("s.yaml:4: warning: allowed_collision_matrix is ignored: pairs that may "
-                           "collide are those of the SRDF and of rules")));
 }
 
 TEST(SceneText, OlderFormatHasNoObjectPoses) {

@@ -162,17 +162,130 @@ TEST(Srdf, EnabledPairsAreTakenBackWhereverTheyStand) {
       "<disable_collisions link1='torso' link2='r1' reason='Again'/>\n"
       "<disable_collisions link1='torso' link2='ghost' reason='Never'/>\n"
       "<disable_collisions link1='torso' link2='torso'/>\n"
-      "<disable_default_collisions link='torso'/>\n",
+      "<disable_collisions link1='torso' link2='ghost' reason='Never'/>\n",
       warnings.options());
   ASSERT_EQ(robot->disabledPairs().size(), 1u);
   EXPECT_EQ(robot->disabledPairs()[0].linkA, *robot->findLink("torso"));
   EXPECT_EQ(robot->disabledPairs()[0].linkB, *robot->findLink("r1"));
   EXPECT_EQ(robot->disabledPairs()[0].reason, "Adjacent");
+  ASSERT_EQ(robot->enabledPairs().size(), 1u);
+  EXPECT_EQ(robot->enabledPairs()[0].linkA, *robot->findLink("base"));
+  EXPECT_EQ(robot->enabledPairs()[0].linkB, *robot->findLink("l1"));
+  EXPECT_THAT(
+      warnings.lines,
+      ElementsAre("twin.srdf:3: warning: <disable_collisions>: the pair 'base' - 'l1' is enabled, "
+                  "too; it stays checked",
+                  "twin.srdf:6: warning: <disable_collisions>: 2 pairs name link 'ghost', which "
+                  "does not exist (first at line 6)",
+                  "twin.srdf:7: warning: <disable_collisions> names link 'torso' twice"));
+}
+
+std::vector<std::string> disabledWith(const Robot& robot, const char* link) {
+  std::vector<std::string> others;
+  const int index = *robot.findLink(link);
+  for (const DisabledPair& pair : robot.disabledPairs()) {
+    if (pair.linkA == index) others.push_back(robot.links()[pair.linkB].name);
+    if (pair.linkB == index) others.push_back(robot.links()[pair.linkA].name);
+  }
+  return others;
+}
+
+TEST(Srdf, ALinkThatIsOffByDefaultIsInPairsThatAreEnabled) {
+  test::Warnings warnings;
+  const auto robot = load(
+      "<disable_default_collisions link='l1'/>\n"
+      "<disable_collisions link1='r1' link2='l1' reason='Never'/>\n"
+      "<enable_collisions link1='l1' link2='rf'/>\n",
+      warnings.options());
+  EXPECT_THAT(disabledWith(*robot, "l1"),
+              testing::UnorderedElementsAre("r1", "base", "torso", "l2", "lf", "r2"));
+  EXPECT_THAT(disabledWith(*robot, "rf"), IsEmpty());
+  EXPECT_EQ(robot->disabledPairs()[0].reason, "Never");
+  EXPECT_EQ(robot->disabledPairs()[1].reason, "disable_default_collisions");
+  EXPECT_THAT(warnings.lines, ElementsAre(HasSubstr(
+                                  "twin.srdf:2: warning: <disable_default_collisions> leaves link "
+                                  "'l1' out against other links; against the world, and what is "
+                                  "attached, this is not supported: it stays checked")));
+}
+
+TEST(Srdf, AGroupThatTheUrdfLacksSomethingOfIsLeftOutWithItsStates) {
+  test::Warnings warnings;
+  const auto robot = load(
+      "<group name='arm'><joint name='lj1'/></group>\n"
+      "<group name='tail'><joint name='lj2'/>\n<joint name='wag'/><link name='tip'/></group>\n"
+      "<group name='more'><group name='tail'/></group>\n"
+      "<group name='odd'><group name='nowhere'/></group>\n"
+      "<group name='far'><chain base_link='base' tip_link='moon'/></group>\n"
+      "<group_state name='home' group='tail'><joint name='lj2' value='0'/></group_state>\n"
+      "<group_state name='home' group='arm'><joint name='root_joint' value='0 0 0 0 0 0 1'/>\n"
+      "<joint name='lj1' value='1'/></group_state>\n",
+      warnings.options());
+  ASSERT_EQ(robot->groups().size(), 1u);
+  EXPECT_EQ(robot->groups()[0].name, "arm");
+  ASSERT_EQ(robot->namedStates().size(), 1u);
+  EXPECT_EQ(robot->namedStates()[0].values.size(), 1u);
+  EXPECT_EQ(robot->namedStates()[0].values[0].second, 1.0);
+  std::vector<std::string> out;
+  for (const LeftOut& left : robot->leftOut())
+    out.push_back(left.group + "/" + left.state + " " + left.reason);
+  EXPECT_THAT(out, ElementsAre("tail/ twin.srdf:4: joint 'wag' does not exist",
+                               "more/ twin.srdf:5: its group 'tail' is left out: joint 'wag' does "
+                               "not exist",
+                               "odd/ twin.srdf:6: group 'nowhere' does not exist",
+                               "far/ twin.srdf:7: link 'moon' does not exist",
+                               "tail/home twin.srdf:8: group 'tail' is left out"));
+  EXPECT_THAT(
+      warnings.lines,
+      Contains("twin.srdf:4: warning: group 'tail' is left out: joint 'wag' does not exist"));
   EXPECT_THAT(warnings.lines,
-              ElementsAre("twin.srdf:8: warning: <disable_default_collisions> is not supported; "
-                          "its pairs stay checked",
-                          "twin.srdf:6: warning: <disable_collisions>: link 'ghost' does not exist",
-                          "twin.srdf:7: warning: <disable_collisions> names link 'torso' twice"));
+              Contains("twin.srdf:9: warning: state 'home': joint 'root_joint' does "
+                       "not exist; its value is left out"));
+  // Nothing takes the place of groups that are all left out.
+  EXPECT_THAT(load("<group name='g'><joint name='wag'/></group>")->groups(), IsEmpty());
+}
+
+TEST(Srdf, AGroupThatMovesInAnotherWayIsLeftOut) {
+  const std::string joint =
+      "<virtual_joint name='v' type='planar' child_link='base'/>"
+      "<joint_property joint_name='v' property_name='angular_distance_weight' value='2'/>"
+      "<group name='arm'><joint name='lj1'/></group><group name='base'><joint name='v'/></group>"
+      "<joint_property joint_name='v' property_name='motion_model' value='";
+  EXPECT_NE(load(joint + "holonomic'/>")->findGroup("base"), nullptr);
+  const auto robot = load(joint + "diff_drive'/>");
+  EXPECT_EQ(robot->findGroup("base"), nullptr);
+  EXPECT_NE(robot->findGroup("arm"), nullptr);
+  ASSERT_EQ(robot->leftOut().size(), 1u);
+  EXPECT_THAT(robot->leftOut()[0].reason, HasSubstr("joint 'v' has the motion_model 'diff_drive'"));
+}
+
+TEST(Srdf, ManyWarningsOfAKindAreOneWithTheirNumber) {
+  std::string pairs;
+  for (int i = 0; i < 40; ++i)
+    pairs += "<disable_collisions link1='" + std::string(i % 4 == 0 ? "ghost" : "gone") +
+             "' link2='base'/>\n";
+  test::Warnings few;
+  load(pairs, few.options());
+  EXPECT_THAT(few.lines, ElementsAre("twin.srdf:2: warning: <disable_collisions>: 10 pairs name "
+                                     "link 'ghost', which does not exist (first at line 2)",
+                                     "twin.srdf:3: warning: <disable_collisions>: 30 pairs name "
+                                     "link 'gone', which does not exist (first at line 3)"));
+  test::Warnings all;
+  LoadOptions options = all.options();
+  options.everyWarning = true;
+  load(pairs, options);
+  ASSERT_EQ(all.lines.size(), 40u);
+  EXPECT_EQ(all.lines[39],
+            "twin.srdf:41: warning: <disable_collisions>: link 'gone' does not exist");
+  // Others go by what they have in common.
+  std::string groups;
+  for (int i = 0; i < 9; ++i)
+    groups += "<group name='g" + std::to_string(i) + "'><joint name='x'/></group>\n";
+  test::Warnings kinds;
+  load(groups, kinds.options());
+  ASSERT_EQ(kinds.lines.size(), 3u);
+  EXPECT_EQ(kinds.lines[2],
+            "twin.srdf:4: warning: group 'g2' is left out: joint 'x' does not exist (and 6 more of "
+            "this kind)");
 }
 
 TEST(Srdf, ForAnotherRobotIsAWarning) {
@@ -242,7 +355,8 @@ TEST_F(RealRobots, Pr2LoadsWithWarnings) {
   EXPECT_EQ(jointsOf(*robot, "arms").size(), 14u);
   EXPECT_THAT(jointsOf(*robot, "base"), IsEmpty());  // its joint is passive
   EXPECT_EQ(robot->disabledPairs().size(), 1035u);
-  EXPECT_THAT(warnings.lines, Contains(HasSubstr("<disable_collisions>: link '")));
+  EXPECT_THAT(warnings.lines, Contains(HasSubstr(", which does not exist (first at line ")));
+  EXPECT_LT(warnings.lines.size(), 20U);
   const Joint& tip = robot->joints()[*robot->findJoint("l_gripper_r_finger_tip_joint")];
   ASSERT_TRUE(tip.mimic);
   EXPECT_EQ(tip.mimic->master, *robot->findJoint("l_gripper_l_finger_joint"));

@@ -140,14 +140,45 @@ TEST(WholeMeshFiles, Obj) {
        {"v 1 0 0", "v 1 0 inf", kLine + "2: 'inf' of a vertex must be a finite number"}});
 }
 
+/// The corners of lines `v ...`, as PLY has them.
+std::string replacedV(std::string text) {
+  std::erase(text, 'v');
+  return text;
+}
+
+/// These corners, and two faces of theirs, as bytes.
+std::string binaryPolygons() {
+  std::string bytes;
+  const auto put = [&](auto value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const int value : {2, 0, 0, 2, 3, 0, 3, 1, 0, 2, 1, 0, 1, 0, 0})
+    put(static_cast<float>(value));
+  for (const std::int32_t first : {2, 1}) {
+    put(std::uint8_t{5});
+    for (const std::int32_t corner : {0, first, 3 - first, 3, 4}) put(corner);
+  }
+  return bytes;
+}
+
 /// Assimp cuts the corners of a polygon off until it finds none that it can.
 TEST(WholeMeshFiles, FacesThatCrossThemselvesAreRefused) {
   const std::string corners = "v 2 0 0\nv 2 3 0\nv 3 1 0\nv 2 1 0\nv 1 0 0\n";
   EXPECT_EQ(said("m.obj", corners + "f 1 3 2 4 5\n"), "3");
+  const std::string must =
+      " of 5 corners crosses or touches itself; a face of more than 4 corners must not, or has to "
+      "be given as "
+      "triangles";
+  EXPECT_EQ(said("m.obj", corners + "f 1 3 2 4 5\nf 1 2 3 4 5\n"), kLine + "7: a face" + must);
+  EXPECT_EQ(said("m.obj", "f 1 2 3 4 5\n" + corners), kLine + "1: a face" + must);
+  const std::string ply =
+      " 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
   EXPECT_EQ(
-      said("m.obj", corners + "f 1 2 3 4 5\n"),
-      "cannot be read: it has 3 triangles, where a face of n corners counts n - 2, and assimp "
-      "makes 1 of them; faces of more than 4 corners must not cross themselves");
+      said("m.ply", "ply\nformat ascii" + ply + replacedV(corners) + "5 0 2 1 3 4\n5 0 1 2 3 4\n"),
+      kLine + "16: a face" + must);
+  EXPECT_EQ(said("m.ply", "ply\nformat binary_little_endian" + ply + binaryPolygons()),
+            "cannot be read: face 1, counted from 0," + must);
 }
 
 /// Words that assimp reads as other numbers.

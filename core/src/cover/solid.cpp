@@ -88,7 +88,8 @@ void Solid::useHull(const ConvexHull& hull, double slack) {
   pad_ = hull.error() + thick.hull.error();
   isFlat_ = thick.slack > 0.0;
   if (!thick.hull.faces().empty()) {
-    mesh_ = TriangleMesh::build(thick.hull.vertices(), thick.hull.faces());
+    mesh_ =
+        TriangleMesh::build(thick.hull.vertices(), thick.hull.faces(), MeshInterior::Solid, 0.0);
     if (mesh_->isClosed()) return;
     mesh_.reset();
   }
@@ -143,7 +144,8 @@ void Solid::findShells() {
       }
     }
     if (box.size() < kLarge * kLarge * whole.size()) continue;
-    const TriangleMesh mesh = TriangleMesh::build(mesh_->vertices(), trianglesOf[i]);
+    const TriangleMesh mesh =
+        TriangleMesh::build(mesh_->vertices(), trianglesOf[i], MeshInterior::Solid, 0.0);
     if (!mesh.isClosed()) continue;
     shellOfComponent[i] = static_cast<int>(shells_.size());
     shells_.push_back(std::make_unique<const Shell>(

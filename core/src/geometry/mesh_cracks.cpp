@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/mesh_cracks.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <numeric>
+#include <cstddef>
 #include <utility>
+
+#include "geometry/crack_paths.hpp"
+#include "geometry/open_patches.hpp"
+#include "geometry/patch_cycles.hpp"
 
 namespace swept::detail {
 namespace {
@@ -14,123 +16,184 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Of an odd number of triangles, run through by more of them from `from` to `to` than back.
-struct OpenEdge {
-  int from;
-  int to;
-};
-
-std::vector<OpenEdge> openEdges(const MeshComponents& parts) {
-  std::vector<OpenEdge> halves;
-  for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
-    if (parts.componentOf[i] >= 0) continue;
-    const Vector3i& triangle = parts.triangles[i];
-    for (int corner = 0; corner < 3; ++corner)
-      halves.push_back({triangle[corner], triangle[(corner + 1) % 3]});
-  }
-  const auto ends = [](const OpenEdge& half) { return std::minmax(half.from, half.to); };
-  std::ranges::sort(halves,
-                    [&](const OpenEdge& a, const OpenEdge& b) { return ends(a) < ends(b); });
-  std::vector<OpenEdge> open;
-  for (std::size_t first = 0; first < halves.size();) {
-    const OpenEdge edge = halves[first];
-    int count = 0;
-    int forward = 0;
-    for (; first < halves.size() && ends(halves[first]) == ends(edge); ++first, ++count)
-      forward += halves[first].from == edge.from ? 1 : -1;
-    if (count % 2 == 1)
-      open.push_back(forward > 0 ? edge : OpenEdge{.from = edge.to, .to = edge.from});
-  }
-  return open;
+/// Triangles between an edge and its path. The path is halved again and again, so that few of them
+/// are long.
+void fill(std::span<const int> path, std::vector<Vector3i>& triangles) {
+  if (path.size() < 3) return;
+  const std::size_t middle = path.size() / 2;
+  triangles.emplace_back(path.back(), path.front(), path[middle]);
+  fill(path.first(middle + 1), triangles);
+  fill(path.subspan(middle), triangles);
 }
 
-/// One of all vertices that are within `width` of it along each axis, for those that are given in
-/// turn.
-class Meeting {
- public:
-  Meeting(std::span<const Vector3d> vertices, double width) : vertices_(vertices), width_(width) {}
+std::vector<double> areasOf(std::span<const Vector3d> vertices, std::span<const Vector3i> triangles,
+                            const OpenPatches& patches) {
+  std::vector<double> areas(static_cast<std::size_t>(patches.count), 0.0);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Vector3d& a = vertices[triangles[i][0]];
+    const Vector3d normal = (vertices[triangles[i][1]] - a).cross(vertices[triangles[i][2]] - a);
+    areas[patches.patchOf[i]] += normal.norm();
+  }
+  return areas;
+}
 
-  int of(int vertex) {
-    const auto [known, isNew] = chosen_.try_emplace(vertex, vertex);
-    if (!isNew) return known->second;
-    const Cell cell = cellOf(vertices_[vertex]);
-    for (int neighbor = 0; neighbor < 27; ++neighbor) {
-      const int x = neighbor % 3 - 1, y = neighbor / 3 % 3 - 1, z = neighbor / 9 - 1;
-      const Cell at = {cell[0] + x, cell[1] + y, cell[2] + z};
-      const auto found = cells_.find(at);
-      if (found == cells_.end()) continue;
-      for (const int other : found->second) {
-        const Vector3d apart = vertices_[other] - vertices_[vertex];
-        if (apart.cwiseAbs().maxCoeff() <= width_) return known->second = other;
-      }
+/// The patches around each solid.
+std::vector<std::vector<int>> solidsOf(std::span<const OpenEdge> edges,
+                                       std::span<const double> areas, CrackPaths& paths) {
+  // Of memory: only where very many edges lie along each other there are more.
+  constexpr std::size_t kMostSteps = std::size_t{1} << 26;
+  std::vector<PatchStep> steps;
+  for (const OpenEdge& edge : edges) {
+    const std::vector<int>& path = paths.between(edge);
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const auto [least, most] = std::minmax(path[i], path[i + 1]);
+      steps.push_back({{least, most}, edge.patch});
     }
-    cells_[cell].push_back(vertex);
-    return vertex;
+    if (steps.size() > kMostSteps) return {};
+  }
+  return patchCycles(std::move(steps), areas);
+}
+
+/// Whether some corners are those of an odd number of triangles. Else the triangles lie on each
+/// other: a sheet that is narrower than a crack.
+bool hasSides(std::vector<Vector3i> triangles) {
+  for (Vector3i& corners : triangles) std::sort(corners.begin(), corners.end());
+  std::ranges::sort(triangles, [](const Vector3i& a, const Vector3i& b) {
+    return std::ranges::lexicographical_compare(a, b);
+  });
+  for (std::size_t first = 0; first < triangles.size();) {
+    std::size_t last = first;
+    while (last < triangles.size() && triangles[last] == triangles[first]) ++last;
+    if ((last - first) % 2 == 1) return true;
+    first = last;
+  }
+  return false;
+}
+
+/// Makes components of the open triangles of a mesh.
+class Closing {
+ public:
+  Closing(std::span<const Vector3d> vertices, MeshComponents& parts)
+      : vertices_(vertices), parts_(parts) {
+    MeshComponents closed;
+    closed.oriented = parts.oriented;
+    closed.duplicatesDropped = parts.duplicatesDropped;
+    std::vector<bool> hasCorner(parts.oriented.size(), false);
+    for (std::size_t i = 0; i < parts.triangles.size(); ++i) {
+      const int component = parts.componentOf[i];
+      if (component < 0) {
+        open_.push_back(parts.triangles[i]);
+        continue;
+      }
+      closed.triangles.push_back(parts.triangles[i]);
+      closed.componentOf.push_back(component);
+      if (!hasCorner[component]) closed.cornerOf.push_back(parts.triangles[i][0]);
+      hasCorner[component] = true;
+    }
+    parts = std::move(closed);
+    patches_ = openPatches(open_);
+    isClosed_.assign(static_cast<std::size_t>(patches_.count), false);
+    trianglesOf_.resize(isClosed_.size());
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      trianglesOf_[patches_.patchOf[i]].push_back(open_[i]);
+    edgesOf_.resize(isClosed_.size());
+    for (const OpenEdge& edge : patches_.edges) edgesOf_[edge.patch].push_back(edge);
+  }
+
+  bool isDone() const { return std::ranges::find(isClosed_, false) == isClosed_.end(); }
+
+  /// With the patches that are still open; `all`: with the others, too, as some may share a wall
+  /// with solids that are closed.
+  void close(double width, bool all, CracksClosed& done) {
+    if (isDone()) return;
+    std::vector<OpenEdge> edges;
+    for (const OpenEdge& edge : patches_.edges)
+      if (all || !isClosed_[edge.patch]) edges.push_back(edge);
+    CrackPaths paths(vertices_, edges, width);
+    for (const std::vector<int>& solid : solidsOf(edges, areas(), paths)) {
+      // Closed patches have no edges here, and are solids of their own.
+      if (std::ranges::all_of(solid, [&](int patch) { return isClosed_[patch]; })) continue;
+      std::vector<Vector3i> triangles;
+      for (const int patch : solid)
+        triangles.insert(triangles.end(), trianglesOf_[patch].begin(), trianglesOf_[patch].end());
+      const std::size_t given = triangles.size();
+      double largest = 0.0;
+      for (const int patch : solid) {
+        for (const OpenEdge& edge : edgesOf_[patch]) {
+          const std::vector<int>& path = paths.of(edge);
+          fill(path, triangles);
+          // The distance to a segment is convex: of a triangle's points a corner is the farthest.
+          for (const int vertex : path)
+            largest = std::max(largest, distanceToSegment(vertices_[vertex], vertices_[edge.from],
+                                                          vertices_[edge.to]));
+        }
+      }
+      if (!hasSides(triangles)) continue;
+      done.triangles += static_cast<int>(triangles.size() - given);
+      done.largest = std::max(done.largest, largest);
+      closed_.insert(closed_.end(), solid.begin(), solid.end());
+      add(triangles);
+    }
+    for (const int patch : closed_) isClosed_[patch] = true;
+  }
+
+  /// What is left.
+  void addOpen() {
+    std::vector<Vector3i> left;
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      if (!isClosed_[patches_.patchOf[i]]) left.push_back(open_[i]);
+    if (left.empty()) return;
+    const std::vector<int> corners = ComponentFinder(left).result().cornerOf;
+    parts_.triangles.insert(parts_.triangles.end(), left.begin(), left.end());
+    parts_.componentOf.resize(parts_.triangles.size(), -1);
+    parts_.cornerOf.insert(parts_.cornerOf.end(), corners.begin(), corners.end());
+    parts_.openComponents = static_cast<int>(corners.size());
   }
 
  private:
-  /// In doubles, as no integer holds them all. Where a coordinate has no room for its neighbours,
-  /// nothing but equal ones is within the width.
-  using Cell = std::array<double, 3>;
-  Cell cellOf(const Vector3d& point) const {
-    return {std::floor(point.x() / width_), std::floor(point.y() / width_),
-            std::floor(point.z() / width_)};
+  std::vector<double> areas() const { return areasOf(vertices_, open_, patches_); }
+
+  void add(std::span<const Vector3i> triangles) {
+    parts_.triangles.insert(parts_.triangles.end(), triangles.begin(), triangles.end());
+    parts_.componentOf.resize(parts_.triangles.size(), static_cast<int>(parts_.oriented.size()));
+    parts_.oriented.push_back(isOriented(triangles));
+    parts_.cornerOf.push_back(triangles.front()[0]);
   }
 
   std::span<const Vector3d> vertices_;
-  double width_;
-  std::map<int, int> chosen_;
-  std::map<Cell, std::vector<int>> cells_;
-};
-
-/// Open edges that hang together: by common ends, once those that meet are one.
-class Groups {
- public:
-  explicit Groups(std::size_t vertices) : root_(vertices) {
-    std::iota(root_.begin(), root_.end(), 0);
-  }
-  int of(int vertex) {
-    while (root_[vertex] != vertex) vertex = root_[vertex] = root_[root_[vertex]];
-    return vertex;
-  }
-  void unite(int a, int b) { root_[of(a)] = of(b); }
-
- private:
-  std::vector<int> root_;
+  MeshComponents& parts_;
+  std::vector<Vector3i> open_;  ///< at first
+  OpenPatches patches_;         ///< of those
+  std::vector<std::vector<Vector3i>> trianglesOf_;
+  std::vector<std::vector<OpenEdge>> edgesOf_;
+  std::vector<bool> isClosed_;
+  std::vector<int> closed_;
 };
 
 }  // namespace
 
-std::vector<Vector3i> crackFillings(std::span<const Vector3d> vertices, const MeshComponents& parts,
-                                    double width) {
-  const std::vector<OpenEdge> open = openEdges(parts);
-  Meeting meeting(vertices, width);
-  Groups groups(vertices.size());
-  std::map<std::pair<int, int>, int> count;  // of open edges that lie on each other
-  for (const OpenEdge& edge : open) {
-    const std::pair<int, int> ends = std::minmax({meeting.of(edge.from), meeting.of(edge.to)});
-    groups.unite(ends.first, ends.second);
-    if (ends.first != ends.second) ++count[ends];
-  }
-  std::vector<bool> isHole(vertices.size(), false);
-  for (const auto& [ends, edges] : count)
-    if (edges % 2 == 1) isHole[groups.of(ends.first)] = true;
+CracksClosed closeCracks(std::span<const Vector3d> vertices, double width, MeshComponents& parts) {
+  CracksClosed done;
+  Closing closing(vertices, parts);
+  closing.close(0.0, false, done);
+  for (const double share : {1.0 / 1024.0, 1.0 / 32.0, 1.0})
+    if (share * width > 0.0) closing.close(share * width, false, done);
+  closing.close(width, true, done);
+  closing.addOpen();
+  return done;
+}
 
-  // From each open edge a strip to where it meets the others. Of each border of a strip there is an
-  // even number then: at a vertex as many as open edges, which begin and end there in even number;
-  // where the strips arrive as many as edges that lie on each other.
-  std::vector<Vector3i> fillings;
-  const auto fill = [&](int a, int b, int c) {
-    if (a != b && b != c && c != a) fillings.emplace_back(a, b, c);
-  };
-  for (const auto& [from, to] : open) {
-    const int fromMeets = meeting.of(from);
-    const int toMeets = meeting.of(to);
-    if (isHole[groups.of(fromMeets)]) continue;
-    fill(to, from, fromMeets);
-    fill(to, fromMeets, toMeets);
-  }
-  return fillings;
+bool closesAll(std::span<const Vector3d> vertices, double width, const MeshComponents& parts) {
+  std::vector<Vector3i> open;
+  for (std::size_t i = 0; i < parts.triangles.size(); ++i)
+    if (parts.componentOf[i] < 0) open.push_back(parts.triangles[i]);
+  const OpenPatches patches = openPatches(open);
+  CrackPaths paths(vertices, patches.edges, width);
+  std::vector<bool> isClosed(static_cast<std::size_t>(patches.count), false);
+  for (const std::vector<int>& solid :
+       solidsOf(patches.edges, areasOf(vertices, open, patches), paths))
+    for (const int patch : solid) isClosed[patch] = true;
+  return std::ranges::find(isClosed, false) == isClosed.end();
 }
 
 }  // namespace swept::detail

@@ -43,7 +43,7 @@ struct Scaling {
   }
   Shape of(const ConvexHull& s) const { return ConvexHull::scaled(s, factor, middle); }
   Shape of(const TriangleMesh& s) const {
-    return TriangleMesh::build((*this)(s.vertices()), s.triangles(), s.interior());
+    return TriangleMesh::build((*this)(s.vertices()), s.triangles(), s.interior(), 0.0);
   }
   Shape of(const PointCloud& s) const {
     std::vector<double> radii;

@@ -116,7 +116,7 @@ void moveKept(std::span<const Eigen::Vector3d> given, std::span<const int> keptA
 
 TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
                                  std::span<const Triangle> triangles, MeshInterior interior,
-                                 double crackWidth) {
+                                 std::optional<double> crackWidth) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, vertices, triangles, interior, crackWidth] {
       return build(vertices, triangles, interior, crackWidth);
@@ -124,7 +124,7 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   }
   requireCounts(vertices.size(), triangles.size());
   requireFinite(vertices);
-  requireWidth(crackWidth);
+  if (crackWidth) requireWidth(*crackWidth);
   requireCorners(vertices.size(), triangles);
   detail::WeldedMesh welded = detail::weld(vertices, triangles);
   if (welded.triangles.empty()) {
@@ -134,13 +134,11 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
     throw std::invalid_argument(message.str());
   }
   detail::MeshComponents parts = detail::ComponentFinder(welded.triangles).result();
-  std::size_t cracksFilled = 0;
-  if (parts.openComponents > 0 && crackWidth > 0.0) {
-    const auto fillings = detail::crackFillings(welded.vertices, parts, crackWidth);
-    cracksFilled = fillings.size();
-    requireCounts(welded.vertices.size(), welded.triangles.size() + cracksFilled);
-    welded.triangles.insert(welded.triangles.end(), fillings.begin(), fillings.end());
-    if (cracksFilled > 0) parts = detail::ComponentFinder(welded.triangles).result();
+  detail::CracksClosed cracks;
+  if (parts.openComponents > 0) {
+    const double width = crackWidth ? *crackWidth : usualCrackWidth(welded.vertices);
+    cracks = detail::closeCracks(welded.vertices, width, parts);
+    requireCounts(welded.vertices.size(), parts.triangles.size());
   }
 
   Surface surface;
@@ -150,7 +148,8 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   surface.report.trianglesGiven = static_cast<int>(triangles.size());
   surface.report.degenerateDropped = welded.degenerateDropped;
   surface.report.duplicatesDropped = parts.duplicatesDropped;
-  surface.report.cracksFilled = static_cast<int>(cracksFilled);
+  surface.report.cracksFilled = cracks.triangles;
+  surface.report.largestCrack = cracks.largest;
   surface.report.closedComponents = static_cast<int>(parts.oriented.size());
   surface.report.openComponents = parts.openComponents + static_cast<int>(welded.lines.size());
   surface.vertices = std::move(welded.vertices);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
+#include <cstddef>
 #include <iostream>
+#include <limits>
+#include <string>
 
 #include "acm/acm_output.hpp"
 #include "command_line/commands.hpp"
@@ -23,6 +26,14 @@ void warnOfDefaults(const AcmResult& result, Warnings& warnings) {
   if (!pairs.empty())
     warnings("swept: warning: disabled as Default, though not in contact in all samples: " +
              joined(pairs));
+}
+
+/// s. Robots with fewer links are done within the time, or nearly; with more, each hour helps.
+double timeOf(const Arguments& args, const Robot& robot) {
+  constexpr double kTime = 20.0;
+  constexpr std::size_t kFewLinks = 40;
+  const bool few = robot.links().size() < kFewLinks;
+  return args.acmTime.value_or(few ? kTime : std::numeric_limits<double>::infinity());
 }
 
 ExitCode exitCodeOf(const std::vector<AcmDisagreement>& differences) {
@@ -48,9 +59,14 @@ ExitCode runAcm(const Arguments& args) {
   options.budget = args.budget;
   options.samples = args.samples;
   options.seed = args.seed;
-  AcmResult result{.args = args, .model = model, .pairs = {}};
+  options.seconds = timeOf(args, *model.robot);
+  AcmResult result{.args = args, .model = model, .pairs = {}, .limit = options.seconds};
   {
     Progress progress("looking at pairs of links", args.quiet);
+    options.progress = [&](std::size_t done, std::size_t all) {
+      progress.setLabel("looking at pairs of links: " + std::to_string(done) + " of " +
+                        std::to_string(all));
+    };
     const auto start = std::chrono::steady_clock::now();
     result.pairs = collisionMatrix(*model.robot, options);
     result.seconds =

@@ -21,6 +21,11 @@ void addOptions(CLI::App& app, Arguments& args) {
                  "random configurations per pair of links (default 1000)")
       ->type_name("N")
       ->check(within(0, 1e9, "between 0 and 1e9"));
+  app.add_option("--time", args.acmTime,
+                 "s; pairs that are open then are unknown (default 20 below 40 links, else no "
+                 "limit: how far it gets in the time depends on the machine)")
+      ->type_name("S")
+      ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
   addSeedOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);

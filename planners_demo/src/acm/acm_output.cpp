@@ -71,7 +71,8 @@ std::string detailOf(const AcmResult& result, const LinkPairReport& pair) {
   }
   const std::string near =
       std::isinf(pair.nearest) ? "" : ", nearest seen " + shortNumber(pair.nearest) + " m";
-  return percent(pair.proven) + " proven, for " + joints + near;
+  return percent(pair.proven) + " proven, for " + joints + near +
+         (pair.outOfTime ? ", out of time" : "");
 }
 
 std::string pairTable(const AcmResult& result) {
@@ -89,13 +90,21 @@ std::map<PairStatus, int> countsOf(const AcmResult& result) {
   return counts;
 }
 
+std::string timeText(const AcmResult& result) {
+  const auto open = std::ranges::count_if(result.pairs, &LinkPairReport::outOfTime);
+  if (open == 0) return {};
+  return std::to_string(open) + (open == 1 ? " pair was" : " pairs were") + " open when the " +
+         secondsText(result.limit) + " were over and " + (open == 1 ? "stays" : "stay") +
+         " checked; --time gives them more\n";
+}
+
 std::string countText(const AcmResult& result) {
   std::map<PairStatus, int> counts = countsOf(result);
   std::vector<std::string> parts;
   for (const PairStatus status : kStatuses)
     parts.push_back(std::to_string(counts[status]) + " " + std::string(toString(status)));
   return std::to_string(result.pairs.size()) + (result.pairs.size() == 1 ? " pair: " : " pairs: ") +
-         joined(parts) + "; " + secondsText(result.seconds) + "\n";
+         joined(parts) + "; " + secondsText(result.seconds) + "\n" + timeText(result);
 }
 
 std::string titleOf(AcmDisagreement::Kind kind) {
@@ -151,6 +160,7 @@ Json pairJson(const AcmResult& result, const LinkPairReport& pair) {
                {"status", toString(pair.status)},
                {"proven", pair.proven},
                {"effort", pair.effort},
+               {"out_of_time", pair.outOfTime},
                {"nearest", finiteOrNull(pair.nearest)}};
   json["joint"] = pair.joint < 0 ? Json(nullptr) : Json(robot.joints()[pair.joint].name);
   Json variables = Json::array();
@@ -210,6 +220,7 @@ Json acmJson(const AcmResult& result, const std::vector<AcmDisagreement>& differ
   json["srdf"] = result.model.srdf.file.empty() ? Json(nullptr) : Json(result.model.srdf.file);
   json["margin"] = result.args.margin;
   json["seconds"] = result.seconds;
+  json["time_limit"] = finiteOrNull(result.limit);
   json["counts"] = Json::object();
   std::map<PairStatus, int> counts = countsOf(result);
   for (const PairStatus status : kStatuses)

@@ -15,6 +15,7 @@ struct AcmResult {
   const Arguments& args;
   const Model& model;
   std::vector<LinkPairReport> pairs;
+  double limit;          ///< s, of the time; infinity: none
   double seconds = 0.0;  ///< s, to find the pairs out
 };
 

@@ -23,7 +23,7 @@ class BatchRun {
   BatchRun(const Arguments& args, int rank) : args_(args), warnings_(args.quiet || rank > 0) {
     batch_.args = &args;
     batch_.model = loadModel(args, warnings_);
-    batch_.group = chooseGroup(*batch_.model.robot, args.group).name;
+    batch_.group = chooseGroup(*batch_.model.robot, args).name;
     batch_.problems = std::make_shared<const ProblemFile>(ProblemFile::load(args.problems));
     keys_ = args.batch.fromStdin ? readRuns(std::cin, "<stdin>", *batch_.problems, args)
                                  : listRuns(*batch_.problems, args);

@@ -27,6 +27,7 @@ std::string fileDigest(const std::string& file) {
 
 constexpr const char* kFormat = "swept bench planners";
 constexpr int kVersion = 1;
+constexpr const char* kWithoutContacts = "without_default_contacts";
 
 // A planner and its simplification have the time limit each, and what else there is is quick.
 constexpr double kHardLimitBase = 30.0;  // s
@@ -57,19 +58,35 @@ struct Field {
   const char* name;
   void (*require)(const JsonValue&);
 };
-constexpr std::array kFields{Field{"format", requireText},       Field{"version", requireNumber},
-                             Field{"swept", requireText},        Field{"robot", requireText},
-                             Field{"urdf", requireText},         Field{"srdf", requireTextOrNull},
-                             Field{"group", requireText},        Field{"problems", requireText},
-                             Field{"margin", requireNumber},     Field{"tolerance", requireNumber},
-                             Field{"pad", requireTexts},         Field{"scale", requireTexts},
-                             Field{"allow", requireTexts},       Field{"attach", requireTexts},
-                             Field{"time_limit", requireNumber}, Field{"hard_limit", requireNumber},
-                             Field{"simplify", requireTruth},    Field{"clearance", requireTruth}};
+constexpr std::array kFields{Field{"format", requireText},
+                             Field{"version", requireNumber},
+                             Field{"swept", requireText},
+                             Field{"robot", requireText},
+                             Field{"urdf", requireText},
+                             Field{"srdf", requireTextOrNull},
+                             Field{"group", requireText},
+                             Field{"problems", requireText},
+                             Field{"margin", requireNumber},
+                             Field{"tolerance", requireNumber},
+                             Field{"pad", requireTexts},
+                             Field{"scale", requireTexts},
+                             Field{"allow", requireTexts},
+                             Field{"attach", requireTexts},
+                             Field{kWithoutContacts, requireTruth},
+                             Field{"time_limit", requireNumber},
+                             Field{"hard_limit", requireNumber},
+                             Field{"simplify", requireTruth},
+                             Field{"clearance", requireTruth}};
 
-/// Files of the time before there was --attach do not have it.
+/// Files of the time before there was --attach do not have it, and in older ones than those that
+/// say otherwise no contacts of robots without an SRDF are left out.
+bool isOptional(std::string_view field) {
+  return field == "attach" || field == kWithoutContacts;
+}
+
 Json valueOf(const Json& header, std::string_view field) {
-  return field == "attach" && !header.contains(field) ? Json::array() : header.at(field);
+  if (!isOptional(field) || header.contains(field)) return header.at(field);
+  return field == "attach" ? Json::array() : Json(false);
 }
 
 void requireTypes(const Json& header, const std::string& source) {
@@ -117,6 +134,7 @@ Json resultsHeader(const Batch& batch) {
                  {"pad", args.pads},
                  {"scale", args.scales},
                  {"allow", args.allowed},
+                 {kWithoutContacts, leavesOutDefaultContacts(args)},
                  {"attach", args.attached},
                  {"time_limit", args.time},
                  {"hard_limit", hardLimitOf(args)},
@@ -134,7 +152,7 @@ void requireHeader(const Json& header, const std::string& source) {
                                  "format \"") +
                          kFormat + "\"");
   for (const Field& field : kFields)
-    if (!header.contains(field.name) && field.name != std::string_view("attach"))
+    if (!header.contains(field.name) && !isOptional(field.name))
       throw InputError(source, 1, std::string("the header has no ") + field.name);
   if (header["version"] != kVersion)
     throw InputError(source, 1,

@@ -57,8 +57,8 @@ Worker::Worker(const Batch& batch, Warnings::Taker warnings)
 
 const std::shared_ptr<const Checker>& Worker::checkerOf(const PlanningProblem& problem) {
   if (!checker_ || set_ != problem.set || index_ != problem.index) {
-    checker_ = makeNextChecker(*batch_.args, *like_, std::make_shared<const World>(problem.world),
-                               warnings_);
+    checker_ = makeNextChecker(*batch_.args, batch_.model, *like_,
+                               std::make_shared<const World>(problem.world), warnings_);
     set_ = problem.set;
     index_ = problem.index;
   }

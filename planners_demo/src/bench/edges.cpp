@@ -47,7 +47,7 @@ std::vector<BenchEdge> chosenEdges(const Arguments& args, const ProblemFile& pro
 
 /// The group asked for; without, the first that has exactly the joints of the first problem.
 const Group& benchGroup(const Arguments& args, const Robot& robot, const ProblemFile& problems) {
-  if (!args.group.empty() || problems.sets().empty()) return chooseGroup(robot, args.group);
+  if (asksForGroup(args) || problems.sets().empty()) return chooseGroup(robot, args);
   const std::string set = problems.sets().front();
   const std::vector<std::string> wanted =
       problems.problem(set, problems.indices(set).front()).jointNames;
@@ -56,7 +56,7 @@ const Group& benchGroup(const Arguments& args, const Robot& robot, const Problem
                                                   [&](int v) { return robot.variables()[v].name; });
     if (fits) return group;
   }
-  return chooseGroup(robot, args.group);
+  return chooseGroup(robot, args);
 }
 
 /// Places of edges in the file, by problem, in the order in which problems appear.
@@ -146,7 +146,7 @@ class EdgeRun {
     const auto world = std::make_shared<const World>(problem.world);
     std::shared_ptr<const Checker> checker;
     bench_.checkerTimes.push_back(secondsOf([&] {
-      checker = like_ ? makeNextChecker(args_, *like_, world, warnings_)
+      checker = like_ ? makeNextChecker(args_, model_, *like_, world, warnings_)
                       : makeFirstChecker(args_, model_, group, world, warnings_);
     }));
     like_ = checker;

@@ -121,6 +121,24 @@ Json allowedJson(const Checker& checker) {
   return allowed;
 }
 
+/// Links that a joint connects, which the checker of proofs would leave out by itself, and that are
+/// checked all the same.
+Json askedJson(const Checker& checker) {
+  std::set<std::pair<std::string, std::string>> connected;
+  for (const Joint& joint : checker.robot().joints()) {
+    if (joint.parentLink < 0) continue;
+    const std::string& parent = checker.robot().links()[joint.parentLink].name;
+    const std::string& child = checker.robot().links()[joint.childLink].name;
+    connected.insert({parent, child});
+    connected.insert({child, parent});
+  }
+  Json asked = Json::array();
+  for (const Checker::Pair& pair : checker.checkedPairs())
+    if (pair.selfPair && connected.contains({pair.bodyA, pair.bodyB}))
+      asked.push_back({pair.bodyA, pair.bodyB});
+  return asked;
+}
+
 }  // namespace
 
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
@@ -170,6 +188,8 @@ Json modelJson(const Checker& checker) {
     if (padding != 0.0) json["paddings"][body.proofName] = padding;
   }
   json["allowed"] = allowedJson(checker);
+  Json asked = askedJson(checker);
+  if (!asked.empty()) json["asked"] = std::move(asked);
   return json;
 }
 

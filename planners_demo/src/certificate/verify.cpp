@@ -35,6 +35,7 @@ Files filesOf(const Arguments& args, const Json& path, Warnings& warnings) {
   Arguments inputs = inputsOf(JsonValue(recorded, "inputs", args.verify.path));
   inputs.command = &kPlanCommand;
   inputs.quiet = true;  // verifying has a line of progress
+  inputs.verbose = args.verbose;
   if (!args.verify.robot.empty()) inputs.robot = args.verify.robot;
   if (!args.verify.scene.empty()) inputs.scene = args.verify.scene;
   Files files;

@@ -19,6 +19,7 @@ void addOptions(CLI::App& app, Arguments& args) {
                "too");
   addHtmlOption(app, args);
   addJsonOption(app, args);
+  addVerboseOption(app, args);
   addQuietOption(app, args);
 }
 

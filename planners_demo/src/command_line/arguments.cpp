@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "command_line/command.hpp"
+#include "command_line/did_you_mean.hpp"
 #include "command_line/program_options.hpp"
 #include "command_line/shell_word.hpp"
 #include "output/terminal_text.hpp"
+#include "output/text_output.hpp"
 
 namespace swept {
 namespace {
@@ -78,28 +80,55 @@ CLI::App& parentOf(const Command& command, CLI::App& program) {
   return *made;
 }
 
-std::string namesIn(const std::string& family) {
+std::vector<std::string> listIn(const std::string& family) {
   std::vector<std::string> names;
   for (const Command* command : commands()) {
     const std::string own = familyOf(command->name);
     const std::string name = own == family ? lastWord(command->name) : family.empty() ? own : "";
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  return names;
+}
+
+std::string namesIn(const std::string& family, const std::string& wanted) {
+  const std::vector<std::string> names = listIn(family);
+  return joined(names) + didYouMean(wanted, names);
+}
+
+/// For the first argument that looks like an option of the subcommand and is none.
+std::string nearOption(const CLI::App& program, int argc, const char* const* argv) {
+  const CLI::App* app = &program;
+  int first = 1;
+  while (first < argc) {
+    const auto isIt = [&](const CLI::App* one) { return one->get_name() == argv[first]; };
+    const auto chosen = app->get_subcommands(isIt);
+    if (chosen.empty()) break;
+    app = chosen.front();
+    ++first;
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = first; i < argc; ++i) {
+    const std::string text = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (text.starts_with("--") && text != "--" && std::ranges::find(known, text) == known.end())
+      return didYouMean(text, known);
+  }
+  return {};
 }
 
 /// The parser misses a subcommand before it says that it does not know the one given.
-std::string messageOf(const CLI::ParseError& error, int argc, const char* const* argv) {
+std::string messageOf(const CLI::ParseError& error, const CLI::App& program, int argc,
+                      const char* const* argv) {
   const bool noSubcommand = argc > 1 && std::string_view(error.what()).starts_with("A subcommand");
-  if (!noSubcommand) return error.what();
+  if (!noSubcommand) return error.what() + nearOption(program, argc, argv);
   const std::string family = argv[1];
   const bool known = std::ranges::any_of(
       commands(), [&](const Command* command) { return familyOf(command->name) == family; });
-  if (!known) return "no subcommand '" + family + "'; there are " + namesIn("");
-  return argc > 2 ? family + " has no subcommand '" + argv[2] + "'; there are " + namesIn(family)
-                  : family + ": a subcommand is required; there are " + namesIn(family);
+  if (!known) return "no subcommand '" + family + "'; there are " + namesIn("", family);
+  return argc > 2 ? family + " has no subcommand '" + argv[2] + "'; there are " +
+                        namesIn(family, argv[2])
+                  : family + ": a subcommand is required; there are " + joined(listIn(family));
 }
 
 /// A shell makes an empty text of a variable that is not set. Taken for no option at all, it would
@@ -139,7 +168,7 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
     refuseEmptyValues(program);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return {.run = {}, .exitCode = program.exit(error)};
-    printMessage("swept: error: " + messageOf(error, argc, argv) + " (try --help)");
+    printMessage("swept: error: " + messageOf(error, program, argc, argv) + " (try --help)");
     return {.run = {}, .exitCode = static_cast<int>(ExitCode::BadInput)};
   }
   restore(args.cloudPose);

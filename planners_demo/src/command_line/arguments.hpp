@@ -42,6 +42,9 @@ struct Arguments {
   std::optional<double> selfFilter;   ///< m
   std::optional<double> occluded;     ///< m
   std::string group;
+  std::string joints;                     ///< A,B,...: the group is of these
+  std::string chain;                      ///< BASE,TIP: the group is of the joints between
+  bool keepDefaultContacts = false;       ///< of a robot without an SRDF
   std::vector<std::string> packages;      ///< NAME=DIR
   std::vector<std::string> pads;          ///< NAME=METRES
   std::vector<std::string> scales;        ///< NAME=FACTOR
@@ -52,7 +55,7 @@ struct Arguments {
   double tolerance = tolerance::kMotion;  ///< m
   bool json = false;
   bool quiet = false;
-  bool verbose = false;
+  bool verbose = false;  ///< each warning, and the planners' messages
 
   std::string problems;  ///< JSON file
   std::string set;
@@ -94,6 +97,7 @@ struct Arguments {
 
   std::int64_t budget = 20'000'000;  ///< per pair of links
   int samples = 1000;                ///< per pair of links
+  std::optional<double> acmTime;     ///< s; none: see acm
 
   struct Report {
     int motions = 1000;                                                     ///< over all worlds

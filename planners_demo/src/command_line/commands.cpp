@@ -21,9 +21,10 @@ std::span<const Command* const> commands() {
 }
 
 std::string stateNotes() {
-  return "States are names from the SRDF or comma-separated values (rad, m) in the order of the "
-         "group's\n"
-         "variables, such as 0.1,-0.5,0,-1.2,0,1.5,0.7.\n";
+  return "States are names from the SRDF, 'default' (zero, or the middle of the limits), or "
+         "comma-separated\n"
+         "values (rad, m) in the order of the group's variables, such as "
+         "0.1,-0.5,0,-1.2,0,1.5,0.7.\n";
 }
 
 }  // namespace swept

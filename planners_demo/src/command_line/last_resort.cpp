@@ -12,6 +12,7 @@
 
 #include "command_line/exit_code.hpp"
 #include "output/terminal_text.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 
 namespace swept {
 namespace {
@@ -30,7 +31,7 @@ void onAbort(int) {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
     std::fputs("swept: error: terminated\n", stderr);
   } catch (const std::exception& error) {
-    printMessage(std::string("swept: error: ") + error.what());
+    printMessage("swept: error: " + foreignText(error.what()));
   } catch (...) {
     std::fputs("swept: error: unknown exception\n", stderr);
   }

@@ -25,11 +25,25 @@ void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use) {
   app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
       ->type_name("NAME=DIR")
       ->allow_extra_args(false);
+  addVerboseOption(app, args);
+}
+
+void addVerboseOption(CLI::App& app, Arguments& args) {
+  app.add_flag("-v,--verbose", args.verbose,
+               "each warning, where many are of one kind, and messages of planners, on stderr");
 }
 
 void addRuleOptions(CLI::App& app, Arguments& args) {
-  app.add_option("--group", args.group, "planning group; not needed when there is only one")
-      ->type_name("NAME");
+  auto* group = app.add_option("--group", args.group,
+                               "planning group; not needed when only one has joints, or the named "
+                               "states given");
+  auto* joints =
+      app.add_option("--joints", args.joints, "instead of a group: these joints")->excludes(group);
+  auto* chain = app.add_option("--chain", args.chain,
+                               "instead of a group: the joints between these two links");
+  group->type_name("NAME");
+  joints->type_name("A,B,...");
+  chain->type_name("BASE,TIP")->excludes(group)->excludes(joints);
   app.add_option("--margin", args.margin, "m; free means: more than this apart (default 0)")
       ->type_name("M")
       ->check(within(0.0, 10.0, "between 0 and 10 m"));
@@ -46,6 +60,9 @@ void addRuleOptions(CLI::App& app, Arguments& args) {
                  "two links, or a link and a body of the world, may collide (repeatable)")
       ->type_name("A,B")
       ->allow_extra_args(false);
+  app.add_flag("--keep-default-contacts", args.keepDefaultContacts,
+               "without an SRDF: check pairs of links, too, that are in contact at the default "
+               "state");
   app.add_option(
          "--attach", args.attached,
          "a link carries box:X,Y,Z or sphere:R or cylinder:R,L (m) or a mesh file, which is "
@@ -80,8 +97,9 @@ void addSceneOptions(CLI::App& app, Arguments& args) {
   app.add_option("--cloud-pose", args.cloudPose, "of the clouds' frame in the model frame")
       ->type_name("X,Y,Z,QX,QY,QZ,QW");
   app.add_option("--occluded", args.occluded,
-                 "m; what points hide from a sensor at the origin of their frame is occupied, too, "
-                 "up to so far from it; needs a radius above zero")
+                 "m; what points hide from their sensor is occupied, too, up to so far from it: it "
+                 "is where the file says (VIEWPOINT, camera), else at the origin of their frame; "
+                 "needs a radius above zero")
       ->type_name("RANGE")
       ->check(within(1e-3, 1e3, "between 0.001 and 1000 m"));
 }

@@ -13,7 +13,9 @@ CLI::Validator within(double low, double high, const std::string& what);
 
 /// `use` says what the subcommand does with the SRDF besides reading it.
 void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use = {});
-/// --group, --margin and the rules.
+/// -v: for subcommands that load a robot.
+void addVerboseOption(CLI::App& app, Arguments& args);
+/// --group and what makes one, --margin and the rules.
 void addRuleOptions(CLI::App& app, Arguments& args);
 /// The same and --tolerance.
 void addCheckerOptions(CLI::App& app, Arguments& args);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "info/info.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
 
 #include "command_line/commands.hpp"
+#include "command_line/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
 #include "output/text_output.hpp"
@@ -20,7 +22,12 @@ std::vector<std::string> explanations(const Arguments& args, const Checker& chec
     try {
       sentences.push_back(checker.explain(a, b));
     } catch (const std::invalid_argument& error) {
-      throw UsageError(error.what());
+      std::vector<std::string> known;
+      for (const Link& link : checker.robot().links()) known.push_back(link.name);
+      for (const AttachedBody& body : checker.options().attached) known.push_back(body.name);
+      for (const WorldBody& body : checker.world().bodies()) known.push_back(body.name);
+      const bool isA = std::ranges::find(known, a) != known.end();
+      throw UsageError(error.what() + didYouMean(isA ? b : a, known));
     }
   }
   return sentences;

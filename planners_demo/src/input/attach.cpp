@@ -78,8 +78,9 @@ std::string nameOf(const Spec& spec, bool isPrimitive, const std::vector<Attache
 }  // namespace
 
 std::vector<AttachedBody> attachedBodies(const Arguments& args, const Robot& robot,
-                                         const LoadOptions& options) {
-  std::vector<AttachedBody> bodies;
+                                         const LoadOptions& options,
+                                         std::vector<AttachedBody> carried) {
+  std::vector<AttachedBody> bodies = std::move(carried);
   for (const std::string& text : args.attached) {
     const Spec spec = specOf(text);
     const std::string label = "--attach '" + text + "'";

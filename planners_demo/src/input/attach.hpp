@@ -10,11 +10,12 @@
 
 namespace swept {
 
-/// What --attach puts on links: `SHAPE@LINK` or `SHAPE@LINK:X,Y,Z` or with a quaternion behind. A
-/// shape is `box:X,Y,Z`, `sphere:R`, `cylinder:R,L` or a mesh file; it is called by its type or by
-/// the file's stem, with a number behind from the second of one name on. Throws UsageError, and
-/// InputError for a mesh that cannot be used.
+/// `carried`, and behind it what --attach puts on links: `SHAPE@LINK` or `SHAPE@LINK:X,Y,Z` or with
+/// a quaternion behind. A shape is `box:X,Y,Z`, `sphere:R`, `cylinder:R,L` or a mesh file; it is
+/// called by its type or by the file's stem, with a number behind from the second of one name on.
+/// Throws UsageError, and InputError for a mesh that cannot be used.
 std::vector<AttachedBody> attachedBodies(const Arguments& args, const Robot& robot,
-                                         const LoadOptions& options);
+                                         const LoadOptions& options,
+                                         std::vector<AttachedBody> carried);
 
 }  // namespace swept

@@ -26,15 +26,16 @@ namespace {
 /// What --self-filter leaves of what was seen (m, world).
 class SelfFilter {
  public:
-  SelfFilter(const Arguments& args, const Robot& robot, const LoadOptions& options)
+  SelfFilter(const Arguments& args, const Robot& robot,
+             const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options)
       : robot_(robot), margin_(args.selfFilter), warn_(options.warn) {
     if (!margin_) return;
     if (args.states.empty())
       throw UsageError("--self-filter needs a state: that in which the robot was seen");
-    const Group& group = chooseGroup(robot, args.group);
+    const Group& group = chooseGroup(robot, args);
     const std::vector<double> q =
         readState(robot, group, args.states.front(), "--self-filter", options.warn);
-    const Eigen::VectorXd others = robot.defaultState();
+    const Eigen::VectorXd others = reference.value_or(robot.defaultState());
     state_.assign(others.begin(), others.end());
     for (std::size_t i = 0; i < q.size(); ++i)
       state_[static_cast<std::size_t>(group.variables[i])] = q[i];
@@ -128,14 +129,16 @@ WorldBody cloudBody(const Arguments& args, const std::string& file, const std::s
   if (!args.pointRadius)
     throw UsageError("--cloud " + file +
                      " needs --point-radius: how many metres the surface may be from a point");
-  std::vector<Eigen::Vector3d> seen = loadPoints(file, options);
+  SensedPoints sensed = loadSensedPoints(file, options);
+  std::vector<Eigen::Vector3d>& seen = sensed.points;
   for (Eigen::Vector3d& point : seen) point = pose * point;
+  const Eigen::Vector3d sensor = pose * sensed.sensor;
   Balls balls{.centers = filter.isOn() ? filter.left(seen, file) : seen, .radii = {}};
   requireSomething(file, !balls.centers.empty());
   balls.radii.assign(balls.centers.size(), *args.pointRadius);
   if (args.occluded) {
     const auto hiddenBy = [&](const std::vector<Eigen::Vector3d>& points) {
-      return occludedBalls(points, *args.pointRadius, pose.translation(), *args.occluded);
+      return occludedBalls(points, *args.pointRadius, sensor, *args.occluded);
     };
     const std::vector<Eigen::Vector3d> robot = leftOut(seen, balls.centers);
     append(hiddenBy(balls.centers), balls);
@@ -161,7 +164,8 @@ void forEachCloud(const World& world, const Visit& visit) {
 
 }  // namespace
 
-void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& options,
+void addClouds(const Arguments& args, const Robot& robot,
+               const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options,
                World& world) {
   if (args.clouds.empty()) {
     if (args.pointRadius) throw UsageError("--point-radius needs --cloud");
@@ -176,7 +180,7 @@ void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& opt
     throw UsageError(
         "--point-radius is for points; the cubes of an OctoMap are as large as it says: " +
         args.clouds.front());
-  const SelfFilter filter(args, robot, options);
+  const SelfFilter filter(args, robot, reference, options);
   for (const std::string& file : args.clouds) {
     const std::string name = std::filesystem::path(file).stem().string();
     try {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "command_line/arguments.hpp"
@@ -10,9 +12,12 @@
 
 namespace swept {
 
-/// Adds the files of --cloud to the world, each as a body named after its file. Throws InputError
-/// or UsageError.
-void addClouds(const Arguments& args, const Robot& robot, const LoadOptions& options, World& world);
+/// Adds the files of --cloud to the world, each as a body named after its file. `reference`: of the
+/// joints outside the group when they were seen; empty: the default state. Throws InputError or
+/// UsageError.
+void addClouds(const Arguments& args, const Robot& robot,
+               const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options,
+               World& world);
 
 /// What a proof in this world is a proof for, where it has clouds: a line per body; else empty.
 std::string cloudsText(const World& world);

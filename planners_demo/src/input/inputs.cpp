@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr int kMostProblems = std::numeric_limits<int>::max();
 
+constexpr const char* kWithoutDefaultContacts = "without_default_contacts";
+
 /// Of an `--attach`: whether its shape is a mesh file.
 bool isFile(const std::string& attached) {
   for (const char* type : {"box:", "sphere:", "cylinder:"})
@@ -134,6 +136,8 @@ void visit(Visitor& visitor, Args& args) {
   visitor.file("robot", args.robot);
   visitor.packages("packages", args.packages);
   visitor.text("group", args.group);
+  visitor.text("joints", args.joints);
+  visitor.text("chain", args.chain);
   visitor.file("scene", args.scene);
   visitor.files("clouds", args.clouds);
   visitor.value("point_radius", args.pointRadius);
@@ -162,6 +166,8 @@ Json inputsJson(const Arguments& args, const fs::path& file) {
   else
     writer.file("srdf", srdf);
   Json json = writer.json();
+  // Files that do not say so are older, and about all pairs.
+  if (leavesOutDefaultContacts(args)) json[kWithoutDefaultContacts] = true;
   json["margin"] = args.margin;
   json["tolerance"] = args.tolerance;
   return json;
@@ -173,6 +179,9 @@ Arguments inputsOf(const JsonValue& inputs) {
   visit(reader, args);
   if (args.robot.empty()) inputs.at("robot").refuse("a URDF file");
   reader.text("srdf", args.srdf);
+  args.keepDefaultContacts = true;
+  if (inputs.has(kWithoutDefaultContacts))
+    args.keepDefaultContacts = !inputs.at(kWithoutDefaultContacts).boolean();
   if (args.srdf != "none") reader.file("srdf", args.srdf);
   std::optional<double> margin, tolerance;
   reader.value("margin", margin);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "swept/robot_model/foreign_text.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -15,7 +16,7 @@ using nlohmann::json;
 std::string reasonOf(const json::exception& error, std::string_view front) {
   const std::string what = error.what();
   const auto at = what.find(front);
-  return at == std::string::npos ? what : what.substr(at + front.size());
+  return foreignText(at == std::string::npos ? what : what.substr(at + front.size()));
 }
 
 template <typename Value>
@@ -44,7 +45,7 @@ json JsonValue::parseFile(const std::string& file) {
 }
 
 void JsonValue::refuse(const std::string& what) const {
-  fail("is " + value_->dump() + "; it must be " + what);
+  fail("is " + foreignText(value_->dump()) + "; it must be " + what);
 }
 
 void JsonValue::fail(const std::string& message) const {

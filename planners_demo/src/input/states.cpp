@@ -7,10 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "command_line/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/limits.hpp"
+#include "swept/robot_model/named_states.hpp"
 
 namespace swept {
 namespace {
@@ -19,15 +21,6 @@ std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::vector<std::string> splitAtCommas(const std::string& text) {
-  std::vector<std::string> pieces;
-  std::size_t begin = 0;
-  for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
-    pieces.push_back(trimmed(text.substr(begin, comma - begin)));
-  pieces.push_back(trimmed(text.substr(begin)));
-  return pieces;
 }
 
 struct Number {
@@ -90,12 +83,17 @@ std::vector<double> namedState(const Robot& robot, const Group& group, const Nam
 
 [[noreturn]] void refuseName(const Robot& robot, const Group& group, const std::string& text,
                              const std::string& label) {
+  for (const LeftOut& out : robot.leftOut())
+    if (out.group == group.name && out.state == text)
+      throw UsageError(label + ": named state '" + text + "' of group '" + group.name +
+                       "' is left out: " + out.reason);
   std::vector<std::string> known;
   for (const NamedState& state : robot.namedStates())
     if (state.group == group.name) known.push_back(state.name);
+  if (std::ranges::find(known, kDefaultState) == known.end()) known.emplace_back(kDefaultState);
   throw UsageError(label + ": no named state '" + text + "' in group '" + group.name + "' (" +
-                   "it has " + (known.empty() ? "none" : joined(known)) +
-                   ") and not a list of values: " + joined(variableNames(robot, group), ","));
+                   "it has " + joined(known) + ") and not a list of values: " +
+                   joined(variableNames(robot, group), ",") + didYouMean(text, known));
 }
 
 std::vector<double> reordered(const Robot& robot, const Group& group,
@@ -114,6 +112,15 @@ std::string labelOf(const PlanningProblem& problem) {
 }
 
 }  // namespace
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> pieces;
+  std::size_t begin = 0;
+  for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
+    pieces.push_back(trimmed(text.substr(begin, comma - begin)));
+  pieces.push_back(trimmed(text.substr(begin)));
+  return pieces;
+}
 
 std::vector<std::string> variableNames(const Robot& robot, const Group& group) {
   std::vector<std::string> names;
@@ -144,6 +151,8 @@ std::vector<double> readState(const Robot& robot, const Group& group, const std:
   std::vector<double> q;
   if (const NamedState* state = robot.findNamedState(wanted, group.name))
     q = namedState(robot, group, *state, label);
+  else if (wanted == kDefaultState)
+    q = namedConfiguration(robot, group, wanted);
   else if (wanted.find(',') != std::string::npos || readNumber(wanted).readable)
     q = readValues(wanted, variableNames(robot, group), label);
   else

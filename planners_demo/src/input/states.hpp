@@ -15,6 +15,9 @@ namespace swept {
 /// Those that the group moves, in the order of its values.
 std::vector<std::string> variableNames(const Robot& robot, const Group& group);
 
+/// The pieces between commas, without blanks around them.
+std::vector<std::string> splitAtCommas(const std::string& text);
+
 /// Takes a line for stderr: `swept: warning: ...`.
 using Warn = std::function<void(const std::string& line)>;
 

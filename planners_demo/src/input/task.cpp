@@ -8,15 +8,19 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
+#include "command_line/did_you_mean.hpp"
 #include "input/attach.hpp"
 #include "input/clouds.hpp"
 #include "input/problem_choice.hpp"
+#include "input/request_task.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
-#include "swept/robot_model/limits.hpp"
+#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/named_states.hpp"
+#include "swept/robot_model/planning_scene.hpp"
 
 namespace swept {
 namespace {
@@ -43,6 +47,15 @@ std::string standingContactText(const Checker& checker) {
     pairs.push_back(pair.bodyA + " - " + pair.bodyB);
   return "swept: warning: in contact whatever group '" + checker.group().name +
          "' does, and left out of the verdicts: " + joined(pairs);
+}
+
+/// What of a checker's rules a robot without an SRDF brings.
+CollisionRules defaultContactsOf(const Checker& checker) {
+  CollisionRules rules;
+  for (const CollisionRules::Rule& rule : checker.options().rules.rules())
+    if (rule.kind == CollisionRules::Kind::Allow && rule.reason == kDefaultContact)
+      rules.allow(rule.bodyA, rule.bodyB, rule.reason);
+  return rules;
 }
 
 /// States of the command line, one problem or a request.
@@ -81,76 +94,6 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
   return task;
 }
 
-/// The group's values among a request's. Throws UsageError for one that is missing or wrong.
-std::vector<double> requestState(const Robot& robot, const Group& group,
-                                 const PlanningRequest::JointValues& values,
-                                 const std::string& label, const Warn& warn) {
-  std::string text;
-  for (const int v : group.variables) {
-    const std::string& name = robot.variables()[v].name;
-    const auto found =
-        std::ranges::find(values, name, &PlanningRequest::JointValues::value_type::first);
-    if (found == values.end()) throw UsageError(label + ": it has no value for " + name);
-    text += (text.empty() ? "" : ",") + exactNumber(found->second);
-  }
-  return readState(robot, group, text, label, warn);
-}
-
-/// With those of bases. Throws UsageError.
-PlanningRequest::JointValues startOf(const Robot& robot, const PlanningRequest& request,
-                                     const std::string& file) {
-  try {
-    return request.startOf(robot);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(file + ", start: " + error.what());
-  }
-}
-
-/// The start's values of all joints, those outside the group too: they have limits as well, and are
-/// taken to them as the group's are.
-Eigen::VectorXd referenceOf(const Robot& robot, const PlanningRequest::JointValues& start,
-                            const std::string& file, const Warn& warn) {
-  Eigen::VectorXd reference = robot.defaultState();
-  for (const auto& [name, value] : start) {
-    const std::optional<int> variable = robot.findVariable(name);
-    if (!variable && !robot.findJoint(name))
-      throw UsageError(file + ", start: robot '" + robot.name() + "' has no joint '" + name + "'");
-    if (!variable) continue;  // it mimics another
-    reference[*variable] = value;
-    const Variable& limited = robot.variables()[*variable];
-    const auto limit = limitNear(limited, value);
-    if (!limit || isOrientation(robot, limited)) continue;
-    warn("swept: warning: " + limitRemark({name, value, *limit, unitOf(robot, limited)}));
-    reference[*variable] = *limit;
-  }
-  return reference;
-}
-
-Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) {
-  const PlanningRequest request = PlanningRequest::load(args.request, model.options);
-  const Robot& robot = *model.robot;
-  const std::string wanted = args.group.empty() ? request.group : args.group;
-  const Group& group = chooseGroup(robot, wanted);
-  if (request.goals.size() + request.poseGoals.size() > 1 && !request.poseGoals.empty())
-    throw UsageError(args.request + ": a goal pose has to be its only goal");
-  const PlanningRequest::JointValues start = startOf(robot, request, args.request);
-  const auto stateOf = [&](const PlanningRequest::JointValues& values, const std::string& label) {
-    return requestState(robot, group, values, args.request + ", " + label, std::ref(warnings));
-  };
-  Task task;
-  task.alternatives = true;
-  task.checker = makeChecker(args, model, group, model.world, warnings,
-                             referenceOf(robot, start, args.request, std::ref(warnings)));
-  task.states.push_back({.label = "start", .q = stateOf(start, "start")});
-  for (std::size_t i = 0; i < request.goals.size(); ++i) {
-    const std::string goal =
-        request.goals.size() > 1 ? "goal " + std::to_string(i + 1) : std::string("goal");
-    task.states.push_back({.label = goal, .q = stateOf(request.goals[i], goal)});
-  }
-  if (!request.poseGoals.empty()) task.poseGoal = request.poseGoals.front();
-  return task;
-}
-
 }  // namespace
 
 void Warnings::operator()(const std::string& line) {
@@ -170,36 +113,70 @@ SrdfChoice chooseSrdf(const Arguments& args) {
   return {.file = beside, .foundBesideUrdf = !beside.empty()};
 }
 
+bool leavesOutDefaultContacts(const Arguments& args) {
+  return !args.keepDefaultContacts && chooseSrdf(args).file.empty();
+}
+
 Model loadModel(const Arguments& args, Warnings& warnings) {
   LoadOptions options{.packages = packageFolders(args),
                       .modelFrame = {},
-                      .warn = [&](const std::string& line) { warnings(line); }};
+                      .warn = [&](const std::string& line) { warnings(line); },
+                      .everyWarning = args.verbose};
   Model model;
   model.srdf = chooseSrdf(args);
-  model.robot = Robot::load(args.robot, model.srdf.file, options);
-  options.modelFrame = model.robot->links().front().name;
-  World world = args.scene.empty() ? World{} : World::load(args.scene, options);
-  addClouds(args, *model.robot, options, world);
-  model.attached = attachedBodies(args, *model.robot, options);
+  model.robot = withAskedGroup(Robot::load(args.robot, model.srdf.file, options), args);
+  options.modelFrame = model.robot->modelFrame();
+  PlanningScene scene;
+  if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
+  World world = std::move(scene.world);
+  model.reference = scene.state;
+  addClouds(args, *model.robot, model.reference, options, world);
+  model.attached = attachedBodies(args, *model.robot, options, std::move(scene.attached));
+  model.weakerRules = std::move(scene.rules);
+  // A scene's matrix stands in place of all that nobody decided.
+  if (leavesOutDefaultContacts(args) && !scene.hasMatrix)
+    model.weakerRules = model.weakerRules.over(allowDefaultContacts(*model.robot));
   model.options = options;
   model.world = std::make_shared<const World>(std::move(world));
   return model;
 }
 
-const Group& chooseGroup(const Robot& robot, const std::string& name) {
-  std::vector<std::string> names;
-  for (const Group& group : robot.groups()) names.push_back(group.name);
-  if (name.empty()) {
-    if (robot.groups().size() == 1) return robot.groups().front();
-    throw UsageError("robot '" + robot.name() +
-                     "' has several groups; choose one with --group: " + joined(names));
-  }
-  if (const Group* group = robot.findGroup(name)) return *group;
-  throw UsageError("robot '" + robot.name() + "' has no group '" + name + "'; it has " +
-                   joined(names));
+namespace {
+
+/// For the first name in a rule that is nobody's.
+std::string nearNameInRules(const CollisionRules& rules, const Model& model, const World& world) {
+  std::vector<std::string> known;
+  for (const Link& link : model.robot->links()) known.push_back(link.name);
+  for (const AttachedBody& body : model.attached) known.push_back(body.name);
+  for (const WorldBody& body : world.bodies()) known.push_back(body.name);
+  for (const MovingObstacle& body : world.obstacles()) known.push_back(body.name);
+  for (const CollisionRules::Rule& rule : rules.rules())
+    for (const std::string& name : {rule.bodyA, rule.bodyB})
+      if (!name.empty() && name.find('*') == std::string::npos &&
+          std::ranges::find(known, name) == known.end())
+        return didYouMean(name, known);
+  return {};
 }
 
-namespace {
+/// What without an SRDF nobody has decided is said aloud, with what decides it.
+void warnOfDefaultContacts(const Checker& checker, Warnings& warnings) {
+  const CollisionRules defaults = defaultContactsOf(checker);
+  if (defaults.empty()) return;
+  std::vector<std::string> pairs;
+  for (const Checker::Pair& pair : checker.skippedPairs()) {
+    const auto* rule = checker.options().rules.decisive(pair.bodyA, pair.bodyB);
+    const auto* own = defaults.decisive(pair.bodyA, pair.bodyB);
+    if (rule != nullptr && own != nullptr && rule->reason == own->reason)
+      pairs.push_back(pair.bodyA + " - " + pair.bodyB);
+  }
+  if (pairs.empty()) return;
+  warnings(
+      "swept: warning: no SRDF: not checked are links that are in contact at the default "
+      "state already: " +
+      joined(pairs) +
+      "; --keep-default-contacts checks them, and `swept acm ROBOT.urdf -o ROBOT.srdf` makes "
+      "an SRDF that says which pairs are to be left out");
+}
 
 /// `alone`: nothing else goes on that shows on the terminal.
 std::shared_ptr<const Checker> makeCheckerWith(
@@ -213,16 +190,18 @@ std::shared_ptr<const Checker> makeCheckerWith(
   options.tolerance = args.tolerance;
   options.rules = rules;
   options.attached = model.attached;
-  options.reference = reference;
+  options.reference = reference ? reference : model.reference;
   std::shared_ptr<const Checker> checker;
+  const std::shared_ptr<const World> in = world;
   try {
     const std::string links = std::to_string(model.robot->links().size());
     Progress progress("building the checker of " + links + " links", args.quiet || !alone);
     checker = std::make_shared<const Checker>(model.robot, group.name, std::move(world), options);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
+    throw UsageError(error.what() + nearNameInRules(rules, model, *in));
   }
   if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
+  warnOfDefaultContacts(*checker, warnings);
   return checker;
 }
 
@@ -232,22 +211,25 @@ std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& m
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
                                            const std::optional<Eigen::VectorXd>& reference) {
-  return makeCheckerWith(rulesOf(args), args, model, group, std::move(world), warnings, true,
-                         reference);
+  return makeCheckerWith(rulesOf(args).over(model.weakerRules), args, model, group,
+                         std::move(world), warnings, true, reference);
 }
 
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,
                                                 const Group& group,
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings) {
-  const CollisionRules rules = rulesIn(*world, rulesOf(args), *model.robot, model.attached);
+  const CollisionRules rules =
+      rulesIn(*world, rulesOf(args).over(model.weakerRules), *model.robot, model.attached);
   return makeCheckerWith(rules, args, model, group, std::move(world), warnings, false);
 }
 
-std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Model& model,
+                                               const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings) {
-  CollisionRules rules = rulesIn(*world, rulesOf(args), like.robot(), like.options().attached);
+  CollisionRules rules = rulesIn(*world, rulesOf(args).over(model.weakerRules), like.robot(),
+                                 like.options().attached);
   auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
   // What it has kept of its own rules are some of these.
   if (checker->options().rules.rules().size() != rules.rules().size())
@@ -258,9 +240,10 @@ std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Chec
 
 std::shared_ptr<const Checker> makeCheckerOfGroup(const Arguments& args, const Model& model,
                                                   Warnings& warnings) {
-  if (args.group.empty() && model.robot->groups().size() > 1) return nullptr;
-  const Group& group = chooseGroup(*model.robot, args.group);
-  if (args.group.empty() && group.variables.empty()) return nullptr;
+  const auto moves = [](const Group& group) { return !group.variables.empty(); };
+  if (!asksForGroup(args) && std::ranges::count_if(model.robot->groups(), moves) != 1)
+    return nullptr;
+  const Group& group = chooseGroup(*model.robot, args);
   return makeChecker(args, model, group, model.world, warnings);
 }
 
@@ -271,7 +254,7 @@ double clearanceAccuracy(const Checker& checker) {
 Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
   checkStateSource(args);
   if (!args.request.empty()) return requestTask(args, model, warnings);
-  const Group& group = chooseGroup(*model.robot, args.group);
+  const Group& group = chooseGroup(*model.robot, args);
   if (!args.problems.empty()) return problemTask(args, model, group, warnings);
   Task task;
   const bool plan = args.command == &kPlanCommand;
@@ -280,7 +263,8 @@ Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
     const std::string goal = args.states.size() > 2 ? "goal " + std::to_string(i) : "goal";
     const std::string label = plan ? (i == 0 ? "start" : goal) : "state " + std::to_string(i + 1);
     const std::vector<double> q = readState(*model.robot, group, text, label, std::ref(warnings));
-    const bool named = model.robot->findNamedState(text, group.name) != nullptr;
+    const bool named =
+        text == kDefaultState || model.robot->findNamedState(text, group.name) != nullptr;
     task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});
   }
   task.checker = makeChecker(args, model, group, model.world, warnings);

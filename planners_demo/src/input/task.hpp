@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command_line/arguments.hpp"
+#include "input/groups.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/problems.hpp"
@@ -39,19 +40,24 @@ struct SrdfChoice {
 };
 SrdfChoice chooseSrdf(const Arguments& args);
 
+/// Whether pairs of links in contact at the default state are left out, if there are any: without
+/// an SRDF nobody has said which pairs are to be checked.
+bool leavesOutDefaultContacts(const Arguments& args);
+
 /// What a subcommand works on: the files of the command line, read.
 struct Model {
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
-  std::vector<AttachedBody> attached;  ///< of --attach
-  LoadOptions options;                 ///< how the files were read
+  std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
+  std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none
+  /// Those of --scene and, without an SRDF, of what is in contact at the default state, unless
+  /// --keep-default-contacts: the command line's are over them.
+  CollisionRules weakerRules;
+  LoadOptions options;  ///< how the files were read
 };
 /// Throws InputError or UsageError.
 Model loadModel(const Arguments& args, Warnings& warnings);
-
-/// The group asked for, or the only one. Throws UsageError, listing the groups.
-const Group& chooseGroup(const Robot& robot, const std::string& name);
 
 /// Throws UsageError when the group has nothing to move. Warns of standing contacts. `reference`:
 /// of the variables outside the group, as CheckerOptions has it.
@@ -66,7 +72,8 @@ std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Mod
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings);
 /// The same in another of them, with all rules about bodies that it has.
-std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Checker& like,
+std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Model& model,
+                                               const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings);
 /// For the group asked for, or the only one, in the world of --scene and --cloud. Null without a

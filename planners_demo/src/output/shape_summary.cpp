@@ -42,7 +42,7 @@ struct Text {
   }
   std::string operator()(const TriangleMesh& mesh) const {
     return "mesh of " + std::to_string(mesh.triangles().size()) + " triangles, " +
-           (mesh.isClosed() ? "closed" : "open") + ", hull of " +
+           (mesh.isClosed() ? "closed" : "open") + cracks(mesh.report()) + ", hull of " +
            std::to_string(mesh.hull().vertices().size()) + " points";
   }
   std::string operator()(const PointCloud& cloud) const {
@@ -53,6 +53,10 @@ struct Text {
   }
 
  private:
+  static std::string cracks(const MeshReport& report) {
+    if (report.cracksFilled == 0) return {};
+    return " (cracks of up to " + shortNumber(report.largestCrack) + " m filled)";
+  }
   template <class Flat>
   static std::string equation(const Flat& flat, const char* relation) {
     const Eigen::Vector3d& n = flat.normal;
@@ -102,6 +106,7 @@ struct Facts {
     return {{"kind", "mesh"},
             {"triangles", mesh.triangles().size()},
             {"closed", mesh.isClosed()},
+            {"largest_crack_filled", mesh.report().largestCrack},
             {"hull_points", mesh.hull().vertices().size()}};
   }
   Json operator()(const PointCloud& cloud) const {

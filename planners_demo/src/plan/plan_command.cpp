@@ -60,7 +60,6 @@ void addOptions(CLI::App& app, Arguments& args) {
                  "numbers depend on timing)")
       ->type_name("N")
       ->check(within(1, 1024, "between 1 and 1024"));
-  app.add_flag("-v,--verbose", args.verbose, "OMPL's messages on stderr");
   addDumpOption(app, args);
   addHtmlOption(app, args);
   addJsonOption(app, args);

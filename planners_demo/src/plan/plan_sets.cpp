@@ -26,8 +26,9 @@ struct Entry {
   PlanOutcome outcome;
 };
 
-PlanOutcome solveProblem(const Arguments& args, const ProblemFile& file, const Entry& entry,
-                         const Checker& like, const PlanRequest& request, Warnings& warnings) {
+PlanOutcome solveProblem(const Arguments& args, const Model& model, const ProblemFile& file,
+                         const Entry& entry, const Checker& like, const PlanRequest& request,
+                         Warnings& warnings) {
   const PlanningProblem problem = file.problem(entry.set, entry.index);
   ProblemStates ends;
   try {
@@ -41,8 +42,8 @@ PlanOutcome solveProblem(const Arguments& args, const ProblemFile& file, const E
   }
   std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
   for (const std::vector<double>& goal : ends.goals) states.push_back({.label = "goal", .q = goal});
-  return plan(makeNextChecker(args, like, std::make_shared<const World>(problem.world), warnings),
-              states, request);
+  const auto world = std::make_shared<const World>(problem.world);
+  return plan(makeNextChecker(args, model, like, world, warnings), states, request);
 }
 
 /// Threads take the next problem when they are done with one. The first exception ends the run.
@@ -170,7 +171,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   QueryDump dump(args);
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
-  const Group& group = chooseGroup(*model.robot, args.group);
+  const Group& group = chooseGroup(*model.robot, args);
   const ProblemFile file = ProblemFile::load(args.problems);
   const std::vector<ProblemChoice> chosen = chosenProblems(file, args);
   requireBodiesOfRules(args, model, file, chosen);
@@ -181,7 +182,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   {
     Progress progress("planning " + std::to_string(entries.size()) + " problems", args.quiet);
     runAll(entries, args.jobs, progress, [&](const Entry& entry) {
-      return solveProblem(args, file, entry, *like, request, warnings);
+      return solveProblem(args, model, file, entry, *like, request, warnings);
     });
   }
   ExitCode code = ExitCode::Free;

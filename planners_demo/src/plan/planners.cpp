@@ -60,15 +60,6 @@ ompl::base::PlannerPtr make(const ompl::base::SpaceInformationPtr& si) {
   return std::make_shared<Planner>(si);
 }
 
-/// With the bridge's nearest neighbours, for planners whose trees can have others than OMPL's and
-/// that take them before they know their problem (RRTsharp, RRTXstatic and TRRT do not).
-template <typename Planner>
-ompl::base::PlannerPtr makeTree(const ompl::base::SpaceInformationPtr& si) {
-  auto planner = std::make_shared<Planner>(si);
-  planner->template setNearestNeighbors<NearestStates>();
-  return planner;
-}
-
 struct Entry {
   std::string_view name;
   Maker maker;
@@ -86,36 +77,36 @@ constexpr std::array kPlanners = {
     Entry{"BKPIECE1", make<og::BKPIECE1>},
     Entry{"BiEST", make<og::BiEST>},
     Entry{"BiRLRT", make<og::BiRLRT>},
-    Entry{"BiTRRT", makeTree<og::BiTRRT>},
+    Entry{"BiTRRT", make<og::BiTRRT>},
     Entry{"CForest", make<og::CForest>},
     Entry{"EST", make<og::EST>},
     Entry{"FMT", make<og::FMT>},
-    Entry{"InformedRRTstar", makeTree<og::InformedRRTstar>},
+    Entry{"InformedRRTstar", make<og::InformedRRTstar>},
     Entry{"KPIECE1", make<og::KPIECE1>},
     Entry{"LBKPIECE1", make<og::LBKPIECE1>},
-    Entry{"LBTRRT", makeTree<og::LBTRRT>},
-    Entry{"LazyLBTRRT", makeTree<og::LazyLBTRRT>},
+    Entry{"LBTRRT", make<og::LBTRRT>},
+    Entry{"LazyLBTRRT", make<og::LazyLBTRRT>},
     Entry{"LazyPRM", make<og::LazyPRM>},
     Entry{"LazyPRMstar", make<og::LazyPRMstar>},
-    Entry{"LazyRRT", makeTree<og::LazyRRT>},
+    Entry{"LazyRRT", make<og::LazyRRT>},
     Entry{"PDST", make<og::PDST>},
     Entry{"PRM", make<og::PRM>},
     Entry{"PRMstar", make<og::PRMstar>},
     Entry{"ProjEST", make<og::ProjEST>},
     Entry{"RLRT", make<og::RLRT>},
-    Entry{"RRT", makeTree<og::RRT>},
-    Entry{"RRTConnect", makeTree<og::RRTConnect>},
+    Entry{"RRT", make<og::RRT>},
+    Entry{"RRTConnect", make<og::RRTConnect>},
     Entry{"RRTXstatic", make<og::RRTXstatic>},
     Entry{"RRTsharp", make<og::RRTsharp>},
-    Entry{"RRTstar", makeTree<og::RRTstar>},
+    Entry{"RRTstar", make<og::RRTstar>},
     Entry{"SBL", make<og::SBL>},
-    Entry{"SORRTstar", makeTree<og::SORRTstar>},
+    Entry{"SORRTstar", make<og::SORRTstar>},
     Entry{"SPARS", make<og::SPARS>},
     Entry{"SPARStwo", make<og::SPARStwo>},
     Entry{"SST", make<og::SST>},
     Entry{"STRIDE", make<og::STRIDE>},
     Entry{"TRRT", make<og::TRRT>},
-    Entry{"pRRT", makeTree<og::pRRT>},
+    Entry{"pRRT", make<og::pRRT>},
     Entry{"pSBL", make<og::pSBL>},
 };
 
@@ -147,7 +138,9 @@ ompl::base::PlannerPtr makePlanner(std::string_view name,
                                    const ompl::base::SpaceInformationPtr& si) {
   const auto* entry = std::ranges::find(kPlanners, name, &Entry::name);
   if (entry == kPlanners.end()) throw UsageError("no planner '" + std::string(name) + "'");
-  return entry->maker(si);
+  const ompl::base::PlannerPtr planner = entry->maker(si);
+  useNearestStates(*planner);
+  return planner;
 }
 
 }  // namespace swept

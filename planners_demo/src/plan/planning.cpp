@@ -20,6 +20,7 @@
 #include "output/text_output.hpp"
 #include "plan/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 
 namespace swept {
 namespace {
@@ -30,7 +31,7 @@ namespace og = ompl::geometric;
 class StderrMessages : public ompl::msg::OutputHandler {
  public:
   void log(const std::string& text, ompl::msg::LogLevel, const char*, int) override {
-    printMessage("ompl: " + text);
+    printMessage("ompl: " + foreignText(text));
   }
 };
 
@@ -244,7 +245,7 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
     setup->setup();
     return solve(*setup, *checker, request);
   } catch (const ompl::Exception& error) {
-    throw UsageError("planner " + request.planner + ": " + error.what());
+    throw UsageError("planner " + request.planner + ": " + foreignText(error.what()));
   }
 }
 

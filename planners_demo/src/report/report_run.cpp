@@ -67,7 +67,7 @@ class ReportRun {
       : args_(args),
         warnings_(args.quiet),
         model_(loadModel(args, warnings_)),
-        group_(chooseGroup(*model_.robot, args.group)),
+        group_(chooseGroup(*model_.robot, args)),
         worlds_(reportWorlds(args, model_)),
         checkers_(args, model_, group_, warnings_),
         methods_(reportMethods(args)),

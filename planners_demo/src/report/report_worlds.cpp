@@ -42,7 +42,7 @@ std::vector<ReportWorld> reportWorlds(const Arguments& args, const Model& model)
 
 CheckerMaker::CheckerMaker(const Arguments& args, const Model& model, const Group& group,
                            Warnings& warnings)
-    : args_(args), warnings_(warnings) {
+    : args_(args), model_(model), warnings_(warnings) {
   const auto make = [&](double tolerance) {
     Arguments own = args;
     own.tolerance = tolerance;
@@ -54,9 +54,9 @@ CheckerMaker::CheckerMaker(const Arguments& args, const Model& model, const Grou
 
 ReportCheckers CheckerMaker::in(const std::shared_ptr<const World>& world) const {
   ReportCheckers checkers;
-  checkers.truth = makeNextChecker(args_, *like_.truth, world, warnings_);
+  checkers.truth = makeNextChecker(args_, model_, *like_.truth, world, warnings_);
   for (const auto& like : like_.certified)
-    checkers.certified.push_back(makeNextChecker(args_, *like, world, warnings_));
+    checkers.certified.push_back(makeNextChecker(args_, model_, *like, world, warnings_));
   return checkers;
 }
 

@@ -28,13 +28,14 @@ struct ReportCheckers {
 /// Makes them, for one world after the other.
 class CheckerMaker {
  public:
-  /// Takes a while: what depends on the robot alone is made here. Throws as makeChecker. `args`
-  /// have to outlive this.
+  /// Takes a while: what depends on the robot alone is made here. Throws as makeChecker. `args` and
+  /// `model` have to outlive this.
   CheckerMaker(const Arguments& args, const Model& model, const Group& group, Warnings& warnings);
   ReportCheckers in(const std::shared_ptr<const World>& world) const;
 
  private:
   const Arguments& args_;
+  const Model& model_;
   Warnings& warnings_;
   ReportCheckers like_;
 };

@@ -19,11 +19,16 @@ namespace swept {
 
 namespace {
 
+void requireMargin(const std::string& name, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument("Checker: " + name + " " + detail::formatNumber(value) +
+                              " m must be a finite number that is not negative");
+}
+
 void validate(const Robot& robot, const CheckerOptions& options) {
-  if (!(options.margin >= 0.0) || !std::isfinite(options.margin)) {
-    throw std::invalid_argument("Checker: margin " + detail::formatNumber(options.margin) +
-                                " m must be a finite number that is not negative");
-  }
+  requireMargin("margin", options.margin);
+  if (options.selfMargin) requireMargin("selfMargin", *options.selfMargin);
+  if (options.worldMargin) requireMargin("worldMargin", *options.worldMargin);
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
     throw std::invalid_argument("Checker: tolerance " + detail::formatNumber(options.tolerance) +
                                 " m must be a finite number greater than zero");
@@ -38,6 +43,10 @@ void validate(const Robot& robot, const CheckerOptions& options) {
 
 const Group& findGroup(const Robot& robot, std::string_view name) {
   if (const Group* group = robot.findGroup(name)) return *group;
+  for (const LeftOut& out : robot.leftOut())
+    if (out.group == name && out.state.empty())
+      throw std::invalid_argument("Checker: group '" + out.group + "' of robot '" + robot.name() +
+                                  "' is left out: " + out.reason);
   std::string known;
   for (const Group& group : robot.groups()) known += (known.empty() ? "" : ", ") + group.name;
   throw std::invalid_argument("Checker: robot '" + robot.name() + "' has no group '" +
@@ -179,10 +188,12 @@ MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span
 }
 
 MotionClearance Checker::motionClearance(std::span<const double> from, std::span<const double> to,
-                                         double accuracy, Workspace& workspace) const {
+                                         double accuracy, Workspace& workspace,
+                                         ClearanceQuery query) const {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment(
-        [&, from, to, accuracy] { return motionClearance(from, to, accuracy, workspace); });
+    return inDefaultEnvironment([&, from, to, accuracy, query] {
+      return motionClearance(from, to, accuracy, workspace, query);
+    });
   }
   requireSize(from);
   requireSize(to);
@@ -190,7 +201,7 @@ MotionClearance Checker::motionClearance(std::span<const double> from, std::span
     throw std::invalid_argument("Checker: accuracy " + detail::formatNumber(accuracy) +
                                 " m must be greater than zero");
   }
-  return detail::motionClearance(*model_, from, to, accuracy, dataOf(workspace));
+  return detail::motionClearance(*model_, from, to, accuracy, query, dataOf(workspace));
 }
 
 bool Checker::withinLimits(std::span<const double> q) const {

@@ -39,6 +39,7 @@ std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t ind
   witness.pointA = point;
   witness.pointB = point + found.pointB;
   witness.distance = found.upper;
+  witness.margin = pair.margin;
   return witness;
 }
 
@@ -54,6 +55,7 @@ std::optional<Witness> laneWitness(const CheckerModel& model, const LaneContact&
   witness.selfPair = model.isSelfPair(pair);
   witness.pointA = *point;
   witness.pointB = *point;
+  witness.margin = pair.margin;
   return witness;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "certify/exact_judge.hpp"
+#include "certify/nearest_points.hpp"
 #include "certify/obstacle_clock.hpp"
 #include "certify/pending_intervals.hpp"
 #include "certify/work_limits.hpp"
@@ -21,6 +22,11 @@ namespace {
 /// tolerance of what stopped it.
 constexpr double kStopShare = 0.45;
 
+/// Once a contact is known, the tolerance that first contacts are looked for with, as a share of
+/// the motion's. A pair that passes closer than the tolerance must not hide the pair that meets
+/// first.
+constexpr double kContactShare = 1.0 / 16.0;
+
 class MotionProver {
  public:
   MotionProver(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
@@ -33,6 +39,15 @@ class MotionProver {
         judge_(model, from, to, query_, certificate) {}
 
   void run(std::span<const double> from, std::span<const double> to) {
+    search(from, to);
+    std::optional<Witness>& witness = certificate_.witness;
+    if (wanted_ == MotionQuery::VerdictOnly || !witness || !judge_.start()) return;
+    query_.moveTo(witness->t);
+    takeNearestPoints(model_, query_, *witness);
+  }
+
+ private:
+  void search(std::span<const double> from, std::span<const double> to) {
     if (settleInLanes(from, to) || !judge_.start()) return;
     if (!certificate_.witness) searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
@@ -55,7 +70,6 @@ class MotionProver {
     }
   }
 
- private:
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
   bool settleInLanes(std::span<const double> from, std::span<const double> to) {
@@ -93,9 +107,8 @@ class MotionProver {
 
   /// What examining one interval found out. Pairs still open are in workspace.failed.
   struct Outcome {
-    bool contact = false;  ///< at the middle; the witness is recorded
-    bool resolved =
-        false;  ///< some open pair moves less than the tolerance: splitting is pointless
+    bool contact = false;   ///< at the middle; the witness is recorded
+    bool resolved = false;  ///< some open pair moves less than the query's tolerance
   };
 
   bool isEarliest(double t) const { return !certificate_.witness || t < certificate_.witness->t; }
@@ -120,19 +133,13 @@ class MotionProver {
       const PairAnswer answer = query_.prove(pair, half);
       ++(answer.culled ? certificate_.effort.culled : certificate_.effort.distances);
       if (answer.status == Separation::Separated) continue;
-      const bool atTolerance = answer.travel <= kStopShare * model_.options.tolerance;
+      const bool atTolerance = answer.travel <= kStopShare * query_.tolerance();
+      outcome.resolved = outcome.resolved || atTolerance;
       if (answer.status == Separation::Contact) {
         outcome.contact = true;
-        outcome.resolved = outcome.resolved || atTolerance;
         if (isEarliest(middle)) certificate_.witness = query_.witness(pair, middle, answer);
-        workspace_.failed.push_back(pair);
-        continue;
       }
-      if (atTolerance) {
-        outcome.resolved = true;
-        if (dropResolved) continue;
-      }
-      workspace_.failed.push_back(pair);
+      if (!(atTolerance && dropResolved)) workspace_.failed.push_back(pair);
     }
     return outcome;
   }
@@ -172,8 +179,11 @@ class MotionProver {
     if (!undecidedAt_ || begin < *undecidedAt_) undecidedAt_ = begin;
   }
 
-  /// From the left: the largest t up to which everything is proven, to within the tolerance.
-  /// Contacts on the way move the witness forward in time, and nothing behind it matters any more.
+  /// From the left: the largest t up to which everything is proven, to within the tolerance, and
+  /// the first contact. Contacts on the way move the witness forward in time, and nothing behind it
+  /// matters any more. Without a contact the search ends where the proof does. With one it goes on
+  /// from there: what ends the proof may be a pair that passes close by, or one of several that are
+  /// about to meet.
   void provePrefix() {
     auto& stack = workspace_.generation;
     auto& arena = workspace_.arena;
@@ -181,37 +191,61 @@ class MotionProver {
     while (!stack.empty()) {
       const PendingInterval interval = stack.back();
       stack.pop_back();
-      certificate_.freeUntil = interval.begin;
-      if (certificate_.witness && interval.begin >= certificate_.witness->t) return;
-      if (!budgetLeft()) return stopAt(interval.begin);
-      const OpenPairs open = sortOpenPairs(interval, workspace_);
+      if (certificate_.witness && interval.begin >= certificate_.witness->t) break;
       const double middle = 0.5 * (interval.begin + interval.end);
+      const bool divides = interval.begin < middle && middle < interval.end;
+      if (!divides || !budgetLeft()) return stopAt(interval.begin);
+      const OpenPairs open = sortOpenPairs(interval, workspace_);
       // Nothing from the contact on matters.
       const bool behind = certificate_.witness && middle >= certificate_.witness->t;
       const std::size_t asked = behind ? 0 : open.onAll;
+      const bool met = certificate_.witness.has_value();
+      query_.setTolerance((met ? kContactShare : 1.0) * model_.options.tolerance);
       const Outcome outcome =
-          examine({interval.begin, interval.end, interval.first, asked}, arena, false);
+          examine({interval.begin, interval.end, interval.first, asked}, arena, met);
+      if (outcome.resolved && met && interval.begin == 0.0 && meetAtBegin(interval.first, asked))
+        return stopAt(0.0);
       // Pairs that are open on a part only wait for that part.
       const auto waiting = arena.begin() + static_cast<std::ptrdiff_t>(interval.first);
       workspace_.failed.insert(workspace_.failed.end(),
                                waiting + static_cast<std::ptrdiff_t>(asked),
                                waiting + static_cast<std::ptrdiff_t>(open.onAll + open.onPart));
       arena.resize(interval.first);
-      if (workspace_.failed.empty()) continue;
-      const bool tooMany = arena.size() + 2 * workspace_.failed.size() > kMostWaiting;
-      if (outcome.resolved || tooMany) return stopAt(interval.begin);
       if (outcome.contact) {
         stack.clear();
         arena.clear();
-      } else if (!behind) {
-        push(middle, interval.end);
       }
+      const bool tooMany = arena.size() + 2 * workspace_.failed.size() > kMostWaiting;
+      if (tooMany || (outcome.resolved && !certificate_.witness)) return stopAt(interval.begin);
+      if (outcome.resolved && met) endPrefix(interval.begin);
+      if (workspace_.failed.empty()) continue;
+      if (!outcome.contact && !behind) push(middle, interval.end);
       push(interval.begin, middle);
     }
-    certificate_.freeUntil = certificate_.witness ? certificate_.witness->t : 1.0;
+    endPrefix(certificate_.witness ? certificate_.witness->t : 1.0);
+    certificate_.freeUntil = *prefixEnd_;
+  }
+
+  /// Whether one of these pairs of the arena is in contact where the motion begins.
+  bool meetAtBegin(std::size_t first, std::size_t count) {
+    query_.moveTo(0.0);
+    for (std::size_t i = first; i < first + count; ++i) {
+      const PairAnswer answer = query_.prove(workspace_.arena[i], 0.0);
+      ++(answer.culled ? certificate_.effort.culled : certificate_.effort.distances);
+      if (answer.status != Separation::Contact) continue;
+      certificate_.witness = query_.witness(workspace_.arena[i], 0.0, answer);
+      return true;
+    }
+    return false;
+  }
+
+  void endPrefix(double end) {
+    if (!prefixEnd_) prefixEnd_ = end;
   }
 
   void stopAt(double begin) {
+    endPrefix(begin);
+    certificate_.freeUntil = *prefixEnd_;
     if (!certificate_.witness) undecidedAt_ = begin;
   }
 
@@ -228,6 +262,7 @@ class MotionProver {
   MotionCertificate& certificate_;
   ExactJudge judge_;
   std::optional<double> undecidedAt_;
+  std::optional<double> prefixEnd_;  ///< of what is proven; what follows may be searched further
 };
 
 /// Takes over what a part says; what lies before it, its effort too, is part of the certificate

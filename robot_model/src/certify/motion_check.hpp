@@ -14,7 +14,7 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
                                 WorkspaceData& workspace);
 
 MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
-                                std::span<const double> to, double accuracy,
+                                std::span<const double> to, double accuracy, ClearanceQuery wanted,
                                 WorkspaceData& workspace);
 
 }  // namespace swept::detail

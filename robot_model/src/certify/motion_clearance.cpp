@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "certify/motion_check.hpp"
 #include "certify/near_pairs.hpp"
@@ -13,46 +15,56 @@ namespace swept::detail {
 
 namespace {
 
+/// What is known of one kind of pairs over one part of a motion.
+struct KindClearance {
+  double lower = std::numeric_limits<double>::infinity();  ///< m
+  double upper = std::numeric_limits<double>::infinity();  ///< m
+  double t = 0.0;                                          ///< of the part
+  std::optional<GeometryPair> nearest;                     ///< the pair that attains `upper`
+};
+
 /// Branch and bound over intervals and pairs. Distances at the middles give upper bounds; less what
 /// the pair can approach within the interval, lower ones. Whatever cannot be below the best upper
 /// bound by more than the accuracy is dropped. What a pair can approach along the direction in
 /// which it is nearest is the better bound where it moves across that, as bodies do that slide
-/// along others.
+/// along others. Pairs of different kinds are not compared with each other where clearances are
+/// wanted by kind.
 class ClearanceSearch {
  public:
   /// `budget`: intervals that may be examined, at least 1. `queries`: pairs that may be looked at,
   /// but for the first interval's.
-  ClearanceSearch(const CheckerModel& model, double accuracy, int budget, std::int64_t queries,
-                  WorkspaceData& workspace)
+  ClearanceSearch(const CheckerModel& model, double accuracy, bool byKind, int budget,
+                  std::int64_t queries, WorkspaceData& workspace)
       : model_(model),
         workspace_(workspace),
         query_(model, workspace),
         accuracy_(accuracy),
+        byKind_(byKind),
         budget_(budget),
-        queriesLeft_(queries) {
-    found_.lower = std::numeric_limits<double>::infinity();
-    found_.upper = std::numeric_limits<double>::infinity();
-  }
+        queriesLeft_(queries) {}
 
-  MotionClearance run(std::span<const double> from, std::span<const double> to) {
+  void run(std::span<const double> from, std::span<const double> to) {
     if (!query_.start(from, to)) {
-      found_.lower = 0.0;
-      return found_;
+      for (KindClearance& kind : kinds_) kind.lower = 0.0;
+      return;
     }
     lookAtAll();
     auto& now = workspace_.generation;
     auto& next = workspace_.nextGeneration;
-    while (!now.empty() && found_.upper > 0.0) {
+    while (!now.empty()) {
       next.clear();
       workspace_.nextArena.clear();
       for (const PendingInterval& interval : now) split(interval);
       std::swap(now, next);
       std::swap(workspace_.arena, workspace_.nextArena);
     }
-    found_.lower = std::clamp(found_.lower, 0.0, found_.upper);
-    return found_;
+    for (KindClearance& kind : kinds_) kind.lower = std::clamp(kind.lower, 0.0, kind.upper);
   }
 
+  /// Of pairs that are `self` in the sense of Witness::selfPair, or are not; all are among the
+  /// latter unless clearances are wanted by kind.
+  const KindClearance& ofKind(bool self) const { return kinds_[self ? 1 : 0]; }
+  int intervals() const { return intervals_; }
   std::int64_t queriesLeft() const { return queriesLeft_; }
 
  private:
@@ -61,18 +73,21 @@ class ClearanceSearch {
     auto& open = workspace_.measured;
     open.clear();
     beginAt(0.5);
-    NearGeometries(model_, query_, workspace_).forNearest(0.5, [&](const GeometryPair& pair) {
+    const auto look = [&](const GeometryPair& pair) {
+      KindClearance& kind = kindOf(pair);
       --queriesLeft_;
-      const double bound = boundPair(pair, 0.5, 0.5);
-      if (isOpen(bound))
+      const double bound = boundPair(pair, 0.5, 0.5, kind);
+      if (isOpen(bound, kind))
         open.push_back({pair, bound});
       else
-        settle(bound);
-      return found_.upper;
-    });
+        settle(bound, kind);
+      return kind.upper;
+    };
+    NearGeometries near(model_, query_, workspace_);
+    byKind_ ? near.forNearestByKind(0.5, look) : near.forNearest(0.5, look);
     workspace_.generation.clear();
     if (isLast(0, open.size())) {
-      for (const MeasuredPair& pair : open) settle(pair.bound);
+      for (const MeasuredPair& pair : open) settle(pair.bound, kindOf(pair.pair));
       return;
     }
     workspace_.arena.resize(open.size());
@@ -88,11 +103,13 @@ class ClearanceSearch {
     const bool last = isLast(first, interval.count);
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
       const std::uint32_t index = workspace_.arena[i];
-      const double bound = boundPair(workspace_.measured[index].pair, middle, half);
-      if (!last && isOpen(bound)) {
+      const GeometryPair& pair = workspace_.measured[index].pair;
+      KindClearance& kind = kindOf(pair);
+      const double bound = boundPair(pair, middle, half, kind);
+      if (!last && isOpen(bound, kind)) {
         workspace_.nextArena.push_back(index);
       } else {
-        settle(bound);
+        settle(bound, kind);
       }
     }
     push({interval.begin, interval.end, first, workspace_.nextArena.size() - first},
@@ -101,7 +118,7 @@ class ClearanceSearch {
 
   void beginAt(double middle) {
     query_.moveTo(middle);
-    ++found_.intervals;
+    ++intervals_;
     --waiting_;
   }
 
@@ -109,7 +126,7 @@ class ClearanceSearch {
   /// `first` others. What waits has to be looked at: without a bound on it there is none on the
   /// motion.
   bool isLast(std::size_t first, std::size_t count) const {
-    return waiting_ > budget_ - found_.intervals - 2 ||
+    return waiting_ > budget_ - intervals_ - 2 ||
            2 * static_cast<std::int64_t>(count) > queriesLeft_ || first + count > kMostWaiting;
   }
 
@@ -123,33 +140,43 @@ class ClearanceSearch {
     queriesLeft_ -= 2 * static_cast<std::int64_t>(open.count);
   }
 
+  KindClearance& kindOf(const GeometryPair& pair) {
+    return kinds_[byKind_ && model_.isSelfPair(pair) ? 1 : 0];
+  }
+
   /// Whether shorter intervals are wanted. Of what is no number they say no more.
-  bool isOpen(double bound) const { return bound < found_.upper - slack(); }
+  bool isOpen(double bound, const KindClearance& kind) const {
+    return kind.upper > 0.0 && bound < kind.upper - slack(kind);
+  }
 
   /// What is no number says nothing.
-  void settle(double bound) { found_.lower = bound > 0.0 ? std::min(found_.lower, bound) : 0.0; }
+  static void settle(double bound, KindClearance& kind) {
+    kind.lower = bound > 0.0 ? std::min(kind.lower, bound) : 0.0;
+  }
 
   /// m. The accuracy, or half of a clearance that is small against it: what is free is shown to be.
-  double slack() const {
-    return std::min(accuracy_, std::max(0.5 * found_.upper, 0.01 * accuracy_));
+  double slack(const KindClearance& kind) const {
+    return std::min(accuracy_, std::max(0.5 * kind.upper, 0.01 * accuracy_));
   }
 
   /// m. Lower bound of the pair's distance over the interval; no number: there is none, however
   /// short that is.
-  double boundPair(const GeometryPair& pair, double middle, double half) {
+  double boundPair(const GeometryPair& pair, double middle, double half, KindClearance& kind) {
+    if (!(kind.upper > 0.0)) return 0.0;  // the least is known already
     const double travel = query_.travel(pair, half);
     if (!std::isfinite(travel)) return std::numeric_limits<double>::quiet_NaN();
     const double coarse = query_.coarseDistance(pair) - travel;
-    if (coarse >= found_.upper) return coarse;
-    const PairDistance distance = query_.measure(pair, found_.upper + travel, 0.25 * slack());
-    if (distance.upper < found_.upper) {
-      found_.upper = distance.upper;
-      found_.t = middle;
+    if (coarse >= kind.upper) return coarse;
+    const PairDistance distance = query_.measure(pair, kind.upper + travel, 0.25 * slack(kind));
+    if (distance.upper < kind.upper) {
+      kind.upper = distance.upper;
+      kind.t = middle;
+      kind.nearest = pair;
     }
     const double lower = distance.lower - travel;
-    const double wanted = found_.upper - slack();
+    const double wanted = kind.upper - slack(kind);
     if (lower >= wanted || !(wanted > 0.0)) return lower;
-    const bool stays = query_.staysBeyond(pair, half, wanted, distance, 0.25 * slack());
+    const bool stays = query_.staysBeyond(pair, half, wanted, distance, 0.25 * slack(kind));
     return stays ? wanted : lower;
   }
 
@@ -157,37 +184,61 @@ class ClearanceSearch {
   WorkspaceData& workspace_;
   PairQuery query_;
   double accuracy_;
+  bool byKind_;
   int budget_;
-  int waiting_ = 1;           ///< intervals that are to be examined yet
+  int waiting_ = 1;  ///< intervals that are to be examined yet
+  int intervals_ = 0;
   std::int64_t queriesLeft_;  ///< less those of the intervals that are to be examined
-  MotionClearance found_;
+  std::array<KindClearance, 2> kinds_;
 };
+
+/// Takes over what is known of a part of the motion.
+void addPart(const CheckerModel& model, const EvenPart& part, const KindClearance& own,
+             ClearanceInterval& all) {
+  all.lower = std::min(all.lower, own.lower);
+  if (!(own.upper < all.upper)) return;
+  all.upper = own.upper;
+  all.t = part.timeOf(own.t);
+  all.bodyA = model.nameOfA(*own.nearest);
+  all.bodyB = model.nameOfB(*own.nearest);
+}
 
 }  // namespace
 
 MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
-                                std::span<const double> to, double accuracy,
+                                std::span<const double> to, double accuracy, ClearanceQuery wanted,
                                 WorkspaceData& workspace) {
+  const bool byKind = wanted == ClearanceQuery::ByKind;
   MotionClearance all;
-  all.lower = all.upper = std::numeric_limits<double>::infinity();
+  all.lower = std::numeric_limits<double>::infinity();
+  if (byKind) all.world.lower = all.self.lower = all.lower;
   std::int64_t queries = mostMeasures(model);
   EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
     const int budget = model.options.maxIntervals - all.intervals;
     if (budget == 0 || queries <= 0) {  // nothing is known of what is left
-      all.lower = 0.0;
+      all.lower = all.world.lower = all.self.lower = 0.0;
       return false;
     }
-    ClearanceSearch search(model, accuracy, budget, queries, workspace);
-    const MotionClearance own = search.run(part.from, part.to);
+    ClearanceSearch search(model, accuracy, byKind, budget, queries, workspace);
+    search.run(part.from, part.to);
     queries = search.queriesLeft();
-    if (own.upper < all.upper) {
-      all.upper = own.upper;
-      all.t = part.timeOf(own.t);
+    all.intervals += search.intervals();
+    if (!byKind) {
+      const KindClearance& own = search.ofKind(false);
+      if (own.upper < all.upper) all.selfPair = model.isSelfPair(*own.nearest);
+      addPart(model, part, own, all);
+      return all.upper > 0.0;
     }
-    all.lower = std::min(all.lower, own.lower);
-    all.intervals += own.intervals;
-    return all.upper > 0.0;
+    addPart(model, part, search.ofKind(false), all.world);
+    addPart(model, part, search.ofKind(true), all.self);
+    return all.world.upper > 0.0 || all.self.upper > 0.0;
   });
+  if (byKind) {
+    all.selfPair = all.self.upper < all.world.upper;
+    const double lower = std::min(all.self.lower, all.world.lower);
+    static_cast<ClearanceInterval&>(all) = all.selfPair ? all.self : all.world;
+    all.lower = lower;
+  }
   return all;
 }
 

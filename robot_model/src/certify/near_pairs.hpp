@@ -37,18 +37,41 @@ class NearGeometries {
   template <typename Visitor>
   void forNearest(double half, const Visitor& visit) {
     double least = std::numeric_limits<double>::infinity();
-    const auto one = [&](const GeometryPair& pair) {
-      const double approach = half > 0.0 ? query_.travel(pair, half) : 0.0;
-      // What is no number says nothing.
-      const bool settled = query_.coarseDistance(pair) - approach >= least;
-      if (!settled) least = std::min(least, visit(pair));
-    };
+    forNearestOfWorld(half, least, visit);
+    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
+      visitNear(model_.pairs[pair], half, least, visit);
+  }
+
+  /// The same, of pairs with the world, moving obstacles among it, and of the others: the bounds on
+  /// the ones say nothing of the others.
+  template <typename Visitor>
+  void forNearestByKind(double half, const Visitor& visit) {
+    double world = std::numeric_limits<double>::infinity();
+    double self = std::numeric_limits<double>::infinity();
+    forNearestOfWorld(half, world, visit);
+    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
+      visitNear(model_.pairs[pair], half, model_.isSelfPair(model_.pairs[pair]) ? self : world,
+                visit);
+  }
+
+ private:
+  template <typename Visitor>
+  void visitNear(const GeometryPair& pair, double half, double& least, const Visitor& visit) {
+    const double approach = half > 0.0 ? query_.travel(pair, half) : 0.0;
+    // What is no number says nothing.
+    const bool settled = query_.coarseDistance(pair) - approach >= least;
+    if (!settled) least = std::min(least, visit(pair));
+  }
+
+  template <typename Visitor>
+  void forNearestOfWorld(double half, double& least, const Visitor& visit) {
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
       if (model_.firstBodyPair[model_.robotGeometry[i].carrier] < 0) continue;
       const GeometryPair& like = model_.likeWorldPairs[i];
       const auto oneOfWorld = [&](std::size_t other) {
         const auto b = static_cast<int>(other);
-        if (model_.checksWorld(like.a, b)) one(worldPair(model_, like, b));
+        if (model_.checksWorld(like.a, b))
+          visitNear(worldPair(model_, like, b), half, least, visit);
         return least;
       };
       if (model_.boxes == nullptr) {
@@ -58,11 +81,8 @@ class NearGeometries {
                                [&](BoxHandle other, double) { return oneOfWorld(other); });
       }
     }
-    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
-      one(model_.pairs[pair]);
   }
 
- private:
   /// Of the geometry with the world, ascending in the world's geometry.
   std::span<const GeometryPair> worldPairs(std::size_t geometry) const {
     const std::uint32_t first = model_.firstWorldPair[geometry];

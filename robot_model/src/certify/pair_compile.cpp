@@ -94,11 +94,12 @@ class PairCompiler {
     pairs.push_back(pair);
   }
 
-  double marginOf(const std::string& a, double paddingA, const std::string& b,
-                  double paddingB) const {
-    if (rules_.empty()) return model_.options.margin;
+  double marginOf(const std::string& a, double paddingA, const std::string& b, double paddingB,
+                  bool selfPair) const {
+    const double margin = model_.options.marginOf(selfPair);
+    if (rules_.empty()) return margin;
     const auto* rule = rules_.find(CollisionRules::Kind::Margin, a, b);
-    return rule != nullptr ? rule->value : model_.options.margin + paddingA + paddingB;
+    return rule != nullptr ? rule->value : margin + paddingA + paddingB;
   }
 
   std::optional<bool> allowed(const std::string& a, const std::string& b) const {
@@ -141,7 +142,7 @@ class PairCompiler {
       const std::size_t base = model_.bodyPairs.size();
       for (std::size_t k = 0; k < bodies.size(); ++k) {
         BodyPair pair{.a = static_cast<int>(c), .b = static_cast<int>(k)};
-        pair.margin = marginOf(carrier.name, paddings_[c], bodies[k].name, worldPaddings[k]);
+        pair.margin = marginOf(carrier.name, paddings_[c], bodies[k].name, worldPaddings[k], false);
         if (allowed(carrier.name, bodies[k].name).value_or(false))
           pair.reason = PairReason::Allowed;
         else
@@ -239,7 +240,8 @@ class PairCompiler {
     const Carrier& first = model_.carriers[a];
     const Carrier& second = model_.carriers[b];
     BodyPair pair{.a = a, .b = b, .carriers = true};
-    pair.margin = marginOf(first.name, paddings_[a], second.name, paddings_[b]);
+    const bool selfPair = second.kind != Carrier::Kind::Obstacle;
+    pair.margin = marginOf(first.name, paddings_[a], second.name, paddings_[b], selfPair);
     const std::optional<bool> rule = allowed(first.name, second.name);
     Isometry3d ignored;
     if (rule.value_or(false))

@@ -228,7 +228,7 @@ PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const Appro
   // The bodies are apart now, but even their centres come closer than this: only shorter intervals
   // help.
   const bool hopeless =
-      approach > norm + model_.robotGeometry[pair.a].radius && approach > model_.options.tolerance;
+      approach > norm + model_.robotGeometry[pair.a].radius && approach > tolerance_;
   return hopeless ? Coarse::TooFast : Coarse::Open;
 }
 
@@ -278,9 +278,9 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   query.approach = bound;
   query.contact = pair.margin;
   // A state cannot be divided: what is left open there stays so.
-  query.tolerance = half > 0.0 ? kQueryShare * model_.options.tolerance : tolerance::kDistance;
+  query.tolerance = half > 0.0 ? kQueryShare * tolerance_ : tolerance::kDistance;
   query.guess = hint(index);
-  query.thorough = answer.travel <= model_.options.tolerance;
+  query.thorough = answer.travel <= tolerance_;
   const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
                                            world_from_a.inverse() * world_from_b, query);
   hint(index) = result.normal;
@@ -357,6 +357,7 @@ Witness PairQuery::witness(std::uint32_t index, double t, const PairAnswer& answ
   witness.pointA = answer.pointA;
   witness.pointB = answer.pointB;
   witness.distance = (answer.pointB - answer.pointA).norm();
+  witness.margin = pair.margin;
   return witness;
 }
 

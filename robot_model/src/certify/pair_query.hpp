@@ -33,7 +33,12 @@ struct PairDistance {
 class PairQuery {
  public:
   PairQuery(const CheckerModel& model, WorkspaceData& workspace)
-      : model_(model), workspace_(workspace) {}
+      : model_(model), workspace_(workspace), tolerance_(model.options.tolerance) {}
+
+  /// m. What prove() aims at on intervals: pairs that keep more than their margin and this are
+  /// proven once intervals are short enough. The options' tolerance at first.
+  void setTolerance(double tolerance) { tolerance_ = tolerance; }
+  double tolerance() const { return tolerance_; }
 
   /// Compiles the motion. False: nothing can be said about it.
   bool start(std::span<const double> from, std::span<const double> to);
@@ -101,6 +106,7 @@ class PairQuery {
 
   const CheckerModel& model_;
   WorkspaceData& workspace_;
+  double tolerance_;
 };
 
 }  // namespace swept::detail

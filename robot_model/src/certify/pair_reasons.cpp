@@ -14,7 +14,7 @@ namespace {
 
 using CarrierPair = std::pair<int, int>;
 
-/// With why; the first reason counts.
+/// With why; the first reason counts. Not those that the SRDF enables.
 std::map<CarrierPair, std::string> disabledReasons(const CheckerModel& model) {
   std::map<CarrierPair, std::string> reasons;
   const Robot& robot = *model.robot;
@@ -24,7 +24,8 @@ std::map<CarrierPair, std::string> disabledReasons(const CheckerModel& model) {
                     "adjacent: joint " + joint.name);
   }
   for (const DisabledPair& pair : robot.disabledPairs())
-    reasons.emplace(std::minmax(pair.linkA, pair.linkB), "SRDF: " + pair.reason);
+    reasons.emplace(std::minmax(pair.linkA, pair.linkB),
+                    pair.reason.empty() ? "SRDF" : "SRDF: " + pair.reason);
   for (std::size_t i = 0; i < model.options.attached.size(); ++i) {
     const AttachedBody& body = model.options.attached[i];
     const auto carrier = static_cast<int>(robot.links().size() + i);
@@ -35,6 +36,8 @@ std::map<CarrierPair, std::string> disabledReasons(const CheckerModel& model) {
           reasons.emplace(CarrierPair(static_cast<int>(link), carrier),
                           "touch link of " + body.name);
   }
+  for (const EnabledPair& pair : robot.enabledPairs())
+    reasons.erase(std::minmax(pair.linkA, pair.linkB));
   return reasons;
 }
 
@@ -91,7 +94,22 @@ std::string marginText(const CheckerModel& model, const Checker::Pair& pair) {
   for (const std::string* name : {&pair.bodyA, &pair.bodyB})
     if (const double padding = rules.padding(*name); padding > 0.0)
       parts += ", padding of " + *name + " " + metres(padding);
-  return parts.empty() ? text : text + " (margin " + metres(model.options.margin) + parts + ")";
+  return parts.empty()
+             ? text
+             : text + " (margin " + metres(model.options.marginOf(pair.selfPair)) + parts + ")";
+}
+
+/// Who has the pair checked, where defaults do not say it alone.
+std::string asked(const CheckerModel& model, std::string_view bodyA, std::string_view bodyB) {
+  if (const auto* rule = model.options.rules.decisive(bodyA, bodyB))
+    return rule->reason.empty() ? " (a rule asks for it)" : " (" + rule->reason + ")";
+  const Robot& robot = *model.robot;
+  const bool enabled = std::ranges::any_of(robot.enabledPairs(), [&](const EnabledPair& pair) {
+    const std::string_view a = robot.links()[pair.linkA].name;
+    const std::string_view b = robot.links()[pair.linkB].name;
+    return (a == bodyA && b == bodyB) || (a == bodyB && b == bodyA);
+  });
+  return enabled ? " (SRDF: enable_collisions)" : "";
 }
 
 /// Whether there is a body with this name, and whether it has geometry.
@@ -150,8 +168,8 @@ std::string explainPair(const CheckerModel& model, std::string_view bodyA, std::
   };
   const auto checked = std::ranges::find_if(lists.checked, isIt);
   if (checked != lists.checked.end())
-    return both + "checked, keeps more than " + marginText(model, *checked) +
-           (checked->reason.empty() ? "" : "; " + checked->reason);
+    return both + "checked" + asked(model, bodyA, bodyB) + ", keeps more than " +
+           marginText(model, *checked) + (checked->reason.empty() ? "" : "; " + checked->reason);
   const auto skipped = std::ranges::find_if(lists.skipped, isIt);
   std::string text = both + "not checked, " + skipped->reason;
   if (std::ranges::any_of(lists.standing, isIt)) text += "; in contact";

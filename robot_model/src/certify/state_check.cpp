@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -11,6 +13,7 @@
 
 #include "certify/lane_witness.hpp"
 #include "certify/near_pairs.hpp"
+#include "certify/nearest_points.hpp"
 #include "certify/obstacle_clock.hpp"
 #include "lanes/lane_motion.hpp"
 #include "lanes/lane_search.hpp"
@@ -100,21 +103,35 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
 
 namespace {
 
-/// Least distance over all pieces of the checked pairs at the current state; pieces farther apart
-/// than the best so far are given up as soon as that is proven.
-template <typename Visitor>
-double leastDistance(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace,
-                     const Visitor& nearer) {
-  double least = std::numeric_limits<double>::infinity();
-  NearGeometries(model, query, workspace).forNearest(0.0, [&](const GeometryPair& pair) {
-    const PairDistance distance = query.measure(pair, least, tolerance::kDistance);
-    if (distance.lower < least) {
-      least = distance.lower;
-      nearer(pair);
-    }
-    return least;
+/// What is nearest at the current state.
+struct Nearest {
+  double lower = std::numeric_limits<double>::infinity();  ///< m
+  std::optional<GeometryPair> pair;
+};
+
+struct NearestOfKinds {
+  Nearest world, self;
+};
+
+/// Over all pieces of the checked pairs; pieces farther apart than the best so far are given up as
+/// soon as that is proven.
+NearestOfKinds nearestPairs(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
+  NearestOfKinds found;
+  NearGeometries(model, query, workspace).forNearestByKind(0.0, [&](const GeometryPair& pair) {
+    Nearest& least = model.isSelfPair(pair) ? found.self : found.world;
+    const PairDistance distance = query.measure(pair, least.lower, tolerance::kDistance);
+    if (distance.lower < least.lower) least = {distance.lower, pair};
+    return least.lower;
   });
-  return least;
+  return found;
+}
+
+NearestPair named(const CheckerModel& model, const Nearest& nearest) {
+  NearestPair result{.clearance = nearest.lower, .bodyA = {}, .bodyB = {}};
+  if (!nearest.pair) return result;
+  result.bodyA = model.nameOfA(*nearest.pair);
+  result.bodyB = model.nameOfB(*nearest.pair);
+  return result;
 }
 
 }  // namespace
@@ -124,7 +141,8 @@ double stateClearance(const CheckerModel& model, std::span<const double> configu
   const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!startAt(query, q)) return 0.0;
-  return leastDistance(model, query, workspace, [](const GeometryPair&) {});
+  const NearestOfKinds nearest = nearestPairs(model, query, workspace);
+  return std::min(nearest.world.lower, nearest.self.lower);
 }
 
 StateReport reportState(const CheckerModel& model, std::span<const double> configuration,
@@ -151,11 +169,15 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
       report.contacts.push_back(std::move(witness));
     }
   }
-  report.clearance = leastDistance(model, query, workspace, [&](const GeometryPair& pair) {
-    report.nearestA = model.nameOfA(pair);
-    report.nearestB = model.nameOfB(pair);
-    report.nearestSelfPair = model.isSelfPair(pair);
-  });
+  for (Witness& contact : report.contacts) takeNearestPoints(model, query, contact);
+  const NearestOfKinds nearest = nearestPairs(model, query, workspace);
+  report.world = named(model, nearest.world);
+  report.self = named(model, nearest.self);
+  report.nearestSelfPair = report.self.clearance < report.world.clearance;
+  const NearestPair& least = report.nearestSelfPair ? report.self : report.world;
+  report.clearance = least.clearance;
+  report.nearestA = least.bodyA;
+  report.nearestB = least.bodyB;
   if (!report.contacts.empty()) {
     report.verdict = Verdict::Collision;
   } else if (proven) {

@@ -10,11 +10,15 @@ namespace swept {
 
 std::vector<Eigen::Vector3d> loadPoints(const std::filesystem::path& file,
                                         const LoadOptions& options) {
+  return loadSensedPoints(file, options).points;
+}
+
+SensedPoints loadSensedPoints(const std::filesystem::path& file, const LoadOptions& options) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return loadPoints(file, options); });
+    return inDefaultEnvironment([&] { return loadSensedPoints(file, options); });
   }
   const std::string ending = detail::lowerEnding(file);
-  using Reader = std::vector<Eigen::Vector3d> (*)(const detail::PointFile&);
+  using Reader = SensedPoints (*)(const detail::PointFile&);
   Reader read = nullptr;
   if (ending == ".pcd") read = detail::readPcd;
   if (ending == ".ply") read = detail::readPly;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/collada_mesh.hpp"
+#include "io/collada_transform.hpp"
+#include "io/collada_xml.hpp"
 #include "io/mesh_claim.hpp"
 #include "io/mesh_file.hpp"
 #include "io/numbers.hpp"
@@ -20,81 +22,84 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr int kMaxNodes = 1'000'000;  ///< shown; a few lines that name each other show billions
-constexpr double kUnitAxis = 1e-3;    ///< more is no rounding but a mistake
 constexpr int kMaxDepth = 500;        ///< as of all XML
 
 struct Geometry {
-  const XMLElement* element;
+  XMLElement* element;
   ColladaMesh mesh;
-  std::string materials;  ///< where it was shown first
   bool shown = false;
 };
 
-/// Puts together what the scene shows: geometries below nodes, which may show other nodes.
+using Elements = std::multimap<std::string, XMLElement*>;
+
+/// Puts together what the scene shows: geometries below nodes, which may show other nodes. A node
+/// that shows none (a camera, a lamp, a bone) is passed over.
 class SceneReader {
  public:
-  SceneReader(const XMLElement& root, const InputSource& source) : root_(root), source_(source) {}
+  SceneReader(XMLElement& root, const InputSource& source) : root_(root), source_(source) {}
+  /// What is left of the elements afterwards is what the scene shows.
   MeshClaim read();
 
  private:
   [[noreturn]] void fail(const XMLElement& element, const std::string& problem) const {
     failElement(source_, element, problem);
   }
-  void collect(const XMLElement& element);
-  void collectGeometry(const XMLElement& element);
+  void collect(XMLElement& element);
+  void collectGeometry(XMLElement& element);
   double unit() const;
-  const XMLElement* visualScene() const;
-  const XMLElement& instancedNode(const XMLElement& instance) const;
-  const XMLElement& named(const XMLElement& element,
-                          const std::map<std::string, const XMLElement*>& all) const;
-  std::vector<double> numbers(const XMLElement& element, std::size_t count) const;
-  Eigen::Matrix4d transform(const XMLElement& element) const;
+  XMLElement* visualScene() const;
+  XMLElement& instancedNode(const XMLElement& instance) const;
+  XMLElement& named(const XMLElement& element, const Elements& all) const;
+  bool mayShow(const XMLElement& node);
   void showNode(const XMLElement& node, Eigen::Matrix4d file_from_node, int depth);
   void showChild(const XMLElement& child, Eigen::Matrix4d& file_from_node, int depth);
   void showGeometry(const XMLElement& instance, const Eigen::Matrix4d& file_from_node);
+  void keepShown();
+  void keepShownIn(XMLElement& parent);
+  bool isKept(const XMLElement& child, bool parentIsShown) const;
 
-  const XMLElement& root_;
+  XMLElement& root_;
   const InputSource& source_;
-  std::map<std::string, const XMLElement*> nodes_, scenes_;
-  std::multimap<std::string, const XMLElement*> nodesByName_;
+  Elements nodes_, scenes_;
+  Elements nodesByName_;
   std::map<std::string, Geometry> geometries_;
+  std::map<const XMLElement*, bool> mayShow_;
+  std::set<const XMLElement*> shown_;           ///< the scene, nodes and instances
+  std::set<const tinyxml2::XMLNode*> holders_;  ///< what these are in
   int nodesShown_ = 0;
   MeshClaim claim_;
 };
 
-void SceneReader::collectGeometry(const XMLElement& element) {
+void SceneReader::collectGeometry(XMLElement& element) {
   const char* id = element.Attribute("id");
-  const XMLElement* mesh = element.FirstChildElement("mesh");
-  if (id == nullptr) fail(element, "has no attribute 'id'");
+  XMLElement* mesh = element.FirstChildElement("mesh");
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr;
        e = e->NextSiblingElement()) {
     const std::string_view name = e->Name();
     if (e != mesh && name != "asset" && name != "extra")
       fail(*e, "in a <geometry> is not read; allowed is one <mesh>");
   }
-  Geometry geometry{.element = &element, .mesh = {}, .materials = {}};
-  if (mesh != nullptr) geometry.mesh = readColladaMesh(*mesh, source_);
-  if (!geometries_.emplace(id, std::move(geometry)).second)
+  Geometry geometry{.element = &element, .mesh = {}};
+  if (mesh != nullptr) geometry.mesh = readColladaMesh(*mesh, source_, claim_.crossing);
+  const bool hasFaces = geometry.mesh.triangles > 0;
+  if (id == nullptr && !hasFaces) return;
+  if (id == nullptr) fail(element, "has no attribute 'id'");
+  const auto [known, isFirst] = geometries_.try_emplace(id, std::move(geometry));
+  if (!isFirst && (hasFaces || known->second.mesh.triangles > 0))
     fail(element, std::string("is a second one with the id '") + id + "'");
 }
 
-void SceneReader::collect(const XMLElement& element) {
-  for (const XMLElement* e = element.FirstChildElement(); e != nullptr;
-       e = e->NextSiblingElement()) {
-    const std::string_view name = e->Name();
-    if (name == "geometry") {
-      collectGeometry(*e);
-      continue;
-    }
+void SceneReader::collect(XMLElement& element) {
+  forEachChild(element, nullptr, [&](XMLElement& e) {
+    const std::string_view name = e.Name();
+    if (name == "geometry") return collectGeometry(e);
     if (name == "node" || name == "visual_scene") {
-      auto& all = name == "node" ? nodes_ : scenes_;
-      if (const char* label = e->Attribute("name")) nodesByName_.emplace(label, e);
-      const char* id = e->Attribute("id");
-      if (id != nullptr && !all.emplace(id, e).second)
-        fail(*e, std::string("is a second one with the id '") + id + "'");
+      Elements& all = name == "node" ? nodes_ : scenes_;
+      if (const char* label = e.Attribute("name")) nodesByName_.emplace(label, &e);
+      if (const char* id = e.Attribute("id")) all.emplace(id, &e);
     }
-    collect(*e);
-  }
+    collect(e);
+  });
 }
 
 /// Metres.
@@ -110,24 +115,29 @@ double SceneReader::unit() const {
   return *value;
 }
 
-const XMLElement& SceneReader::named(const XMLElement& element,
-                                     const std::map<std::string, const XMLElement*>& all) const {
-  const auto found = all.find(colladaTarget(element, "url"));
-  if (found != all.end()) return *found->second;
-  const char* url = element.Attribute("url");
-  fail(element, std::string("has url=\"") + (url != nullptr ? url : "") +
-                    "\"; it must be # and an id of this file");
+XMLElement& SceneReader::named(const XMLElement& element, const Elements& all) const {
+  const auto [first, last] = all.equal_range(colladaTarget(element, "url"));
+  const char* text = element.Attribute("url");
+  const std::string url = std::string("has url=\"") + (text != nullptr ? text : "") + "\"; ";
+  if (first == last) fail(element, url + "it must be # and an id of this file");
+  // Of elements that nothing names it is of no account that they have the same.
+  if (const auto second = std::next(first); second != last) {
+    fail(element, url + "the elements at lines " + std::to_string(first->second->GetLineNum()) +
+                      " and " + std::to_string(second->second->GetLineNum()) +
+                      " both have that id");
+  }
+  return *first->second;
 }
 
-const XMLElement* SceneReader::visualScene() const {
+XMLElement* SceneReader::visualScene() const {
   const XMLElement* scene = root_.FirstChildElement("scene");
   const XMLElement* instance =
       scene != nullptr ? scene->FirstChildElement("instance_visual_scene") : nullptr;
   return instance != nullptr ? &named(*instance, scenes_) : nullptr;
 }
 
-const XMLElement& SceneReader::instancedNode(const XMLElement& instance) const {
-  const XMLElement& node = named(instance, nodes_);
+XMLElement& SceneReader::instancedNode(const XMLElement& instance) const {
+  XMLElement& node = named(instance, nodes_);
   const auto [first, last] = nodesByName_.equal_range(colladaTarget(instance, "url"));
   // Assimp takes either.
   if (std::any_of(first, last, [&](const auto& other) { return other.second != &node; }))
@@ -135,65 +145,26 @@ const XMLElement& SceneReader::instancedNode(const XMLElement& instance) const {
   return node;
 }
 
-std::vector<double> SceneReader::numbers(const XMLElement& element, std::size_t count) const {
-  std::vector<double> values;
-  MeshClaim unused;
-  for (const std::string_view word : colladaWords(element, source_)) {
-    const auto value = unused.coordinate(word);
-    if (!value) fail(element, "holds more than finite numbers");
-    values.push_back(*value);
-  }
-  if (values.size() != count)
-    fail(element, "has " + std::to_string(values.size()) + " numbers; " + std::to_string(count) +
-                      " have to be there");
-  return values;
-}
-
-/// Of the elements that place a node; of others the identity.
-Eigen::Matrix4d SceneReader::transform(const XMLElement& element) const {
-  const std::string_view name = element.Name();
-  Eigen::Affine3d result = Eigen::Affine3d::Identity();
-  if (name == "translate") {
-    result.translation() = Eigen::Vector3d::Map(numbers(element, 3).data());
-  } else if (name == "scale") {
-    result.linear() = Eigen::Vector3d::Map(numbers(element, 3).data()).asDiagonal();
-  } else if (name == "rotate") {
-    const auto values = numbers(element, 4);
-    const Eigen::Vector3d axis = Eigen::Vector3d::Map(values.data());
-    if (values[3] == 0.0) return result.matrix();
-    // Assimp takes the axis for a unit vector.
-    if (std::abs(axis.norm() - 1.0) > kUnitAxis)
-      fail(element, "has an axis whose length is " + formatNumber(axis.norm()) + "; it must be 1");
-    result.linear() = Eigen::AngleAxisd(values[3] * std::numbers::pi / 180.0, axis.normalized())
-                          .toRotationMatrix();
-  } else if (name == "matrix") {
-    const auto values = numbers(element, 16);
-    const Eigen::Matrix4d matrix =
-        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-    if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
-      fail(element, "has a last row other than 0 0 0 1");
-    return matrix;
-  }
-  return result.matrix();
-}
-
-std::string materialsOf(const XMLElement& instance) {
-  tinyxml2::XMLPrinter printer(nullptr, true);
-  if (const XMLElement* materials = instance.FirstChildElement("bind_material"))
-    materials->Accept(&printer);
-  return printer.CStr();
+/// Whether there is geometry below it, or another node is named there.
+bool SceneReader::mayShow(const XMLElement& node) {
+  if (const auto known = mayShow_.find(&node); known != mayShow_.end()) return known->second;
+  bool may = false;
+  forEachChild(node, nullptr, [&](const XMLElement& child) {
+    const std::string_view name = child.Name();
+    may = may || name == "instance_geometry" || name == "instance_controller" ||
+          name == "instance_node" || (name == "node" && mayShow(child));
+  });
+  mayShow_[&node] = may;
+  return may;
 }
 
 void SceneReader::showGeometry(const XMLElement& instance, const Eigen::Matrix4d& file_from_node) {
   const auto found = geometries_.find(colladaTarget(instance, "url"));
   if (found == geometries_.end()) fail(instance, "names a <geometry> that does not exist");
   Geometry& geometry = found->second;
-  const std::string materials = materialsOf(instance);
-  // Assimp then takes faces of one group for those of another.
-  if (geometry.shown && geometry.mesh.groups > 1 && materials != geometry.materials)
-    fail(instance, "shows a <geometry> of several groups of faces again with other materials");
   geometry.shown = true;
-  geometry.materials = materials;
+  if (geometry.mesh.triangles == 0) return;
+  shown_.insert(&instance);
   claim_.triangles += geometry.mesh.triangles;
   requireFewTriangles(claim_.triangles);
   const Eigen::Matrix3d linear = file_from_node.topLeftCorner<3, 3>();
@@ -209,7 +180,9 @@ void SceneReader::showChild(const XMLElement& child, Eigen::Matrix4d& file_from_
   if (name == "node") {
     showNode(child, file_from_node, depth + 1);
   } else if (name == "instance_node") {
-    showNode(instancedNode(child), file_from_node, depth + 1);
+    const XMLElement& node = instancedNode(child);
+    if (mayShow(node)) shown_.insert(&child);
+    showNode(node, file_from_node, depth + 1);
   } else if (name == "instance_geometry") {
     showGeometry(child, file_from_node);
   } else if (name == "instance_controller" || name == "skew" || name == "lookat") {
@@ -226,10 +199,56 @@ void SceneReader::showNode(const XMLElement& node, Eigen::Matrix4d file_from_nod
                    " nodes are the most that are shown, " + std::to_string(kMaxDepth) +
                    " in each other");
   }
+  if (!mayShow(node)) return;
+  shown_.insert(&node);
+  const tinyxml2::XMLNode* holder = node.Parent();
+  while (holder != nullptr && holders_.insert(holder).second) holder = holder->Parent();
   for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
-    file_from_node *= transform(*e);
+    file_from_node *= colladaTransform(*e, source_);
   for (const XMLElement* e = node.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
     showChild(*e, file_from_node, depth);
+}
+
+/// A child of one that is shown; of others that hold such nodes, these alone.
+bool SceneReader::isKept(const XMLElement& child, bool parentIsShown) const {
+  const std::string_view name = child.Name();
+  if (name == "node" || name == "visual_scene")
+    return shown_.contains(&child) || holders_.contains(&child);
+  return parentIsShown && (isColladaTransform(name) || shown_.contains(&child));
+}
+
+void SceneReader::keepShownIn(XMLElement& parent) {
+  const bool isShown = shown_.contains(&parent);
+  keepChildren(parent, [&](const XMLElement& child) { return isKept(child, isShown); });
+  forEachChild(parent, nullptr, [&](XMLElement& child) {
+    const std::string_view name = child.Name();
+    if (isColladaTransform(name)) return setColladaWords(child, colladaWords(child, source_));
+    if (name == "node" || name == "visual_scene") return keepShownIn(child);
+    child.DeleteChildren();
+  });
+}
+
+void SceneReader::keepShown() {
+  forEachChild(root_, "library_nodes", [&](XMLElement& nodes) { keepShownIn(nodes); });
+  forEachChild(root_, "library_visual_scenes", [&](XMLElement& scenes) { keepShownIn(scenes); });
+  forEachChild(root_, "library_geometries", [&](XMLElement& library) {
+    keepChildren(library, [&](const XMLElement& child) {
+      const char* const id = child.Attribute("id");
+      const auto found = geometries_.find(id != nullptr ? id : "");
+      return found != geometries_.end() && found->second.element == &child && found->second.shown &&
+             found->second.mesh.triangles > 0;
+    });
+    forEachChild(library, nullptr, [](XMLElement& geometry) {
+      keepChildren(geometry, [](const XMLElement& child) {
+        return std::string_view(child.Name()) == "mesh";
+      });
+    });
+  });
+  keepChildren(root_, [](const XMLElement& child) {
+    const std::string_view name = child.Name();
+    return name == "asset" || name == "library_geometries" || name == "library_nodes" ||
+           name == "library_visual_scenes" || name == "scene";
+  });
 }
 
 MeshClaim SceneReader::read() {
@@ -244,7 +263,8 @@ MeshClaim SceneReader::read() {
       fail(*geometry.element,
            "with the id '" + id + "' has faces, and no node of the scene shows it");
   }
-  return claim_;
+  keepShown();
+  return std::move(claim_);
 }
 
 }  // namespace
@@ -253,10 +273,14 @@ MeshClaim checkCollada(std::string_view bytes, const InputSource& source) {
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS)
     source.fail(document.ErrorLineNum(), "malformed XML");
-  const XMLElement* root = document.RootElement();
+  XMLElement* root = document.RootElement();
   if (root == nullptr || std::string_view(root->Name()) != "COLLADA")
     source.fail(0, "its root element is not <COLLADA>");
-  return SceneReader(*root, source).read();
+  MeshClaim claim = SceneReader(*root, source).read();
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  root->Accept(&printer);
+  claim.bare = printer.CStr();
+  return claim;
 }
 
 }  // namespace swept::detail

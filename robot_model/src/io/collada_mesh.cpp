@@ -1,88 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/collada_mesh.hpp"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <limits>
-#include <map>
-#include <optional>
+#include <set>
+#include <span>
+#include <string>
 
-#include "io/mesh_claim.hpp"
+#include "io/collada_positions.hpp"
+#include "io/collada_xml.hpp"
 #include "io/point_file.hpp"
 
 namespace swept::detail {
 
-using tinyxml2::XMLElement;
-
-void failElement(const InputSource& source, const XMLElement& element, const std::string& problem) {
-  source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> " + problem);
-}
-
-std::vector<std::string_view> colladaWords(const XMLElement& element, const InputSource& source) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  std::vector<std::string_view> found;
-  for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
-    if (node->ToComment() != nullptr) continue;
-    if (node->ToText() == nullptr) failElement(source, element, "holds more than text");
-    const std::string_view text = node->Value();
-    for (auto at = text.find_first_not_of(kSpace); at != std::string_view::npos;) {
-      const auto end = std::min(text.find_first_of(kSpace, at), text.size());
-      found.push_back(text.substr(at, end - at));
-      at = text.find_first_not_of(kSpace, end);
-    }
-  }
-  return found;
-}
-
-std::string colladaTarget(const XMLElement& element, const char* attribute) {
-  const char* text = element.Attribute(attribute);
-  return text != nullptr && text[0] == '#' ? text + 1 : "";
-}
-
 namespace {
 
+using tinyxml2::XMLElement;
 using Count = std::uint64_t;
-
-/// Whole numbers below 2^32: sums and products of a few cannot overflow.
-std::optional<Count> wholeNumber(std::string_view word) {
-  std::uint32_t value = 0;
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (result.ec != std::errc{} || result.ptr != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
-/// The children of that name, one after the other.
-template <typename Action>
-void forEachChild(const XMLElement& parent, const char* name, const Action& action) {
-  for (const XMLElement* child = parent.FirstChildElement(name); child != nullptr;
-       child = child->NextSiblingElement(name)) {
-    action(*child);
-  }
-}
-
-/// How a <source> reads its array.
-struct Source {
-  Count count = 0, stride = 1, offset = 0;
-  const XMLElement* array = nullptr;
-  bool hasXyz = false;  ///< its first three parameters
-};
 
 /// How the corners of a group of faces are written.
 struct Layout {
-  std::vector<Count> limits;  ///< of the indices at each offset
-  Count vertex = 0;           ///< the offset of the vertices
+  Count width = 0;   ///< indices of each
+  Count vertex = 0;  ///< which one of them is the vertex
   bool hasVertex = false;
 };
 
-/// One <mesh>: every name in it is looked up in it. Assimp knows those of all, of which the latest
-/// ones hide the others.
+/// A list of corners: indices of positions.
+using Corners = std::vector<Count>;
+
+bool isFaces(const XMLElement& group) {
+  constexpr std::array<std::string_view, 4> kFaces{"triangles", "polylist", "polygons",
+                                                   "tristrips"};
+  return std::ranges::find(kFaces, std::string_view(group.Name())) != kFaces.end();
+}
+
+/// One <mesh>: every name in it is looked up in it.
 class MeshReader {
  public:
-  explicit MeshReader(const InputSource& source) : source_(source) {}
-  ColladaMesh read(const XMLElement& mesh);
+  MeshReader(XMLElement& mesh, const InputSource& source, CrossingFace& crossing)
+      : xml_(mesh), source_(source), crossing_(crossing), positions_(mesh, source) {}
+  ColladaMesh read();
 
  private:
   [[noreturn]] void fail(const XMLElement& element, const std::string& problem) const {
@@ -91,129 +48,56 @@ class MeshReader {
   std::vector<std::string_view> words(const XMLElement& element) const {
     return colladaWords(element, source_);
   }
-  Count attribute(const XMLElement& element, const char* name,
-                  std::optional<Count> fallback = {}) const;
-  std::map<std::string, const XMLElement*> arraysOf(const XMLElement& source) const;
-  void readSource(const XMLElement& source);
-  void readVertices(const XMLElement& vertices);
-  void readPositions(const XMLElement& input);
-  Count sizeOf(const XMLElement& input) const;
-  Layout layoutOf(const XMLElement& group) const;
-  /// Corners in the list.
-  Count readList(const XMLElement& list, const Layout& layout, bool faces);
-  std::vector<Count> listsOf(const XMLElement& group, const Layout& layout, bool faces);
-  void readGroup(const XMLElement& group);
-  Count trianglesOf(const XMLElement& group, const std::vector<Count>& lists) const;
-  Count polylistOf(const XMLElement& group, Count corners) const;
+  bool hasFaces() const;
+  void requireKnown(const XMLElement& group) const;
+  Layout layoutOf(XMLElement& group) const;
+  Corners readList(XMLElement& list, const Layout& layout);
+  void readGroup(XMLElement& group);
+  Count trianglesOf(XMLElement& group, const std::vector<Corners>& lists);
+  Count polylistOf(XMLElement& group, const Corners& corners);
+  void look(const XMLElement& list, std::span<const Count> corners, std::int64_t face = -1);
+  void keepFaces();
 
+  XMLElement& xml_;
   const InputSource& source_;
-  std::map<std::string, Source> sources_;
-  std::map<std::string, Count> sizes_;  ///< entries of each <source> and <vertices>
-  std::vector<Eigen::Vector3d> positions_;
+  CrossingFace& crossing_;
+  ColladaPositions positions_;
   std::vector<bool> used_;
-  std::string vertices_;  ///< id of <vertices>
-  MeshClaim numbers_;
+  std::set<const XMLElement*> groups_;  ///< that have faces
   ColladaMesh mesh_;
 };
 
-Count MeshReader::attribute(const XMLElement& element, const char* name,
-                            std::optional<Count> fallback) const {
-  const char* text = element.Attribute(name);
-  if (text == nullptr && fallback) return *fallback;
-  const auto value = wholeNumber(text != nullptr ? text : "");
-  if (!value) fail(element, std::string("needs a whole number as '") + name + "'");
-  return *value;
+bool MeshReader::hasFaces() const {
+  bool found = false;
+  forEachChild(xml_, nullptr, [&](const XMLElement& group) {
+    if (!isFaces(group)) return;
+    forEachChild(group, "p", [&](const XMLElement& list) { found |= !list.NoChildren(); });
+  });
+  return found;
 }
 
-std::map<std::string, const XMLElement*> MeshReader::arraysOf(const XMLElement& source) const {
-  std::map<std::string, const XMLElement*> arrays;
-  forEachChild(source, "float_array", [&](const XMLElement& array) {
-    if (words(array).size() != attribute(array, "count"))
-      fail(array, "does not hold as many numbers as its count");
-    if (const char* id = array.Attribute("id")) arrays[id] = &array;
-  });
-  return arrays;
-}
-
-void MeshReader::readSource(const XMLElement& source) {
-  const auto arrays = arraysOf(source);
-  const XMLElement* technique = source.FirstChildElement("technique_common");
-  const XMLElement* accessor = technique ? technique->FirstChildElement("accessor") : nullptr;
-  const char* id = source.Attribute("id");
-  if (accessor == nullptr || id == nullptr) return;
-  Source read{.count = attribute(*accessor, "count"),
-              .stride = attribute(*accessor, "stride", 1),
-              .offset = attribute(*accessor, "offset", 0)};
-  std::string parameters;
-  forEachChild(*accessor, "param", [&](const XMLElement& parameter) {
-    const char* name = parameter.Attribute("name");
-    parameters += name != nullptr && name[0] != '\0' && name[1] == '\0' ? name[0] : '?';
-  });
-  read.hasXyz = parameters.starts_with("XYZ") &&
-                parameters.find_first_of("XYZRGBSTPUV", 3) == parameters.npos;
-  const auto array = arrays.find(colladaTarget(*accessor, "source"));
-  const Count size = array != arrays.end() ? attribute(*array->second, "count") : 0;
-  if (array == arrays.end() || parameters.size() > read.stride || read.offset > size ||
-      (read.stride != 0 && read.count > (size - read.offset) / read.stride)) {
-    fail(*accessor, "reaches beyond its array");
+void MeshReader::requireKnown(const XMLElement& group) const {
+  const std::string_view name = group.Name();
+  const bool isKnown = isFaces(group) || name == "source" || name == "vertices" ||
+                       name == "extra" || name == "lines" || name == "linestrips";
+  if (!isKnown) {
+    fail(group,
+         "is not read; allowed are triangles, polylist, polygons and tristrips, and lines and "
+         "linestrips, which have no faces");
   }
-  read.array = array->second;
-  sources_[id] = read;
-  sizes_[id] = read.count;
+  const XMLElement* const hole = group.FirstChildElement("ph");
+  if (hole != nullptr && name != "extra") fail(*hole, "is a polygon with holes, which is not read");
 }
 
-Count MeshReader::sizeOf(const XMLElement& input) const {
-  const auto found = sizes_.find(colladaTarget(input, "source"));
-  if (found == sizes_.end()) fail(input, "names a source that does not exist");
-  return found->second;
-}
-
-void MeshReader::readPositions(const XMLElement& input) {
-  if (!positions_.empty()) fail(input, "is a second one of positions; one is allowed");
-  const auto found = sources_.find(colladaTarget(input, "source"));
-  if (found == sources_.end() || !found->second.hasXyz)
-    fail(input, "needs a source whose <param> are X, Y and Z, in this order");
-  const Source& source = found->second;
-  const auto numbers = words(*source.array);
-  for (Count i = 0; i < source.count; ++i) {
-    Eigen::Vector3d position;
-    for (Count axis = 0; axis < 3; ++axis) {
-      const std::string_view word = numbers[source.offset + i * source.stride + axis];
-      const auto value = numbers_.coordinate(word);
-      if (!value) fail(*source.array, "has " + shown(word) + ", which is no finite number");
-      position[static_cast<Eigen::Index>(axis)] = *value;
-    }
-    positions_.push_back(position);
-  }
-  used_.resize(positions_.size());
-}
-
-void MeshReader::readVertices(const XMLElement& vertices) {
-  const char* id = vertices.Attribute("id");
-  if (id == nullptr || !vertices_.empty()) fail(vertices, "needs an 'id', and to be the only one");
-  vertices_ = id;
-  Count size = std::numeric_limits<Count>::max();
-  forEachChild(vertices, "input", [&](const XMLElement& input) {
-    size = std::min(size, sizeOf(input));
-    const char* semantic = input.Attribute("semantic");
-    if (semantic != nullptr && std::string_view(semantic) == "POSITION") readPositions(input);
-  });
-  sizes_[vertices_] = std::min<Count>(size, positions_.size());
-}
-
-Layout MeshReader::layoutOf(const XMLElement& group) const {
+Layout MeshReader::layoutOf(XMLElement& group) const {
   constexpr Count kMaxOffset = 64;  // far beyond the handful of inputs that files have
   Layout layout;
   forEachChild(group, "input", [&](const XMLElement& input) {
-    const Count offset = attribute(input, "offset");
+    const Count offset = colladaCount(source_, input, "offset");
     if (offset > kMaxOffset) fail(input, "has an offset beyond every input");
-    if (layout.limits.size() <= offset)
-      layout.limits.resize(offset + 1, std::numeric_limits<Count>::max());
-    layout.limits[offset] = std::min(layout.limits[offset], sizeOf(input));
-    const char* semantic = input.Attribute("semantic");
-    if (semantic == nullptr || std::string_view(semantic) != "VERTEX") return;
-    if (colladaTarget(input, "source") != vertices_)
-      fail(input, "does not name the <vertices> of its <mesh>");
+    layout.width = std::max(layout.width, offset + 1);
+    if (!hasSemantic(input, "VERTEX")) return;
+    positions_.requireNamed(input);
     if (layout.hasVertex) fail(input, "is a second one of vertices; one is allowed");
     layout.hasVertex = true;
     layout.vertex = offset;
@@ -221,104 +105,132 @@ Layout MeshReader::layoutOf(const XMLElement& group) const {
   return layout;
 }
 
-Count MeshReader::readList(const XMLElement& list, const Layout& layout, bool faces) {
+/// What is left of the list are indices of vertices.
+Corners MeshReader::readList(XMLElement& list, const Layout& layout) {
   const auto entries = words(list);
-  const std::size_t width = layout.limits.size();
-  if (!layout.hasVertex && !entries.empty()) fail(list, "has no <input> of vertices to index");
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const auto value = wholeNumber(entries[i]);
-    if (!value) fail(list, "does not hold whole numbers only");
-    if (*value >= layout.limits[i % width]) fail(list, "has an index past its source");
-    if (faces && i % width == layout.vertex) used_[*value] = true;
+  if (entries.empty()) return {};
+  if (!layout.hasVertex) fail(list, "has no <input> of vertices to index");
+  if (entries.size() % layout.width != 0) {
+    fail(list, "ends within a corner, which takes " + std::to_string(layout.width) + " indices");
   }
-  if (width > 0 && entries.size() % width != 0)
-    fail(list, "ends within a corner, which takes " + std::to_string(width) + " indices");
-  return width > 0 ? entries.size() / width : 0;
+  Corners corners;
+  std::vector<std::string_view> kept;
+  for (std::size_t i = layout.vertex; i < entries.size(); i += layout.width) {
+    const auto value = colladaCount(entries[i]);
+    if (!value) fail(list, "does not hold whole numbers only");
+    if (*value >= used_.size()) fail(list, "has an index past its source");
+    used_[*value] = true;
+    corners.push_back(*value);
+    kept.push_back(entries[i]);
+  }
+  setColladaWords(list, kept);
+  return corners;
 }
 
-std::vector<Count> MeshReader::listsOf(const XMLElement& group, const Layout& layout, bool faces) {
-  std::vector<Count> lists;
-  forEachChild(group, "p",
-               [&](const XMLElement& list) { lists.push_back(readList(list, layout, faces)); });
-  return lists;
+void MeshReader::look(const XMLElement& list, std::span<const Count> corners, std::int64_t face) {
+  if (corners.size() <= 4) return;
+  std::vector<Eigen::Vector3d> polygon;
+  for (const Count corner : corners) polygon.push_back(positions_.all()[corner]);
+  crossing_.look(polygon, list.GetLineNum(), face);
 }
 
-Count MeshReader::polylistOf(const XMLElement& group, Count corners) const {
-  Count triangles = 0, listed = 0, polygons = 0;
-  forEachChild(group, "vcount", [&](const XMLElement& sizes) {
-    for (const std::string_view word : words(sizes)) {
-      const auto size = wholeNumber(word);
+Count MeshReader::polylistOf(XMLElement& group, const Corners& corners) {
+  std::vector<Count> faces;
+  Count triangles = 0, listed = 0;
+  forEachChild(group, "vcount", [&](XMLElement& sizes) {
+    const auto entries = words(sizes);
+    for (const std::string_view word : entries) {
+      const auto size = colladaCount(word);
       if (!size) fail(sizes, "does not hold whole numbers only");
       if (*size < 3) fail(sizes, "has a face of " + shown(word) + " corners; 3 are the least");
       triangles += *size - 2;
       listed += *size;
-      ++polygons;
+      faces.push_back(*size);
     }
+    setColladaWords(sizes, entries);
   });
-  if (listed != corners || polygons != attribute(group, "count")) {
-    fail(group, "has " + std::to_string(polygons) + " faces of " + std::to_string(listed) +
-                    " corners by its <vcount>, and " + std::to_string(corners) +
+  if (listed != corners.size() || faces.size() != colladaCount(source_, group, "count")) {
+    fail(group, "has " + std::to_string(faces.size()) + " faces of " + std::to_string(listed) +
+                    " corners by its <vcount>, and " + std::to_string(corners.size()) +
                     " corners in its <p>; its count is " + group.Attribute("count"));
   }
+  Count first = 0;
+  for (std::size_t face = 0; face < faces.size(); first += faces[face++])
+    look(*group.FirstChildElement("p"), std::span(corners).subspan(first, faces[face]),
+         static_cast<std::int64_t>(face));
   return triangles;
 }
 
-Count MeshReader::trianglesOf(const XMLElement& group, const std::vector<Count>& lists) const {
+Count MeshReader::trianglesOf(XMLElement& group, const std::vector<Corners>& lists) {
   const std::string_view name = group.Name();
-  const Count count = attribute(group, "count");
-  Count corners = 0;
-  for (const Count list : lists) corners += list;
+  const Count count = colladaCount(source_, group, "count");
   if (name == "triangles" || name == "polylist") {
     if (lists.size() > 1) fail(group, "has more than one <p>; one is allowed");
+    const Corners corners = lists.empty() ? Corners{} : lists.front();
     if (name == "polylist") return polylistOf(group, corners);
-    if (corners == 3 * count) return count;
-    fail(group, "has " + std::to_string(corners) + " corners; as many as 3 times its count, " +
-                    std::to_string(count) + ", have to be there");
+    if (corners.size() == 3 * count) return count;
+    fail(group, "has " + std::to_string(corners.size()) +
+                    " corners; as many as 3 times its count, " + std::to_string(count) +
+                    ", have to be there");
   }
   if (lists.size() != count) {
     fail(group, "has " + std::to_string(lists.size()) + " elements <p>; its count is " +
                     std::to_string(count));
   }
-  if (std::ranges::any_of(lists, [](Count list) { return list < 3; }))
+  if (std::ranges::any_of(lists, [](const Corners& list) { return list.size() < 3; }))
     fail(group, "has a <p> of less than 3 corners");
-  return corners - 2 * count;
-}
-
-void MeshReader::readGroup(const XMLElement& group) {
-  constexpr std::array<std::string_view, 4> kFaces{"triangles", "polylist", "polygons",
-                                                   "tristrips"};
-  const std::string_view name = group.Name();
-  if (name == "source" || name == "vertices" || name == "extra") return;
-  const bool lines = name == "lines" || name == "linestrips";
-  const bool faces = std::ranges::find(kFaces, name) != kFaces.end();
-  if (!lines && !faces) {
-    fail(group,
-         "is not read; allowed are triangles, polylist, polygons and tristrips, and lines and "
-         "linestrips, which have no faces");
+  Count triangles = 0;
+  const XMLElement* list = group.FirstChildElement("p");
+  for (const Corners& corners : lists) {
+    if (name == "polygons") look(*list, corners);
+    list = list->NextSiblingElement("p");
+    triangles += corners.size() - 2;
   }
-  if (const XMLElement* hole = group.FirstChildElement("ph"))
-    fail(*hole, "is a polygon with holes, which is not read");
-  const auto lists = listsOf(group, layoutOf(group), faces);
-  if (!faces) return;
-  const Count triangles = trianglesOf(group, lists);
-  mesh_.triangles += triangles;
-  mesh_.groups += triangles > 0 ? 1 : 0;
+  return triangles;
 }
 
-ColladaMesh MeshReader::read(const XMLElement& mesh) {
-  forEachChild(mesh, "source", [&](const XMLElement& source) { readSource(source); });
-  forEachChild(mesh, "vertices", [&](const XMLElement& vertices) { readVertices(vertices); });
-  forEachChild(mesh, nullptr, [&](const XMLElement& group) { readGroup(group); });
+void MeshReader::readGroup(XMLElement& group) {
+  const Layout layout = layoutOf(group);
+  std::vector<Corners> lists;
+  forEachChild(group, "p", [&](XMLElement& list) { lists.push_back(readList(list, layout)); });
+  const Count triangles = trianglesOf(group, lists);
+  if (triangles == 0) return;
+  mesh_.triangles += triangles;
+  groups_.insert(&group);
+  group.DeleteAttribute("material");
+  keepChildren(group, [](XMLElement& child) {
+    const std::string_view name = child.Name();
+    if (name == "input") child.SetAttribute("offset", 0);
+    return name == "p" || name == "vcount" || (name == "input" && hasSemantic(child, "VERTEX"));
+  });
+}
+
+/// In the order that assimp needs: it looks up what it has read already.
+void MeshReader::keepFaces() {
+  keepChildren(xml_, [&](const XMLElement& child) {
+    return !groups_.empty() && (positions_.isPart(child) || groups_.contains(&child));
+  });
+  if (!groups_.empty()) positions_.moveToFront();
+}
+
+ColladaMesh MeshReader::read() {
+  forEachChild(xml_, nullptr, [&](XMLElement& child) { requireKnown(child); });
+  if (hasFaces()) positions_.read();
+  used_.resize(positions_.all().size());
+  forEachChild(xml_, nullptr, [&](XMLElement& child) {
+    if (isFaces(child)) readGroup(child);
+  });
   for (std::size_t i = 0; i < used_.size(); ++i)
-    if (used_[i]) mesh_.corners.push_back(positions_[i]);
-  mesh_.loss = numbers_.loss;
+    if (used_[i]) mesh_.corners.push_back(positions_.all()[i]);
+  mesh_.loss = positions_.loss();
+  keepFaces();
   return std::move(mesh_);
 }
 
 }  // namespace
 
-ColladaMesh readColladaMesh(const XMLElement& mesh, const InputSource& source) {
-  return MeshReader(source).read(mesh);
+ColladaMesh readColladaMesh(XMLElement& mesh, const InputSource& source, CrossingFace& crossing) {
+  return MeshReader(mesh, source, crossing).read();
 }
 
 }  // namespace swept::detail

@@ -3,10 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "io/crossing_face.hpp"
 #include "io/input_source.hpp"
 
 namespace tinyxml2 {
@@ -18,24 +17,15 @@ namespace swept::detail {
 /// The faces of a <mesh> of COLLADA.
 struct ColladaMesh {
   std::uint64_t triangles = 0;           ///< a polygon of n corners counts n - 2
-  int groups = 0;                        ///< elements that have faces
   std::vector<Eigen::Vector3d> corners;  ///< of all faces, each vertex once; the mesh's unit
   double loss = 0.0;                     ///< at most, of a coordinate in single precision
 };
 
-/// Fails unless all that the mesh's elements name and count is there, in the forms that assimp
-/// understands: it does not look before it follows them.
-ColladaMesh readColladaMesh(const tinyxml2::XMLElement& mesh, const InputSource& source);
-
-/// With the element's line and name ahead of the problem.
-[[noreturn]] void failElement(const InputSource& source, const tinyxml2::XMLElement& element,
-                              const std::string& problem);
-
-/// What `#id` in an attribute points to; empty: it does not point into the file.
-std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attribute);
-
-/// The words of its text. Fails if it holds other elements.
-std::vector<std::string_view> colladaWords(const tinyxml2::XMLElement& element,
-                                           const InputSource& source);
+/// Fails unless all is there that the faces and the positions of their corners name and count, in
+/// the forms that assimp understands: it does not look before it follows them. A source that gives
+/// no face a corner (normals, colours) is not looked at. What is left of `mesh` afterwards are the
+/// faces and one source of positions. `crossing` looks at the faces.
+ColladaMesh readColladaMesh(tinyxml2::XMLElement& mesh, const InputSource& source,
+                            CrossingFace& crossing);
 
 }  // namespace swept::detail

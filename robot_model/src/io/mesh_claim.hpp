@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "io/crossing_face.hpp"
 #include "io/input_source.hpp"
 
 namespace swept::detail {
@@ -17,6 +19,11 @@ struct MeshClaim {
   std::uint64_t triangles = 0;  ///< a polygon of n corners counts n - 2
   Eigen::AlignedBox3d box;      ///< of their corners; frame and unit of MeshFileContent
   double loss = 0.0;            ///< at most, of a coordinate in single precision; the same unit
+  /// The file with its faces and their corners alone, which is what assimp reads: it refuses whole
+  /// files for normals, colours and cameras that it does not understand, and no face needs them.
+  /// Empty: it reads the file itself, where these are bytes that mean any number.
+  std::optional<std::string> bare;
+  CrossingFace crossing;
 
   /// The coordinate that a word says, and what assimp makes of it into `loss`; empty: it is no
   /// finite number.

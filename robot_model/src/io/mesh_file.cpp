@@ -131,6 +131,14 @@ std::string saidOf(std::string_view request, const MeshImport& import) {
 /// Holds what assimp made of a file against what there is to be made of it.
 void requireWhole(const MeshClaim& claim, MeshFileContent& content) {
   constexpr double kSame = 1e-4;  // of the largest coordinate: a thousand times single precision
+  // A face that crosses itself bounds no one region: readers that cut it, fan it or fill it leave
+  // different surfaces, and a solid with it may lose its inside. So it is refused, by its place.
+  if (content.triangles.size() != claim.triangles && !claim.crossing.name().empty()) {
+    throw MeshFileError(
+        "cannot be read: " + claim.crossing.name() +
+        " crosses or touches itself; a face of more than 4 corners must not, or has to be "
+        "given as triangles");
+  }
   if (content.triangles.size() != claim.triangles) {
     throw MeshFileError("cannot be read: it has " + std::to_string(claim.triangles) +
                         " triangles, where a face of n corners counts n - 2, and assimp makes " +
@@ -216,16 +224,17 @@ MeshFileContent MeshFileReader::read(const std::filesystem::path& file) {
   const std::vector<std::uint8_t> bytes = readBytes(file);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const MeshClaim claim = claimOf(file, text, check);
+  const std::string_view read = claim.bare ? std::string_view(*claim.bare) : text;
   // By a name of ours, whatever the file's has in it.
   const std::string name = "mesh" + ending;
   if (child_.hasAnswered()) {
     try {
-      return askForWhole(name, text, claim);
+      return askForWhole(name, read, claim);
     } catch (const MeshFileError&) {
       // Not this file's fault, perhaps, but of those before it: a process that has read none says.
     }
   }
-  return askForWhole(name, text, claim);
+  return askForWhole(name, read, claim);
 }
 
 }  // namespace swept::detail

@@ -43,6 +43,10 @@ using MeshImport =
 /// out of range, cut off or in words that they do not know, and what assimp returns must have as
 /// many triangles and reach as far.
 ///
+/// Nothing else of a file is judged: assimp gets the faces and their corners alone (bytes that mean
+/// any number stay), and normals, colours, textures, materials, cameras and lights cost no file,
+/// whatever they hold.
+///
 /// Coordinates pass through single precision, as assimp has them. `loss` bounds what that changes
 /// in the words of the file, and has what it changes in the box of the whole once nodes are
 /// applied: some 1e-7 of the largest coordinate, none where the file itself has single precision.

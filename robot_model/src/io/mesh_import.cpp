@@ -12,6 +12,8 @@
 #include <new>
 #include <utility>
 
+#include "swept/robot_model/foreign_text.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -89,7 +91,7 @@ MeshFileContent importMesh(const std::string& name, std::span<const std::uint8_t
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     rethrowNoMemory(importer);
-    throw MeshFileError(std::string("cannot be read: ") + importer.GetErrorString());
+    throw MeshFileError("cannot be read: " + foreignText(importer.GetErrorString()));
   }
   MeshFileContent content;
   appendNode(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), content);

@@ -2,6 +2,7 @@
 #include "io/mesh_store.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <system_error>
@@ -42,13 +43,28 @@ fs::path oneName(const fs::path& file) {
   return error ? file : whole;
 }
 
-/// How far apart, in the file's unit, the corners of triangles may be that are one corner to the
-/// program that wrote them: two steps of single precision where coordinates are largest.
+/// In the file's unit: how far apart the corners of triangles may be, along each axis, that are one
+/// corner, or a corner on an edge, to the program that wrote them. Coordinates are off by up to
+/// half of what they are rounded to, single precision or six decimals, and two of them by twice
+/// that. Of a mesh that is small in its unit six decimals are few: no more than 1e-4 of its size.
 double roundingOf(const MeshFileContent& content) {
+  constexpr double kDecimals = 2e-6;
+  constexpr double kUsualWidths = 10.0;
   double largest = 0.0;
   for (const Eigen::Vector3d& vertex : content.vertices)
     largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
-  return 2.0 * largest * std::numeric_limits<float>::epsilon();
+  return std::max(
+      2.0 * largest * std::numeric_limits<float>::epsilon(),
+      std::min(kDecimals, kUsualWidths * TriangleMesh::usualCrackWidth(content.vertices)));
+}
+
+void warnOfCracks(const TriangleMesh& mesh, double rounding, const std::string& name, int line,
+                  const InputSource& source) {
+  // Both borders of a crack may be off, along three axes.
+  if (mesh.report().largestCrack <= 2.0 * rounding) return;
+  source.warn(line, "mesh '" + name + "' has cracks of up to " +
+                        formatNumber(mesh.report().largestCrack) +
+                        " m, more than rounding explains: they are filled");
 }
 
 /// Assimp has coordinates in single precision; far from 0 that takes them where they are not.
@@ -71,11 +87,14 @@ TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d
   try {
     MeshFileContent content = files_.read(file);
     requirePrecise(content, scale);
-    const double crackWidth = roundingOf(content) * scale.cwiseAbs().minCoeff();
+    const double rounding = roundingOf(content);
     for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
     refuseLonePoints(content.vertices, content.triangles);
+    const double crackWidth = std::max(rounding * scale.cwiseAbs().minCoeff(),
+                                       TriangleMesh::usualCrackWidth(content.vertices));
     TriangleMesh mesh =
         TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
+    warnOfCracks(mesh, rounding * scale.cwiseAbs().maxCoeff(), reference, line, source_);
     warnIfOpen(mesh, reference, line, source_);
     meshes_.emplace(key, mesh);
     return mesh;
@@ -91,11 +110,14 @@ void warnIfOpen(const TriangleMesh& mesh, const std::string& name, int line,
   const int open = mesh.report().openComponents;
   if (open == 0) return;
   const std::string components = std::to_string(open) + " open component" + (open == 1 ? "" : "s");
+  const double opening = mesh.opening();
+  const std::string width =
+      std::isfinite(opening) ? ", for openings of up to " + formatNumber(opening) + " m" : "";
   if (mesh.report().closedComponents > 0)
-    source.warn(line, "mesh '" + name + "' has " + components + " without an inside");
+    source.warn(line, "mesh '" + name + "' has " + components + " without an inside" + width);
   else
     source.warn(line, "mesh '" + name + "' is an open surface (" + components +
-                          "): its interior is not solid");
+                          "): its interior is not solid" + width);
 }
 
 }  // namespace swept::detail

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/mesh_claim.hpp"
@@ -14,7 +15,8 @@ namespace swept::detail {
 
 namespace {
 
-/// What has no faces. Others (`fo`, `curv`, `surf`, `call`) have, or may have.
+/// What has no faces, and is not looked at. Others (`fo`, `curv`, `surf`, `call`) have, or may
+/// have.
 constexpr std::array<std::string_view, 13> kNoFaces{
     "vt", "vn", "vp", "p", "l", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib"};
 
@@ -25,12 +27,19 @@ class ObjReader {
   MeshClaim read();
 
  private:
+  struct Face {
+    std::size_t first;  ///< of its corners
+    std::size_t count;
+    int line;
+  };
   void readLine();
   void readVertex(const std::vector<std::string_view>& line);
   void readFace(const std::vector<std::string_view>& line);
-  /// From 0; of a vertex that may follow later.
+  /// From 0; of a vertex that may follow later. What follows a slash is of no account.
   std::size_t readCorner(std::string_view word) const;
   std::int64_t readIndex(std::string_view text, std::string_view corner) const;
+  void requireIndices(std::string_view text, std::string_view corner) const;
+  [[noreturn]] void failCorner(std::string_view corner) const;
   void finish();
 
   LineReader lines_;
@@ -38,8 +47,9 @@ class ObjReader {
   MeshClaim claim_;
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::uint32_t> corners_;
-  std::size_t needed_ = 0;  ///< so many vertices
-  int neededAt_ = 0;        ///< line
+  std::vector<Face> large_;  ///< of more than 4 corners
+  std::size_t needed_ = 0;   ///< so many vertices
+  int neededAt_ = 0;         ///< line
 };
 
 void ObjReader::readVertex(const std::vector<std::string_view>& line) {
@@ -49,32 +59,41 @@ void ObjReader::readVertex(const std::vector<std::string_view>& line) {
   if (count != 3 && count != 6 && !weighted)
     lines_.fail("a vertex must have 3 numbers, a fourth that is 1, or 6 with its colour");
   Eigen::Vector3d point;
-  for (std::size_t i = 1; i <= count; ++i) {
-    const auto value = i <= 3 ? claim_.coordinate(line[i]) : parseNumber(line[i]);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    const auto value = claim_.coordinate(line[i]);
     if (!value) lines_.fail(shown(line[i]) + " of a vertex must be a finite number");
-    if (i <= 3) point[static_cast<Eigen::Index>(i - 1)] = *value;
+    point[static_cast<Eigen::Index>(i - 1)] = *value;
+    claim_.bare->append(i == 1 ? "v " : " ").append(line[i]);
   }
+  *claim_.bare += '\n';
   vertices_.push_back(point);
 }
 
 std::int64_t ObjReader::readIndex(std::string_view text, std::string_view corner) const {
   std::int32_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value == 0) {
-    lines_.fail("corner " + shown(corner) +
-                " of a face must be V, V/T, V//N or V/T/N, of whole numbers other than 0");
-  }
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value == 0)
+    failCorner(corner);
   return value;
+}
+
+void ObjReader::failCorner(std::string_view corner) const {
+  lines_.fail("corner " + shown(corner) +
+              " of a face must be V, V/T, V//N or V/T/N, of whole numbers other than 0");
+}
+
+/// Of texture and normal: there may be none of that number, or none at all.
+void ObjReader::requireIndices(std::string_view text, std::string_view corner) const {
+  if (std::ranges::count(text, '/') > 1 ||
+      text.find_first_not_of("0123456789-/") != std::string_view::npos)
+    failCorner(corner);
 }
 
 std::size_t ObjReader::readCorner(std::string_view word) const {
   const auto first = word.find('/');
   const std::int64_t index = readIndex(word.substr(0, first), word);
   if (first != std::string_view::npos) {
-    const std::string_view rest = word.substr(first + 1);
-    const auto second = rest.find('/');
-    if (second != 0) readIndex(rest.substr(0, second), word);
-    if (second != std::string_view::npos) readIndex(rest.substr(second + 1), word);
+    requireIndices(word.substr(first + 1), word);
   }
   const std::int64_t place = index > 0 ? index - 1 : std::ssize(vertices_) + index;
   if (place < 0) {
@@ -86,13 +105,17 @@ std::size_t ObjReader::readCorner(std::string_view word) const {
 
 void ObjReader::readFace(const std::vector<std::string_view>& line) {
   if (line.size() < 4) lines_.fail("a face must have at least 3 corners");
+  if (line.size() > 5) large_.push_back({corners_.size(), line.size() - 1, lines_.number()});
+  *claim_.bare += 'f';
   for (std::size_t i = 1; i < line.size(); ++i) {
     const std::size_t corner = readCorner(line[i]);
     corners_.push_back(static_cast<std::uint32_t>(corner));
+    *claim_.bare += ' ' + std::to_string(corner + 1);
     if (corner < needed_) continue;
     needed_ = corner + 1;
     neededAt_ = lines_.number();
   }
+  *claim_.bare += '\n';
   claim_.triangles += line.size() - 3;
 }
 
@@ -119,12 +142,20 @@ void ObjReader::finish() {
                                 std::to_string(vertices_.size()));
   }
   for (const std::uint32_t corner : corners_) claim_.box.extend(vertices_[corner]);
+  std::vector<Eigen::Vector3d> polygon;
+  for (const Face& face : large_) {
+    polygon.clear();
+    for (std::size_t i = 0; i < face.count; ++i)
+      polygon.push_back(vertices_[corners_[face.first + i]]);
+    claim_.crossing.look(polygon, face.line);
+  }
 }
 
 MeshClaim ObjReader::read() {
+  claim_.bare.emplace();
   while (lines_.next()) readLine();
   finish();
-  return claim_;
+  return std::move(claim_);
 }
 
 }  // namespace

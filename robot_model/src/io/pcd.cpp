@@ -107,11 +107,7 @@ Points readCompressed(const PointFile& file, std::size_t begin, const PcdHeader&
   return collect(file, axes, header.points);
 }
 
-}  // namespace
-
-Points readPcd(const PointFile& file) {
-  LineReader lines(file);
-  const PcdHeader header = readPcdHeader(lines, file.source());
+Points readPoints(const PointFile& file, LineReader& lines, const PcdHeader& header) {
   switch (header.form) {
     case PcdForm::Ascii:
       return readAscii(file, lines, header);
@@ -121,6 +117,14 @@ Points readPcd(const PointFile& file) {
       break;
   }
   return readCompressed(file, lines.offset(), header);
+}
+
+}  // namespace
+
+SensedPoints readPcd(const PointFile& file) {
+  LineReader lines(file);
+  const PcdHeader header = readPcdHeader(lines, file.source());
+  return {readPoints(file, lines, header), header.sensor};
 }
 
 }  // namespace swept::detail

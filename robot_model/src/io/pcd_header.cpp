@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::array<std::string_view, 10> kEntries{
     "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+constexpr std::string_view kOldFields = "COLUMNS";  ///< FIELDS of PCD 0.5
 constexpr std::uint64_t kMaxCount = 1 << 20;  ///< values of one field: as many as fit in a line
 
 struct Field {
   std::string name;
-  std::size_t size = 0;  ///< in bytes, of one value
+  std::size_t size = 4;  ///< in bytes, of one value
   char type = 'F';
   std::size_t count = 1;
 };
@@ -45,7 +46,7 @@ class HeaderReader {
   std::vector<Field> readFields() const;
   void readSize(Field& field, std::size_t index) const;
   void placeAxes(const std::vector<Field>& fields, PcdHeader& header) const;
-  void remarkViewpoint() const;
+  Eigen::Vector3d readViewpoint() const;
 
   LineReader& lines_;
   const InputSource& source_;
@@ -57,18 +58,19 @@ void HeaderReader::readEntries() {
     std::vector<std::string_view> values = words(lines_.line());
     const std::string_view name = values.front();
     if (name.front() == '#') continue;
-    if (std::ranges::find(kEntries, name) == kEntries.end()) {
+    if (std::ranges::find(kEntries, name) == kEntries.end() && name != kOldFields) {
       lines_.fail("unknown entry " + shown(name) +
                   " of a PCD header; allowed are VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, "
                   "HEIGHT, VIEWPOINT, POINTS and DATA");
     }
-    if (const Entry* const first = find(name)) {
-      lines_.fail("a second entry " + std::string(name) + "; the first is at line " +
+    const std::string_view key = name == kOldFields ? "FIELDS" : name;
+    if (const Entry* const first = find(key)) {
+      lines_.fail("a second entry " + std::string(key) + "; the first is at line " +
                   std::to_string(first->line));
     }
     values.erase(values.begin());
     const bool last = name == "DATA";
-    entries_[name] = {lines_.number(), std::move(values)};
+    entries_[key] = {lines_.number(), std::move(values)};
     if (last) return;
   }
   source_.fail(0, "the file ends where an entry DATA of its header should follow");
@@ -109,11 +111,12 @@ std::uint64_t HeaderReader::wholeNumber(std::string_view name, std::size_t index
 }
 
 void HeaderReader::checkVersion() const {
+  if (find("VERSION") == nullptr) return;
   const Entry& entry = requireValues("VERSION", 1);
   const std::string_view version = entry.values[0];
-  constexpr std::array<std::string_view, 4> kVersions{"0.7", ".7", "0.6", ".6"};
+  constexpr std::array<std::string_view, 6> kVersions{"0.7", ".7", "0.6", ".6", "0.5", ".5"};
   if (std::ranges::find(kVersions, version) == kVersions.end()) {
-    source_.fail(entry.line, "VERSION is " + shown(version) + "; allowed are 0.6 and 0.7");
+    source_.fail(entry.line, "VERSION is " + shown(version) + "; allowed are 0.5, 0.6 and 0.7");
   }
 }
 
@@ -128,10 +131,17 @@ PcdForm HeaderReader::readForm() const {
 }
 
 std::size_t HeaderReader::readPoints() const {
-  for (const std::string_view name : {"WIDTH", "HEIGHT", "POINTS"}) requireValues(name, 1);
-  const std::uint64_t width = wholeNumber("WIDTH", 0, 0, kMaxPoints);
-  const std::uint64_t height = wholeNumber("HEIGHT", 0, 0, kMaxPoints);
+  const auto size = [&](std::string_view name) {
+    if (find(name) == nullptr) return std::uint64_t{0};
+    requireValues(name, 1);
+    return wholeNumber(name, 0, 0, kMaxPoints);
+  };
+  requireValues("POINTS", 1);
+  std::uint64_t width = size("WIDTH");
+  const std::uint64_t height = std::max<std::uint64_t>(size("HEIGHT"), 1);
   const std::uint64_t points = wholeNumber("POINTS", 0, 1, kMaxPoints);
+  if (width == 0 && size("HEIGHT") == 0) width = points;
+  if (width == 0) require("WIDTH");
   if (width * height != points) {
     source_.fail(require("POINTS").line, "POINTS is " + std::to_string(points) +
                                              ", but WIDTH times HEIGHT " +
@@ -144,7 +154,11 @@ void HeaderReader::readSize(Field& field, std::size_t index) const {
   const Entry& sizes = require("SIZE");
   const Entry& types = require("TYPE");
   const std::string_view size = sizes.values[index];
-  const std::string_view type = types.values[index];
+  std::string_view type = types.values[index];
+  if (type == "f") type = "F";
+  if (type == "i") type = "I";
+  // Its newest type is a truth value of one byte.
+  if (type == "u" || ((type == "B" || type == "b") && size == "1")) type = "U";
   if (size != "1" && size != "2" && size != "4" && size != "8") {
     source_.fail(sizes.line, "SIZE of " + shown(field.name) + " is " + shown(size) +
                                  "; allowed are 1, 2, 4 and 8");
@@ -164,16 +178,18 @@ void HeaderReader::readSize(Field& field, std::size_t index) const {
 std::vector<Field> HeaderReader::readFields() const {
   const Entry& names = require("FIELDS");
   const std::size_t size = names.values.size();
-  requireValues("SIZE", size);
-  requireValues("TYPE", size);
   const bool counted = find("COUNT") != nullptr;
+  const bool sized = counted || find("SIZE") != nullptr || find("TYPE") != nullptr;
+  if (sized) requireValues("SIZE", size);
+  if (sized) requireValues("TYPE", size);
   if (counted) requireValues("COUNT", size);
   std::vector<Field> fields;
   for (std::size_t i = 0; i < size; ++i) {
     Field field;
     field.name = names.values[i];
-    readSize(field, i);
-    if (counted) field.count = static_cast<std::size_t>(wholeNumber("COUNT", i, 1, kMaxCount));
+    if (sized) readSize(field, i);
+    // Drivers of lidars write padding of 0 values; the Point Cloud Library reads it as none.
+    if (counted) field.count = static_cast<std::size_t>(wholeNumber("COUNT", i, 0, kMaxCount));
     fields.push_back(std::move(field));
   }
   return fields;
@@ -226,9 +242,11 @@ void HeaderReader::placeAxes(const std::vector<Field>& fields, PcdHeader& header
   }
 }
 
-/// Where the sensor was. The Point Cloud Library does not move the points either.
-void HeaderReader::remarkViewpoint() const {
-  if (find("VIEWPOINT") == nullptr) return;
+/// From where the points were recorded, in their own frame: so the Point Cloud Library's
+/// NormalEstimation and VoxelGridOcclusionEstimation take it. Some programs write how the points
+/// are to be moved instead; its readers never move them, and the remark is for those who expect it.
+Eigen::Vector3d HeaderReader::readViewpoint() const {
+  if (find("VIEWPOINT") == nullptr) return Eigen::Vector3d::Zero();
   const Entry& entry = requireValues("VIEWPOINT", 7);
   std::array<double, 7> pose{};
   for (std::size_t i = 0; i < pose.size(); ++i) {
@@ -241,9 +259,8 @@ void HeaderReader::remarkViewpoint() const {
     pose[i] = *value;
   }
   constexpr std::array<double, 7> kIdentity{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
-  if (pose != kIdentity) {
-    source_.warn(entry.line, "VIEWPOINT is not applied: points are taken as the file has them");
-  }
+  if (pose != kIdentity) source_.warn(entry.line, "VIEWPOINT " + std::string(kSensorRemark));
+  return {pose[0], pose[1], pose[2]};
 }
 
 PcdHeader HeaderReader::read() {
@@ -253,7 +270,7 @@ PcdHeader HeaderReader::read() {
   header.form = readForm();
   header.points = readPoints();
   placeAxes(readFields(), header);
-  remarkViewpoint();
+  header.sensor = readViewpoint();
   return header;
 }
 

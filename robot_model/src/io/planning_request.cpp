@@ -5,10 +5,13 @@
 #include <array>
 #include <set>
 
+#include "io/attached_objects.hpp"
 #include "io/input_source.hpp"
 #include "io/robot_state_yaml.hpp"
+#include "io/scene_frames.hpp"
 #include "io/yaml.hpp"
 #include "swept/core/floating_point_environment.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -26,13 +29,48 @@ std::string newName(const YamlPlace& place, std::set<std::string>& known) {
   return name;
 }
 
-void readStart(const YamlPlace& state, PlanningRequest& request) {
+/// What the file's names are looked up in.
+struct Context {
+  const detail::InputSource& source;
+  const Robot* robot;                 ///< null: unknown
+  const detail::SceneFrames& frames;  ///< of goals, and of bases
+};
+
+/// Another frame than the link's would need the state of what the request says nothing about.
+void requireFrameOfLink(const YamlPlace& attached) {
+  const YamlPlace object = attached.at("object");
+  if (!object.present()) object.fail("is missing");
+  const std::string link = attached.at("link_name").text();
+  if (detail::frameName(object.at("header")) != link)
+    object.at("header").fail("has to name the frame_id '" + link + "', the link's, in a request");
+}
+
+void readAttached(const YamlPlace& list, const Context& context, PlanningRequest& request) {
+  const std::vector<YamlPlace> attached = list.elements();
+  if (attached.empty()) return;
+  if (context.robot == nullptr)
+    attached[0].fail("is read with a robot alone; PlanningRequest::load takes one");
+  for (const YamlPlace& entry : attached) requireFrameOfLink(entry);
+  detail::SceneFrames frames(context.source, "");
+  frames.addLinks(*context.robot, context.robot->defaultState());
+  detail::SceneObjects objects(context.source);
+  detail::AttachedObjects reader(*context.robot, frames, objects);
+  reader.read(list);
+  World nothing;
+  reader.takeFrom(nothing);
+  request.attached = reader.bodies();
+  for (const auto& [a, b] : reader.touchingBodies())
+    request.rules.allow(a, b, "touch link of " + a);
+}
+
+void readStart(const YamlPlace& state, const Context& context, PlanningRequest& request) {
   detail::allowRobotState(state);
+  if (context.robot != nullptr) detail::checkRobotState(state, *context.robot);
   const YamlPlace bases = state.at("multi_dof_joint_state");
   for (const detail::BasePose& base : detail::readBasePoses(bases))
     request.bases.push_back({base.joint, base.parent_from_child});
-  if (const auto attached = state.at("attached_collision_objects").elements(); !attached.empty())
-    attached[0].fail("is not read from a request; attach it to the robot instead");
+  detail::requireBasesInModelFrame(bases, context.frames);
+  readAttached(state.at("attached_collision_objects"), context, request);
   const YamlPlace joints = state.at("joint_state");
   if (!joints.present() && !request.bases.empty()) return;
   const std::vector<YamlPlace> names = joints.at("name").elements();
@@ -64,6 +102,16 @@ struct Region {
   double tolerance;  ///< m
 };
 
+/// By name, or by the codes of shape_msgs/SolidPrimitive. A ball of half the least size is in each;
+/// it would not be in a cone.
+void requireRegionType(const YamlPlace& type) {
+  if (!type.present()) return;
+  for (const char* known :
+       {"box", "BOX", "1", "sphere", "SPHERE", "2", "cylinder", "CYLINDER", "3"})
+    if (type.text() == known) return;
+  type.fail("is '" + type.text() + "'; a region is a box (1), a sphere (2) or a cylinder (3)");
+}
+
 Region readRegion(const YamlPlace& constraint) {
   const YamlPlace region = constraint.at("constraint_region");
   region.allowOnly({"primitives", "primitive_poses", "meshes", "mesh_poses"});
@@ -77,6 +125,7 @@ Region readRegion(const YamlPlace& constraint) {
       offset.present() && !offset.vector().isZero())
     offset.fail("is not 0: only a link's own origin can be placed");
   primitives[0].allowOnly({"type", "dimensions", "polygon"});
+  requireRegionType(primitives[0].at("type"));
   double least = kPositionTolerance;
   const std::vector<YamlPlace> sizes = primitives[0].at("dimensions").elements();
   if (!sizes.empty()) {
@@ -88,24 +137,24 @@ Region readRegion(const YamlPlace& constraint) {
   return {.middle = poses[0].pose("position", "orientation").translation(), .tolerance = least};
 }
 
-void warnOfFrame(const YamlPlace& constraint, const LoadOptions& options) {
-  const YamlPlace header = constraint.at("header");
-  header.allowOnly({"seq", "stamp", "frame_id"});
-  if (!header.present() || !header.at("frame_id").present()) return;
-  const std::string frame = header.at("frame_id").text();
-  if (!frame.empty() && frame != "world" && frame != options.modelFrame)
-    header.at("frame_id").warn("'" + frame + "' is taken for the robot's model frame");
+/// Of tolerances about axes: Euler angles (0) or a rotation vector (1). An angle that is no more
+/// than the least of them keeps either.
+void requireParameterization(const YamlPlace& place) {
+  if (!place.present() || place.integer() == 0 || place.integer() == 1) return;
+  place.fail("is " + place.text() + "; allowed are 0 (Euler angles) and 1 (a rotation vector)");
 }
 
 PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& position,
-                                       const YamlPlace& orientation, const LoadOptions& options) {
+                                       const YamlPlace& orientation, const Context& context) {
   position.allowOnly({"header", "link_name", "target_point_offset", "constraint_region", "weight"});
   orientation.allowOnly({"header", "orientation", "link_name", "absolute_x_axis_tolerance",
                          "absolute_y_axis_tolerance", "absolute_z_axis_tolerance",
                          "parameterization", "weight"});
-  warnOfFrame(position, options);
-  warnOfFrame(orientation, options);
+  requireParameterization(orientation.at("parameterization"));
   const std::string link = position.at("link_name").text();
+  if (context.robot != nullptr && !context.robot->findLink(link))
+    position.at("link_name")
+        .fail("is '" + link + "', which is no link of robot '" + context.robot->name() + "'");
   if (link != orientation.at("link_name").text())
     goal.fail("its position is of link '" + link + "', its orientation of another");
   const Region region = readRegion(position);
@@ -113,9 +162,13 @@ PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& p
                                  .model_from_link = Eigen::Isometry3d::Identity(),
                                  .positionTolerance = region.tolerance,
                                  .orientationTolerance = kOrientationTolerance};
-  pose.model_from_link.translation() = region.middle;
+  pose.model_from_link.translation() =
+      context.frames.model_from(position.at("header")) * region.middle;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (const YamlPlace given = orientation.at("orientation"); given.present())
-    pose.model_from_link.linear() = given.rotation();
+    turn = given.rotation();
+  pose.model_from_link.linear() =
+      context.frames.model_from(orientation.at("header")).linear() * turn;
   double least = 4.0;  // more than any angle
   for (const char* axis : {"x", "y", "z"}) {
     const YamlPlace tolerance = orientation.at(std::string("absolute_") + axis + "_axis_tolerance");
@@ -134,7 +187,7 @@ void allowConstraints(const YamlPlace& place) {
   place.allowOnly({"name", kKinds[0], kKinds[1], kKinds[2], kKinds[3]});
 }
 
-void readGoal(const YamlPlace& goal, const LoadOptions& options, PlanningRequest& request) {
+void readGoal(const YamlPlace& goal, const Context& context, PlanningRequest& request) {
   allowConstraints(goal);
   if (const auto views = goal.at(kKinds[3]).elements(); !views.empty())
     views[0].fail("is not supported");
@@ -144,7 +197,7 @@ void readGoal(const YamlPlace& goal, const LoadOptions& options, PlanningRequest
   if (!joints.empty() && positions.empty() && orientations.empty())
     request.goals.push_back(readJointGoal(joints));
   else if (joints.empty() && positions.size() == 1 && orientations.size() == 1)
-    request.poseGoals.push_back(readPoseGoal(goal, positions[0], orientations[0], options));
+    request.poseGoals.push_back(readPoseGoal(goal, positions[0], orientations[0], context));
   else
     goal.fail(
         "a goal is either joint_constraints, or one of position_constraints and one of "
@@ -165,15 +218,23 @@ void refuseAlongPath(const YamlPlace& root) {
   }
 }
 
-void warnOfWorkspace(const YamlPlace& workspace) {
+/// Two corners at the origin: none is given.
+void readWorkspace(const YamlPlace& workspace, const Context& context, PlanningRequest& request) {
   if (!workspace.present()) return;
   workspace.allowOnly({"header", "min_corner", "max_corner"});
-  for (const char* key : {"min_corner", "max_corner"}) {
-    const YamlPlace corner = workspace.at(key);
-    if (!corner.present() || corner.vector().isZero(0.0)) continue;
-    workspace.warn("is ignored: it bounds where a base may go, and nothing else");
-    return;
-  }
+  Eigen::AlignedBox3d box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  if (const YamlPlace least = workspace.at("min_corner"); least.present())
+    box.min() = least.vector();
+  if (const YamlPlace most = workspace.at("max_corner"); most.present()) box.max() = most.vector();
+  if (box.min().isZero(0.0) && box.max().isZero(0.0)) return;
+  if ((box.max() - box.min()).minCoeff() < 0.0)
+    workspace.fail("has a min_corner beyond its max_corner");
+  if (!context.frames.isModelFrame(workspace.at("header")))
+    workspace.at("header")
+        .at("frame_id")
+        .fail("is '" + detail::frameName(workspace.at("header")) +
+              "'; it has to be the robot's model frame");
+  request.workspace = box;
 }
 
 void allowRequest(const YamlPlace& root) {
@@ -185,18 +246,31 @@ void allowRequest(const YamlPlace& root) {
                   "max_cartesian_speed"});
 }
 
-PlanningRequest readRequest(const YamlPlace& root, const LoadOptions& options) {
+PlanningRequest readRequest(const YamlPlace& root, const Context& context) {
   PlanningRequest request;
   if (!root.isMap()) root.fail("a planning request must be a mapping");
   allowRequest(root);
   if (const YamlPlace group = root.at("group_name"); group.present()) request.group = group.text();
-  warnOfWorkspace(root.at("workspace_parameters"));
+  readWorkspace(root.at("workspace_parameters"), context, request);
   refuseAlongPath(root);
-  readStart(root.at("start_state"), request);
+  readStart(root.at("start_state"), context, request);
   const YamlPlace goals = root.at("goal_constraints");
-  for (const YamlPlace& goal : goals.elements()) readGoal(goal, options, request);
+  for (const YamlPlace& goal : goals.elements()) readGoal(goal, context, request);
   if (request.goals.empty() && request.poseGoals.empty()) goals.fail("there is no goal");
   return request;
+}
+
+PlanningRequest readFile(const std::filesystem::path& yaml, const Robot* robot,
+                         const LoadOptions& options) {
+  const detail::InputSource source(yaml.string(), options);
+  detail::SceneFrames frames(source, "PlanningRequest::load with a robot");
+  if (robot != nullptr) frames.addStillLinks(*robot);
+  const YamlPlace root = YamlPlace::parse(readTextFile(yaml), source);
+  try {
+    return readRequest(root, {source, robot, frames});
+  } catch (const YAML::Exception& error) {
+    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
+  }
 }
 
 }  // namespace
@@ -206,13 +280,17 @@ PlanningRequest PlanningRequest::load(const std::filesystem::path& yaml,
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return load(yaml, options); });
   }
-  const detail::InputSource source(yaml.string(), options);
-  const YamlPlace root = YamlPlace::parse(readTextFile(yaml), source);
-  try {
-    return readRequest(root, options);
-  } catch (const YAML::Exception& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+  return readFile(yaml, nullptr, options);
+}
+
+PlanningRequest PlanningRequest::load(const std::filesystem::path& yaml, const Robot& robot,
+                                      const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(yaml, robot, options); });
   }
+  LoadOptions own = options;
+  if (own.modelFrame.empty()) own.modelFrame = robot.modelFrame();
+  return readFile(yaml, &robot, own);
 }
 
 }  // namespace swept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "io/ply_header.hpp"
 #include "io/row.hpp"
@@ -9,50 +10,88 @@ namespace swept::detail {
 
 namespace {
 
+/// Which coordinate of a vertex, or of the camera's place, it is; -1: none.
+int coordinateOf(const PlyProperty& property) {
+  return std::max(property.axis, property.view);
+}
+
+/// The points, and where the camera is, if there is one.
+struct Seen {
+  PointList points;
+  std::optional<Eigen::Vector3d> camera;
+
+  void add(const PlyElement& element, const Eigen::Vector3d& point) {
+    if (isVertex(element)) points.add(point);
+    if (isCamera(element)) camera = point;
+  }
+};
+
+/// Of a camera with a place; others say nothing about the points.
+void checkCamera(const PlyHeader& header, const InputSource& source) {
+  const auto camera = std::ranges::find_if(header.elements, isCamera);
+  if (camera == header.elements.end()) return;
+  std::array<int, 3> given{};
+  for (const PlyProperty& property : camera->properties)
+    if (property.view >= 0) ++given[static_cast<std::size_t>(property.view)];
+  if (given == std::array{0, 0, 0}) return;
+  if (given != std::array{1, 1, 1}) {
+    source.fail(camera->line,
+                "the camera must have view_px, view_py and view_pz once each, or none of them");
+  }
+  if (camera->count > 1) {
+    source.fail(camera->line, "the count of element 'camera' is '" + std::to_string(camera->count) +
+                                  "'; points that one sensor saw have one");
+  }
+}
+
+bool hasPlace(const PlyElement& camera) {
+  return std::ranges::any_of(camera.properties,
+                             [](const PlyProperty& property) { return property.view >= 0; });
+}
+
 std::vector<Column> columnsOf(const PlyElement& element) {
   std::vector<Column> columns;
   for (const PlyProperty& property : element.properties) {
-    columns.push_back({property.name, property.axis, 1, property.lengthType.has_value()});
+    columns.push_back({property.name, coordinateOf(property), 1, property.lengthType.has_value()});
   }
   return columns;
 }
 
-PointList readAscii(const PointFile& file, LineReader& lines, const PlyHeader& header) {
-  PointList points;
+Seen readAscii(const PointFile& file, LineReader& lines, const PlyHeader& header) {
+  Seen seen;
   for (const PlyElement& element : header.elements) {
     // Without properties it has no lines that could be counted.
     if (element.properties.empty()) continue;
     const std::vector<Column> columns = columnsOf(element);
     if (isVertex(element)) {
       // A line has at least one character and an end for each of the three numbers.
-      points.reserve(std::min<std::uint64_t>(element.count, file.bytes().size() / 6 + 1));
+      seen.points.reserve(std::min<std::uint64_t>(element.count, file.bytes().size() / 6 + 1));
     }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       if (!lines.nextFilled()) {
         lines.fail("the file ends after " + std::to_string(i) + " of " +
                    std::to_string(element.count) + " elements " + shown(element.name));
       }
-      const Eigen::Vector3d point = readRow(lines, columns);
-      if (isVertex(element)) points.add(point);
+      seen.add(element, readRow(lines, columns));
     }
   }
   if (lines.nextFilled()) lines.fail("more follows after the last element of the header");
-  return points;
+  return seen;
 }
 
 class BinaryReader {
  public:
   BinaryReader(const PointFile& file, std::size_t begin, std::endian order)
       : file_(file), at_(begin), order_(order) {}
-  PointList read(const PlyHeader& header);
+  Seen read(const PlyHeader& header);
 
  private:
   std::size_t rest() const { return file_.bytes().size() - at_; }
   /// Bytes of the property at the present place.
   std::size_t sizeHere(const PlyElement& element, const PlyProperty& property) const;
   [[noreturn]] void failEnd(const PlyElement& element) const;
-  void readOneByOne(const PlyElement& element, PointList& points);
-  void readEven(const PlyElement& element, std::size_t size, PointList& points);
+  void readOneByOne(const PlyElement& element, Seen& seen);
+  void readEven(const PlyElement& element, std::size_t size, Seen& seen);
 
   const PointFile& file_;
   std::size_t at_;
@@ -78,23 +117,22 @@ std::size_t BinaryReader::sizeHere(const PlyElement& element, const PlyProperty&
 }
 
 /// Every element has a property, and so takes at least one byte: the file bounds the effort.
-void BinaryReader::readOneByOne(const PlyElement& element, PointList& points) {
+void BinaryReader::readOneByOne(const PlyElement& element, Seen& seen) {
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (const PlyProperty& property : element.properties) {
       const std::size_t size = sizeHere(element, property);
       if (rest() < size) failEnd(element);
-      if (property.axis >= 0) {
-        point[property.axis] = decode(property.type, file_.bytes().data() + at_, order_);
-      }
+      if (const int axis = coordinateOf(property); axis >= 0)
+        point[axis] = decode(property.type, file_.bytes().data() + at_, order_);
       at_ += size;
     }
-    if (isVertex(element)) points.add(point);
+    seen.add(element, point);
   }
 }
 
 /// Elements without lists have the same size.
-void BinaryReader::readEven(const PlyElement& element, std::size_t size, PointList& points) {
+void BinaryReader::readEven(const PlyElement& element, std::size_t size, Seen& seen) {
   if (size > 0 && element.count > rest() / size) failEnd(element);
   if (isVertex(element)) {
     std::array<CoordinateData, 3> axes;
@@ -105,13 +143,13 @@ void BinaryReader::readEven(const PlyElement& element, std::size_t size, PointLi
       }
       first += sizeOf(property.type);
     }
-    addPoints(axes, element.count, order_, points);
+    addPoints(axes, element.count, order_, seen.points);
   }
   at_ += element.count * size;
 }
 
-PointList BinaryReader::read(const PlyHeader& header) {
-  PointList points;
+Seen BinaryReader::read(const PlyHeader& header) {
+  Seen seen;
   for (const PlyElement& element : header.elements) {
     std::size_t size = 0;
     bool lists = false;
@@ -119,25 +157,39 @@ PointList BinaryReader::read(const PlyHeader& header) {
       size += sizeOf(property.type);
       lists = lists || property.lengthType.has_value();
     }
-    if (lists) {
-      readOneByOne(element, points);
+    if (lists || (isCamera(element) && hasPlace(element))) {
+      readOneByOne(element, seen);
     } else {
-      readEven(element, size, points);
+      readEven(element, size, seen);
     }
   }
   if (rest() > 0) file_.failAt(at_, "more follows after the last element of the header");
-  return points;
+  return seen;
+}
+
+Seen readSeen(const PointFile& file, LineReader& lines, const PlyHeader& header) {
+  if (header.form == PlyForm::Ascii) return readAscii(file, lines, header);
+  const std::endian order =
+      header.form == PlyForm::LittleEndian ? std::endian::little : std::endian::big;
+  return BinaryReader(file, lines.offset(), order).read(header);
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> readPly(const PointFile& file) {
+SensedPoints readPly(const PointFile& file) {
   LineReader lines(file);
   const PlyHeader header = readPlyHeader(lines, file.source());
-  if (header.form == PlyForm::Ascii) return readAscii(file, lines, header).finish(file.source());
-  const std::endian order =
-      header.form == PlyForm::LittleEndian ? std::endian::little : std::endian::big;
-  return BinaryReader(file, lines.offset(), order).read(header).finish(file.source());
+  checkCamera(header, file.source());
+  Seen seen = readSeen(file, lines, header);
+  SensedPoints sensed{.points = seen.points.finish(file.source())};
+  const auto camera = std::ranges::find_if(header.elements, isCamera);
+  if (!seen.camera || !hasPlace(*camera)) return sensed;
+  sensed.sensor = *seen.camera;
+  if (!sensed.sensor.allFinite())
+    file.source().fail(camera->line, "view_px, view_py and view_pz of the camera must be finite");
+  if (!sensed.sensor.isZero(0.0))
+    file.source().warn(camera->line, "the camera " + std::string(kSensorRemark));
+  return sensed;
 }
 
 }  // namespace swept::detail

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/mesh_claim.hpp"
@@ -57,6 +58,11 @@ class PlyBody {
   /// A finite number; with a claim, a coordinate of it.
   double next(const PlyElement& element, const PlyProperty& property, Scalar type,
               MeshClaim* claim = nullptr);
+  /// The word of the last one, of text.
+  std::string_view word() const { return words_[used_ - 1]; }
+  bool isText() const { return form_ == PlyForm::Ascii; }
+  /// The line of the present element; 0: it has none.
+  int line() const { return isText() ? lines_.number() : 0; }
   /// One that is nothing to a face: any word, or any bytes.
   void skip(const PlyElement& element, const PlyProperty& property);
   /// After each element, and after the last.
@@ -65,7 +71,6 @@ class PlyBody {
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
-  bool isText() const { return form_ == PlyForm::Ascii; }
   std::string_view nextWord(const PlyProperty& property);
   const char* nextBytes(const PlyElement& element, Scalar type);
 
@@ -154,6 +159,7 @@ class PlyReader {
  private:
   void readElement(const PlyElement& element);
   void readCorners(const PlyElement& element, const PlyProperty& property, std::uint64_t count);
+  void beginBare();
   std::uint64_t wholeNumber(const PlyElement& element, const PlyProperty& property, Scalar type);
 
   LineReader lines_;
@@ -161,7 +167,23 @@ class PlyReader {
   PlyBody body_;
   MeshClaim claim_;
   std::vector<Eigen::Vector3d> vertices_;
+  std::int64_t faces_ = 0;  ///< so far
 };
+
+/// Of text, in which assimp takes words for other numbers, or the file for none of its own.
+void PlyReader::beginBare() {
+  if (!body_.isText()) return;
+  const auto vertex = std::ranges::find_if(header_.elements, isVertex);
+  const auto face = std::ranges::find_if(header_.elements, isFace);
+  claim_.bare = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex->count);
+  for (const PlyProperty& property : vertex->properties) {
+    if (property.axis < 0) continue;
+    *claim_.bare += property.type == Scalar::Float32 ? "\nproperty float " : "\nproperty double ";
+    *claim_.bare += property.name;
+  }
+  *claim_.bare += "\nelement face " + std::to_string(face->count) +
+                  "\nproperty list uint uint vertex_indices\nend_header\n";
+}
 
 std::uint64_t PlyReader::wholeNumber(const PlyElement& element, const PlyProperty& property,
                                      Scalar type) {
@@ -177,6 +199,8 @@ void PlyReader::readCorners(const PlyElement& element, const PlyProperty& proper
                             std::uint64_t count) {
   if (count < 3)
     body_.fail("a face has " + std::to_string(count) + " corners; it must have at least 3");
+  if (claim_.bare) *claim_.bare += std::to_string(count);
+  std::vector<Eigen::Vector3d> polygon;
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t corner = wholeNumber(element, property, property.type);
     if (corner >= vertices_.size()) {
@@ -184,7 +208,12 @@ void PlyReader::readCorners(const PlyElement& element, const PlyProperty& proper
                  std::to_string(vertices_.size()) + ", counted from 0");
     }
     claim_.box.extend(vertices_[corner]);
+    if (count > 4) polygon.push_back(vertices_[corner]);
+    if (claim_.bare) *claim_.bare += ' ' + std::to_string(corner);
   }
+  if (claim_.bare) *claim_.bare += '\n';
+  claim_.crossing.look(polygon, body_.line(), body_.line() > 0 ? -1 : faces_);
+  ++faces_;
   claim_.triangles += count - 2;
 }
 
@@ -193,6 +222,7 @@ void PlyReader::readElement(const PlyElement& element) {
   for (const PlyProperty& property : element.properties) {
     if (property.axis >= 0) {
       point[property.axis] = body_.next(element, property, property.type, &claim_);
+      if (claim_.bare) claim_.bare->append(body_.word()).append(1, ' ');
       continue;
     }
     const std::uint64_t count =
@@ -203,10 +233,13 @@ void PlyReader::readElement(const PlyElement& element) {
     }
     for (std::uint64_t i = 0; i < count; ++i) body_.skip(element, property);
   }
-  if (isVertex(element)) vertices_.push_back(point);
+  if (!isVertex(element)) return;
+  vertices_.push_back(point);
+  if (claim_.bare) *claim_.bare += '\n';
 }
 
 MeshClaim PlyReader::read() {
+  beginBare();
   for (const PlyElement& element : header_.elements) {
     // Without properties it has nothing that could be counted.
     if (element.properties.empty()) continue;
@@ -217,7 +250,7 @@ MeshClaim PlyReader::read() {
     }
   }
   body_.endFile();
-  return claim_;
+  return std::move(claim_);
 }
 
 }  // namespace

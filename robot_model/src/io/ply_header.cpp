@@ -127,6 +127,10 @@ void HeaderReader::readProperty(const Words& line) {
       lines_.fail("a second property " + shown(property.name) + " of the vertex");
     }
   }
+  constexpr std::array<std::string_view, 3> kViews{"view_px", "view_py", "view_pz"};
+  const auto view = std::ranges::find(kViews, property.name);
+  if (isCamera(element) && !isList && view != kViews.end())
+    property.view = static_cast<int>(view - kViews.begin());
   element.properties.push_back(std::move(property));
 }
 

@@ -18,6 +18,7 @@ struct PlyProperty {
   Scalar type = Scalar::Float32;     ///< of the value, or of each in a list
   std::optional<Scalar> lengthType;  ///< engaged for a list: of the number in front of it
   int axis = -1;                     ///< 0, 1, 2: x, y, z of the vertex; -1: anything else
+  int view = -1;                     ///< 0, 1, 2: x, y, z of where the camera is; -1: other
 };
 
 struct PlyElement {
@@ -35,6 +36,11 @@ struct PlyHeader {
 /// True of the element that has the points.
 inline bool isVertex(const PlyElement& element) {
   return element.name == "vertex";
+}
+
+/// True of the element that says from where the points were seen.
+inline bool isCamera(const PlyElement& element) {
+  return element.name == "camera";
 }
 
 /// Reads the header of PLY 1.0 (G. Turk, "The PLY Polygon File Format", 1994) and leaves `lines` at

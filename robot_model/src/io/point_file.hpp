@@ -16,6 +16,7 @@
 
 #include "io/input_source.hpp"
 #include "io/scalar.hpp"
+#include "swept/robot_model/cloud_file.hpp"
 
 namespace swept::detail {
 
@@ -115,8 +116,12 @@ std::string shown(std::string_view text);
 std::optional<std::uint64_t> parseCount(std::string_view text);
 
 /// One reader per format. `file` outlives the call.
-std::vector<Eigen::Vector3d> readPcd(const PointFile& file);
-std::vector<Eigen::Vector3d> readPly(const PointFile& file);
-std::vector<Eigen::Vector3d> readXyz(const PointFile& file);
+SensedPoints readPcd(const PointFile& file);
+SensedPoints readPly(const PointFile& file);
+SensedPoints readXyz(const PointFile& file);
+
+/// Behind what a file calls its sensor's pose.
+inline constexpr std::string_view kSensorRemark =
+    "is where the sensor was, in the frame of the points; it does not move them";
 
 }  // namespace swept::detail

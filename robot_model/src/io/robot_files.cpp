@@ -6,6 +6,7 @@
 #include "io/srdf.hpp"
 #include "io/urdf_model.hpp"
 #include "io/urdf_outline.hpp"
+#include "io/warning_kinds.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -14,12 +15,15 @@ namespace swept {
 std::shared_ptr<const Robot> RobotBuilder::build(detail::RobotParts parts) {
   std::shared_ptr<Robot> robot(new Robot());
   robot->name_ = std::move(parts.name);
+  robot->modelFrame_ = std::move(parts.modelFrame);
   robot->links_ = std::move(parts.links);
   robot->joints_ = std::move(parts.joints);
   robot->variables_ = std::move(parts.variables);
   robot->groups_ = std::move(parts.groups);
   robot->namedStates_ = std::move(parts.namedStates);
   robot->disabledPairs_ = std::move(parts.disabledPairs);
+  robot->enabledPairs_ = std::move(parts.enabledPairs);
+  robot->leftOut_ = std::move(parts.leftOut);
   return robot;
 }
 
@@ -30,13 +34,16 @@ std::shared_ptr<const Robot> Robot::parse(const std::string& urdfText, const std
     return inDefaultEnvironment(
         [&] { return parse(urdfText, urdfName, srdfText, srdfName, options); });
   }
-  const detail::InputSource urdfSource(urdfName, options);
-  const detail::InputSource srdfSource(srdfName, options);
-  const detail::UrdfOutline outline = detail::outlineUrdf(urdfText, urdfSource);
-  detail::SrdfDocument srdf;
-  if (!srdfText.empty()) srdf = detail::readSrdf(srdfText, srdfSource);
-  detail::RobotParts parts = detail::assembleRobot(outline, srdf, urdfSource, srdfSource);
-  detail::applySrdf(srdf, srdfSource, parts);
+  detail::RobotParts parts;
+  detail::withFewWarnings(options, [&](const LoadOptions& few) {
+    const detail::InputSource urdfSource(urdfName, few);
+    const detail::InputSource srdfSource(srdfName, few);
+    const detail::UrdfOutline outline = detail::outlineUrdf(urdfText, urdfSource);
+    detail::SrdfDocument srdf;
+    if (!srdfText.empty()) srdf = detail::readSrdf(srdfText, srdfSource);
+    parts = detail::assembleRobot(outline, srdf, urdfSource, srdfSource);
+    detail::applySrdf(srdf, srdfSource, parts);
+  });
   detail::addCovers(parts.links, 0);
   return RobotBuilder::build(std::move(parts));
 }

@@ -14,13 +14,15 @@ namespace detail {
 /// A robot while it is being put together; the fields are those of Robot.
 struct RobotParts {
   std::string name;
+  std::string modelFrame;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Variable> variables;
   std::vector<Group> groups;
   std::vector<NamedState> namedStates;
   std::vector<DisabledPair> disabledPairs;
-  std::vector<bool> passive;  ///< per joint
+  std::vector<EnabledPair> enabledPairs;
+  std::vector<LeftOut> leftOut;
 };
 
 /// Index of the entry with that name, or -1.

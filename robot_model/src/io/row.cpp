@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 namespace swept::detail {
 
@@ -21,6 +22,15 @@ const char* nextWord(const char* at, const char* end, const Column& column,
   at = skipBlanks(at, end);
   if (at == end) lines.fail("the line ends where " + shown(column.name) + " should follow");
   return at;
+}
+
+/// NaN and infinity as older C libraries of Windows print them: `-1.#IND`, `1.#QNAN0`, `1.#INF`.
+bool isNotFinite(std::string_view word) {
+  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
+  if (!word.starts_with("1.#")) return false;
+  word.remove_prefix(3);
+  while (word.ends_with('0')) word.remove_suffix(1);
+  return word == "IND" || word == "QNAN" || word == "SNAN" || word == "INF";
 }
 
 std::size_t listLength(const char*& at, const char* end, const Column& column,
@@ -54,6 +64,10 @@ double readNumber(const char*& at, const char* end, std::string_view separators,
   if (result.ec != std::errc{} || (result.ptr != end && !isSeparator(*result.ptr))) {
     const std::string_view word(at,
                                 static_cast<std::size_t>(std::find_if(at, end, isSeparator) - at));
+    if (isNotFinite(word)) {
+      at += word.size();
+      return std::numeric_limits<double>::quiet_NaN();
+    }
     lines.fail(std::string(name) + " is " + shown(word) +
                "; it must be a number that a double can hold");
   }

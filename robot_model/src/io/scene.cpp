@@ -6,12 +6,12 @@
 
 namespace swept {
 
-World World::load(const std::filesystem::path& scene, const LoadOptions& options) {
-  if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return load(scene, options); });
-  }
+namespace detail {
+
+PlanningScene readScene(const std::filesystem::path& scene, const Robot* robot,
+                        const LoadOptions& options) {
   const std::string ending = scene.extension().string();
-  if (ending == ".urdf") return detail::readSceneUrdf(scene, options);
+  if (ending == ".urdf") return {.world = readSceneUrdf(scene, options)};
   const bool yaml = ending == ".yaml" || ending == ".yml";
   if (!yaml && ending != ".scene") {
     throw InputError(scene.string(), 0,
@@ -19,8 +19,35 @@ World World::load(const std::filesystem::path& scene, const LoadOptions& options
                          "' of a scene file; allowed are .yaml, .yml, .scene and .urdf");
   }
   const std::string text = readTextFile(scene);
-  const detail::InputSource source(scene.string(), options);
-  return yaml ? detail::readSceneYaml(text, source) : detail::readSceneText(text, source);
+  const InputSource source(scene.string(), options);
+  if (yaml) return readSceneYaml(text, source, robot);
+  return {.world = readSceneText(text, source)};
+}
+
+}  // namespace detail
+
+World World::load(const std::filesystem::path& scene, const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(scene, options); });
+  }
+  return detail::readScene(scene, nullptr, options).world;
+}
+
+PlanningScene PlanningScene::load(const std::filesystem::path& file, const Robot& robot,
+                                  const LoadOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return load(file, robot, options); });
+  }
+  LoadOptions own = options;
+  if (own.modelFrame.empty()) own.modelFrame = robot.modelFrame();
+  return detail::readScene(file, &robot, own);
+}
+
+CheckerOptions PlanningScene::checkerOptions(CheckerOptions own) const {
+  if (!own.reference) own.reference = state;
+  own.attached.insert(own.attached.begin(), attached.begin(), attached.end());
+  own.rules = own.rules.over(rules);
+  return own;
 }
 
 }  // namespace swept

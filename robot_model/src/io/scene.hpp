@@ -5,13 +5,20 @@
 #include <string>
 
 #include "io/input_source.hpp"
+#include "swept/robot_model/planning_scene.hpp"
 #include "swept/robot_model/world.hpp"
 
 namespace swept::detail {
 
+/// A scene file of any kind, told apart by its ending. Null robot: the world alone (World::load).
+/// Throws InputError.
+PlanningScene readScene(const std::filesystem::path& scene, const Robot* robot,
+                        const LoadOptions& options);
+
 /// Planning-scene YAML, in the layout of moveit_msgs/PlanningScene: the bodies of `world:
-/// collision_objects:` or of a `collision_objects:` at the top. Throws InputError.
-World readSceneYaml(const std::string& text, const InputSource& source);
+/// collision_objects:` or of a `collision_objects:` at the top, and what else is said of `robot`,
+/// unless that is null. Throws InputError.
+PlanningScene readSceneYaml(const std::string& text, const InputSource& source, const Robot* robot);
 
 /// MoveIt's text format, with poses per object (since Noetic) or without. Throws InputError.
 World readSceneText(const std::string& text, const InputSource& source);

@@ -9,6 +9,8 @@ namespace swept::detail {
 
 namespace {
 
+const std::string kInstead = "PlanningScene::load reads it, World::load reads the world alone";
+
 void refuseOctomap(const YamlPlace& stamped) {
   if (!stamped.present()) return;
   const YamlPlace map = stamped.allowOnly({"header", "origin", "octomap"}).at("octomap");
@@ -31,36 +33,46 @@ void refuseEnlarged(const YamlPlace& list, const char* key, double neutral, cons
   }
 }
 
-void warnOfState(const YamlPlace& state) {
+void refuseState(const YamlPlace& state) {
   if (!state.present()) return;
   allowRobotState(state);
-  for (const YamlPlace& attached : state.at("attached_collision_objects").elements()) {
-    attached.warn("is ignored: attached objects are not part of the world");
-  }
-  for (const BasePose& base : readBasePoses(state.at("multi_dof_joint_state"))) {
-    if (base.parent_from_child.isApprox(Eigen::Isometry3d::Identity(), 0.0)) continue;
-    state.at("multi_dof_joint_state")
-        .warn("moves '" + base.joint + "' and is ignored: the robot is not part of the world");
-  }
-}
-
-void warnOfAllowed(const YamlPlace& matrix) {
-  if (!matrix.present()) return;
-  matrix.allowOnly({"entry_names", "entry_values", "default_entry_names", "default_entry_values"});
-  if (matrix.at("entry_names").elements().empty() &&
-      matrix.at("default_entry_names").elements().empty())
-    return;
-  matrix.warn("is ignored: pairs that may collide are those of the SRDF and of rules");
+  if (const YamlPlace attached = state.at("attached_collision_objects");
+      !attached.elements().empty())
+    attached.elements()[0].fail("is carried by a link: " + kInstead);
+  const YamlPlace bases = state.at("multi_dof_joint_state");
+  for (const BasePose& base : readBasePoses(bases))
+    if (!base.parent_from_child.isApprox(Eigen::Isometry3d::Identity(), 0.0))
+      bases.fail("moves '" + base.joint + "': " + kInstead);
 }
 
 }  // namespace
 
-void checkSceneExtras(const YamlPlace& root) {
+void refuseUnread(const YamlPlace& root) {
   if (const YamlPlace world = root.at("world"); world.present()) refuseOctomap(world.at("octomap"));
   refuseEnlarged(root.at("link_padding"), "padding", 0.0, "CollisionRules::pad, --pad");
   refuseEnlarged(root.at("link_scale"), "scale", 1.0, "CollisionRules::scale, --scale");
-  warnOfState(root.at("robot_state"));
-  warnOfAllowed(root.at("allowed_collision_matrix"));
+}
+
+void refuseRobot(const YamlPlace& root) {
+  refuseState(root.at("robot_state"));
+  // Even one that allows all of its pairs checks others that the SRDF disables.
+  if (!readMatrix(root).isEmpty())
+    root.at("allowed_collision_matrix").fail("stands in place of the SRDF's: " + kInstead);
+}
+
+void compareRobotName(const YamlPlace& name, const Robot& robot) {
+  if (!name.present() || name.text().empty() || name.text() == robot.name()) return;
+  name.warn("is '" + name.text() + "'; the robot is '" + robot.name() + "'");
+}
+
+SceneMatrix readMatrix(const YamlPlace& root) {
+  const YamlPlace place = root.at("allowed_collision_matrix");
+  SceneMatrix matrix(place);
+  const YamlPlace diff = root.at("is_diff");
+  const bool isDiff = diff.present() && diff.boolean();
+  if (!matrix.isEmpty() && !matrix.hasEntries() && isDiff)
+    place.fail("has default_entry_names and no entry_names, which a diff does not apply");
+  return matrix;
 }
 
 }  // namespace swept::detail

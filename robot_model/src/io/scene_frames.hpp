@@ -3,28 +3,44 @@
 
 #include <Eigen/Geometry>
 #include <map>
-#include <set>
 #include <string>
 
 #include "io/input_source.hpp"
 #include "io/yaml.hpp"
+#include "swept/robot_model/robot.hpp"
 
 namespace swept::detail {
 
-/// The frames that poses of a scene are given in: the `fixed_frame_transforms` of
-/// moveit_msgs/PlanningScene. MoveIt has them the other way round than tf: a transform is the pose
-/// of the frame `header.frame_id` in the planning frame, which `child_frame_id` names
+/// The frames that poses of a file are given in. As in MoveIt (PlanningScene::getFrameTransform)
+/// these are, in this order: links of the robot, attached bodies, objects of the world, and the
+/// scene's `fixed_frame_transforms`; then the model frame by its names.
+///
+/// MoveIt has fixed transforms the other way round than tf: a transform is the pose of the frame
+/// `header.frame_id` in the planning frame, which `child_frame_id` names
 /// (moveit::core::Transforms::setTransform).
 class SceneFrames {
  public:
-  explicit SceneFrames(const InputSource& source) : source_(source) {}
+  /// `withRobot`: the function that knows the frames of a robot's links, for messages.
+  SceneFrames(const InputSource& source, const char* withRobot)
+      : source_(source), withRobot_(withRobot) {}
 
-  /// Throws InputError for transforms into more than one frame, of no frame, two of one frame, and
-  /// one that moves the model frame.
+  /// Poses of all links at a state of the robot: a value for each variable.
+  void addLinks(const Robot& robot, const Eigen::VectorXd& state);
+  /// Likewise, of the links alone that no joint moves.
+  void addStillLinks(const Robot& robot);
+  /// A frame that the file itself makes: an object, or `object/subframe`. The first of a name
+  /// counts.
+  void add(const std::string& name, const Eigen::Isometry3d& model_from_frame);
+
+  /// `fixed_frame_transforms`. Throws InputError for transforms into more than one frame, of no
+  /// frame, two of one frame, and one that moves the model frame or a link.
   void read(const YamlPlace& list);
-  /// Pose of the frame that a std_msgs/Header names; one that is unknown is taken for the model
-  /// frame, with a warning.
-  Eigen::Isometry3d model_from(const YamlPlace& header);
+  /// Pose of the frame that a std_msgs/Header names. Throws InputError for one that nobody knows.
+  Eigen::Isometry3d model_from(const YamlPlace& header) const;
+  /// Pose of a link that was added.
+  const Eigen::Isometry3d& model_from_link(const std::string& link) const;
+  /// Whether the header names the model frame, or one that is where that is. Throws likewise.
+  bool isModelFrame(const YamlPlace& header) const;
 
  private:
   bool isModel(const std::string& frame) const;
@@ -32,9 +48,17 @@ class SceneFrames {
   void setPlanningFrame(const YamlPlace& place, const std::string& name);
 
   const InputSource& source_;
+  const char* withRobot_;
   std::string planning_;  ///< empty until it is known
-  std::map<std::string, Eigen::Isometry3d> model_from_;
-  std::set<std::string> unknown_;  ///< warned of
+  bool knowsRobot_ = false;
+  ///@{
+  /// By name, poses in the model frame.
+  std::map<std::string, Eigen::Isometry3d> links_, objects_, fixed_;
+  ///@}
 };
+
+/// Of a std_msgs/Header; empty when it names none. MoveIt lets a name begin with a slash, as tf
+/// did.
+std::string frameName(const YamlPlace& header);
 
 }  // namespace swept::detail

@@ -3,6 +3,9 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <string_view>
 
 #include "io/numbers.hpp"
@@ -14,6 +17,12 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+/// What end effectors, grasps, contacts of feet, motors and coarse models are for those who need
+/// them says nothing about links, pairs or groups. Of srdfdom, HPP and Pinocchio.
+constexpr std::array kWithoutMeaning{
+    "end_effector", "link_sphere_approximation", "gripper", "handle", "contact", "rotor_params",
+    "specificities"};
+
 class SrdfReader {
  public:
   explicit SrdfReader(XmlFile& xml) : xml_(xml) {}
@@ -24,8 +33,27 @@ class SrdfReader {
   SrdfDocument::Group readGroup(const XMLElement& element);
   SrdfDocument::State readState(const XMLElement& element);
   SrdfDocument::Pair readPair(const XMLElement& element);
+  SrdfDocument::JointProperty readProperty(const XMLElement& element);
   SrdfDocument::Name readName(const XMLElement& element, const std::string& owner) {
-    return {xml_.text(element, "name", owner), element.GetLineNum()};
+    requireKnown(element, {"name"});
+    return {nameIn(element, "name", owner), element.GetLineNum()};
+  }
+  /// srdfdom takes blanks around names away.
+  std::string nameIn(const XMLElement& element, const char* attribute, const std::string& owner) {
+    const std::string text = xml_.text(element, attribute, owner);
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos)
+      xml_.fail(element, XmlFile::quote(element, attribute) + " must not be blank");
+    return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+  }
+  /// Refuses other attributes.
+  void requireKnown(const XMLElement& element, std::initializer_list<std::string_view> known) const;
+  /// Refuses what stands in an element that has nothing inside.
+  void requireEmpty(const XMLElement& element) const {
+    if (const XMLElement* inner = element.FirstChildElement()) refuse(*inner, element.Name());
+  }
+  [[noreturn]] void refuse(const XMLElement& element, const std::string& owner) const {
+    xml_.fail(element, "unknown element <" + std::string(element.Name()) + "> in <" + owner + ">");
   }
 
   XmlFile& xml_;
@@ -34,7 +62,12 @@ class SrdfReader {
 
 SrdfDocument SrdfReader::read() {
   XMLElement& robot = xml_.robot();
-  document_.robot = readName(robot, "");
+  document_.robot = {nameIn(robot, "name", ""), robot.GetLineNum()};
+  for (const auto* a = robot.FirstAttribute(); a != nullptr; a = a->Next()) {
+    const std::string_view name = a->Name();
+    if (name != "name" && name != "version" && !name.starts_with("xmlns"))
+      xml_.fail(robot, "unknown attribute '" + std::string(name) + "' of <robot>");
+  }
   for (const XMLElement* e = robot.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     const std::string_view name = e->Name();
     if (name == "virtual_joint") {
@@ -47,24 +80,41 @@ SrdfDocument SrdfReader::read() {
       document_.pairs.push_back(readPair(*e));
     } else if (name == "passive_joint") {
       document_.passive.push_back(readName(*e, ""));
+      requireEmpty(*e);
     } else if (name == "disable_default_collisions") {
-      xml_.source().warn(e->GetLineNum(),
-                         "<disable_default_collisions> is not supported; its pairs stay checked");
+      requireKnown(*e, {"link"});
+      requireEmpty(*e);
+      document_.uncheckedByDefault.push_back({nameIn(*e, "link", ""), e->GetLineNum()});
+    } else if (name == "joint_property") {
+      document_.properties.push_back(readProperty(*e));
+    } else if (std::ranges::find(kWithoutMeaning, name) == kWithoutMeaning.end()) {
+      refuse(*e, "robot");
     }
   }
   return std::move(document_);
 }
 
+void SrdfReader::requireKnown(const XMLElement& element,
+                              std::initializer_list<std::string_view> known) const {
+  for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next())
+    if (std::ranges::find(known, a->Name()) == known.end())
+      xml_.fail(element,
+                "unknown attribute '" + std::string(a->Name()) + "' of <" + element.Name() + ">");
+}
+
 void SrdfReader::readVirtualJoint(const XMLElement& element) {
   SrdfDocument::VirtualJoint joint;
-  joint.name = xml_.text(element, "name", "");
+  requireKnown(element, {"name", "type", "parent_frame", "child_link"});
+  requireEmpty(element);
+  joint.name = nameIn(element, "name", "");
   joint.line = element.GetLineNum();
   const std::string owner = "virtual joint '" + joint.name + "'";
   if (document_.virtualJoint) {
     xml_.fail(element, owner + " is a second virtual joint; the root link has one parent");
   }
-  joint.child = xml_.text(element, "child_link", owner);
-  const std::string type = xml_.text(element, "type", owner);
+  joint.child = nameIn(element, "child_link", owner);
+  if (const char* frame = element.Attribute("parent_frame")) joint.parentFrame = frame;
+  const std::string type = nameIn(element, "type", owner);
   if (type == "fixed") {
     joint.type = JointType::Fixed;
   } else if (type == "planar") {
@@ -80,15 +130,18 @@ void SrdfReader::readVirtualJoint(const XMLElement& element) {
 
 SrdfDocument::Group SrdfReader::readGroup(const XMLElement& element) {
   SrdfDocument::Group group;
-  group.name = xml_.text(element, "name", "");
+  requireKnown(element, {"name"});
+  group.name = nameIn(element, "name", "");
   group.line = element.GetLineNum();
   const std::string owner = "group '" + group.name + "'";
   for (const XMLElement* e = element.FirstChildElement(); e != nullptr;
        e = e->NextSiblingElement()) {
     const std::string_view name = e->Name();
+    requireEmpty(*e);
     if (name == "chain") {
+      requireKnown(*e, {"base_link", "tip_link"});
       group.chains.push_back(
-          {xml_.text(*e, "base_link", owner), xml_.text(*e, "tip_link", owner), e->GetLineNum()});
+          {nameIn(*e, "base_link", owner), nameIn(*e, "tip_link", owner), e->GetLineNum()});
     } else if (name == "joint") {
       group.joints.push_back(readName(*e, owner));
     } else if (name == "link") {
@@ -105,13 +158,17 @@ SrdfDocument::Group SrdfReader::readGroup(const XMLElement& element) {
 
 SrdfDocument::State SrdfReader::readState(const XMLElement& element) {
   SrdfDocument::State state;
-  state.name = xml_.text(element, "name", "");
+  requireKnown(element, {"name", "group"});
+  state.name = nameIn(element, "name", "");
   state.line = element.GetLineNum();
   const std::string owner = "state '" + state.name + "'";
-  state.group = xml_.text(element, "group", owner);
-  for (const XMLElement* e = element.FirstChildElement("joint"); e != nullptr;
-       e = e->NextSiblingElement("joint")) {
-    SrdfDocument::JointValue value{xml_.text(*e, "name", owner),
+  state.group = nameIn(element, "group", owner);
+  for (const XMLElement* e = element.FirstChildElement(); e != nullptr;
+       e = e->NextSiblingElement()) {
+    if (std::string_view(e->Name()) != "joint") refuse(*e, "group_state");
+    requireKnown(*e, {"name", "value"});
+    requireEmpty(*e);
+    SrdfDocument::JointValue value{nameIn(*e, "name", owner),
                                    parseNumbers(xml_.text(*e, "value", owner)), e->GetLineNum()};
     if (value.values.empty()) {
       xml_.fail(*e, XmlFile::quote(*e, "value") + " of " + owner + " must be finite numbers");
@@ -123,13 +180,22 @@ SrdfDocument::State SrdfReader::readState(const XMLElement& element) {
 
 SrdfDocument::Pair SrdfReader::readPair(const XMLElement& element) {
   SrdfDocument::Pair pair;
-  pair.link1 = xml_.text(element, "link1", "");
-  pair.link2 = xml_.text(element, "link2", "");
+  requireKnown(element, {"link1", "link2", "reason"});
+  requireEmpty(element);
+  pair.link1 = nameIn(element, "link1", "");
+  pair.link2 = nameIn(element, "link2", "");
   const char* reason = element.Attribute("reason");
   pair.reason = reason != nullptr ? reason : "";
   pair.line = element.GetLineNum();
   pair.enable = std::string_view(element.Name()) == "enable_collisions";
   return pair;
+}
+
+SrdfDocument::JointProperty SrdfReader::readProperty(const XMLElement& element) {
+  requireKnown(element, {"joint_name", "property_name", "value"});
+  requireEmpty(element);
+  return {nameIn(element, "joint_name", ""), nameIn(element, "property_name", ""),
+          nameIn(element, "value", ""), element.GetLineNum()};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct SrdfDocument {
   struct VirtualJoint {
     std::string name;
     std::string child;
+    std::string parentFrame;  ///< empty: it is not named
     JointType type = JointType::Fixed;
     int line = 0;
   };
@@ -53,23 +54,36 @@ struct SrdfDocument {
     int line = 0;
     bool enable = false;  ///< from <enable_collisions>: takes the pair back
   };
+  struct JointProperty {
+    std::string joint;
+    std::string name;
+    std::string value;
+    int line = 0;
+  };
   Name robot;
   std::optional<VirtualJoint> virtualJoint;
   std::vector<Group> groups;
   std::vector<State> states;
   std::vector<Pair> pairs;
   std::vector<Name> passive;
+  std::vector<Name> uncheckedByDefault;  ///< <disable_default_collisions>
+  std::vector<JointProperty> properties;
 };
 
-/// Throws InputError for XML that is malformed and elements that lack what they need.
+/// Throws InputError for XML that is malformed, elements that lack what they need, and elements and
+/// attributes that no SRDF has.
 SrdfDocument readSrdf(const std::string& text, const InputSource& source);
 
-/// Marks passive joints, then adds groups, named states and disabled pairs to `robot`. Unknown
-/// names are errors in groups and states, and warnings in disabled pairs, where SRDFs often keep
-/// links of other variants of a robot. Throws InputError.
+/// Marks passive joints, then adds groups, named states, disabled and enabled pairs to `robot`.
+/// SRDFs often keep links and joints of other variants of a robot: a group that names one is left
+/// out, with its states; so are a value of such a joint, and a pair of such a link; warnings say
+/// so. Throws InputError.
 void applySrdf(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot);
 
-/// Adds the groups; `all` when there are none.
+/// Adds the groups; `all` when the SRDF has none.
 void addGroups(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot);
+
+/// Adds the pairs that are disabled and enabled.
+void addPairs(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot);
 
 }  // namespace swept::detail

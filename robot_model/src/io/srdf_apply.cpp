@@ -2,25 +2,24 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "io/numbers.hpp"
 #include "io/srdf.hpp"
+#include "io/warning_kinds.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
 
 namespace {
 
-void markPassive(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot) {
-  robot.passive.assign(robot.joints.size(), false);
+void markPassive(const SrdfDocument& srdf, RobotParts& robot, WarningKinds& warnings) {
   for (const auto& [name, line] : srdf.passive) {
     const int joint = indexOf(robot.joints, name);
-    if (joint >= 0) {
-      robot.passive[joint] = true;
-    } else {
-      source.warn(line, "<passive_joint>: joint '" + name + "' does not exist");
-    }
+    if (joint >= 0)
+      robot.joints[joint].passive = true;
+    else
+      warnings.add(line, "<passive_joint>: joint '" + name + "' does not exist",
+                   "<passive_joint>: # joints do not exist");
   }
 }
 
@@ -42,10 +41,17 @@ void normaliseRotation(SrdfDocument::JointValue& value, const std::string& owner
 }
 
 void addValue(SrdfDocument::JointValue value, const InputSource& source, const RobotParts& robot,
-              NamedState& state) {
+              NamedState& state, WarningKinds& warnings) {
   const std::string owner = "state '" + state.name + "'";
   const int index = indexOf(robot.joints, value.joint);
-  if (index < 0) source.fail(value.line, owner + ": joint '" + value.joint + "' does not exist");
+  if (index < 0) {
+    // Pinocchio's states begin with a `root_joint`. The group's own joints are there, or it is not.
+    const std::string what = "joint '" + value.joint + "'";
+    warnings.add(value.line, owner + ": " + what + " does not exist; its value is left out",
+                 "<group_state>: # states have a value for " + what +
+                     ", which does not exist; the values are left out");
+    return;
+  }
   const Joint& joint = robot.joints[index];
   if (joint.firstVariable < 0) return;  // fixed or following: nothing to set
   const int count = variableCount(robot, index);
@@ -75,11 +81,18 @@ void addValue(SrdfDocument::JointValue value, const InputSource& source, const R
   }
 }
 
-void addStates(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot) {
+void addStates(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot,
+               WarningKinds& warnings) {
   for (const SrdfDocument::State& given : srdf.states) {
     if (indexOf(robot.groups, given.group) < 0) {
-      source.fail(given.line,
-                  "state '" + given.name + "': group '" + given.group + "' does not exist");
+      const bool known = indexOf(srdf.groups, given.group) >= 0;
+      const std::string what =
+          "group '" + given.group + "' " + (known ? "is left out" : "does not exist");
+      warnings.add(given.line, "state '" + given.name + "' is left out: " + what,
+                   "<group_state>: # states are left out: " + what);
+      robot.leftOut.push_back({given.group, given.name,
+                               source.name() + ":" + std::to_string(given.line) + ": " + what});
+      continue;
     }
     for (const NamedState& known : robot.namedStates) {
       if (known.name != given.name || known.group != given.group) continue;
@@ -87,36 +100,8 @@ void addStates(const SrdfDocument& srdf, const InputSource& source, RobotParts& 
                   "group '" + given.group + "' has a second state '" + given.name + "'");
     }
     NamedState state{given.name, given.group, {}};
-    for (const auto& value : given.values) addValue(value, source, robot, state);
+    for (const auto& value : given.values) addValue(value, source, robot, state, warnings);
     robot.namedStates.push_back(std::move(state));
-  }
-}
-
-/// The two links, smaller index first; equal when the entry means no pair.
-std::pair<int, int> lookUp(const SrdfDocument::Pair& pair, const InputSource& source,
-                           const RobotParts& robot) {
-  const std::string element = pair.enable ? "<enable_collisions>" : "<disable_collisions>";
-  for (const std::string& name : {pair.link1, pair.link2}) {
-    if (indexOf(robot.links, name) >= 0) continue;
-    source.warn(pair.line, element + ": link '" + name + "' does not exist");
-    return {0, 0};
-  }
-  const int a = indexOf(robot.links, pair.link1);
-  const int b = indexOf(robot.links, pair.link2);
-  if (a == b) source.warn(pair.line, element + " names link '" + pair.link1 + "' twice");
-  return std::minmax(a, b);
-}
-
-void addDisabledPairs(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot) {
-  // An enabled pair wins wherever it stands: checking more is never unsound.
-  std::set<std::pair<int, int>> taken;
-  for (const auto& pair : srdf.pairs) {
-    if (pair.enable) taken.insert(lookUp(pair, source, robot));
-  }
-  for (const auto& pair : srdf.pairs) {
-    if (pair.enable) continue;
-    const auto [a, b] = lookUp(pair, source, robot);
-    if (a != b && taken.insert({a, b}).second) robot.disabledPairs.push_back({a, b, pair.reason});
   }
 }
 
@@ -127,10 +112,13 @@ void applySrdf(const SrdfDocument& srdf, const InputSource& source, RobotParts& 
     source.warn(srdf.robot.line, "the SRDF is for robot '" + srdf.robot.name + "', the URDF is '" +
                                      robot.name + "'");
   }
-  markPassive(srdf, source, robot);
+  WarningKinds warnings(source);
+  markPassive(srdf, robot, warnings);
+  warnings.flush();
   addGroups(srdf, source, robot);
-  addStates(srdf, source, robot);
-  addDisabledPairs(srdf, source, robot);
+  addStates(srdf, source, robot, warnings);
+  warnings.flush();
+  addPairs(srdf, source, robot);
 }
 
 }  // namespace swept::detail

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "io/srdf.hpp"
+#include "kinematics/group_joints.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept::detail {
@@ -14,7 +16,9 @@ namespace {
 struct Members {
   std::set<int> joints;
   std::set<int> links;
-  int depth = 1;  ///< groups in each other, this one included
+  int depth = 1;        ///< groups in each other, this one included
+  std::string missing;  ///< the first that the URDF lacks, in words; empty: it has all
+  int missingLine = 0;
 };
 
 class GroupResolver {
@@ -26,7 +30,8 @@ class GroupResolver {
         progress_(srdf.groups.size(), Progress::New),
         members_(srdf.groups.size()) {}
 
-  Group resolve(int index);
+  /// Nothing, with a warning and an entry in `leftOut`, where the URDF lacks a member.
+  std::optional<Group> resolve(int index, std::vector<LeftOut>& leftOut);
 
  private:
   enum class Progress : std::uint8_t { New, Open, Done };
@@ -34,10 +39,9 @@ class GroupResolver {
   /// `level`: 1 for a group that is not asked for by another.
   const Members& members(int index, int line, int level);
   void requireShallow(int depth, int line, const SrdfDocument::Group& group) const;
-  int link(const std::string& name, int line, const SrdfDocument::Group& group) const;
-  void addChain(const SrdfDocument::Chain& chain, const SrdfDocument::Group& group,
-                Members& result) const;
-  std::vector<int> pathFromRoot(int link) const;
+  /// -1, and said in `result`, where there is none.
+  int link(const std::string& name, int line, Members& result) const;
+  void addChain(const SrdfDocument::Chain& chain, Members& result) const;
 
   const SrdfDocument& srdf_;
   const InputSource& source_;
@@ -46,32 +50,26 @@ class GroupResolver {
   std::vector<Members> members_;
 };
 
-int GroupResolver::link(const std::string& name, int line, const SrdfDocument::Group& group) const {
+/// The first counts.
+void setMissing(Members& result, const std::string& what, int line) {
+  if (!result.missing.empty()) return;
+  result.missing = what;
+  result.missingLine = line;
+}
+
+int GroupResolver::link(const std::string& name, int line, Members& result) const {
   const int index = indexOf(robot_.links, name);
-  if (index < 0)
-    source_.fail(line, "group '" + group.name + "': link '" + name + "' does not exist");
+  if (index < 0) setMissing(result, "link '" + name + "' does not exist", line);
   return index;
 }
 
-/// Joints from the root down to the link.
-std::vector<int> GroupResolver::pathFromRoot(int link) const {
-  std::vector<int> path;
-  for (int joint = robot_.links[link].parentJoint; joint >= 0;) {
-    path.push_back(joint);
-    const int parent = robot_.joints[joint].parentLink;
-    joint = parent >= 0 ? robot_.links[parent].parentJoint : -1;
-  }
-  std::reverse(path.begin(), path.end());
-  return path;
-}
-
 /// The joints between the two links: what their paths from the root do not share.
-void GroupResolver::addChain(const SrdfDocument::Chain& chain, const SrdfDocument::Group& group,
-                             Members& result) const {
-  const int base = link(chain.base, chain.line, group);
-  const int tip = link(chain.tip, chain.line, group);
-  const std::vector<int> toBase = pathFromRoot(base);
-  const std::vector<int> toTip = pathFromRoot(tip);
+void GroupResolver::addChain(const SrdfDocument::Chain& chain, Members& result) const {
+  const int base = link(chain.base, chain.line, result);
+  const int tip = link(chain.tip, chain.line, result);
+  if (base < 0 || tip < 0) return;
+  const std::vector<int> toBase = pathFromRoot(robot_.links, robot_.joints, base);
+  const std::vector<int> toTip = pathFromRoot(robot_.links, robot_.joints, tip);
   const auto [forkBase, forkTip] =
       std::mismatch(toBase.begin(), toBase.end(), toTip.begin(), toTip.end());
   result.links.insert({base, tip});
@@ -100,25 +98,32 @@ const Members& GroupResolver::members(int index, int line, int level) {
   requireShallow(level, line, group);
   progress_[index] = Progress::Open;
   Members result;
-  for (const auto& chain : group.chains) addChain(chain, group, result);
+  for (const auto& chain : group.chains) addChain(chain, result);
   for (const auto& [name, at] : group.joints) {
     const int joint = indexOf(robot_.joints, name);
-    if (joint < 0)
-      source_.fail(at, "group '" + group.name + "': joint '" + name + "' does not exist");
+    if (joint < 0) {
+      setMissing(result, "joint '" + name + "' does not exist", at);
+      continue;
+    }
     result.joints.insert(joint);
     result.links.insert(robot_.joints[joint].childLink);
   }
   for (const auto& [name, at] : group.links) {
-    const int member = link(name, at, group);
+    const int member = link(name, at, result);
+    if (member < 0) continue;
     result.links.insert(member);
     if (robot_.links[member].parentJoint >= 0)
       result.joints.insert(robot_.links[member].parentJoint);
   }
   for (const auto& [name, at] : group.subgroups) {
     const int subgroup = indexOf(srdf_.groups, name);
-    if (subgroup < 0)
-      source_.fail(at, "group '" + group.name + "': group '" + name + "' does not exist");
+    if (subgroup < 0) {
+      setMissing(result, "group '" + name + "' does not exist", at);
+      continue;
+    }
     const Members& inner = members(subgroup, at, level + 1);
+    if (!inner.missing.empty())
+      setMissing(result, "its group '" + name + "' is left out: " + inner.missing, at);
     result.depth = std::max(result.depth, inner.depth + 1);
     requireShallow(result.depth, at, group);
     result.joints.insert(inner.joints.begin(), inner.joints.end());
@@ -129,29 +134,45 @@ const Members& GroupResolver::members(int index, int line, int level) {
   return members_[index];
 }
 
-/// Keeps the joints that have variables and a motor, in the robot's order: parents first.
-Group makeGroup(const std::string& name, const std::set<int>& joints, int tipLink,
-                const RobotParts& robot) {
-  Group group;
-  group.name = name;
-  group.tipLink = tipLink;
-  for (const int j : joints) {
-    if (robot.joints[j].firstVariable < 0 || robot.passive[j]) continue;
-    group.joints.push_back(j);
-    for (int v = robot.joints[j].firstVariable;
-         v < static_cast<int>(robot.variables.size()) && robot.variables[v].joint == j; ++v) {
-      group.variables.push_back(v);
-    }
+/// MoveIt's planar joint with this property turns, drives and turns: other motions than those that
+/// are checked here. Empty, or what is wrong with the joint.
+std::string otherMotion(const SrdfDocument& srdf, const InputSource& source,
+                        const std::string& joint) {
+  for (const SrdfDocument::JointProperty& property : srdf.properties) {
+    if (property.joint != joint || property.name != "motion_model" || property.value == "holonomic")
+      continue;
+    return "joint '" + joint + "' has the motion_model '" + property.value + "' (" + source.name() +
+           ":" + std::to_string(property.line) + "); 'holonomic' is supported";
   }
-  return group;
+  return {};
 }
 
-Group GroupResolver::resolve(int index) {
+/// The same of the first of a group's joints that has something.
+std::string otherMotionOf(const Group& group, const SrdfDocument& srdf, const InputSource& source,
+                          const std::vector<Joint>& joints) {
+  for (const int j : group.joints)
+    if (std::string other = otherMotion(srdf, source, joints[j].name); !other.empty()) return other;
+  return {};
+}
+
+void leaveOut(const std::string& group, const std::string& why, int line, const InputSource& source,
+              std::vector<LeftOut>& leftOut) {
+  source.warn(line, "group '" + group + "' is left out: " + why);
+  leftOut.push_back({group, {}, source.name() + ":" + std::to_string(line) + ": " + why});
+}
+
+std::optional<Group> GroupResolver::resolve(int index, std::vector<LeftOut>& leftOut) {
   const SrdfDocument::Group& given = srdf_.groups[index];
-  const Members& found = members(index, given.line, 1);
+  Members found = members(index, given.line, 1);
   int tip = found.links.empty() ? -1 : *found.links.rbegin();
   if (!given.chains.empty()) tip = indexOf(robot_.links, given.chains.back().tip);
-  Group group = makeGroup(given.name, found.joints, tip, robot_);
+  Group group = makeGroup(given.name, found.joints, tip, robot_.joints, robot_.variables);
+  const std::string other = otherMotionOf(group, srdf_, source_, robot_.joints);
+  if (!other.empty()) setMissing(found, other, given.line);
+  if (!found.missing.empty()) {
+    leaveOut(given.name, found.missing, found.missingLine, source_, leftOut);
+    return std::nullopt;
+  }
   if (group.joints.empty()) {
     source_.warn(given.line, "group '" + given.name + "' has no joint that can be planned for");
   }
@@ -169,12 +190,19 @@ void addGroups(const SrdfDocument& srdf, const InputSource& source, RobotParts& 
   }
   GroupResolver resolver(srdf, source, robot);
   for (std::size_t i = 0; i < srdf.groups.size(); ++i) {
-    robot.groups.push_back(resolver.resolve(static_cast<int>(i)));
+    if (auto group = resolver.resolve(static_cast<int>(i), robot.leftOut))
+      robot.groups.push_back(std::move(*group));
   }
-  if (!robot.groups.empty()) return;
+  if (!srdf.groups.empty()) return;
   std::set<int> every;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) every.insert(static_cast<int>(j));
-  robot.groups.push_back(makeGroup("all", every, static_cast<int>(robot.links.size()) - 1, robot));
+  const int last = static_cast<int>(robot.links.size()) - 1;
+  Group all = makeGroup("all", every, last, robot.joints, robot.variables);
+  const std::string other = otherMotionOf(all, srdf, source, robot.joints);
+  if (other.empty())
+    robot.groups.push_back(std::move(all));
+  else
+    leaveOut("all", other, srdf.robot.line, source, robot.leftOut);
 }
 
 }  // namespace swept::detail

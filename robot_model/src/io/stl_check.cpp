@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "io/mesh_claim.hpp"
 #include "io/point_file.hpp"
@@ -61,7 +62,8 @@ MeshClaim readBinary(std::string_view bytes, const InputSource& source) {
   return claim;
 }
 
-/// The lines of a text: solids of facets of three corners, each line as it has to be.
+/// The lines of a text: solids of facets of three corners, each line as it has to be. Normals may
+/// be anything, as in `-nan(ind)`: the corners say which way a facet looks.
 class TextReader {
  public:
   TextReader(std::string_view bytes, const InputSource& source) : lines_(source, bytes) {}
@@ -104,8 +106,9 @@ void TextReader::readNext(std::string_view wanted, std::size_t count) {
 }
 
 void TextReader::readFacet() {
-  require("facet normal", 5);
+  if (!startsWith("facet normal")) require("facet normal", 5);
   readNext("outer loop", 2);
+  *claim_.bare += "facet normal 0 0 0\nouter loop\n";
   for (int corner = 0; corner < 3; ++corner) {
     readNext("vertex", 4);
     Eigen::Vector3d point;
@@ -116,13 +119,17 @@ void TextReader::readFacet() {
       point[axis] = *value;
     }
     claim_.box.extend(point);
+    claim_.bare->append("vertex ").append(words_[1]).append(" ");
+    claim_.bare->append(words_[2]).append(" ").append(words_[3]).append("\n");
   }
+  *claim_.bare += "endloop\nendfacet\n";
   readNext("endloop", 1);
   readNext("endfacet", 1);
   ++claim_.triangles;
 }
 
 MeshClaim TextReader::read() {
+  claim_.bare = "solid\n";
   while (next()) {
     if (!startsWith("solid")) require("solid", 1);
     for (;;) {
@@ -131,7 +138,8 @@ MeshClaim TextReader::read() {
       readFacet();
     }
   }
-  return claim_;
+  *claim_.bare += "endsolid\n";
+  return std::move(claim_);
 }
 
 }  // namespace

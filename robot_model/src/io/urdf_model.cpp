@@ -89,6 +89,7 @@ RobotParts Assembler::assemble(const SrdfDocument& srdf, const InputSource& srdf
 }
 
 void Assembler::addVirtualJoint(const SrdfDocument& srdf, const InputSource& srdfSource) {
+  parts_.modelFrame = model_->getRoot()->name;
   if (!srdf.virtualJoint) return;
   const SrdfDocument::VirtualJoint& given = *srdf.virtualJoint;
   const std::string owner = "virtual joint '" + given.name + "'";
@@ -100,6 +101,8 @@ void Assembler::addVirtualJoint(const SrdfDocument& srdf, const InputSource& srd
   if (model_->getJoint(given.name)) {
     srdfSource.fail(given.line, owner + ": the URDF has a joint of that name");
   }
+  // The root link is no name of a frame that it may move in.
+  parts_.modelFrame = given.parentFrame.empty() ? "world" : given.parentFrame;
   Joint joint;
   joint.name = given.name;
   joint.type = given.type;

@@ -9,6 +9,8 @@
 #include <new>
 #include <thread>
 
+#include "swept/robot_model/foreign_text.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -57,7 +59,8 @@ urdf::ModelInterfaceSharedPtr parseWithUrdfdom(const std::string& text, const In
   } catch (const std::exception& error) {
     reason = error.what();
   }
-  source.fail(1, "urdfdom refuses the robot: " + (reason.empty() ? "no reason given" : reason));
+  source.fail(1, "urdfdom refuses the robot: " +
+                     (reason.empty() ? "no reason given" : foreignText(reason)));
 }
 
 }  // namespace swept::detail

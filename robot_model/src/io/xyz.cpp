@@ -43,7 +43,7 @@ Eigen::Vector3d readLine(const LineReader& lines) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> readXyz(const PointFile& file) {
+SensedPoints readXyz(const PointFile& file) {
   PointList points;
   LineReader lines(file);
   while (lines.nextFilled()) {
@@ -55,7 +55,7 @@ std::vector<Eigen::Vector3d> readXyz(const PointFile& file) {
     }
     points.add(readLine(lines));
   }
-  return points.finish(file.source());
+  return {points.finish(file.source()), Eigen::Vector3d::Zero()};
 }
 
 }  // namespace swept::detail

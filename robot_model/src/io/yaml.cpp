@@ -9,6 +9,7 @@
 
 #include "io/numbers.hpp"
 #include "io/yaml_documents.hpp"
+#include "swept/robot_model/foreign_text.hpp"
 
 namespace swept::detail {
 
@@ -46,7 +47,7 @@ YamlPlace YamlPlace::parse(const std::string& text, const InputSource& source) {
   } catch (const YAML::DeepRecursion& error) {
     source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
   } catch (const YAML::Exception& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: " + error.msg);
+    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
   }
 }
 
@@ -126,6 +127,13 @@ int YamlPlace::integer() const {
     fail("is '" + text() + "'; it must be a whole number");
   }
   return static_cast<int>(value);
+}
+
+bool YamlPlace::boolean() const {
+  const std::string given = text();
+  if (given == "true" || given == "True" || given == "1") return true;
+  if (given == "false" || given == "False" || given == "0") return false;
+  fail("is '" + given + "'; allowed are true and false");
 }
 
 std::vector<double> YamlPlace::numbers(Keys keys) const {

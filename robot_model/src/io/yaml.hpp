@@ -49,6 +49,7 @@ class YamlPlace {
   /// `1:30`), and `010`, which is 8 to some readers, is refused.
   double number() const;
   int integer() const;
+  bool boolean() const;  ///< `true` or `false`, as Python prints them (`True`) or as 1 or 0
   /// `count` numbers from a list or from the `keys` of a mapping.
   std::vector<double> numbers(Keys keys) const;
   Eigen::Vector3d vector() const;

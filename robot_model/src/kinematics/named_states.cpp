@@ -15,13 +15,23 @@ std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
     return inDefaultEnvironment([&, name] { return namedConfiguration(robot, group, name); });
   }
   const NamedState* state = robot.findNamedState(name, group.name);
+  if (state == nullptr && name == kDefaultState) {
+    const Eigen::VectorXd whole = robot.defaultState();
+    std::vector<double> q;
+    for (const int variable : group.variables) q.push_back(whole[variable]);
+    return q;
+  }
   if (state == nullptr) {
+    for (const LeftOut& out : robot.leftOut())
+      if (out.group == group.name && out.state == name)
+        throw std::invalid_argument("named state `" + out.state + "` of group `" + group.name +
+                                    "` is left out: " + out.reason);
     std::string known;
     for (const NamedState& other : robot.namedStates())
-      if (other.group == group.name) known += (known.empty() ? "" : ", ") + other.name;
+      if (other.group == group.name) known += other.name + ", ";
     throw std::invalid_argument("group `" + group.name + "` has no named state `" +
-                                std::string(name) + "`; it has " +
-                                (known.empty() ? "none" : known));
+                                std::string(name) + "`; it has " + known +
+                                std::string(kDefaultState));
   }
   std::vector<double> q;
   for (const int variable : group.variables) {

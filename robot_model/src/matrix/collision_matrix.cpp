@@ -2,11 +2,15 @@
 #include "swept/robot_model/collision_matrix.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "io/numbers.hpp"
 #include "kinematics/for_each_index.hpp"
@@ -28,13 +32,26 @@ using detail::NeverProof;
 /// pairs are far apart.
 constexpr std::int64_t kFirstProof = 16;
 
+/// Of the budget: a fraction of a second.
+constexpr std::int64_t kLongestSlice = 500'000;
+
+/// s. Longer is for ever: a clock cannot tell.
+constexpr double kLongestTime = 1e8;
+
+/// Share of the budget for all pairs, before the open ones have the whole, where time is limited.
+constexpr std::int64_t kFirstRound = 64;
+
 class Examiner {
  public:
   Examiner(const Robot& robot, const CollisionMatrixOptions& options)
       : robot_(robot),
         options_(options),
         model_(detail::wholeKinematics(robot)),
-        start_(robot.defaultState()) {
+        start_(robot.defaultState()),
+        end_(Clock::time_point::max()) {
+    if (options.seconds < kLongestTime)
+      end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                std::chrono::duration<double>(options.seconds));
     for (std::size_t i = 0; i < robot.links().size(); ++i)
       pieces_.push_back(detail::piecesOf(robot, model_, static_cast<int>(i)));
     for (std::size_t j = 0; j < robot.joints().size(); ++j) {
@@ -59,9 +76,13 @@ class Examiner {
     return result;
   }
 
-  void examine(LinkPairReport& report) const;
+  /// Nothing of the report counts but the links. `budget`: of the options, or less.
+  void examine(LinkPairReport& report, std::int64_t budget) const;
+  bool isOver() const { return Clock::now() >= end_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   Eigen::VectorXd configuration(const LinkChain& chain, const ContactSearch::Values& values) const {
     Eigen::VectorXd q = start_;
     for (std::size_t k = 0; k < values.size(); ++k) q[chain.variables()[k]] = values[k];
@@ -70,7 +91,8 @@ class Examiner {
   bool canSample(const LinkPairReport& report) const;
   void classifyContact(ContactSearch& search, std::uint64_t seed, LinkPairReport& report) const;
   void prove(const LinkChain& chain, LinkChain::Place& place, ContactSearch& search,
-             std::uint64_t seed, LinkPairReport& report) const;
+             std::uint64_t seed, std::int64_t budget, LinkPairReport& report) const;
+  NeverProof::State goOn(NeverProof& proof, std::int64_t from, std::int64_t budget) const;
   void contact(const LinkChain& chain, const ContactSearch::Values& values,
                LinkPairReport& report) const {
     report.status = PairStatus::MayCollide;
@@ -83,9 +105,13 @@ class Examiner {
   const Eigen::VectorXd start_;
   std::vector<LinkPieces> pieces_;
   std::map<std::pair<int, int>, int> adjacent_;
+  Clock::time_point end_;
 };
 
-void Examiner::examine(LinkPairReport& report) const {
+void Examiner::examine(LinkPairReport& report, std::int64_t budget) const {
+  const std::pair links(report.linkA, report.linkB);
+  report = LinkPairReport();
+  std::tie(report.linkA, report.linkB) = links;
   const LinkChain chain(robot_, model_, model_.bodyOfLink[report.linkA],
                         model_.bodyOfLink[report.linkB]);
   report.variables = chain.variables();
@@ -108,8 +134,10 @@ void Examiner::examine(LinkPairReport& report) const {
     report.witness = start_;
     report.nearest = search.least();
     classifyContact(search, seed, report);
+  } else if (isOver()) {
+    report.outOfTime = true;
   } else {
-    prove(chain, place, search, seed, report);
+    prove(chain, place, search, seed, budget, report);
     report.nearest = search.least();
   }
 }
@@ -130,7 +158,7 @@ void Examiner::classifyContact(ContactSearch& search, std::uint64_t seed,
 }
 
 void Examiner::prove(const LinkChain& chain, LinkChain::Place& place, ContactSearch& search,
-                     std::uint64_t seed, LinkPairReport& report) const {
+                     std::uint64_t seed, std::int64_t budget, LinkPairReport& report) const {
   if (const auto found = search.findContact(options_.samples, seed)) {
     contact(chain, *found, report);
     return;
@@ -142,22 +170,55 @@ void Examiner::prove(const LinkChain& chain, LinkChain::Place& place, ContactSea
     return;
   }
   NeverProof proof(a, b, chain, options_.margin, place);
-  NeverProof::State state = proof.run(options_.budget / kFirstProof);
+  NeverProof::State state = proof.run(budget / kFirstProof);
   if (state != NeverProof::State::Proven) {
     if (const auto found = search.descend(proof.nearest())) {
       contact(chain, *found, report);
     } else if (state == NeverProof::State::Open) {
-      state = proof.run(options_.budget);
+      state = goOn(proof, budget / kFirstProof, budget);
     }
   }
   report.proven = proof.share();
   report.effort = proof.effort();
+  report.outOfTime = state == NeverProof::State::Open && report.effort < budget;
   if (state == NeverProof::State::Proven) {
     report.status = PairStatus::Never;
     report.proven = 1.0;
   } else if (!report.witness) {
     if (const auto found = search.descend(proof.nearest())) contact(chain, *found, report);
   }
+  report.outOfTime = report.outOfTime && !report.witness;
+}
+
+/// In slices, of which none is longer than what is behind, so that the end of the time is seen.
+NeverProof::State Examiner::goOn(NeverProof& proof, std::int64_t from, std::int64_t budget) const {
+  NeverProof::State state = NeverProof::State::Open;
+  for (std::int64_t upTo = from; upTo < budget && state == NeverProof::State::Open && !isOver();) {
+    upTo = std::min(budget, upTo + std::clamp<std::int64_t>(upTo, 1, kLongestSlice));
+    state = proof.run(upTo);
+  }
+  return state;
+}
+
+/// Reports are kept up to date one by one.
+class Progress {
+ public:
+  Progress(const CollisionMatrixOptions& options, std::size_t all) : options_(options), all_(all) {}
+  void done() {
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex_);
+    options_.progress(++done_, all_);
+  }
+
+ private:
+  const CollisionMatrixOptions& options_;
+  const std::size_t all_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+};
+
+bool isOpen(const LinkPairReport& report, std::int64_t budget) {
+  return report.status == PairStatus::Unknown && report.effort >= budget;
 }
 
 void requireUsable(const CollisionMatrixOptions& options) {
@@ -170,6 +231,9 @@ void requireUsable(const CollisionMatrixOptions& options) {
     throw std::invalid_argument("collisionMatrix: " + what + " " + std::to_string(count) +
                                 " must not be negative");
   };
+  if (!(options.seconds > 0.0))
+    throw std::invalid_argument("collisionMatrix: seconds " +
+                                detail::formatNumber(options.seconds) + " must be above 0");
   requireCount("budget", options.budget);
   requireCount("samples", options.samples);
 }
@@ -202,8 +266,25 @@ std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
   requireUsable(options);
   const Examiner examiner(robot, options);
   std::vector<LinkPairReport> reports = examiner.pairs();
-  detail::forEachIndex(reports.size(), options.threads,
-                       [&](std::size_t i) { examiner.examine(reports[i]); });
+  Progress progress(options, reports.size());
+  const bool limited = options.seconds < kLongestTime;
+  const std::int64_t first = limited ? options.budget / kFirstRound : options.budget;
+  std::vector<std::size_t> open;
+  detail::forEachIndex(reports.size(), options.threads, [&](std::size_t i) {
+    examiner.examine(reports[i], first);
+    if (!limited || reports[i].outOfTime || !isOpen(reports[i], first)) progress.done();
+  });
+  if (!limited) return reports;
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    if (!reports[i].outOfTime && isOpen(reports[i], first)) open.push_back(i);
+  detail::forEachIndex(open.size(), options.threads, [&](std::size_t i) {
+    LinkPairReport& report = reports[open[i]];
+    if (examiner.isOver())
+      report.outOfTime = true;
+    else
+      examiner.examine(report, options.budget);
+    progress.done();
+  });
   return reports;
 }
 

@@ -98,8 +98,12 @@ Mesh Mesh::read(const std::filesystem::path& file, const Vector3d& scale) {
     largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
     vertex = vertex.cwiseProduct(scale);
   }
-  // Two steps of single precision: what may come of one corner in a file.
-  return Mesh(vertices, faces, 0x1p-22 * largest * scale.cwiseAbs().minCoeff());
+  // Two steps of single precision: what may come of one corner in a file; or 1e-5 of its size.
+  Vector3d lower = vertices.front(), upper = lower;
+  for (const Vector3d& vertex : vertices)
+    lower = lower.cwiseMin(vertex), upper = upper.cwiseMax(vertex);
+  const double rounding = 0x1p-22 * largest * scale.cwiseAbs().minCoeff();
+  return Mesh(vertices, faces, std::max(rounding, 1e-5 * (upper - lower).maxCoeff()));
 }
 
 int Mesh::split(int first, int last) {

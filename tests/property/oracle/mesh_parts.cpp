@@ -31,43 +31,84 @@ Face inOrder(Face face) {
   return face;
 }
 
-/// Calls visit(face, from, to) for each edge of each face that has a length.
+/// Edges that an odd number of faces has, and what they count as.
+struct Cracks {
+  std::vector<int> corner;  ///< per vertex the one that it counts as
+  std::vector<int> apart;   ///< those that corners of such edges count as
+  std::map<Edge, int> users;
+};
+
+/// Calls visit(from, to) for each piece that has a length of an edge. One with a crack is divided
+/// where corners of others are near it.
 template <typename Visitor>
-void forEachEdge(const std::vector<Face>& faces, const std::vector<int>& corner,
-                 const Visitor& visit) {
-  for (size_t f = 0; f < faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int from = corner[faces[f][k]], to = corner[faces[f][(k + 1) % 3]];
-      if (from != to) visit(f, from, to);
+void forEachPiece(const std::vector<Vector3d>& vertices, const Cracks& cracks, double crack,
+                  int from, int to, const Visitor& visit) {
+  const int first = cracks.corner[from], last = cracks.corner[to];
+  if (first == last) return;
+  std::map<double, int> way{{0.0, first}, {1.0, last}};
+  const auto known = cracks.users.find(std::minmax(from, to));
+  if (crack > 0 && known != cracks.users.end() && known->second % 2 == 1) {
+    const Vector3d along = vertices[last] - vertices[first];
+    for (const int at : cracks.apart) {
+      const double share = (vertices[at] - vertices[first]).dot(along) / along.squaredNorm();
+      const Vector3d foot = vertices[first] + share * along;
+      if (share > 0 && share < 1 && (vertices[at] - foot).norm() <= 3 * crack)
+        way.emplace(share, at);
     }
+  }
+  int before = -1;
+  for (const auto& [share, at] : way) {
+    if (before >= 0 && before != at) visit(before, at);
+    before = at;
   }
 }
 
-/// Per vertex the one that it counts as.
-std::vector<int> acrossCracks(const std::vector<Vector3d>& vertices, const std::vector<Face>& faces,
-                              const std::vector<char>& repeats, double crack) {
-  std::vector<int> corner(vertices.size());
-  std::iota(corner.begin(), corner.end(), 0);
-  std::map<Edge, int> users;
-  forEachEdge(faces, corner, [&](size_t f, int from, int to) {
-    if (!repeats[f]) ++users[std::minmax(from, to)];
-  });
+Cracks cracksOf(const std::vector<Vector3d>& vertices, const std::vector<Face>& faces,
+                const std::vector<char>& repeats, double crack) {
+  Cracks found;
+  found.corner.resize(vertices.size());
+  std::iota(found.corner.begin(), found.corner.end(), 0);
+  for (size_t f = 0; f < faces.size(); ++f)
+    for (int k = 0; k < 3 && !repeats[f]; ++k)
+      ++found.users[std::minmax(faces[f][k], faces[f][(k + 1) % 3])];
   std::vector<int> ends;
-  for (const auto& [edge, count] : users)
+  for (const auto& [edge, count] : found.users)
     if (count % 2 == 1) ends.insert(ends.end(), {edge.first, edge.second});
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  std::vector<int> apart;
   for (const int end : ends) {
-    const auto near = std::find_if(apart.begin(), apart.end(), [&](int other) {
+    const auto near = std::find_if(found.apart.begin(), found.apart.end(), [&](int other) {
       return (vertices[other] - vertices[end]).cwiseAbs().maxCoeff() <= crack;
     });
-    if (near == apart.end())
-      apart.push_back(end);
+    if (near == found.apart.end())
+      found.apart.push_back(end);
     else
-      corner[end] = *near;
+      found.corner[end] = *near;
   }
-  return corner;
+  return found;
+}
+
+struct Use {
+  int face;
+  int direction;
+};
+using Uses = std::map<Edge, std::vector<Use>>;
+
+/// Faces that alone have a piece of an edge, and those that then do: a sheet on a solid is none of
+/// its sides.
+std::vector<char> looseFaces(const Uses& pieces, size_t faces) {
+  std::vector<char> loose(faces, 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [ends, users] : pieces) {
+      const auto left = std::count_if(users.begin(), users.end(),
+                                      [&](const Use& use) { return !loose[use.face]; });
+      if (left != 1) continue;
+      for (const Use& use : users) loose[use.face] = 1;
+      changed = true;
+    }
+  }
+  return loose;
 }
 
 }  // namespace
@@ -84,7 +125,15 @@ MeshParts partsOf(const std::vector<Vector3d>& vertices, const std::vector<Face>
     faces.push_back(f);
     repeats.push_back(++times[inOrder(f)] > 1);
   }
-  const std::vector<int> corner = acrossCracks(vertices, faces, repeats, crack);
+  const Cracks cracks = cracksOf(vertices, faces, repeats, crack);
+  Uses edges;
+  for (size_t f = 0; f < faces.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+      forEachPiece(
+          vertices, cracks, crack, faces[f][k], faces[f][(k + 1) % 3], [&](int from, int to) {
+            edges[std::minmax(from, to)].push_back({static_cast<int>(f), from < to ? 1 : -1});
+          });
+  const std::vector<char> loose = looseFaces(edges, faces.size());
 
   std::vector<int> group(faces.size());
   std::iota(group.begin(), group.end(), 0);
@@ -92,16 +141,15 @@ MeshParts partsOf(const std::vector<Vector3d>& vertices, const std::vector<Face>
     while (group[i] != i) i = group[i] = group[group[i]];
     return i;
   };
-  struct Use {
-    int face;
-    int direction;
-  };
-  std::map<Edge, std::vector<Use>> edges;
-  forEachEdge(faces, corner, [&](size_t f, int from, int to) {
-    auto& users = edges[std::minmax(from, to)];
-    users.push_back({static_cast<int>(f), from < to ? 1 : -1});
-    group[root(users.back().face)] = root(users.front().face);
-  });
+  for (const auto& [ends, users] : edges) {
+    // Of loose faces and of others, each by themselves.
+    int first[2] = {-1, -1};
+    for (const Use& use : users) {
+      int& at = first[loose[use.face] ? 1 : 0];
+      if (at < 0) at = use.face;
+      group[root(use.face)] = root(at);
+    }
+  }
 
   std::map<int, int> number;
   std::vector<int> part;
@@ -111,11 +159,15 @@ MeshParts partsOf(const std::vector<Vector3d>& vertices, const std::vector<Face>
   const size_t parts = number.size();
   std::vector<char> evenWithout(parts, 1), evenWith(parts, 1), survives(parts, 0);
   for (const auto& [edge, users] : edges) {
-    const int at = part[users.front().face];
-    const auto distinct =
-        std::count_if(users.begin(), users.end(), [&](const Use& u) { return !repeats[u.face]; });
-    if (distinct % 2 == 1) evenWithout[at] = 0;
-    if (users.size() % 2 == 1) evenWith[at] = 0;
+    std::map<int, std::pair<int, int>> counts;  // per part: with repetitions, and without
+    for (const Use& use : users) {
+      ++counts[part[use.face]].first;
+      if (!repeats[use.face]) ++counts[part[use.face]].second;
+    }
+    for (const auto& [at, count] : counts) {
+      if (count.first % 2 == 1) evenWith[at] = 0;
+      if (count.second % 2 == 1) evenWithout[at] = 0;
+    }
   }
   for (size_t f = 0; f < faces.size(); ++f)
     if (times[inOrder(faces[f])] % 2 == 1) survives[part[f]] = 1;
@@ -128,9 +180,10 @@ MeshParts partsOf(const std::vector<Vector3d>& vertices, const std::vector<Face>
   for (size_t k = 0; k < parts; ++k)
     out.closed[k] = evenWithout[k] || keepsRepeats(static_cast<int>(k));
   for (const auto& [edge, users] : edges) {
-    int sum = 0;
-    for (const Use& use : users) sum += stays(use.face) ? use.direction : 0;
-    if (sum != 0) out.oriented[part[users.front().face]] = 0;
+    std::map<int, int> sums;
+    for (const Use& use : users) sums[part[use.face]] += stays(use.face) ? use.direction : 0;
+    for (const auto& [at, sum] : sums)
+      if (sum != 0) out.oriented[at] = 0;
   }
   for (size_t f = 0; f < faces.size(); ++f) {
     if (!stays(static_cast<int>(f))) continue;

@@ -21,7 +21,9 @@ struct MeshParts {
 };
 
 /// Corners of open edges that are within `crack` (m) of each other along each axis count as one
-/// when edges are compared; they stay where they are.
+/// when edges are compared, and one that is as near to an open edge divides it; they stay where
+/// they are. Faces with an edge of their own, and those that have one without them, are parts of
+/// their own.
 MeshParts partsOf(const std::vector<Vector3d>& vertices, const std::vector<Face>& faces,
                   double crack);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct MeshReport {
   int degenerateDropped = 0;  ///< triangles with two equal corners, a line that others have
   int duplicatesDropped = 0;  ///< triangles with the corners of an earlier one, in any order
   int cracksFilled = 0;       ///< triangles that were added to close cracks
+  double largestCrack = 0.0;  ///< m: no point of those is farther from a triangle given
   int closedComponents = 0;   ///< every edge shared by an even number of triangles
   int openComponents = 0;     ///< the others
 };
@@ -50,19 +52,29 @@ class TriangleMesh {
  public:
   using Triangle = Eigen::Vector3i;  ///< indices into vertices()
 
-  /// Equal positions become one vertex; others only with a `crackWidth` (m): programs that write
-  /// meshes round the corners of each triangle by themselves, so that the surface of a solid may
-  /// come out of a file with cracks, and would not be closed. Open edges whose ends lie within
-  /// `crackWidth` of each other along each axis are taken for one edge, and the cracks between them
-  /// filled with triangles. No vertex moves; the shape grows by what is enclosed then, and
-  /// otherwise by no more than 2 `crackWidth` from an edge of it. Open edges stay as they are where
-  /// one that hangs together with them has no partner: around a real hole.
+  /// The `crackWidth` of build() for these vertices (m): 1e-5 of the longest side of their box, as
+  /// six digits leave of the corners of a solid, and no less than two steps of single precision
+  /// where coordinates are largest. Throws std::invalid_argument for a vertex that is not finite.
+  static double usualCrackWidth(std::span<const Eigen::Vector3d> vertices);
+
+  /// Equal positions become one vertex. Others stay apart, but what only they leave open is closed.
+  /// Programs that write meshes round the corners of each triangle by themselves, and divide an
+  /// edge on one side of it only (T-junctions): the surface of a solid has cracks then, or edges
+  /// that do not pair where there is no gap.
+  ///
+  /// Corners of open edges that lie within `crackWidth` (m; usualCrackWidth() without one, 0: none)
+  /// of each other along each axis are taken for one corner, and one that lies as near to an open
+  /// edge is taken to divide it. Where the edges pair then, thin triangles between them fill what
+  /// is open. No vertex moves. The shape grows by what is enclosed then, and otherwise by no more
+  /// than MeshReport::largestCrack, which is at most 5 `crackWidth`. Components stay as they are
+  /// where an edge has no partner: around a hole, and those that would close together with them.
   ///
   /// Throws std::invalid_argument for an index out of range, a non-finite vertex, when no triangle
   /// with three distinct corners is left, and for a `crackWidth` that is negative or not finite.
   static TriangleMesh build(std::span<const Eigen::Vector3d> vertices,
                             std::span<const Triangle> triangles,
-                            MeshInterior interior = MeshInterior::Solid, double crackWidth = 0.0);
+                            MeshInterior interior = MeshInterior::Solid,
+                            std::optional<double> crackWidth = std::nullopt);
 
   /// The same triangles with their vertices elsewhere: the next frame of a surface that deforms.
   /// `vertices` (m): as many as build() got, in that order. What is connected stays so and nothing
@@ -83,6 +95,10 @@ class TriangleMesh {
   MeshInterior interior() const { return data_->interior; }
   /// True when every component is closed.
   bool isClosed() const { return data_->report.openComponents == 0; }
+  /// m. How wide the cracks are that build() would have to fill to leave no component open: a
+  /// `crackWidth` that does, no more than twice one that does not. 0 when isClosed(); infinity when
+  /// a tenth of the longest side of the mesh would not do. Takes a few times as long as build().
+  double opening() const;
 
   /// Whether the solid contains `point` (m, mesh frame). Always false under `Surface` and for open
   /// components, and for a non-finite point. Proven unless `point` is within rounding (about 1e-14

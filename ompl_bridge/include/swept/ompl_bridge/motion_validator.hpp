@@ -28,6 +28,11 @@ class CertifiedMotionValidator : public ompl::base::MotionValidator {
   CertifiedMotionValidator(const ompl::base::SpaceInformationPtr& si,
                            std::shared_ptr<const Checker> checker);
   ~CertifiedMotionValidator() override;
+  /// Asks this checker from now on; see swept::setChecker. No other call may be in flight. Throws
+  /// as the constructor, and goes on with the checker that it had then.
+  void setChecker(std::shared_ptr<const Checker> checker);
+  /// Who is asked; never null.
+  const std::shared_ptr<const Checker>& checker() const { return checker_; }
   ///@{
   /// See the class. Undecided is not valid. Never throws on states of the space.
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override;

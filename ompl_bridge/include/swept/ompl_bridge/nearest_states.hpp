@@ -16,6 +16,11 @@
 #include <vector>
 
 #include "swept/core/floating_point_environment.hpp"
+
+namespace ompl::base {
+class Planner;
+}
+
 namespace swept {
 
 namespace detail {
@@ -61,10 +66,9 @@ class JointTree {
 /// Nearest neighbours for OMPL's planners, several times as fast as OMPL's own for groups whose
 /// joints all have limits, up to large trees:
 ///
-///     planner->setNearestNeighbors<swept::NearestStates>();
+///     swept::useNearestStates(*planner);
 ///
-/// before the planner's tree has grown (OMPL's TRRT, RRTsharp and RRTXstatic want their problem
-/// definition before that). Answers are exact: those of the planner's distance
+/// before the planner's tree has grown. Answers are exact: those of the planner's distance
 /// function, sorted; of states that are equally near any. For states of other spaces, and for what
 /// has no `state` (the vertices of PRM), it is OMPL's NearestNeighborsGNAT. Threads may ask at the
 /// same time while none adds or removes.
@@ -267,5 +271,19 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   std::vector<std::uint32_t> unused_;                  ///< of the numbers
   std::unique_ptr<ompl::NearestNeighbors<T>> others_;  ///< instead, for other states
 };
+
+/// Gives a planner these nearest neighbours where OMPL lets it have others than its own and they
+/// help. Its tree is cleared. False, and nothing has happened, for all others.
+///
+/// Done: RRT, RRTConnect, RRTstar, InformedRRTstar, SORRTstar, LazyRRT, LBTRRT, LazyLBTRRT, BiTRRT,
+/// pRRT, and what derives from these. RRTXstatic and RRTsharp, too, once they have their problem
+/// definition, which OMPL wants first.
+///
+/// Not done: BITstar, ABITstar and AITstar, whose setNearestNeighbors is in none of OMPL's
+/// libraries, so that a program that calls it does not link (seen with 1.5.2). PRM, LazyPRM, SPARS
+/// and SPARStwo, whose vertices have no `state`; and of these, those that were given others before
+/// setup() never tell them the metric, so that a query throws std::bad_function_call. TRRT, which
+/// asks for the size of a tree that it does not have yet. SST, and planners that take no others.
+bool useNearestStates(ompl::base::Planner& planner);
 
 }  // namespace swept

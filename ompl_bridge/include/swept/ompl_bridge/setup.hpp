@@ -31,6 +31,19 @@ struct SetupOptions {
 ompl::geometric::SimpleSetupPtr makeSimpleSetup(std::shared_ptr<const Checker> checker,
                                                 const SetupOptions& options = {});
 
+/// The world has changed: ValidityChecker and CertifiedMotionValidator of the space information ask
+/// `checker` from now on, a version (withReplaced, withBody ...) of the one before or any other of
+/// the same robot and group. Space, space information, planners and their roadmaps stay as they
+/// are. No planner may run meanwhile, and no other thread ask.
+///
+/// What a planner has found so far was valid in the world before: certifyEdges() says which edges
+/// of a roadmap still are, LazyPRM::clearValidity() lets a lazy roadmap ask again, and other
+/// planners are to be cleared. Objectives and goals keep the checker that they were made with.
+///
+/// Throws std::invalid_argument when the space information has neither of the two, and as their
+/// constructors; both go on with the checker before then.
+void setChecker(const ompl::base::SpaceInformation& si, std::shared_ptr<const Checker> checker);
+
 /// Start and goal of a setup, in place of those that it had, as configurations of the checker's
 /// group. A value at most tolerance::kLimit beyond a bound of the space is taken to that, with a
 /// warning to OMPL's console: the path begins and ends at the bound. Throws std::invalid_argument

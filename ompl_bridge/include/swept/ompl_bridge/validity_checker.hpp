@@ -32,6 +32,11 @@ class ValidityChecker : public ompl::base::StateValidityChecker {
   ValidityChecker(const ompl::base::SpaceInformationPtr& si,
                   std::shared_ptr<const Checker> checker);
   ~ValidityChecker() override;
+  /// Asks this checker from now on; see swept::setChecker. No other call may be in flight. Throws
+  /// as the constructor, and goes on with the checker that it had then.
+  void setChecker(std::shared_ptr<const Checker> checker);
+  /// Who is asked; never null.
+  const std::shared_ptr<const Checker>& checker() const { return checker_; }
   using ompl::base::StateValidityChecker::clearance;
   using ompl::base::StateValidityChecker::isValid;
   /// See the class. Undecided is not valid.

@@ -3,8 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +13,7 @@
 #include "swept/core/tolerances.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/attached_body.hpp"
+#include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/collision_rules.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
@@ -42,96 +41,29 @@ struct CheckerOptions {
   int maxIntervals = tolerance::kMaxIntervals;
   /// Cap on the pairs of shapes that are checked, some 300 bytes each, and on the pairs of bodies.
   std::size_t maxPairs = 10'000'000;
-  /// On top of what the SRDF says, and of `margin`.
+  /// Above what the SRDF says, and `margin`. Of a pair of links, of what is said explicitly the
+  /// strongest counts: these rules, layer by layer; then the SRDF's `<enable_collisions>`; then its
+  /// `<disable_collisions>` and `<disable_default_collisions>`; then the defaults: a joint connects
+  /// the two. Of an attached body: these rules, then its touch links and the link that has it.
   CollisionRules rules = {};
   /// What links carry.
   std::vector<AttachedBody> attached = {};
-};
-
-/// Two points of two bodies at most the margin apart.
-struct Witness {
-  double t = 0.0;     ///< in [0, 1]; 0 for a state
-  std::string bodyA;  ///< a robot link or an attached body
-  std::string bodyB;  ///< a world body or another link
-  /// Both are links or attached bodies. A world body may have a link's name: this tells which it is
-  /// of those that bodyB names.
-  bool selfPair = false;
-  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyA
-  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyB
-  double distance = 0.0;                             ///< m, |pointB - pointA|; 0 in contact
-};
-
-/// What one state looks like, completely.
-struct StateReport {
-  Verdict verdict = Verdict::Undecided;  ///< of checkState
-  bool finite = false;  ///< every value of the state is a number; otherwise nothing else is known
-  /// Variables (names) outside their limits, see withinLimits(). Says nothing about geometry; a
-  /// planner refuses both.
-  std::vector<std::string> outsideLimits;
-  std::vector<Witness> contacts;  ///< one per violating pair, in the checker's pair order
-  /// m. Proven lower bound of the least distance over all checked pairs, with all of their pieces;
-  /// margins and paddings are not taken off. Infinity: no pairs.
-  double clearance = 0.0;
   ///@{
-  /// The pair that gave `clearance`; empty without pairs.
-  std::string nearestA, nearestB;
-  bool nearestSelfPair = false;  ///< as Witness::selfPair
+  /// m. In the place of `margin` for pairs of two links or attached bodies, and for pairs with the
+  /// world, moving obstacles among it.
+  std::optional<double> selfMargin = {}, worldMargin = {};
   ///@}
-};
 
-/// What a query took.
-struct Effort {
-  int intervals = 0;           ///< sub-intervals (or states) at which exact geometry was asked
-  std::int64_t distances = 0;  ///< exact pair queries
-  std::int64_t culled = 0;     ///< pairs settled by bounding volumes alone
-  std::int64_t lanes = 0;      ///< sub-intervals examined in single precision
-};
-
-/// What is known about a whole motion q(t), t in [0, 1].
-struct MotionCertificate {
-  /// of the whole motion
-  Verdict verdict = Verdict::Undecided;
-  /// Largest proven t: [0, freeUntil] is Free. 1 when the verdict is Free; 0 when not even the
-  /// start is (or nothing about the prefix was asked).
-  double freeUntil = 0.0;
-  std::optional<Witness> witness;  ///< engaged exactly when the verdict is Collision
-  /// First interval that could not be proven, when the verdict is Undecided.
-  double undecidedAt = 0.0;
-  Effort effort;  ///< spent, whatever the verdict
-};
-
-/// How much of a motion's certificate is wanted.
-enum class MotionQuery : std::uint8_t {
-  VerdictOnly,   ///< stop at the first contact found, wherever it is; freeUntil is 0 unless Free
-  FirstContact,  ///< freeUntil is the supremum of the provable prefix, to within the tolerance
-};
-
-/// Least distance of the checked pairs over a motion, as an interval; infinite: there are none.
-struct MotionClearance {
-  double lower = 0.0;  ///< m, proven for every t
-  double upper = 0.0;  ///< m, attained at t, as poses are rounded; infinity: nothing is known
-  double t = 0.0;      ///< in [0, 1], where upper is attained
-  int intervals = 0;   ///< examined
-};
-
-/// Signed distance of the checked pair that is nearest or, where some overlap, deepest in each
-/// other, as an interval: minus the length of the shortest translation that separates the two where
-/// they overlap (see signedDistance() for meshes). Margins and paddings are not taken off.
-struct SignedClearance {
-  /// m. Proven for all checked pairs; infinity: there are none; minus infinity: nothing is known.
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();  ///< m, of the pair that the rest is of
-  Eigen::Vector3d pointA = Eigen::Vector3d::Zero();        ///< m, model frame
-  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, model frame
-  /// Unit vector from a to b, model frame: moving b along it takes the two apart. Zero where no one
-  /// direction is known to (meshes that overlap, contact in one point).
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// m. What pairs keep of which no rule says anything. `selfPair`: as Witness::selfPair.
+  double marginOf(bool selfPair) const {
+    return (selfPair ? selfMargin : worldMargin).value_or(margin);
+  }
 };
 
 class Checker;
 
 /// Scratch memory for one thread. No result depends on what it held before. It grows when it is
-/// used with another checker than before; used with one, queries allocate nothing.
+/// used with another checker than before; used with one, queries allocate nothing but names.
 class Workspace {
  public:
   /// For this checker and its versions; any other may use it too, see above.
@@ -154,20 +86,20 @@ class Workspace {
 /// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0), cyclic variables the shorter way, floating
 /// orientations by slerp along the shorter arc, mimicking joints following. Checked are: each link
 /// that the group moves, and each body attached to one, against each world body, and each pair of
-/// links or attached bodies whose relative pose the group changes, unless the rules or the SRDF
-/// disable the pair or a joint connects the two. Queries never throw on spans of the right size
-/// (std::invalid_argument otherwise).
+/// links or attached bodies whose relative pose the group changes, unless the rules, the SRDF, or
+/// by default a joint between the two, leave the pair out: see CheckerOptions::rules. Queries never
+/// throw on spans of the right size (std::invalid_argument otherwise).
 ///
 /// What changes makes a new version: `with...` and `without...` return another Checker that shares
 /// with this one what is the same, and is built in a fraction of the time. This one stays as it is,
 /// for whoever uses it.
 class Checker {
  public:
-  /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin or
-  /// tolerance, a reference of the wrong size, not finite or with a quaternion without direction, a
-  /// rule that names a body that is not there, an attached body whose link or touch link is not
-  /// there, whose name is taken, or with a shape or pose that AttachedBody does not allow, and for
-  /// more pairs than CheckerOptions::maxPairs.
+  /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin (of
+  /// either kind) or tolerance, a reference of the wrong size, not finite or with a quaternion
+  /// without direction, a rule that names a body that is not there, an attached body whose link or
+  /// touch link is not there, whose name is taken, or with a shape or pose that AttachedBody does
+  /// not allow, and for more pairs than CheckerOptions::maxPairs.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
@@ -212,7 +144,8 @@ class Checker {
 
   /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
   /// prismatic value more than tolerance::kLimit outside its limits (what is out of reach up to
-  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of it.
+  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of
+  /// it.
   Verdict checkState(std::span<const double> q, Workspace& workspace) const;
   /// The same verdicts for many states, which follow each other in `states`; faster than one by
   /// one. Throws std::invalid_argument unless there is one verdict for each.
@@ -247,10 +180,11 @@ class Checker {
   void certifyMotions(std::span<const double> from, std::span<const double> to,
                       std::span<MotionCertificate> certificates,
                       MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
-  /// upper - lower <= accuracy (m), and lower >= upper / 2 while upper >= accuracy / 50, unless the
-  /// cap on intervals ends the search.
+  /// Of each kind of pairs that is asked for: upper - lower <= accuracy (m), and lower >= upper / 2
+  /// while upper >= accuracy / 50, unless the cap on intervals ends the search.
   MotionClearance motionClearance(std::span<const double> from, std::span<const double> to,
-                                  double accuracy, Workspace& workspace) const;
+                                  double accuracy, Workspace& workspace,
+                                  ClearanceQuery query = ClearanceQuery::ByKind) const;
 
   /// Each variable is within its limits, or at most tolerance::kLimit beyond (isWithin()). False
   /// for what is not finite. Who wants the robot at the limit then uses takeToLimits() first.
@@ -281,8 +215,9 @@ class Checker {
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;
-  /// Why a pair is checked or not, and what it has to keep: one sentence. The names may come in
-  /// either order. Throws std::invalid_argument for a name that is neither a link's nor a body's.
+  /// Why a pair is checked or not, who says so, and what it has to keep: one sentence. The names
+  /// may come in either order. Throws std::invalid_argument for a name that is neither a link's nor
+  /// a body's.
   std::string explain(std::string_view bodyA, std::string_view bodyB) const;
 
  private:

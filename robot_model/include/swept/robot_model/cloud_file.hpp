@@ -9,19 +9,31 @@
 
 namespace swept {
 
-/// The points (m, the file's frame) of a sensed cloud, in the file's order. The ending, in upper or
-/// lower case, says what the file is:
+/// What a sensor saw, and where it was.
+struct SensedPoints {
+  std::vector<Eigen::Vector3d> points;               ///< m, the file's frame, in its order
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< m, the same frame; 0: the file says none
+};
+
+/// Reads a sensed cloud. The ending, in upper or lower case, says what the file is:
 ///
-/// * `.pcd`: PCD 0.6 or 0.7, ascii, binary or binary_compressed. A VIEWPOINT other than the
-///   identity is not applied, with a remark.
-/// * `.ply`: the x, y and z of the element `vertex`, ascii or binary in either byte order.
+/// * `.pcd`: PCD 0.5 to 0.7, ascii, binary or binary_compressed. The sensor is where VIEWPOINT is.
+/// * `.ply`: the x, y and z of the element `vertex`, ascii or binary in either byte order. The
+///   sensor is at `view_px`, `view_py` and `view_pz` of the element `camera`, as the Point Cloud
+///   Library writes it.
 /// * `.xyz`: a line per point, of numbers separated by blanks, or by commas, or by semicolons;
 ///   what follows the third, empty lines and lines that begin with `#` are ignored.
 ///
-/// Points with a coordinate that is not finite (what a depth camera writes where it saw nothing)
-/// are left out, with one remark for the file. Throws InputError: for a file that is not exactly
-/// what its header says, without a finite point, of more than 2 GiB or of more than 50 million
-/// points. Memory is bounded by the file's size, whatever its header says.
+/// Points are where their numbers say: neither a VIEWPOINT nor a camera moves them, and one that is
+/// not at the origin gives a remark. Points with a coordinate that is not finite (what a depth
+/// camera writes where it saw nothing) are left out, with one remark for the file. Throws
+/// InputError: for a file that is not exactly what its header says, without a finite point, of more
+/// than 2 GiB or of more than 50 million points. Memory is bounded by the file's size, whatever its
+/// header says.
+SensedPoints loadSensedPoints(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// The points of loadSensedPoints() alone. Space that they hide from a sensor (occludedBalls())
+/// needs that, too.
 std::vector<Eigen::Vector3d> loadPoints(const std::filesystem::path& file,
                                         const LoadOptions& options = {});
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -10,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "swept/robot_model/collision_rules.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -18,7 +21,7 @@ namespace swept {
 /// them. Only Adjacent and Never are certain for all of them; MayCollide has a witness; Default and
 /// Always are what samples suggest.
 enum class PairStatus : std::uint8_t {
-  Unknown,     ///< neither proven apart nor seen in contact within the budget
+  Unknown,     ///< neither proven apart nor seen in contact within the budget or the time
   Adjacent,    ///< a joint connects the two; nothing else was looked at
   Never,       ///< proven, rounding included: always more than the margin apart
   MayCollide,  ///< in contact at the witness, though not in the default state
@@ -41,6 +44,12 @@ struct CollisionMatrixOptions {
   /// MayCollide, and in Default against Always.
   std::uint32_t seed = 1;
   unsigned threads = 0;  ///< 0: as many as there are processors. Reports are the same on any number
+  /// s. No pair is begun, nor a proof gone on with, after so long: see LinkPairReport::outOfTime.
+  /// All pairs are tried with a small part of the budget first. Infinity: reports do not depend on
+  /// how fast the machine is.
+  double seconds = std::numeric_limits<double>::infinity();
+  /// Told how many pairs of how many are done with, one call at a time, on any thread.
+  std::function<void(std::size_t done, std::size_t all)> progress = {};
 };
 
 /// What is known about two links, over all values of the joints between them.
@@ -60,6 +69,8 @@ struct LinkPairReport {
   /// under Adjacent and where the proof was not tried.
   double proven = 0.0;
   std::int64_t effort = 0;  ///< spent of the budget
+  bool outOfTime =
+      false;  ///< Unknown, and CollisionMatrixOptions::seconds were over: more time may tell
   /// m. Least distance seen, to tell a pair that is Unknown: the two come at least so near.
   /// Infinity where none was computed.
   double nearest = std::numeric_limits<double>::infinity();
@@ -75,9 +86,19 @@ struct LinkPairReport {
 /// between them, a joint that follows a joint without limits by a factor that is no integer, or,
 /// where not a turn is done, limits beyond 1000 rad or m, nothing can be proven, and the pair is
 /// Unknown unless samples find a contact. Throws std::invalid_argument for a margin that is
-/// negative or not finite, and a negative budget or number of samples.
+/// negative or not finite, a negative budget or number of samples, and seconds that are not above
+/// 0.
 std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
                                             const CollisionMatrixOptions& options = {});
+
+/// The reason of each of the rules below.
+inline constexpr std::string_view kDefaultContact = "in contact at the default state";
+
+/// Rules that allow the pairs of links that are in contact in Robot::defaultState(): what a robot
+/// without an SRDF would be in collision with, often in every state. For whoever asks for them: put
+/// them below the other rules (CollisionRules::over), and say which they are. Links that a joint
+/// connects, and links attached rigidly to each other, are not among them.
+CollisionRules allowDefaultContacts(const Robot& robot);
 
 /// An SRDF that disables the pairs that are Adjacent, Never, Always or Default, with these words
 /// as reasons, in the order of the reports.

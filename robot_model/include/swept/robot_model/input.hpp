@@ -9,8 +9,8 @@
 
 namespace swept {
 
-/// A file (or a value given by the user) that cannot be used. what() is
-/// `file:line: error: message`; the message names the element, the value seen and what is allowed.
+/// A file, or a user's value, that cannot be used. what() is `file:line: error: message`, which has
+/// the element, the value seen and what is allowed; beyond 4000 bytes its middle is left out.
 class InputError : public std::runtime_error {
  public:
   /// line 0: the file has no lines that matter, and is named alone.
@@ -39,13 +39,15 @@ struct LoadOptions {
   /// Searched first for `package://NAME/...`; then a folder NAME beside the file or beside one of
   /// its parent folders; then the same below ROS_PACKAGE_PATH.
   std::vector<PackageFolder> packages;
-  /// What a scene may call the robot's model frame, besides `world` and no name: the URDF's root
-  /// link. Objects in any other frame that the scene does not place are put in the model frame,
-  /// with a remark.
+  /// What a file may call the robot's model frame, besides `world` and no name:
+  /// Robot::modelFrame(). A frame that neither this nor the file itself places is refused.
   std::string modelFrame;
   /// Receives one line per remark (`file:line: warning: ...`): open meshes, entries of an SRDF that
   /// name links the robot does not have, and the like. Nothing is printed without it.
   std::function<void(const std::string&)> warn;
+  /// Each remark of its own, where a robot has many of one kind. Else the first of them go to
+  /// `warn`, with how many there are.
+  bool everyWarning = false;
 };
 
 }  // namespace swept

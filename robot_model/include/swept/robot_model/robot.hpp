@@ -58,6 +58,7 @@ struct Joint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, joint frame; planar: normal
   std::optional<Mimic> mimic;                       ///< engaged: the joint has no variable
   int firstVariable = -1;  ///< into Robot::variables(); -1 for fixed and mimicking joints
+  bool passive = false;    ///< by the SRDF: nothing drives it, so that it is in none of the groups
 };
 
 /// One number of a configuration. A planar joint has three (x, y in m along the first two columns
@@ -94,6 +95,20 @@ struct DisabledPair {
   std::string reason;  ///< as the SRDF says it: Adjacent, Never, Default, ...
 };
 
+/// Two links that the SRDF has checked against each other (`<enable_collisions>`), though a joint
+/// connects them, or something else leaves them out by default.
+struct EnabledPair {
+  int linkA;  ///< index
+  int linkB;  ///< index
+};
+
+/// A group or a named state that the SRDF has and the robot has not.
+struct LeftOut {
+  std::string group;   ///< its name
+  std::string state;   ///< empty: the group itself
+  std::string reason;  ///< `file:line: what is wrong with it`
+};
+
 /// A kinematic tree with collision geometry, from URDF and SRDF. Immutable after loading. Covers
 /// are built on as many threads as there are processors, and are the same on any number.
 ///
@@ -119,6 +134,9 @@ class Robot {
 
   /// The URDF's.
   const std::string& name() const { return name_; }
+  /// What files call the frame that all poses are in: the parent frame of the SRDF's virtual joint;
+  /// without one, the root link's name.
+  const std::string& modelFrame() const { return modelFrame_; }
   ///@{
   /// Parents first; indices elsewhere are into these.
   const std::vector<Link>& links() const { return links_; }
@@ -129,8 +147,13 @@ class Robot {
   const std::vector<Group>& groups() const { return groups_; }
   /// Of all groups.
   const std::vector<NamedState>& namedStates() const { return namedStates_; }
-  /// What the SRDF disables; none without one.
+  /// What the SRDF disables; none without one. A link of `<disable_default_collisions>` is in a
+  /// pair with each other link that is not enabled with it.
   const std::vector<DisabledPair>& disabledPairs() const { return disabledPairs_; }
+  /// What the SRDF enables; none of them is disabled.
+  const std::vector<EnabledPair>& enabledPairs() const { return enabledPairs_; }
+  /// Groups and states that name what the URDF lacks.
+  const std::vector<LeftOut>& leftOut() const { return leftOut_; }
 
   ///@{
   /// Index by name; none if there is no such thing.
@@ -144,6 +167,17 @@ class Robot {
   const NamedState* findNamedState(std::string_view name, std::string_view group) const;
   ///@}
 
+  ///@{
+  /// This robot with one group more, that has what moves among these joints, or among those between
+  /// two links (as a `<chain>` of an SRDF: passive ones are left out). Throws std::invalid_argument
+  /// for a name that is taken, a joint or link that is not there, and a joint that has no values of
+  /// its own.
+  std::shared_ptr<const Robot> withGroup(const std::string& name,
+                                         std::span<const std::string> joints) const;
+  std::shared_ptr<const Robot> withChain(const std::string& name, const std::string& baseLink,
+                                         const std::string& tipLink) const;
+  ///@}
+
   /// A configuration of all variables: zero where the limits allow it, else the middle of the
   /// limits; identity for floating joints.
   Eigen::VectorXd defaultState() const;
@@ -152,12 +186,15 @@ class Robot {
   friend class RobotBuilder;
   Robot() = default;
   std::string name_;
+  std::string modelFrame_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<Variable> variables_;
   std::vector<Group> groups_;
   std::vector<NamedState> namedStates_;
   std::vector<DisabledPair> disabledPairs_;
+  std::vector<EnabledPair> enabledPairs_;
+  std::vector<LeftOut> leftOut_;
 };
 
 }  // namespace swept

@@ -56,6 +56,11 @@ class World {
   /// Reads planning-scene YAML (moveit_msgs layout, `.yaml`/`.yml`), MoveIt text (`.scene`) or a
   /// URDF (`.urdf`: its links in their default state are the bodies, the root link in the model
   /// frame), told apart by the file's ending. Throws InputError.
+  ///
+  /// This is the world alone. The joint values of the scene's robot are left out. What else the
+  /// scene says of the robot makes more to collide with, and is refused: attached objects, a moved
+  /// base, objects placed by a link of the robot, a collision matrix. PlanningScene::load reads
+  /// all of these.
   static World load(const std::filesystem::path& scene, const LoadOptions& options = {});
 
   /// Throws std::invalid_argument when the name is taken or a pose is not a rigid finite transform.

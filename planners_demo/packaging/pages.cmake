@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The pages: README.md with all that its links lead to, and theirs, in the folders of the tree, so that links work.
+set(pages README.md CHANGELOG.md)
+set(pending ${pages})
+while(pending)
+  list(POP_FRONT pending page)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${page})
+  file(READ ${PROJECT_SOURCE_DIR}/${page} text)
+  string(REGEX REPLACE "[][;\\]" " " text "${text}")  # which mean something in lists
+  string(REGEX MATCHALL " \\([-A-Za-z0-9_./]+[)#]" links "${text}")
+  get_filename_component(folder ${page} DIRECTORY)
+  foreach(link IN LISTS links)
+    string(REGEX REPLACE "^ \\((.*)[)#]$" "\\1" file "${link}")
+    cmake_path(SET file NORMALIZE "${folder}/${file}")
+    string(REGEX REPLACE "^/" "" file "${file}")
+    if(file IN_LIST pages OR NOT EXISTS ${PROJECT_SOURCE_DIR}/${file} OR IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${file})
+      continue()  # a file once; a word in brackets
+    endif()
+    list(APPEND pages ${file})
+    if(file MATCHES "\\.md$")
+      list(APPEND pending ${file})
+    endif()
+  endforeach()
+endwhile()
+foreach(page IN LISTS pages)
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT documentation)
+endforeach()
