@@ -118,8 +118,9 @@ TEST_F(ViewPaths, RefusesAnotherSceneThanTheOneOfThePath) {
 
 TEST_F(ViewPaths, RefusesRulesThatTheFilesHave) {
   const std::vector<std::vector<std::string>> options{
-      {"--pad", "hand=0.1"}, {"--allow", "hand,board_1"}, {"--margin", "0.01"},
-      {"--group", "arm"},    {"--scale", "hand=0.5"},     {"--srdf", "none"}};
+      {"--pad", "hand=0.1"},   {"--allow", "hand,board_1"}, {"--margin", "0.01"},
+      {"--group", "arm"},      {"--joints", "joint1"},      {"--chain", "link0,link7"},
+      {"--scale", "hand=0.5"}, {"--srdf", "none"}};
   for (const std::vector<std::string>& option : options)
     EXPECT_EQ(refusalOf({path("one.json"), option[0], option[1]}),
               "swept: error: " + option[0] +
@@ -132,8 +133,7 @@ TEST_F(ViewPaths, RefusesWhatIsNoPath) {
             "swept: error: paths and states: a page shows either files of paths or states\n");
   EXPECT_EQ(refusalOf({"path.csv"}),
             "swept: error: 'path.csv': a path that is shown is a .json file of swept plan\n");
-  EXPECT_EQ(refusalOf({path("absent.json")}),
-            path("absent.json") + ": error: file not found\n");
+  EXPECT_EQ(refusalOf({path("absent.json")}), path("absent.json") + ": error: file not found\n");
   EXPECT_EQ(refusalOf({folder->write("list.json", "[1, 2]")}),
             path("list.json") +
                 ": error: no path of swept plan: it does not say which files it is for\n");

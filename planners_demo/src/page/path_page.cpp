@@ -35,21 +35,25 @@ std::string outsideOf(const Checker& checker, const std::vector<double>& q) {
 /// Options whose values a path file has: a page of other rules would be about another question.
 void refuseRules(const Arguments& args) {
   const Arguments none;
-  const std::pair<const char*, bool> given[] = {{"--srdf", !args.srdf.empty()},
-                                                {"--cloud", !args.clouds.empty()},
-                                                {"--point-radius", args.pointRadius.has_value()},
-                                                {"--cloud-pose", !args.cloudPose.empty()},
-                                                {"--self-filter", args.selfFilter.has_value()},
-                                                {"--occluded", args.occluded.has_value()},
-                                                {"--group", !args.group.empty()},
-                                                {"--package", !args.packages.empty()},
-                                                {"--pad", !args.pads.empty()},
-                                                {"--scale", !args.scales.empty()},
-                                                {"--allow", !args.allowed.empty()},
-                                                {"--attach", !args.attached.empty()},
-                                                {"--margin", args.margin != none.margin},
-                                                {"--tolerance", args.tolerance != none.tolerance},
-                                                {"--problems", !args.problems.empty()}};
+  const std::pair<const char*, bool> given[] = {
+      {"--srdf", !args.srdf.empty()},
+      {"--cloud", !args.clouds.empty()},
+      {"--point-radius", args.pointRadius.has_value()},
+      {"--cloud-pose", !args.cloudPose.empty()},
+      {"--self-filter", args.selfFilter.has_value()},
+      {"--occluded", args.occluded.has_value()},
+      {"--group", !args.group.empty()},
+      {"--joints", !args.joints.empty()},
+      {"--chain", !args.chain.empty()},
+      {"--keep-default-contacts", args.keepDefaultContacts},
+      {"--package", !args.packages.empty()},
+      {"--pad", !args.pads.empty()},
+      {"--scale", !args.scales.empty()},
+      {"--allow", !args.allowed.empty()},
+      {"--attach", !args.attached.empty()},
+      {"--margin", args.margin != none.margin},
+      {"--tolerance", args.tolerance != none.tolerance},
+      {"--problems", !args.problems.empty()}};
   for (const auto& [name, isGiven] : given)
     if (isGiven)
       throw UsageError(std::string(name) +
