@@ -116,9 +116,11 @@
   swept.panel.build();
   playback.onChange(showMoment);
   wire();
-  // page.html#t=0.4 begins at 40 % of the path.
+  // page.html#t=0.4 begins at 40 % of the path; without, a path begins at its first contact.
   const share = /^#t=([0-9.]+)$/.exec(window.location.hash);
-  playback.setTime(share ? Number(share[1]) * data.duration : 0);
+  const met = data.motions.findIndex((motion) => motion.contacts.length > 0);
+  playback.setTime(share ? Number(share[1]) * data.duration
+                   : met >= 0 ? data.timeOf(met, data.motions[met].contacts[0].t) : 0);
   window.requestAnimationFrame(loop);
   swept.ready = true;
 })();

@@ -57,19 +57,27 @@ struct Field {
   const char* name;
   void (*require)(const JsonValue&);
 };
-constexpr std::array kFields{Field{"format", requireText},       Field{"version", requireNumber},
-                             Field{"swept", requireText},        Field{"robot", requireText},
-                             Field{"urdf", requireText},         Field{"srdf", requireTextOrNull},
-                             Field{"group", requireText},        Field{"problems", requireText},
-                             Field{"margin", requireNumber},     Field{"tolerance", requireNumber},
-                             Field{"pad", requireTexts},         Field{"scale", requireTexts},
-                             Field{"allow", requireTexts},       Field{"attach", requireTexts},
-                             Field{"time_limit", requireNumber}, Field{"hard_limit", requireNumber},
-                             Field{"simplify", requireTruth},    Field{"clearance", requireTruth}};
+constexpr std::array kFields{
+    Field{"format", requireText},         Field{"version", requireNumber},
+    Field{"swept", requireText},          Field{"robot", requireText},
+    Field{"urdf", requireText},           Field{"srdf", requireTextOrNull},
+    Field{"group", requireText},          Field{"problems", requireText},
+    Field{"margin", requireNumber},       Field{"margin_self", requireNumber},
+    Field{"margin_world", requireNumber}, Field{"tolerance", requireNumber},
+    Field{"pad", requireTexts},           Field{"scale", requireTexts},
+    Field{"allow", requireTexts},         Field{"attach", requireTexts},
+    Field{"time_limit", requireNumber},   Field{"hard_limit", requireNumber},
+    Field{"simplify", requireTruth},      Field{"clearance", requireTruth}};
 
-/// Files of the time before there was --attach do not have it.
+/// Files of the time before there was --attach do not have it, and none has the margins of the two
+/// kinds of pairs where both are `margin`.
+bool isOptional(std::string_view field) {
+  return field == "attach" || field == "margin_self" || field == "margin_world";
+}
+
 Json valueOf(const Json& header, std::string_view field) {
-  return field == "attach" && !header.contains(field) ? Json::array() : header.at(field);
+  if (!isOptional(field) || header.contains(field)) return header.at(field);
+  return field == "attach" ? Json::array() : header.at("margin");
 }
 
 void requireTypes(const Json& header, const std::string& source) {
@@ -112,8 +120,10 @@ Json resultsHeader(const Batch& batch) {
                  {"srdf", srdf.empty() ? Json(nullptr) : Json(fileDigest(srdf))},
                  {"group", batch.group},
                  {"problems", fileDigest(args.problems)},
-                 {"margin", args.margin},
-                 {"tolerance", args.tolerance},
+                 {"margin", args.margin}};
+  if (args.selfMargin) header["margin_self"] = *args.selfMargin;
+  if (args.worldMargin) header["margin_world"] = *args.worldMargin;
+  header.update({{"tolerance", args.tolerance},
                  {"pad", args.pads},
                  {"scale", args.scales},
                  {"allow", args.allowed},
@@ -121,7 +131,7 @@ Json resultsHeader(const Batch& batch) {
                  {"time_limit", args.time},
                  {"hard_limit", hardLimitOf(args)},
                  {"simplify", !args.noSimplify},
-                 {"clearance", !args.batch.noClearance}};
+                 {"clearance", !args.batch.noClearance}});
   if (!args.batch.noTimes) header["time"] = startJson();
   // As it will be read back, with the names in it mended.
   return Json::parse(lineOf(header));
@@ -134,7 +144,7 @@ void requireHeader(const Json& header, const std::string& source) {
                                  "format \"") +
                          kFormat + "\"");
   for (const Field& field : kFields)
-    if (!header.contains(field.name) && field.name != std::string_view("attach"))
+    if (!header.contains(field.name) && !isOptional(field.name))
       throw InputError(source, 1, std::string("the header has no ") + field.name);
   if (header["version"] != kVersion)
     throw InputError(source, 1,

@@ -6,6 +6,7 @@
 #include "command_line/command.hpp"
 #include "input/clouds.hpp"
 #include "input/states.hpp"
+#include "output/clearance_text.hpp"
 #include "page/packed.hpp"
 #include "page/page_bodies.hpp"
 #include "page/page_clearances.hpp"
@@ -99,6 +100,7 @@ Json stateJson(const LabelledState& state, const Checker* checker) {
   json["verdict"] = swept::toString(report.verdict);
   json["clearance"] = finiteOrNull(report.clearance);
   json["nearest"] = Json::array({report.nearestA, report.nearestB});
+  addClearances(swept::clearancesOf(report), json);
   for (const Witness& contact : report.contacts) json["contacts"].push_back(toJson(contact));
   return json;
 }
@@ -145,7 +147,10 @@ Json factsJson(const Arguments& args, const Robot& robot, const World& world,
   add("robot", robot.name());
   if (checker != nullptr) {
     add("group", checker->group().name);
-    add("margin", shortNumber(checker->options().margin) + " m");
+    const CheckerOptions& options = checker->options();
+    add("margin", shortNumber(options.margin) + " m");
+    if (options.selfMargin) add("margin to itself", shortNumber(*options.selfMargin) + " m");
+    if (options.worldMargin) add("margin to the world", shortNumber(*options.worldMargin) + " m");
     add("tolerance", shortNumber(checker->options().tolerance) + " m");
     add("pairs checked", std::to_string(checker->checkedPairs().size()) + ", left out " +
                              std::to_string(checker->skippedPairs().size()));

@@ -19,26 +19,36 @@
 namespace swept {
 namespace {
 
+/// What is said of a state or motion.
+struct Finding {
+  Verdict verdict = Verdict::Free;
+  bool apart = false;  ///< no two bodies touch that are within their margin
+};
+
 /// `3 motions: 1 free, 2 in collision`.
-std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts) {
-  static constexpr std::array<std::pair<Verdict, const char*>, 3> kWords{
-      {{Verdict::Free, "free"},
-       {Verdict::Collision, "in collision"},
-       {Verdict::Undecided, "undecided"}}};
+std::string countsText(const std::string& what, const std::vector<Finding>& findings) {
+  static constexpr std::array<std::pair<Finding, const char*>, 4> kWords{
+      {{{Verdict::Free, false}, "free"},
+       {{Verdict::Collision, false}, "in collision"},
+       {{Verdict::Collision, true}, "closer than the margin"},
+       {{Verdict::Undecided, false}, "undecided"}}};
   std::vector<std::string> counts;
-  for (const auto& [verdict, word] : kWords) {
-    const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
+  for (const auto& [finding, word] : kWords) {
+    const auto count = std::ranges::count_if(findings, [&](const Finding& other) {
+      return other.verdict == finding.verdict && other.apart == finding.apart;
+    });
     if (count == 0) continue;
-    const std::string number = count == verdicts.size() ? "all" : std::to_string(count);
-    counts.push_back(verdicts.size() == 1 ? word : number + " " + word);
+    const bool all = count == std::ssize(findings);
+    counts.push_back(findings.size() == 1 ? word
+                                          : (all ? "all" : std::to_string(count)) + " " + word);
   }
-  if (verdicts.size() == 1) return what + ": " + counts.front();
-  return std::to_string(verdicts.size()) + " " + what + "s: " + joined(counts);
+  if (findings.size() == 1) return what + ": " + counts.front();
+  return std::to_string(findings.size()) + " " + what + "s: " + joined(counts);
 }
 
-Verdict worst(const std::vector<Verdict>& verdicts) {
+Verdict worst(const std::vector<Finding>& findings) {
   Verdict result = Verdict::Free;
-  for (const Verdict verdict : verdicts)
+  for (const auto& [verdict, apart] : findings)
     if (result != Verdict::Collision && verdict != Verdict::Free) result = verdict;
   return result;
 }
@@ -46,11 +56,15 @@ Verdict worst(const std::vector<Verdict>& verdicts) {
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
   PageContent content;
   Workspace workspace(checker);
-  std::vector<Verdict> verdicts;
-  for (const LabelledState& state : states)
-    verdicts.push_back(checker.checkState(state.q, workspace));
-  content.tone = toneOf(worst(verdicts));
-  content.headline = countsText("state", verdicts);
+  std::vector<Finding> findings;
+  for (const LabelledState& state : states) {
+    Finding finding{.verdict = checker.checkState(state.q, workspace)};
+    if (finding.verdict == Verdict::Collision)
+      finding.apart = keepApart(checker.reportState(state.q, workspace).contacts);
+    findings.push_back(finding);
+  }
+  content.tone = toneOf(worst(findings));
+  content.headline = countsText("state", findings);
   content.states = std::move(states);
   return content;
 }
@@ -65,16 +79,30 @@ LabelledState defaultState(const Robot& robot, const Group& group) {
 
 std::string pathHeadline(const PlanOutcome& outcome) {
   if (!outcome.solved()) return "not solved: " + outcome.failure;
-  const std::string segments = std::to_string(outcome.segments.size()) + " segment" +
-                               (outcome.segments.size() == 1 ? "" : "s");
-  return outcome.proven() ? "solved: " + segments + ", all proven free" : "not proven: " + segments;
+  const std::string segments = countedText(outcome.segments.size(), "segment");
+  if (!outcome.proven()) return "not proven: " + segments;
+  return "solved: " + segments +
+         (outcome.segments.size() == 1 ? ", proven free" : ", all proven free");
+}
+
+void addKinds(PageContent& content, const Clearances& clearances) {
+  const auto add = [&](const char* name, const NearestPair& pair) {
+    std::string text = clearanceText(pair.clearance);
+    if (!pair.bodyA.empty()) text += ", nearest " + pair.bodyA + " - " + pair.bodyB;
+    content.facts.emplace_back(name, std::move(text));
+  };
+  add("clearance from the world", clearances.world);
+  add("clearance from itself", clearances.self);
 }
 
 void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOutcome& outcome) {
   const auto add = [&](const char* name, std::string value) {
     content.facts.emplace_back(name, std::move(value));
   };
-  if (outcome.proven()) add("least certified clearance", clearanceText(outcome.leastClearance()));
+  if (outcome.proven()) {
+    add("least certified clearance", clearanceText(outcome.leastClearance()));
+    addKinds(content, outcome.leastClearances());
+  }
   add("planner", request.planner);
   add("seed", std::to_string(request.seed));
   add("planning time", secondsText(outcome.planningTime));
@@ -141,7 +169,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   const Checker& checker = *task.checker;
   Workspace workspace(checker);
   PageContent content;
-  std::vector<Verdict> verdicts;
+  std::vector<Finding> findings;
   for (std::size_t i = 1; i < task.states.size(); ++i) {
     const LabelledState& from = task.beginOfMotionTo(i);
     const LabelledState& to = task.states[i];
@@ -149,10 +177,11 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
                                .from = from.q,
                                .to = to.q,
                                .certificate = checker.certifyMotion(from.q, to.q, workspace)});
-    verdicts.push_back(content.motions.back().certificate.verdict);
+    const MotionCertificate& found = content.motions.back().certificate;
+    findings.push_back({found.verdict, found.witness && keepsApart(*found.witness)});
   }
-  content.tone = toneOf(worst(verdicts));
-  content.headline = countsText("motion", verdicts);
+  content.tone = toneOf(worst(findings));
+  content.headline = countsText("motion", findings);
   writePage(args, *model.robot, checker.world(), &checker, content);
 }
 
@@ -161,15 +190,15 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
   if (args.page.file.empty()) return;
   PageContent content;
   if (outcome.solved()) {
-    std::vector<Verdict> verdicts;
+    std::vector<Finding> findings;
     for (std::size_t i = 0; i < outcome.segments.size(); ++i) {
       content.motions.push_back({.label = "segment " + std::to_string(i + 1),
                                  .from = outcome.states[i],
                                  .to = outcome.states[i + 1],
                                  .certificate = outcome.segments[i].certificate});
-      verdicts.push_back(outcome.segments[i].certificate.verdict);
+      findings.push_back({.verdict = outcome.segments[i].certificate.verdict});
     }
-    content.tone = toneOf(worst(verdicts));
+    content.tone = toneOf(worst(findings));
   } else {
     content = statesContent(*task.checker, task.states);
     content.tone = PageContent::Tone::Bad;
@@ -204,6 +233,8 @@ void writeVerifyPage(const Arguments& args, const Model& model, const Task& task
   if (outcome.holds()) {
     const verify::Summary& summary = outcome.summary;
     content.facts = {{"every pair keeps more than", clearanceText(summary.clearance)},
+                     {"pairs with the world", clearanceText(summary.clearanceWorld)},
+                     {"pairs of the robot's bodies", clearanceText(summary.clearanceSelf)},
                      {"pairs of bodies", std::to_string(summary.pairs)},
                      {"intervals", std::to_string(summary.intervals)},
                      {"separating planes", std::to_string(summary.planes)}};
