@@ -25,8 +25,10 @@ swept.data = (function () {
   data.isPath = data.motions.length > 0;
 
   if (data.clearances) {
-    data.clearances.distance = data.floats(data.clearances.distance);
-    data.clearances.partner = new Int32Array(bytesOf(data.clearances.partner));
+    for (const table of [data.clearances, data.clearances.world, data.clearances.self]) {
+      table.distance = data.floats(table.distance);
+      table.partner = new Int32Array(bytesOf(table.partner));
+    }
   }
 
   // How far the robot gets from one frame to the next: m, and 0.3 m for a radian.
@@ -98,13 +100,15 @@ swept.data = (function () {
   // Frames of a path are near their neighbours; states are not.
   data.hasRow = (frame) => data.isPath || frame % data.clearances.stride === 0;
   // What a body is nearest to at the frame of the table that is next to this one: {distance,
-  // partner}; null: nothing is checked against it, or the table has no row for the state.
-  data.nearest = function (body, frame) {
-    const table = data.clearances;
-    if (!table || !data.hasRow(frame)) return null;
-    const rows = table.distance.length / table.bodies;
-    const row = Math.min(rows - 1, Math.round(frame / table.stride));
-    const at = row * table.bodies + body;
+  // partner}; null: nothing is checked against it, or the table has no row for the state. `kind`:
+  // of the pairs with the world, or of those of the robot itself alone.
+  data.nearest = function (body, frame, kind) {
+    const all = data.clearances;
+    if (!all || !data.hasRow(frame)) return null;
+    const table = kind ? all[kind] : all;
+    const rows = table.distance.length / all.bodies;
+    const row = Math.min(rows - 1, Math.round(frame / all.stride));
+    const at = row * all.bodies + body;
     return table.partner[at] < 0
         ? null : {distance: table.distance[at], partner: table.partner[at], row: row};
   };

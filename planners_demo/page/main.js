@@ -155,7 +155,10 @@
 
   // What is wrong, when something is, unless the address asks for another moment or view.
   function openFirst() {
-    playback.setTime(data.opens_at === null ? 0 : data.opens_at);
+    // A motion opens at its first contact.
+    const met = data.paths.length > 1 ? -1 : data.motions.findIndex((motion) => motion.contacts.length > 0);
+    const first = met < 0 ? 0 : data.timeOf(met, data.motions[met].contacts[0].t);
+    playback.setTime(data.opens_at === null ? first : data.opens_at);
     const asked = swept.views.open(window.location.hash, picture);
     if (asked || data.opens_at === null || !picture) return;
     const contacts = data.states[data.opens_at].contacts;

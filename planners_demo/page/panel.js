@@ -75,22 +75,31 @@ swept.panel = (function () {
     });
   }
 
-  // The rows of a body in the table of clearances, of what is shown.
-  function course(body) {
-    const table = data.clearances, values = [];
-    const first = Math.round(data.firstFrame() / table.stride);
-    const rows = table.distance.length / table.bodies;
-    for (let row = first; row < rows && row * table.stride <= data.lastFrame(); ++row) {
-      const at = row * table.bodies + body;
+  // The rows of a body in a table of clearances, of what is shown.
+  function course(body, table) {
+    const all = data.clearances, values = [];
+    const first = Math.round(data.firstFrame() / all.stride);
+    const rows = table.distance.length / all.bodies;
+    for (let row = first; row < rows && row * all.stride <= data.lastFrame(); ++row) {
+      const at = row * all.bodies + body;
       values.push({distance: table.distance[at], partner: table.partner[at]});
     }
     return values;
   }
 
-  function drawChart(values) {
+  // The world's course, and dashed that of the robot itself.
+  function drawCharts(body) {
+    const courses = ['world', 'self'].map((kind) => course(body, data.clearances[kind]))
+        .map((values) => values.filter((v) => v.partner >= 0));
+    const most = Math.max(1e-3, ...courses.flat().map((v) => v.distance));
+    byId('picked-chart').textContent = '';
+    courses.forEach((values, i) => {
+      if (values.length > 1) drawCourse(values, most, i === 0 ? 'none' : '3 2');
+    });
+  }
+
+  function drawCourse(values, most, dashes) {
     const chart = byId('picked-chart');
-    chart.textContent = '';
-    const most = Math.max(1e-3, ...values.map((v) => v.distance));
     const points = values.map((v, i) => (100 * i / (values.length - 1)).toFixed(2) + ',' +
         (27 - 25 * v.distance / most).toFixed(2));
     const line = document.createElementNS(chart.namespaceURI, 'polyline');
@@ -99,6 +108,7 @@ swept.panel = (function () {
     line.setAttribute('stroke', 'var(--pick)');
     line.setAttribute('vector-effect', 'non-scaling-stroke');
     line.setAttribute('stroke-width', '1.6');
+    line.setAttribute('stroke-dasharray', dashes);
     chart.append(line);
   }
 
@@ -115,9 +125,15 @@ swept.panel = (function () {
     else if (data.clearances && data.hasRow(frame))
       addFact(list, 'nearest now', near ? withPartner(near) : 'no pair to check');
     if (near && data.isPath) {
-      const all = course(picked);
+      const all = course(picked, data.clearances);
       const tightest = all.reduce((a, b) => (b.distance < a.distance ? b : a));
       addFact(list, 'over the path', withPartner(tightest));
+    }
+    // Links that are always near each other would hide the world.
+    const world = data.nearest(picked, frame, 'world'), self = data.nearest(picked, frame, 'self');
+    if (!byHand && world && self) {
+      addFact(list, 'world now', withPartner(world));
+      addFact(list, 'itself now', withPartner(self));
     }
     if (body.padding > 0) addFact(list, 'padding', data.millimetres(body.padding));
     swept.scene.highlight(picked, near ? near.partner : -1);
@@ -137,7 +153,7 @@ swept.panel = (function () {
         ': ' + shapes.slice(0, 4).join('; ') + (shapes.length > 4 ? '; and ' + (shapes.length - 4) + ' more' : '');
     const charted = data.isPath && data.nearest(body, 0) !== null;
     byId('picked-chart').style.display = charted ? 'block' : 'none';
-    if (charted) drawChart(course(body));
+    if (charted) drawCharts(body);
     showPickedClearance();
   }
 

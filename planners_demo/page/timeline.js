@@ -24,16 +24,22 @@ swept.timeline = (function () {
     let text = motion.label + ', ' + range + ': ' + data.tierNames[tier];
     if (tier !== 'collision')
       text += pieces.lower[i] === null ? ', no pair to check'
-                                       : ', keeps ' + data.millimetres(pieces.lower[i]) + ' or more';
+                                       : ', keeps ' + data.millimetres(pieces.lower[i]) +
+                                             ' or more (world ' + keptText(pieces.lower_world[i]) +
+                                             ', itself ' + keptText(pieces.lower_self[i]) + ')';
     return text;
   }
 
-  function addPiece(motion, i, row, chart) {
-    const lower = motion.pieces.lower[i];
+  const keptText = (lower) => lower === null ? 'no pair' : data.millimetres(lower);
+
+  function addPiece(motion, i, row) {
     const piece = make('span', 'piece ' + motion.pieces.tiers[i], row);
     piece.dataset.text = pieceText(motion, i);
+  }
+
+  function addBound(motion, i, lower, chart) {
     const bar = make('span', 'bound', chart);
-    bar.dataset.text = piece.dataset.text;
+    bar.dataset.text = pieceText(motion, i);
     const share = lower === null ? 1 : Math.sqrt(Math.min(1, lower / kBoundTop));
     bar.style.height = Math.max(4, 100 * share) + '%';
     bar.style.background = data.css(data.clearanceColour(lower));
@@ -48,8 +54,13 @@ swept.timeline = (function () {
     const count = motion.pieces.tiers.length;
     const wide = motion.duration / count > 0.007 * data.duration;
     const row = make('div', wide ? 'pieces apart' : 'pieces', segment);
-    const chart = make('div', 'bounds', segment);
-    for (let i = 0; i < count; ++i) addPiece(motion, i, row, chart);
+    for (let i = 0; i < count; ++i) addPiece(motion, i, row);
+    // Links that are always near each other would hide the world: a chart for each.
+    for (const [kind, lower] of [['world', motion.pieces.lower_world],
+                                 ['self', motion.pieces.lower_self]]) {
+      const chart = make('div', 'bounds ' + kind, segment);
+      for (let i = 0; i < count; ++i) addBound(motion, i, lower[i], chart);
+    }
   }
 
   function addState(state, index) {

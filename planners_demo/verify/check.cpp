@@ -89,6 +89,10 @@ class ProofCheck {
         throw Refusal("joint_names: they are not the variables of the group, in its order");
     if (at(path_, "margin", "path") != model_.margin)
       throw Refusal("margin: it is not that of the model");
+    for (const auto& [key, margin] :
+         {std::pair{"margin_self", model_.selfMargin}, {"margin_world", model_.worldMargin}})
+      if ((path_.contains(key) ? path_[key] : path_["margin"]) != margin)
+        throw Refusal(std::string(key) + ": it is not that of the model");
   }
 
   std::string nameOf(PairToProve pair) const {

@@ -91,6 +91,9 @@ class Intervals {
       throw Refusal(at_ + ": the bound " + shortText(bound) + " m is not proven, only " +
                     shortText(gap) + " m is");
     summary_.clearance = std::min(summary_.clearance, bound);
+    const bool world = model_.withWorld(pair_.a, pair_.b);
+    double& ofKind = world ? summary_.clearanceWorld : summary_.clearanceSelf;
+    ofKind = std::min(ofKind, bound);
     ++summary_.planes;
   }
 
@@ -112,6 +115,8 @@ void Summary::add(const Summary& part) {
   intervals += part.intervals;
   planes += part.planes;
   clearance = std::min(clearance, part.clearance);
+  clearanceWorld = std::min(clearanceWorld, part.clearanceWorld);
+  clearanceSelf = std::min(clearanceSelf, part.clearanceSelf);
 }
 
 Summary checkPair(const Model& model, const Motion& motion, PairToProve pair, const Json& proof,

@@ -20,6 +20,11 @@ struct Summary {
   std::size_t planes = 0;     ///< between two sets of elements during an interval
   /// m. Least of all proven distances; infinity: there is no pair.
   double clearance = std::numeric_limits<double>::infinity();
+  ///@{
+  /// m. Of pairs with the world, and of pairs of two bodies of the robot.
+  double clearanceWorld = std::numeric_limits<double>::infinity();
+  double clearanceSelf = std::numeric_limits<double>::infinity();
+  ///@}
   /// Pairs that may touch, `hand - shelf`, by who says so.
   std::map<std::string, std::vector<std::string>> allowed = {};
 

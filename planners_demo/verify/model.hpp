@@ -65,10 +65,16 @@ struct Model {
   std::map<std::pair<int, int>, std::string> allowed;
   /// Likewise, links that a joint connects and that are not to touch all the same.
   std::set<std::pair<int, int>> asked;
-  double margin = 0.0;           ///< m
+  double margin = 0.0;  ///< m
+  /// m, of pairs of two bodies of the robot, and of pairs with the world; `margin` where the file
+  /// has no other.
+  double selfMargin = 0.0, worldMargin = 0.0;
   std::vector<double> paddings;  ///< m, per body
+  bool withWorld(int a, int b) const { return linkOf[a] < 0 || linkOf[b] < 0; }
   /// m: what a pair has to keep.
-  double marginOf(int a, int b) const { return margin + paddings[a] + paddings[b]; }
+  double marginOf(int a, int b) const {
+    return (withWorld(a, b) ? worldMargin : selfMargin) + paddings[a] + paddings[b];
+  }
 };
 
 /// Reads the `model` of a path file. Throws Refusal.

@@ -173,6 +173,11 @@ std::pair<int, int> readPair(const Model& model, const Json& entry, const std::s
 
 void readRules(const Json& json, Model& model) {
   model.margin = readNumber(at(json, "margin", "model"), "model, margin");
+  const auto marginOf = [&](const char* key) {
+    return json.contains(key) ? readNumber(json[key], std::string("model, ") + key) : model.margin;
+  };
+  model.selfMargin = marginOf("margin_self");
+  model.worldMargin = marginOf("margin_world");
   model.paddings.assign(model.bodies.size(), 0.0);
   for (const auto& [name, metres] : at(json, "paddings", "model").items())
     model.paddings[static_cast<std::size_t>(bodyNamed(model, name, "paddings"))] =
@@ -189,7 +194,8 @@ void readRules(const Json& json, Model& model) {
       model.asked.insert(readPair(model, entry, "asked"));
     }
   const bool negative = std::ranges::any_of(model.paddings, [](double p) { return !(p >= 0.0); });
-  if (negative || !(model.margin >= 0.0)) throw Refusal("model: a margin or padding is negative");
+  const double least = std::min({model.margin, model.selfMargin, model.worldMargin});
+  if (negative || !(least >= 0.0)) throw Refusal("model: a margin or padding is negative");
 }
 
 }  // namespace

@@ -16,7 +16,9 @@ TEST(Check, AFreeStateHasItsClearance) {
   const Outcome run = gantry.run("check", {"left"});
   EXPECT_EQ(run.exitCode, 0);
   EXPECT_EQ(run.err, "");
-  EXPECT_EQ(run.out, "state 1 (left): free, clearance 0.8 m, nearest cube - post\n");
+  EXPECT_EQ(run.out,
+            "state 1 (left): free, clearance 0.8 m, nearest cube - post (world); "
+            "self: no pair to check\n");
 }
 
 TEST(Check, ACollisionHasItsContacts) {
@@ -31,7 +33,9 @@ TEST(Check, WithinRoundingOfTouchingIsUndecided) {
   const Gantry gantry;
   const Outcome run = gantry.run("check", {"0.79999999999999,0"});
   EXPECT_EQ(run.exitCode, 2);
-  EXPECT_EQ(run.out, "state 1: undecided, clearance 0 m, nearest cube - post\n");
+  EXPECT_EQ(run.out,
+            "state 1: undecided, clearance 0 m, nearest cube - post (world); "
+            "self: no pair to check\n");
 }
 
 TEST(Check, TheWorstStateGivesTheExitCode) {
@@ -65,7 +69,9 @@ TEST(Check, TheMarginCountsAsContact) {
   EXPECT_EQ(gantry.run("check", {"left", "--margin", "0.79"}).exitCode, 0);
   const Outcome run = gantry.run("check", {"left", "--margin", "0.81"});
   EXPECT_EQ(run.exitCode, 1);
-  EXPECT_THAT(run.out, HasSubstr("cube - post: distance 0.8 m, at [0.1 "));
+  EXPECT_THAT(run.out, HasSubstr("state 1 (left): collision (closer than the margin)\n"
+                                 "  cube - post: distance 0.8 m, closer than the margin of 0.81 m, "
+                                 "at [0.1 "));
 }
 
 TEST(Check, NegativeValuesAreStatesWithAndWithoutTheSeparator) {

@@ -186,7 +186,8 @@ TEST(ControlCharacters, OfBodiesAreEscapedInResults) {
   gantry.folder().write("post.yaml", text);
   const std::string shown = R"(po\u001b[2J\nst\u009b)";
   EXPECT_EQ(gantry.run("check", {"left"}).out,
-            "state 1 (left): free, clearance 0.8 m, nearest cube - " + shown + "\n");
+            "state 1 (left): free, clearance 0.8 m, nearest cube - " + shown +
+                " (world); self: no pair to check\n");
   for (const Words& words :
        {Words{"check", "inside"}, Words{"motion", "left", "right"}, Words{"info"}}) {
     const Outcome run = gantry.run(words[0], {words.begin() + 1, words.end()});

@@ -123,6 +123,8 @@ TEST_F(PlannedPage, BoundsOfPartsHoldAndAreTight) {
       exact += tier == "exact";
       EXPECT_TRUE(tier == "lanes" || tier == "exact") << tier;
       const double lower = motion["pieces"]["lower"][std::size_t(i)];
+      EXPECT_EQ(lower, std::min(motion["pieces"]["lower_world"][std::size_t(i)].get<double>(),
+                                motion["pieces"]["lower_self"][std::size_t(i)].get<double>()));
       double least = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= 4; ++k) {
         const auto q = at(*sharedChecker, motion, (i + 0.25 * k) / steps);
@@ -155,6 +157,13 @@ TEST_F(PlannedPage, NearestPairOfAFrameIsTheReports) {
       const auto first = distance.begin() + static_cast<std::ptrdiff_t>(row);
       const auto least = std::min_element(first, first + static_cast<std::ptrdiff_t>(bodies));
       EXPECT_NEAR(*least, report.clearance, 3e-5);
+      const auto leastOf = [&](const char* kind) {
+        const std::vector<float> all = floats(table[kind]["distance"]);
+        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(row);
+        return *std::min_element(begin, begin + static_cast<std::ptrdiff_t>(bodies));
+      };
+      EXPECT_NEAR(leastOf("world"), report.world.clearance, 3e-5);
+      EXPECT_NEAR(leastOf("self"), report.self.clearance, 3e-5);
       const auto at = static_cast<std::size_t>(least - first);
       const std::string a = sharedData["bodies"][at]["name"];
       const std::string b =

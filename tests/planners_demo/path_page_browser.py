@@ -36,7 +36,12 @@ class PathPage(BrowserTest):
         ActionChains(self.browser).move_to_element(piece).perform()
         self.drawn()
         self.assertRegex(self.text("#hover"),
-                         r"^segment 3, t 0\.083 to 0\.125: free, proven .*, keeps [0-9.]+ mm or more$")
+                         r"^segment 3, t 0\.083 to 0\.125: free, proven .*, keeps [0-9.]+ mm or more "
+                         r"\(world [0-9.]+ m?m, itself [0-9.]+ m?m\)$")
+        # A chart of the world, and one of the robot itself.
+        segments = len(self.find(".segment"))
+        self.assertEqual(len(self.find(".bounds.world")), segments)
+        self.assertEqual(len(self.find(".bounds.self")), segments)
         bounds = self.js("return [].concat(...swept.data.motions.map((m) => m.pieces.lower))")
         shown = [float(re.search(r"keeps ([0-9.]+) mm", piece.get_attribute("data-text"))[1])
                  for piece in self.find(".piece")]

@@ -31,7 +31,8 @@ TEST(Plan, PrintsATable) {
             "planner planning time simplification path length segments motions certified refused "
             "minimum certified clearance\n"
             "RRTConnect N s N s N N N N N m\n"
-            "solved: N segments, all proven free\n");
+            "solved: N segments, all proven free\n"
+            "clearance N m, nearest cube - post (world); self: no pair to check\n");
 }
 
 TEST(Plan, ThePathLeadsFromStartToGoalAndKeepsTheClearanceItClaims) {

@@ -32,7 +32,7 @@ TEST(Problems, TheWorldIsTheProblems) {
   const Outcome check = onProblem(gantry, "check", "blocked", "8");
   EXPECT_EQ(check.exitCode, 1);
   EXPECT_THAT(check.out, StartsWith("start: collision\n  cube - post: distance 0 m, at ["));
-  EXPECT_THAT(check.out, HasSubstr("\ngoal: free, clearance 0.8 m, nearest cube - post\n"));
+  EXPECT_THAT(check.out, HasSubstr("\ngoal: free, clearance 0.8 m, nearest cube - post (world)"));
   EXPECT_EQ(onProblem(gantry, "motion", "over", "1").exitCode, 1);
   EXPECT_EQ(onProblem(gantry, "plan", "over", "1").exitCode, 0);
 }

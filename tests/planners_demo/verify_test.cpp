@@ -78,9 +78,12 @@ TEST_F(Verify, WhatWasPlannedHolds) {
   const Outcome run = runSwept({"verify", file_});
   EXPECT_EQ(run.exitCode, 0);
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(run.out, testing::MatchesRegex("verified: [0-9]+ segments, 1 pairs of bodies, [0-9]+ "
-                                             "intervals, [0-9]+ planes\n"
-                                             "every pair keeps more than 0\\.[0-9]+ m\n"));
+  EXPECT_THAT(run.out,
+              testing::MatchesRegex("verified: [0-9]+ segments, 1 pair of bodies, [0-9]+ "
+                                    "intervals, [0-9]+ planes\n"
+                                    "every pair keeps more than 0\\.[0-9]+ m; pairs with the "
+                                    "world more than 0\\.[0-9]+ m, there is no pair of "
+                                    "the robot's bodies\n"));
   const auto json = jsonOf(runSwept({"verify", file_, "--json"}));
   EXPECT_EQ(json["verified"], true);
   EXPECT_TRUE(json["refusal"].is_null());
@@ -238,7 +241,7 @@ TEST_F(Verify, WhatMayTouchIsSaid) {
   const std::string file = gantry_.folder().path("allowed.json");
   ASSERT_EQ(gantry_.run("plan", {"left", "right", "--allow", "cube,post", "-o", file}).exitCode, 0);
   EXPECT_EQ(runSwept({"verify", file}).out,
-            "verified: 1 segments, 0 pairs of bodies, 0 intervals, 0 planes\n"
+            "verified: 1 segment, 0 pairs of bodies, 0 intervals, 0 planes\n"
             "there is no pair to check\n"
             "not checked (allowed: --allow): cube - post\n");
 }

@@ -67,6 +67,8 @@ constexpr std::array kFields{Field{"format", requireText},
                              Field{"group", requireText},
                              Field{"problems", requireText},
                              Field{"margin", requireNumber},
+                             Field{"margin_self", requireNumber},
+                             Field{"margin_world", requireNumber},
                              Field{"tolerance", requireNumber},
                              Field{"pad", requireTexts},
                              Field{"scale", requireTexts},
@@ -78,15 +80,18 @@ constexpr std::array kFields{Field{"format", requireText},
                              Field{"simplify", requireTruth},
                              Field{"clearance", requireTruth}};
 
-/// Files of the time before there was --attach do not have it, and in older ones than those that
-/// say otherwise no contacts of robots without an SRDF are left out.
+/// Files of the time before there was --attach do not have it. In older ones than those that say
+/// otherwise no contacts of robots without an SRDF are left out, and none has the margins of the
+/// two kinds of pairs where both are `margin`.
 bool isOptional(std::string_view field) {
-  return field == "attach" || field == kWithoutContacts;
+  return field == "attach" || field == kWithoutContacts || field == "margin_self" ||
+         field == "margin_world";
 }
 
 Json valueOf(const Json& header, std::string_view field) {
   if (!isOptional(field) || header.contains(field)) return header.at(field);
-  return field == "attach" ? Json::array() : Json(false);
+  if (field == "attach") return Json::array();
+  return field == kWithoutContacts ? Json(false) : header.at("margin");
 }
 
 void requireTypes(const Json& header, const std::string& source) {
@@ -129,8 +134,10 @@ Json resultsHeader(const Batch& batch) {
                  {"srdf", srdf.empty() ? Json(nullptr) : Json(fileDigest(srdf))},
                  {"group", batch.group},
                  {"problems", fileDigest(args.problems)},
-                 {"margin", args.margin},
-                 {"tolerance", args.tolerance},
+                 {"margin", args.margin}};
+  if (args.selfMargin) header["margin_self"] = *args.selfMargin;
+  if (args.worldMargin) header["margin_world"] = *args.worldMargin;
+  header.update({{"tolerance", args.tolerance},
                  {"pad", args.pads},
                  {"scale", args.scales},
                  {"allow", args.allowed},
@@ -139,7 +146,7 @@ Json resultsHeader(const Batch& batch) {
                  {"time_limit", args.time},
                  {"hard_limit", hardLimitOf(args)},
                  {"simplify", !args.noSimplify},
-                 {"clearance", !args.batch.noClearance}};
+                 {"clearance", !args.batch.noClearance}});
   if (!args.batch.noTimes) header["time"] = startJson();
   // As it will be read back, with the names in it mended.
   return Json::parse(lineOf(header));

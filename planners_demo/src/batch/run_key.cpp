@@ -52,7 +52,7 @@ std::vector<RunKey> listRuns(const ProblemFile& problems, const Arguments& args)
   const auto planners =
       namesOf(args.batch.planners, [](const std::string& text) { return plannerName(text); });
   const auto validators = namesOf(args.batch.validators, [&](const std::string& text) {
-    return readValidator(text, args.margin).name();
+    return readValidator(text, largestMargin(args)).name();
   });
   std::vector<RunKey> keys;
   for (const auto& [set, index] : chosenProblems(problems, args))
@@ -82,7 +82,7 @@ std::vector<RunKey> readRuns(std::istream& text, const std::string& source,
     try {
       const nlohmann::json json = parseJsonLine(line, source, number);
       keys.push_back(keyOf(JsonValue(json, "", source)));
-      requireKnown(keys.back(), problems, args.margin);
+      requireKnown(keys.back(), problems, largestMargin(args));
       if (!known.insert(keys.back()).second)
         throw UsageError("the run " + keyText(keys.back()) + " comes twice");
     } catch (const InputError& error) {

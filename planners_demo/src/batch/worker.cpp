@@ -80,7 +80,7 @@ RunResult Worker::run(const RunKey& key) {
   result.key = key;
   std::atomic<std::uint64_t> statesChecked = 0;
   const Arguments& args = *batch_.args;
-  const Validator validator = readValidator(key.validator, args.margin);
+  const Validator validator = readValidator(key.validator, largestMargin(args));
   const PlanRequest request{.planner = key.planner,
                             .time = args.time,
                             .seed = key.seed,

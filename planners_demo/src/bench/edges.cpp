@@ -111,6 +111,8 @@ class EdgeRun {
  public:
   explicit EdgeRun(const Arguments& args) : args_(args), warnings_(args.quiet), dump_(args) {
     bench_.margin = args.margin;
+    bench_.selfMargin = args.selfMargin.value_or(args.margin);
+    bench_.worldMargin = args.worldMargin.value_or(args.margin);
     bench_.tolerance = args.tolerance;
     bench_.passes = args.passes;
     bench_.clockOverhead = clock_.overhead();

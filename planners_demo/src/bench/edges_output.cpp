@@ -32,14 +32,14 @@ std::string verdictName(const EdgeSummary& summary) {
 
 std::string header(const EdgeBench& bench) {
   const double total = std::accumulate(bench.checkerTimes.begin(), bench.checkerTimes.end(), 0.0);
-  const std::string problems = std::to_string(bench.checkerTimes.size());
   return escapedLine(bench.robot + ", group " + bench.group) + ": " +
-         std::to_string(bench.results.size()) + " motions in the worlds of " + problems +
-         " problems\nrobot loaded in " + secondsText(bench.loadTime) + ", " + problems +
-         " checkers built in " + secondsText(total) + " (mean " +
-         secondsText(mean(bench.checkerTimes)) + ")\ntimes: ns per motion, the least of " +
-         std::to_string(bench.passes) + " passes, less the clock's own " +
-         fixed(bench.clockOverhead, 1) + " ns\n";
+         countedText(bench.results.size(), "motion") + " in the worlds of " +
+         countedText(bench.checkerTimes.size(), "problem") + "\nrobot loaded in " +
+         secondsText(bench.loadTime) + ", " + countedText(bench.checkerTimes.size(), "checker") +
+         " built in " + secondsText(total) + " (mean " + secondsText(mean(bench.checkerTimes)) +
+         ")\ntimes: ns per motion, the least of " +
+         countedText(static_cast<std::size_t>(bench.passes), "pass", "passes") +
+         ", less the clock's own " + fixed(bench.clockOverhead, 1) + " ns\n";
 }
 
 std::string tiersText(const std::vector<EdgeSummary>& summaries) {
@@ -119,6 +119,8 @@ Json benchJson(const EdgeBench& bench) {
       {"robot", bench.robot},
       {"group", bench.group},
       {"margin", bench.margin},
+      {"margin_self", bench.selfMargin},
+      {"margin_world", bench.worldMargin},
       {"tolerance", bench.tolerance},
       {"passes", bench.passes},
       {"clock_overhead_ns", bench.clockOverhead},

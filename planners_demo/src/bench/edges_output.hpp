@@ -12,7 +12,8 @@ namespace swept {
 /// All that a run of `bench edges` found.
 struct EdgeBench {
   std::string robot, group;
-  double margin = 0.0, tolerance = 0.0;  ///< m
+  double margin = 0.0, tolerance = 0.0;        ///< m
+  double selfMargin = 0.0, worldMargin = 0.0;  ///< m, of the two kinds of pairs
   int passes = 0;
   double clockOverhead = 0.0;        ///< ns, left out of the times
   double loadTime = 0.0;             ///< s, of the robot's files

@@ -10,7 +10,7 @@ void requirePeer(const Arguments& args) {
   if (args.against.empty()) return;
   if (!builtWithFcl())
     throw UsageError("--against fcl: this build has no FCL; install it and configure again");
-  if (args.margin > 0.0)
+  if (largestMargin(args) > 0.0)
     throw UsageError(
         "--against fcl needs a margin of 0: whether FCL finds a collision is not a "
         "matter of distance");

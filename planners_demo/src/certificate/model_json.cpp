@@ -181,6 +181,8 @@ Json modelJson(const Checker& checker) {
   for (const Joint& joint : robot.joints()) json["joints"].push_back(jointJson(checker, joint));
   json["bodies"] = Json::array();
   json["margin"] = checker.options().margin;
+  if (checker.options().selfMargin) json["margin_self"] = *checker.options().selfMargin;
+  if (checker.options().worldMargin) json["margin_world"] = *checker.options().worldMargin;
   json["paddings"] = Json::object();
   for (const CertifiedBody& body : certifiedBodies(checker)) {
     json["bodies"].push_back(bodyJson(checker, body));

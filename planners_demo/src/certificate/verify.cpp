@@ -95,17 +95,22 @@ VerifyOutcome examine(const Json& path, const Files* files, std::vector<std::str
   return outcome;
 }
 
-std::string clearanceText(double clearance) {
-  return std::isinf(clearance) ? "there is no pair to check"
-                               : "every pair keeps more than " + shortNumber(clearance) + " m";
+std::string keptText(const verify::Summary& summary) {
+  if (std::isinf(summary.clearance)) return "there is no pair to check";
+  const auto kept = [](const std::string& pairs, double clearance) {
+    return std::isinf(clearance) ? "there is no pair " + pairs
+                                 : "pairs " + pairs + " more than " + shortNumber(clearance) + " m";
+  };
+  return "every pair keeps more than " + shortNumber(summary.clearance) + " m; " +
+         kept("with the world", summary.clearanceWorld) + ", " +
+         kept("of the robot's bodies", summary.clearanceSelf);
 }
 
 std::string summaryText(const verify::Summary& summary) {
-  std::string text = "verified: " + std::to_string(summary.segments) + " segments, " +
-                     std::to_string(summary.pairs) + " pairs of bodies, " +
-                     std::to_string(summary.intervals) + " intervals, " +
-                     std::to_string(summary.planes) + " planes\n" +
-                     clearanceText(summary.clearance) + "\n";
+  std::string text = "verified: " + countedText(summary.segments, "segment") + ", " +
+                     countedText(summary.pairs, "pair of bodies", "pairs of bodies") + ", " +
+                     countedText(summary.intervals, "interval") + ", " +
+                     countedText(summary.planes, "plane") + "\n" + keptText(summary) + "\n";
   for (const auto& [reason, pairs] : summary.allowed)
     text += escapedLine("not checked (" + reason + "): " + joined(pairs)) + "\n";
   return text;
@@ -120,7 +125,9 @@ Json outcomeJson(const VerifyOutcome& outcome) {
                {"pairs", summary.pairs},
                {"intervals", summary.intervals},
                {"planes", summary.planes},
-               {"clearance", finiteOrNull(summary.clearance)}};
+               {"clearance", finiteOrNull(summary.clearance)},
+               {"clearance_world", finiteOrNull(summary.clearanceWorld)},
+               {"clearance_self", finiteOrNull(summary.clearanceSelf)}};
   json["not_checked"] = Json::object();
   for (const auto& [reason, pairs] : summary.allowed) json["not_checked"][reason] = pairs;
   return json;

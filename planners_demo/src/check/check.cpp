@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <iostream>
 
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
+#include "output/clearance_text.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -13,15 +13,11 @@
 namespace swept {
 namespace {
 
-std::string clearanceText(const StateReport& report) {
-  if (std::isinf(report.clearance)) return "no pair to check";
-  return "clearance " + shortNumber(report.clearance) + " m, nearest " +
-         escapedLine(report.nearestA + " - " + report.nearestB);
-}
-
 std::string stateText(const std::string& label, const StateReport& report) {
   std::string text = escapedLine(label) + ": " + std::string(toString(report.verdict));
-  if (report.verdict != Verdict::Collision) text.append(", ").append(clearanceText(report));
+  if (keepApart(report.contacts)) text += " (closer than the margin)";
+  if (report.verdict != Verdict::Collision)
+    text.append(", ").append(clearanceText(clearancesOf(report)));
   text += "\n";
   for (const Witness& contact : report.contacts) text += "  " + witnessText(contact) + "\n";
   return text;
@@ -37,8 +33,8 @@ Json stateJson(const LabelledState& state, const StateReport& report) {
                {"values", toJson(state.q)},
                {"verdict", toString(report.verdict)},
                {"clearance", finiteOrNull(report.clearance)}};
-  json["nearest"] =
-      report.nearestA.empty() ? Json(nullptr) : Json::array({report.nearestA, report.nearestB});
+  json["nearest"] = nearestJson(report.nearestA, report.nearestB);
+  addClearances(clearancesOf(report), json);
   json["contacts"] = std::move(contacts);
   return json;
 }
@@ -69,6 +65,8 @@ ExitCode runCheck(const Arguments& args) {
     const Json json = {{"robot", model.robot->name()},
                        {"group", task.checker->group().name},
                        {"margin", args.margin},
+                       {"margin_self", task.checker->options().marginOf(true)},
+                       {"margin_world", task.checker->options().marginOf(false)},
                        {"states", std::move(states)}};
     std::cout << dumped(json) << '\n';
   } else {

@@ -5,6 +5,7 @@
 
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
+#include "output/clearance_text.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -30,16 +31,25 @@ Segment examine(const LabelledState& from, const LabelledState& to, const Checke
   return segment;
 }
 
-std::string clearanceText(const MotionClearance& clearance) {
-  if (std::isinf(clearance.lower)) return "no pair to check";
-  return shortNumber(clearance.lower) + " m or more, and no more than " +
-         shortNumber(clearance.upper) + " m (at t = " + shortNumber(clearance.t) + ")";
+/// The lesser one first.
+std::string clearanceLines(const MotionClearance& clearance) {
+  if (std::isinf(clearance.lower)) return "  clearance   no pair to check\n";
+  const auto line = [](const std::string& kind, const ClearanceInterval& of) {
+    return "  " + kind + std::string(12 - kind.size(), ' ') + boundsText(of);
+  };
+  return line("clearance", clearance) +
+         (clearance.selfPair ? " (self)\n" + line("world", clearance.world)
+                             : " (world)\n" + line("self", clearance.self)) +
+         "\n";
 }
 
 std::string segmentText(const Segment& segment) {
   const MotionCertificate& certificate = segment.certificate;
-  std::string text = escapedLine(segment.from + " to " + segment.to) + ": " +
-                     std::string(toString(certificate.verdict)) + "\n";
+  std::string text =
+      escapedLine(segment.from + " to " + segment.to) + ": " +
+      std::string(toString(certificate.verdict)) +
+      (certificate.witness && keepsApart(*certificate.witness) ? " (closer than the margin)\n"
+                                                               : "\n");
   if (certificate.verdict != Verdict::Free)
     text += "  free until  t = " + shortNumber(certificate.freeUntil) + "\n";
   if (certificate.witness)
@@ -47,7 +57,7 @@ std::string segmentText(const Segment& segment) {
             witnessText(*certificate.witness) + "\n";
   if (certificate.verdict == Verdict::Undecided)
     text += "  undecided   t = " + shortNumber(certificate.undecidedAt) + "\n";
-  if (segment.clearance) text += "  clearance   " + clearanceText(*segment.clearance) + "\n";
+  if (segment.clearance) text += clearanceLines(*segment.clearance);
   const Effort& effort = certificate.effort;
   return text + "  effort      intervals in lanes " + std::to_string(effort.lanes) + ", exactly " +
          std::to_string(effort.intervals) + "; distances " + std::to_string(effort.distances) +
@@ -63,12 +73,10 @@ Json segmentJson(const Segment& segment) {
   json["witness"] = certificate.witness ? toJson(*certificate.witness) : Json(nullptr);
   json["undecided_at"] =
       certificate.verdict == Verdict::Undecided ? Json(certificate.undecidedAt) : Json(nullptr);
-  if (segment.clearance)
-    json["clearance"] = {{"lower", finiteOrNull(segment.clearance->lower)},
-                         {"upper", finiteOrNull(segment.clearance->upper)},
-                         {"t", segment.clearance->t}};
-  else
-    json["clearance"] = nullptr;
+  const std::optional<MotionClearance>& clearance = segment.clearance;
+  json["clearance"] = clearance ? boundsJson(*clearance) : Json(nullptr);
+  json["clearance_world"] = clearance ? boundsJson(clearance->world) : Json(nullptr);
+  json["clearance_self"] = clearance ? boundsJson(clearance->self) : Json(nullptr);
   json["effort"] = {{"intervals", certificate.effort.intervals},
                     {"lanes", certificate.effort.lanes},
                     {"distances", certificate.effort.distances},
@@ -105,6 +113,8 @@ ExitCode runMotion(const Arguments& args) {
     const Json json = {{"robot", model.robot->name()},
                        {"group", task.checker->group().name},
                        {"margin", args.margin},
+                       {"margin_self", task.checker->options().marginOf(true)},
+                       {"margin_world", task.checker->options().marginOf(false)},
                        {"tolerance", args.tolerance},
                        {"segments", std::move(segments)}};
     std::cout << dumped(json) << '\n';

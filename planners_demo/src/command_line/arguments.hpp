@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,16 +43,20 @@ struct Arguments {
   std::optional<double> selfFilter;   ///< m
   std::optional<double> occluded;     ///< m
   std::string group;
-  std::string joints;                     ///< A,B,...: the group is of these
-  std::string chain;                      ///< BASE,TIP: the group is of the joints between
-  bool keepDefaultContacts = false;       ///< of a robot without an SRDF
-  std::vector<std::string> packages;      ///< NAME=DIR
-  std::vector<std::string> pads;          ///< NAME=METRES
-  std::vector<std::string> scales;        ///< NAME=FACTOR
-  std::vector<std::string> allowed;       ///< A,B
-  std::vector<std::string> attached;      ///< SHAPE@LINK[:POSE]
-  std::vector<std::string> explained;     ///< A,B
-  double margin = 0.0;                    ///< m
+  std::string joints;                  ///< A,B,...: the group is of these
+  std::string chain;                   ///< BASE,TIP: the group is of the joints between
+  bool keepDefaultContacts = false;    ///< of a robot without an SRDF
+  std::vector<std::string> packages;   ///< NAME=DIR
+  std::vector<std::string> pads;       ///< NAME=METRES
+  std::vector<std::string> scales;     ///< NAME=FACTOR
+  std::vector<std::string> allowed;    ///< A,B
+  std::vector<std::string> attached;   ///< SHAPE@LINK[:POSE]
+  std::vector<std::string> explained;  ///< A,B
+  double margin = 0.0;                 ///< m
+  ///@{
+  /// m. Of pairs of two links or attached bodies, and of pairs with the world, in its place.
+  std::optional<double> selfMargin, worldMargin;
+  ///@}
   double tolerance = tolerance::kMotion;  ///< m
   bool json = false;
   bool quiet = false;
@@ -123,5 +128,10 @@ struct ParsedArguments {
 
 /// Reads a command line. Help goes to stdout (exit code 0), usage errors to stderr (3).
 ParsedArguments parseArguments(int argc, const char* const* argv);
+
+/// m. What some pair has to keep.
+inline double largestMargin(const Arguments& args) {
+  return std::max(args.selfMargin.value_or(args.margin), args.worldMargin.value_or(args.margin));
+}
 
 }  // namespace swept

@@ -47,6 +47,14 @@ void addRuleOptions(CLI::App& app, Arguments& args) {
   app.add_option("--margin", args.margin, "m; free means: more than this apart (default 0)")
       ->type_name("M")
       ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--margin-self", args.selfMargin,
+                 "m; of pairs of two links or attached bodies, instead of --margin")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
+  app.add_option("--margin-world", args.worldMargin,
+                 "m; of pairs with the world, instead of --margin")
+      ->type_name("M")
+      ->check(within(0.0, 10.0, "between 0 and 10 m"));
   app.add_option("--pad", args.pads,
                  "a link or body of the world reaches so many m farther; in names * stands for any "
                  "characters (repeatable)")

@@ -42,7 +42,9 @@ void refuseRules(const Arguments& args) {
                                       {"--scale", !args.scales.empty()},
                                       {"--allow", !args.allowed.empty()},
                                       {"--attach", !args.attached.empty()},
-                                      {"--margin", args.margin > 0.0}})
+                                      {"--margin", args.margin > 0.0},
+                                      {"--margin-self", args.selfMargin.has_value()},
+                                      {"--margin-world", args.worldMargin.has_value()}})
     if (given)
       throw UsageError(std::string(option) +
                        " needs --group: which pairs are checked depends on what moves");

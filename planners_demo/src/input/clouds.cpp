@@ -195,12 +195,12 @@ void addClouds(const Arguments& args, const Robot& robot,
 std::string cloudsText(const World& world) {
   std::string text;
   forEachCloud(world, [&](const WorldBody& body, const PointCloud& cloud, auto boxes) {
-    text += "body " + escapedLine(body.name) + " is " + std::to_string(cloud.points().size()) +
-            " balls of radius " + shortNumber(cloud.leastRadius());
+    text += "body " + escapedLine(body.name) + " is " + countedText(cloud.points().size(), "ball") +
+            " of radius " + shortNumber(cloud.leastRadius());
     if (cloud.largestRadius() > cloud.leastRadius())
       text += " to " + shortNumber(cloud.largestRadius());
     text += " m";
-    if (boxes > 0) text += " and " + std::to_string(boxes) + " boxes";
+    if (boxes > 0) text += " and " + countedText(boxes, "box", "boxes");
     text += "\n";
   });
   return text;

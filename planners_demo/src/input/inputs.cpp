@@ -169,6 +169,8 @@ Json inputsJson(const Arguments& args, const fs::path& file) {
   // Files that do not say so are older, and about all pairs.
   if (leavesOutDefaultContacts(args)) json[kWithoutDefaultContacts] = true;
   json["margin"] = args.margin;
+  if (args.selfMargin) json["margin_self"] = *args.selfMargin;
+  if (args.worldMargin) json["margin_world"] = *args.worldMargin;
   json["tolerance"] = args.tolerance;
   return json;
 }
@@ -185,6 +187,8 @@ Arguments inputsOf(const JsonValue& inputs) {
   if (args.srdf != "none") reader.file("srdf", args.srdf);
   std::optional<double> margin, tolerance;
   reader.value("margin", margin);
+  reader.value("margin_self", args.selfMargin);
+  reader.value("margin_world", args.worldMargin);
   reader.value("tolerance", tolerance);
   args.margin = margin.value_or(args.margin);
   args.tolerance = tolerance.value_or(args.tolerance);

@@ -187,6 +187,8 @@ std::shared_ptr<const Checker> makeCheckerWith(
     throw UsageError("group '" + group.name + "' has no joint that moves");
   CheckerOptions options;
   options.margin = args.margin;
+  options.selfMargin = args.selfMargin;
+  options.worldMargin = args.worldMargin;
   options.tolerance = args.tolerance;
   options.rules = rules;
   options.attached = model.attached;

@@ -40,6 +40,12 @@ std::string exactNumber(double value) {
   return {buffer.data(), end};
 }
 
+std::string countedText(std::size_t count, const std::string& what, const std::string& several) {
+  const std::string number = std::to_string(count) + " ";
+  if (count == 1) return number + what;
+  return number + (several.empty() ? what + "s" : several);
+}
+
 std::string lengthText(double metres) {
   // Adding zero turns -0 into 0.
   return shortNumber(std::round(metres * 1e12) / 1e12 + 0.0);
@@ -63,10 +69,20 @@ std::string csvCell(const std::string& text) {
   return quoted + "\"";
 }
 
+bool keepsApart(const Witness& witness) {
+  return witness.margin > 0.0 && witness.distance > 0.0;
+}
+
+bool keepApart(std::span<const Witness> contacts) {
+  return !contacts.empty() && std::ranges::all_of(contacts, keepsApart);
+}
+
 std::string witnessText(const Witness& witness) {
   return escapedLine(witness.bodyA + " - " + witness.bodyB) + ": distance " +
-         lengthText(witness.distance) + " m, at " + pointText(witness.pointA) + " and " +
-         pointText(witness.pointB);
+         lengthText(witness.distance) + " m, " +
+         (keepsApart(witness) ? "closer than the margin of " + lengthText(witness.margin) + " m, "
+                              : "") +
+         "at " + pointText(witness.pointA) + " and " + pointText(witness.pointB);
 }
 
 Json finiteOrNull(double value) {
@@ -89,7 +105,8 @@ Json toJson(const Witness& witness) {
           {"body_b", witness.bodyB},
           {"point_a", toJson(witness.pointA)},
           {"point_b", toJson(witness.pointB)},
-          {"distance", finiteOrNull(witness.distance)}};
+          {"distance", finiteOrNull(witness.distance)},
+          {"margin", witness.margin}};
 }
 
 std::string dumped(const Json& json) {

@@ -20,6 +20,9 @@ std::string shortNumber(double value);
 std::string secondsText(double seconds);
 /// Fewest digits that read back to the same double.
 std::string exactNumber(double value);
+/// `1 segment`, `3 segments`. `several`: instead of `what` with an s.
+std::string countedText(std::size_t count, const std::string& what,
+                        const std::string& several = {});
 /// m, to the picometre: what is below is rounding, not distance.
 std::string lengthText(double metres);
 /// `[x y z]`, m.
@@ -28,7 +31,11 @@ std::string pointText(const Eigen::Vector3d& point);
 std::string joined(std::span<const std::string> items, const std::string& separator = ", ");
 /// A cell of a CSV file, in quotes where it needs them.
 std::string csvCell(const std::string& text);
-/// `link - body: distance 0.001 m, at [..] and [..]`.
+/// The two bodies do not touch: they are closer than their margin.
+bool keepsApart(const Witness& witness);
+/// There are some, and that is so of all of them.
+bool keepApart(std::span<const Witness> contacts);
+/// `link - body: distance 0.001 m, closer than the margin of 0.01 m, at [..] and [..]`.
 std::string witnessText(const Witness& witness);
 
 Json toJson(const Eigen::Vector3d& point);

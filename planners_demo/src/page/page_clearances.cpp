@@ -19,6 +19,7 @@ constexpr std::size_t kMostPairs = 100'000;
 /// Two bodies and a first lower bound of their distance (m).
 struct Pair {
   std::size_t a, b;
+  bool self = false;  ///< of two bodies of the robot
   double bound = 0.0;
 };
 
@@ -89,7 +90,7 @@ class Nearest {
     offer(pair.a, pair.b, metres);
     offer(pair.b, pair.a, metres);
   }
-  void appendTo(PageClearances& table) const {
+  void appendTo(PageClearances::Table& table) const {
     for (const double metres : distance_) table.distance.push_back(roundedDown(metres));
     table.partner.insert(table.partner.end(), partner_.begin(), partner_.end());
   }
@@ -104,20 +105,27 @@ class Nearest {
   std::vector<std::int32_t> partner_;
 };
 
-Nearest nearestAt(const std::vector<PageBody>& bodies, const PageFrames& frames, std::size_t frame,
-                  std::vector<Pair> pairs) {
+void appendFrame(const std::vector<PageBody>& bodies, const PageFrames& frames, std::size_t frame,
+                 std::vector<Pair> pairs, PageClearances& table) {
   std::vector<std::vector<Placed>> placed;
   for (const PageBody& body : bodies) placed.push_back(placedParts(body, frames, frame));
   for (Pair& pair : pairs) pair.bound = gapOf(placed[pair.a], placed[pair.b]);
   // The nearest first: most others then need no distance.
   std::ranges::sort(pairs, {}, &Pair::bound);
-  Nearest nearest(bodies.size());
+  Nearest world(bodies.size()), self(bodies.size());
   for (const Pair& pair : pairs) {
+    Nearest& nearest = pair.self ? self : world;
     const double enough = nearest.enough(pair);
     if (pair.bound < enough)
       nearest.offer(pair, distanceOf(placed[pair.a], placed[pair.b], enough));
   }
-  return nearest;
+  world.appendTo(table.world);
+  self.appendTo(table.self);
+}
+
+Json tableJson(const PageClearances::Table& table) {
+  return {{"distance", packed<float>(table.distance)},
+          {"partner", packed<std::int32_t>(table.partner)}};
 }
 
 }  // namespace
@@ -128,22 +136,34 @@ PageClearances clearancesOf(const Checker& checker, const std::vector<PageBody>&
   for (const Checker::Pair& pair : checker.checkedPairs()) {
     const std::size_t a = indexOf(bodies, pair.bodyA, true);
     const std::size_t b = indexOf(bodies, pair.bodyB, pair.selfPair);
-    if (a < bodies.size() && b < bodies.size()) pairs.push_back({.a = a, .b = b});
+    if (a < bodies.size() && b < bodies.size())
+      pairs.push_back({.a = a, .b = b, .self = pair.selfPair});
   }
-  PageClearances table{.stride = 1, .bodies = bodies.size(), .distance = {}, .partner = {}};
+  PageClearances table{.stride = 1, .bodies = bodies.size(), .world = {}, .self = {}};
   const std::size_t work = pairs.size() * frames.poses.size();
   table.stride = static_cast<int>(1 + work / (kMostPairs + 1));
   for (std::size_t frame = 0; frame < frames.poses.size();
        frame += static_cast<std::size_t>(table.stride))
-    nearestAt(bodies, frames, frame, pairs).appendTo(table);
+    appendFrame(bodies, frames, frame, pairs, table);
+  return table;
+}
+
+PageClearances::Table PageClearances::nearer() const {
+  Table table = world;
+  for (std::size_t i = 0; i < table.distance.size(); ++i) {
+    if (!(self.distance[i] < table.distance[i])) continue;
+    table.distance[i] = self.distance[i];
+    table.partner[i] = self.partner[i];
+  }
   return table;
 }
 
 Json PageClearances::json() const {
-  return {{"stride", stride},
-          {"bodies", bodies},
-          {"distance", packed<float>(distance)},
-          {"partner", packed<std::int32_t>(partner)}};
+  Json json = {{"stride", stride}, {"bodies", bodies}};
+  json.update(tableJson(nearer()));
+  json["world"] = tableJson(world);
+  json["self"] = tableJson(self);
+  return json;
 }
 
 }  // namespace swept

@@ -14,11 +14,17 @@ namespace swept {
 /// For every `stride`-th frame and each body, the nearest body it is checked against, and a proven
 /// lower bound of the distance between the two.
 struct PageClearances {
+  struct Table {
+    std::vector<float> distance;        ///< m; infinity: not checked against anything
+    std::vector<std::int32_t> partner;  ///< index of a body; -1: none
+  };
   int stride = 1;  ///< larger than 1 where all frames would take too many distances
   std::size_t bodies = 0;
-  std::vector<float> distance;        ///< m; infinity: not checked against anything
-  std::vector<std::int32_t> partner;  ///< index of a body; -1: none
+  Table world;  ///< of pairs with the world
+  Table self;   ///< of pairs of links or attached bodies
 
+  /// Of either, whichever is nearer.
+  Table nearer() const;
   Json json() const;
 };
 

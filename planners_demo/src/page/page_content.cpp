@@ -7,6 +7,7 @@
 #include "command_line/command.hpp"
 #include "input/clouds.hpp"
 #include "input/states.hpp"
+#include "output/clearance_text.hpp"
 #include "page/packed.hpp"
 #include "page/page_bodies.hpp"
 #include "page/page_clearances.hpp"
@@ -102,6 +103,7 @@ Json stateJson(const LabelledState& state, const Checker* checker) {
   json["verdict"] = swept::toString(report.verdict);
   json["clearance"] = finiteOrNull(report.clearance);
   json["nearest"] = Json::array({report.nearestA, report.nearestB});
+  addClearances(swept::clearancesOf(report), json);
   for (const Witness& contact : report.contacts) json["contacts"].push_back(toJson(contact));
   return json;
 }
@@ -148,7 +150,10 @@ Json factsJson(const Arguments& args, const Robot& robot, const World& world,
   add("robot", robot.name());
   if (checker != nullptr) {
     add("group", checker->group().name);
-    add("margin", shortNumber(checker->options().margin) + " m");
+    const CheckerOptions& options = checker->options();
+    add("margin", shortNumber(options.margin) + " m");
+    if (options.selfMargin) add("margin to itself", shortNumber(*options.selfMargin) + " m");
+    if (options.worldMargin) add("margin to the world", shortNumber(*options.worldMargin) + " m");
     add("tolerance", shortNumber(checker->options().tolerance) + " m");
     add("pairs checked", std::to_string(checker->checkedPairs().size()) + ", left out " +
                              std::to_string(checker->skippedPairs().size()));
@@ -173,37 +178,52 @@ PageContent::Tone toneOf(Verdict verdict) {
   return PageContent::Tone::Unsure;
 }
 
-std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts) {
-  static constexpr std::array<std::pair<Verdict, const char*>, 3> kWords{
-      {{Verdict::Free, "free"},
-       {Verdict::Collision, "in collision"},
-       {Verdict::Undecided, "undecided"}}};
-  std::vector<std::string> counts;
-  for (const auto& [verdict, word] : kWords) {
-    const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
-    if (count == 0) continue;
-    const std::string number = count == verdicts.size() ? "all" : std::to_string(count);
-    counts.push_back(verdicts.size() == 1 ? word : number + " " + word);
-  }
-  if (verdicts.size() == 1) return what + ": " + counts.front();
-  return std::to_string(verdicts.size()) + " " + what + "s: " + joined(counts);
+Finding findingOf(const MotionCertificate& certificate) {
+  return {.verdict = certificate.verdict,
+          .apart = certificate.witness && keepsApart(*certificate.witness)};
 }
 
-Verdict worst(const std::vector<Verdict>& verdicts) {
-  Verdict result = Verdict::Free;
-  for (const Verdict verdict : verdicts)
-    if (result != Verdict::Collision && verdict != Verdict::Free) result = verdict;
-  return result;
+std::string countsText(const std::string& what, const std::vector<Finding>& findings) {
+  static constexpr std::array<std::pair<Finding, const char*>, 4> kWords{
+      {{{Verdict::Free, false}, "free"},
+       {{Verdict::Collision, false}, "in collision"},
+       {{Verdict::Collision, true}, "closer than the margin"},
+       {{Verdict::Undecided, false}, "undecided"}}};
+  std::vector<std::string> counts;
+  for (const auto& [finding, word] : kWords) {
+    const auto count = std::ranges::count_if(findings, [&](const Finding& other) {
+      return other.verdict == finding.verdict && other.apart == finding.apart;
+    });
+    if (count == 0) continue;
+    const bool all = count == std::ssize(findings);
+    counts.push_back(findings.size() == 1 ? word
+                                          : (all ? "all" : std::to_string(count)) + " " + word);
+  }
+  if (findings.size() == 1) return what + ": " + counts.front();
+  return std::to_string(findings.size()) + " " + what + "s: " + joined(counts);
+}
+
+Finding worst(const std::vector<Finding>& findings) {
+  const auto badness = [](const Finding& finding) {
+    if (finding.verdict == Verdict::Collision) return finding.apart ? 2 : 3;
+    return finding.verdict == Verdict::Undecided ? 1 : 0;
+  };
+  const auto found = std::ranges::max_element(findings, {}, badness);
+  return found == findings.end() ? Finding{} : *found;
 }
 
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
   PageContent content;
   Workspace workspace(checker);
-  std::vector<Verdict> verdicts;
-  for (const LabelledState& state : states)
-    verdicts.push_back(checker.checkState(state.q, workspace));
-  content.tone = toneOf(worst(verdicts));
-  content.headline = countsText("state", verdicts);
+  std::vector<Finding> findings;
+  for (const LabelledState& state : states) {
+    Finding finding{.verdict = checker.checkState(state.q, workspace)};
+    if (finding.verdict == Verdict::Collision)
+      finding.apart = keepApart(checker.reportState(state.q, workspace).contacts);
+    findings.push_back(finding);
+  }
+  content.tone = toneOf(worst(findings).verdict);
+  content.headline = countsText("state", findings);
   content.states = std::move(states);
   return content;
 }

@@ -42,10 +42,18 @@ struct PageContent {
 
 PageContent::Tone toneOf(Verdict verdict);
 
-/// Collision if there is one, else Undecided if there is one, else Free.
-Verdict worst(const std::vector<Verdict>& verdicts);
+/// What is said of a state, a motion or a path.
+struct Finding {
+  Verdict verdict = Verdict::Free;
+  bool apart = false;  ///< in Collision: no two bodies touch that are within their margin
+};
+Finding findingOf(const MotionCertificate& certificate);
+
+/// One in Collision if there is one, that touches before that which does not; else one that is
+/// Undecided if there is one; else Free.
+Finding worst(const std::vector<Finding>& findings);
 /// `3 motions: 1 free, 2 in collision`, of `what` = `motion`.
-std::string countsText(const std::string& what, const std::vector<Verdict>& verdicts);
+std::string countsText(const std::string& what, const std::vector<Finding>& findings);
 
 /// Judges states, to be shown one at a time.
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states);

@@ -36,12 +36,19 @@ std::string_view tierOf(const MotionCertificate& certificate) {
 
 Json piecesJson(const std::vector<PagePiece>& pieces) {
   Json tiers = Json::array(), lower = Json::array(), upper = Json::array();
+  Json world = Json::array(), self = Json::array();
   for (const PagePiece& piece : pieces) {
     tiers.push_back(tierOf(piece.certificate));
     lower.push_back(finiteOrNull(piece.clearance.lower));
     upper.push_back(finiteOrNull(piece.clearance.upper));
+    world.push_back(finiteOrNull(piece.clearance.world.lower));
+    self.push_back(finiteOrNull(piece.clearance.self.lower));
   }
-  return {{"tiers", std::move(tiers)}, {"lower", std::move(lower)}, {"upper", std::move(upper)}};
+  return {{"tiers", std::move(tiers)},
+          {"lower", std::move(lower)},
+          {"upper", std::move(upper)},
+          {"lower_world", std::move(world)},
+          {"lower_self", std::move(self)}};
 }
 
 }  // namespace swept

@@ -69,7 +69,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   const Checker& checker = *task.checker;
   Workspace workspace(checker);
   PageContent content;
-  std::vector<Verdict> verdicts;
+  std::vector<Finding> findings;
   for (std::size_t i = 1; i < task.states.size(); ++i) {
     const LabelledState& from = task.beginOfMotionTo(i);
     const LabelledState& to = task.states[i];
@@ -77,10 +77,10 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
                                .from = from.q,
                                .to = to.q,
                                .certificate = checker.certifyMotion(from.q, to.q, workspace)});
-    verdicts.push_back(content.motions.back().certificate.verdict);
+    findings.push_back(findingOf(content.motions.back().certificate));
   }
-  content.tone = toneOf(worst(verdicts));
-  content.headline = countsText("motion", verdicts);
+  content.tone = toneOf(worst(findings).verdict);
+  content.headline = countsText("motion", findings);
   writePage(args, *model.robot, checker.world(), &checker, content);
 }
 
@@ -107,6 +107,8 @@ void writeVerifyPage(const Arguments& args, const Model& model, const Task& task
   if (outcome.holds()) {
     const verify::Summary& summary = outcome.summary;
     content.facts = {{"every pair keeps more than", clearanceText(summary.clearance)},
+                     {"pairs with the world", clearanceText(summary.clearanceWorld)},
+                     {"pairs of the robot's bodies", clearanceText(summary.clearanceSelf)},
                      {"pairs of bodies", std::to_string(summary.pairs)},
                      {"intervals", std::to_string(summary.intervals)},
                      {"separating planes", std::to_string(summary.planes)}};

@@ -52,6 +52,8 @@ void refuseRules(const Arguments& args) {
       {"--allow", !args.allowed.empty()},
       {"--attach", !args.attached.empty()},
       {"--margin", args.margin != none.margin},
+      {"--margin-self", args.selfMargin.has_value()},
+      {"--margin-world", args.worldMargin.has_value()},
       {"--tolerance", args.tolerance != none.tolerance},
       {"--problems", !args.problems.empty()}};
   for (const auto& [name, isGiven] : given)
@@ -108,10 +110,10 @@ std::string differenceOf(const Json& a, const Json& b) {
 }
 
 void addPath(PageContent& content, const Checker& checker, const ReadPath& path,
-             const std::string& file, std::vector<Verdict>& verdicts) {
+             const std::string& file, std::vector<Finding>& findings) {
   const std::string label = std::filesystem::path(file).filename().string();
   Workspace workspace(checker);
-  Verdict worst = Verdict::Free;
+  std::vector<Finding> segments;
   for (std::size_t i = 0; i + 1 < path.states.size(); ++i) {
     content.motions.push_back(
         {.label = "segment " + std::to_string(i + 1),
@@ -119,11 +121,10 @@ void addPath(PageContent& content, const Checker& checker, const ReadPath& path,
          .to = path.states[i + 1],
          .certificate = checker.certifyMotion(path.states[i], path.states[i + 1], workspace),
          .path = static_cast<int>(content.paths.size())});
-    const Verdict verdict = content.motions.back().certificate.verdict;
-    if (worst != Verdict::Collision && verdict != Verdict::Free) worst = verdict;
+    segments.push_back(findingOf(content.motions.back().certificate));
   }
-  verdicts.push_back(worst);
-  content.paths.push_back({.label = label, .tone = toneOf(worst)});
+  findings.push_back(worst(segments));
+  content.paths.push_back({.label = label, .tone = toneOf(findings.back().verdict)});
 }
 
 }  // namespace
@@ -161,7 +162,7 @@ PathsToView pathsToView(const Arguments& args, Warnings& warnings) {
   refuseRules(args);
   PathsToView view;
   Json first;
-  std::vector<Verdict> verdicts;
+  std::vector<Finding> findings;
   for (const std::string& file : args.states) {
     Json model;
     ReadPath path = readPath(args, file, model, warnings);
@@ -174,10 +175,10 @@ PathsToView pathsToView(const Arguments& args, Warnings& warnings) {
                        "not for the same robot, world and rules as '" + args.states.front() +
                            "': " + differenceOf(first, model) + " differ");
     }
-    addPath(view.content, *view.checker, path, file, verdicts);
+    addPath(view.content, *view.checker, path, file, findings);
   }
-  view.content.tone = toneOf(worst(verdicts));
-  view.content.headline = countsText("path", verdicts);
+  view.content.tone = toneOf(worst(findings).verdict);
+  view.content.headline = countsText("path", findings);
   return view;
 }
 

@@ -15,11 +15,11 @@ namespace {
 /// Longer reasons wait below the headline.
 constexpr std::size_t kMostHeadline = 72;
 
-/// `start and goal are in collision`, `7 ends are in collision`; empty: no end has the verdict.
-std::string endsText(const std::vector<EndReport>& ends, Verdict verdict, const std::string& what) {
+/// `start and goal are in collision`, `7 ends are in collision`; empty: no end is that.
+std::string endsText(const std::vector<EndReport>& ends, const std::string& what) {
   std::vector<std::string> labels;
   for (const EndReport& end : ends)
-    if (end.verdict == verdict) labels.push_back(end.label);
+    if (whatIs(end) == what) labels.push_back(end.label);
   if (labels.empty()) return {};
   if (labels.size() == 1) return labels.front() + " is " + what;
   if (labels.size() == 2) return joined(labels, " and ") + " are " + what;
@@ -29,9 +29,8 @@ std::string endsText(const std::vector<EndReport>& ends, Verdict verdict, const 
 /// Why there is no path, without the contacts: those are on the page.
 std::string shortReason(const PlanOutcome& outcome) {
   std::vector<std::string> ends;
-  for (const auto& [verdict, what] :
-       {std::pair{Verdict::Collision, "in collision"}, std::pair{Verdict::Undecided, "undecided"}})
-    if (const std::string text = endsText(outcome.badEnds, verdict, what); !text.empty())
+  for (const char* what : {"in collision", "closer than the margin", "undecided"})
+    if (const std::string text = endsText(outcome.badEnds, what); !text.empty())
       ends.push_back(text);
   if (!ends.empty()) return joined(ends);
   if (outcome.failure.size() <= kMostHeadline) return outcome.failure;
@@ -50,16 +49,30 @@ std::optional<std::size_t> badEnd(const std::vector<LabelledState>& states,
 
 std::string pathHeadline(const PlanOutcome& outcome) {
   if (!outcome.solved()) return "not solved: " + shortReason(outcome);
-  const std::string segments = std::to_string(outcome.segments.size()) + " segment" +
-                               (outcome.segments.size() == 1 ? "" : "s");
-  return outcome.proven() ? "solved: " + segments + ", all proven free" : "not proven: " + segments;
+  const std::string segments = countedText(outcome.segments.size(), "segment");
+  if (!outcome.proven()) return "not proven: " + segments;
+  return "solved: " + segments +
+         (outcome.segments.size() == 1 ? ", proven free" : ", all proven free");
+}
+
+void addKinds(PageContent& content, const Clearances& clearances) {
+  const auto add = [&](const char* name, const NearestPair& pair) {
+    std::string text = clearanceText(pair.clearance);
+    if (!pair.bodyA.empty()) text += ", nearest " + pair.bodyA + " - " + pair.bodyB;
+    content.facts.emplace_back(name, std::move(text));
+  };
+  add("clearance from the world", clearances.world);
+  add("clearance from itself", clearances.self);
 }
 
 void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOutcome& outcome) {
   const auto add = [&](const char* name, std::string value) {
     content.facts.emplace_back(name, std::move(value));
   };
-  if (outcome.proven()) add("least certified clearance", clearanceText(outcome.leastClearance()));
+  if (outcome.proven()) {
+    add("least certified clearance", clearanceText(outcome.leastClearance()));
+    addKinds(content, outcome.leastClearances());
+  }
   add("planner", request.planner);
   add("seed", std::to_string(request.seed));
   add("planning time", secondsText(outcome.planningTime));
@@ -77,15 +90,15 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
   if (args.page.file.empty()) return;
   PageContent content;
   if (outcome.solved()) {
-    std::vector<Verdict> verdicts;
+    std::vector<Finding> findings;
     for (std::size_t i = 0; i < outcome.segments.size(); ++i) {
       content.motions.push_back({.label = "segment " + std::to_string(i + 1),
                                  .from = outcome.states[i],
                                  .to = outcome.states[i + 1],
                                  .certificate = outcome.segments[i].certificate});
-      verdicts.push_back(outcome.segments[i].certificate.verdict);
+      findings.push_back(findingOf(outcome.segments[i].certificate));
     }
-    content.tone = toneOf(worst(verdicts));
+    content.tone = toneOf(worst(findings).verdict);
   } else {
     content = statesContent(*task.checker, task.states);
     content.tone = PageContent::Tone::Bad;

@@ -50,7 +50,8 @@ const CertifiedBody* secondOf(const std::vector<CertifiedBody>& bodies, const Wi
 std::string contactText(const EndContact& contact) {
   return contact.bodyA + " - " + contact.bodyB + " (" +
          (contact.depth > 0.0 ? lengthText(contact.depth) + " m deep"
-                              : lengthText(-contact.depth) + " m apart") +
+                              : lengthText(-contact.depth) + " m apart, margin " +
+                                    lengthText(contact.margin) + " m") +
          ", at " + pointText(contact.point) + ")";
 }
 
@@ -69,15 +70,23 @@ EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspac
                                .depth = a == bodies.end() || b == nullptr
                                             ? -contact.distance
                                             : depthOf(checker, *a, *b, state.q),
+                               .margin = contact.margin,
                                .point = 0.5 * (contact.pointA + contact.pointB)});
   }
   return report;
 }
 
+std::string_view whatIs(const EndReport& report) {
+  if (report.verdict == Verdict::Free) return "free";
+  if (report.verdict == Verdict::Undecided) return "undecided";
+  const bool apart =
+      std::ranges::all_of(report.contacts, [](const EndContact& c) { return c.depth < 0.0; });
+  return apart ? "closer than the margin" : "in collision";
+}
+
 std::string endText(const EndReport& report) {
   if (report.verdict == Verdict::Free) return {};
-  std::string text =
-      report.label + " is " + (report.verdict == Verdict::Collision ? "in collision" : "undecided");
+  const std::string text = report.label + " is " + std::string(whatIs(report));
   std::vector<std::string> contacts;
   for (const EndContact& contact : report.contacts) contacts.push_back(contactText(contact));
   return contacts.empty() ? text : text + ": " + joined(contacts);
@@ -90,6 +99,7 @@ Json endJson(const EndReport& report) {
     json["contacts"].push_back({{"a", contact.bodyA},
                                 {"b", contact.bodyB},
                                 {"depth", contact.depth},
+                                {"margin", contact.margin},
                                 {"point", toJson(contact.point)}});
   return json;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "input/task.hpp"
@@ -15,6 +16,7 @@ struct EndContact {
   std::string bodyA, bodyB;
   double depth;  ///< m, proven upper bound of the shortest translation that separates the two; 0 or
                  ///< less: they are nearer than their margin but do not overlap
+  double margin;          ///< m, what the two have to keep
   Eigen::Vector3d point;  ///< m, model frame: on or in both, or between them
 };
 
@@ -28,7 +30,12 @@ struct EndReport {
 
 EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspace& workspace);
 
-/// `start is in collision: hand - shelf (0.01 m deep, at [0.1 0 0.5]), ...`; empty for a free one.
+/// `in collision`, `closer than the margin` where no two bodies touch, `undecided` or `free`.
+std::string_view whatIs(const EndReport& report);
+
+/// `start is in collision: hand - shelf (0.01 m deep, at [0.1 0 0.5]), ...`, or `start is closer
+/// than the margin: hand - shelf (0.004 m apart, margin 0.01 m, at [0.1 0 0.5])` where no two
+/// bodies touch; empty for a free one.
 std::string endText(const EndReport& report);
 Json endJson(const EndReport& report);
 

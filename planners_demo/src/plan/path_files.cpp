@@ -49,16 +49,20 @@ std::string jsonText(const Checker& checker, const PlanRequest& request, const P
                {"group", checker.group().name},
                {"planner", request.planner},
                {"seed", request.seed},
-               {"margin", checker.options().margin},
-               {"tolerance", checker.options().tolerance},
-               {"clouds", cloudsJson(checker.world())},
-               {"joint_names", variableNames(checker.robot(), checker.group())}};
+               {"margin", checker.options().margin}};
+  if (checker.options().selfMargin) json["margin_self"] = *checker.options().selfMargin;
+  if (checker.options().worldMargin) json["margin_world"] = *checker.options().worldMargin;
+  json["tolerance"] = checker.options().tolerance;
+  json["clouds"] = cloudsJson(checker.world());
+  json["joint_names"] = variableNames(checker.robot(), checker.group());
   json["states"] = Json::array();
   for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
   json["segments"] = Json::array();
-  for (const PathSegment& segment : outcome.segments)
+  for (const PathSegment& segment : outcome.segments) {
     json["segments"].push_back({{"verdict", toString(segment.certificate.verdict)},
                                 {"clearance", finiteOrNull(segment.clearance)}});
+    addClearances(segment.clearances, json["segments"].back());
+  }
   json["inputs"] = inputs;
   requireUtf8(json, where);
   if (embed) json["model"] = certificate.model;

@@ -49,7 +49,8 @@ std::string planTable(const PlanRequest& request, const PlanOutcome& outcome) {
 std::string resultLine(const PlanOutcome& outcome) {
   if (!outcome.solved()) return "not solved: " + escapedLine(outcome.failure) + "\n";
   if (outcome.proven())
-    return "solved: " + std::to_string(outcome.segments.size()) + " segments, all proven free\n";
+    return "solved: " + countedText(outcome.segments.size(), "segment") +
+           (outcome.segments.size() == 1 ? ", proven free\n" : ", all proven free\n");
   for (std::size_t i = 0; i < outcome.segments.size(); ++i)
     if (const Verdict verdict = outcome.segments[i].certificate.verdict; verdict != Verdict::Free)
       return "not proven: segment " + std::to_string(i + 1) + " of " +
@@ -73,6 +74,8 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
   json["motions_refused"] = outcome.refused;
   json["minimum_certified_clearance"] =
       outcome.proven() ? finiteOrNull(outcome.leastClearance()) : Json(nullptr);
+  addClearances(outcome.proven() ? outcome.leastClearances() : Clearances{}, json);
+  if (!outcome.proven()) json["clearance_world"] = json["clearance_self"] = nullptr;
   json["clouds"] = cloudsJson(checker.world());
   json["states"] = Json::array();
   for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
@@ -162,6 +165,7 @@ ExitCode runPlan(const Arguments& args) {
   } else {
     std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
               << resultLine(outcome);
+    if (outcome.proven()) std::cout << clearanceText(outcome.leastClearances()) << '\n';
     if (file && outcome.proven())
       std::cout << "path written to " << escapedLine(args.output) << '\n';
   }

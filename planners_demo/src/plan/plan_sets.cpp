@@ -180,7 +180,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
     entries.push_back({.set = choice.set, .index = choice.index, .outcome = {}});
   const auto like = makeFirstChecker(args, model, group, std::make_shared<const World>(), warnings);
   {
-    Progress progress("planning " + std::to_string(entries.size()) + " problems", args.quiet);
+    Progress progress("planning " + countedText(entries.size(), "problem"), args.quiet);
     runAll(entries, args.jobs, progress, [&](const Entry& entry) {
       return solveProblem(args, model, file, entry, *like, request, warnings);
     });

@@ -161,10 +161,14 @@ void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometr
     const std::vector<double>& from = outcome.states[i];
     const std::vector<double>& to = outcome.states[i + 1];
     PathSegment segment{.certificate = certifyByEither(checker, from, to, workspace),
-                        .clearance = 0.0};
-    if (clearance && segment.certificate.verdict == Verdict::Free)
-      segment.clearance =
-          checker.motionClearance(from, to, clearanceAccuracy(checker), workspace).lower;
+                        .clearance = 0.0,
+                        .clearances = {}};
+    if (clearance && segment.certificate.verdict == Verdict::Free) {
+      const MotionClearance found =
+          checker.motionClearance(from, to, clearanceAccuracy(checker), workspace);
+      segment.clearance = found.lower;
+      segment.clearances = clearancesOf(found);
+    }
     outcome.code = worse(outcome.code, exitCodeOf(segment.certificate.verdict));
     outcome.segments.push_back(std::move(segment));
   }
@@ -211,6 +215,14 @@ bool PlanOutcome::proven() const {
 double PlanOutcome::leastClearance() const {
   double least = std::numeric_limits<double>::infinity();
   for (const PathSegment& segment : segments) least = std::min(least, segment.clearance);
+  return least;
+}
+
+Clearances PlanOutcome::leastClearances() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Clearances least;
+  least.world.clearance = least.self.clearance = kInfinity;
+  for (const PathSegment& segment : segments) takeLeast(segment.clearances, least);
   return least;
 }
 

@@ -10,6 +10,7 @@
 
 #include "command_line/exit_code.hpp"
 #include "input/task.hpp"
+#include "output/clearance_text.hpp"
 #include "plan/end_report.hpp"
 #include "plan/pose_target.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
@@ -41,6 +42,7 @@ struct PlanRequest {
 struct PathSegment {
   MotionCertificate certificate;
   double clearance = 0.0;  ///< m, proven lower bound; infinity: no pairs; 0 when not asked for
+  Clearances clearances;   ///< of pairs with the world, and of the others; likewise
 };
 
 struct PlanOutcome {
@@ -58,8 +60,9 @@ struct PlanOutcome {
   std::vector<PathSegment> segments;  ///< one fewer than states
 
   bool solved() const { return failure.empty(); }
-  bool proven() const;            ///< solved, and every segment is Free
-  double leastClearance() const;  ///< m, over the segments
+  bool proven() const;                 ///< solved, and every segment is Free
+  double leastClearance() const;       ///< m, over the segments
+  Clearances leastClearances() const;  ///< likewise
 };
 
 /// Plans from `states[0]` to any of the others, or to the goal pose, and certifies the path once

@@ -89,6 +89,10 @@ struct ErrorReport {
   std::vector<std::string> worlds;     ///< names
   std::shared_ptr<const World> world;  ///< of --scene and --cloud; empty without
   double margin = 0.0;                 ///< m
+  ///@{
+  /// m. Of pairs of the robot's own bodies, and of pairs with the world.
+  double selfMargin = 0.0, worldMargin = 0.0;
+  ///@}
   std::uint32_t seed = 1;
   int passes = 1;
   MotionCounts counts;

@@ -65,6 +65,10 @@ std::string factsHtml(const ErrorReport& report, const std::string& commandLine)
   add("worlds", joined(report.worlds));
   if (const std::string clouds = cloudsText(*report.world); !clouds.empty()) add("clouds", clouds);
   add("margin", exactNumber(report.margin) + " m");
+  if (report.selfMargin != report.margin)
+    add("margin to itself", exactNumber(report.selfMargin) + " m");
+  if (report.worldMargin != report.margin)
+    add("margin to the world", exactNumber(report.worldMargin) + " m");
   add("seed", std::to_string(report.seed));
   add("times", "on one thread, the least of " + std::to_string(report.passes) +
                    " passes; the methods take turns");

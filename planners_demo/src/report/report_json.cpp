@@ -41,8 +41,14 @@ Json rowJson(const ReportRow& row) {
 
 Json reportJson(const ErrorReport& report, const std::string& commandLine) {
   const MotionCounts& counts = report.counts;
-  Json json = {{"robot", report.robot},   {"group", report.group}, {"worlds", report.worlds},
-               {"margin", report.margin}, {"seed", report.seed},   {"passes", report.passes},
+  Json json = {{"robot", report.robot},
+               {"group", report.group},
+               {"worlds", report.worlds},
+               {"margin", report.margin},
+               {"margin_self", report.selfMargin},
+               {"margin_world", report.worldMargin},
+               {"seed", report.seed},
+               {"passes", report.passes},
                {"command", commandLine}};
   json["clouds"] = cloudsJson(*report.world);
   json["motions"] = {{"count", counts.motions},

@@ -91,6 +91,8 @@ class ReportRun {
                        .worlds = {},
                        .world = model_.world,
                        .margin = args_.margin,
+                       .selfMargin = args_.selfMargin.value_or(args_.margin),
+                       .worldMargin = args_.worldMargin.value_or(args_.margin),
                        .seed = args_.seed,
                        .passes = args_.passes,
                        .counts = motions_.counts(),

@@ -110,10 +110,9 @@ std::vector<ReportTable> reportTables(const ErrorReport& report) {
 std::string countsText(const ErrorReport& report) {
   const MotionCounts& counts = report.counts;
   const std::size_t worlds = report.worlds.size();
-  std::string text = std::to_string(counts.motions) + " random motions in " +
-                     (worlds == 1 ? "1 world" : std::to_string(worlds) + " worlds") + ": " +
-                     std::to_string(counts.free) + " free, " + std::to_string(counts.collision) +
-                     " in collision";
+  std::string text = countedText(static_cast<std::size_t>(counts.motions), "random motion") +
+                     " in " + countedText(worlds, "world") + ": " + std::to_string(counts.free) +
+                     " free, " + std::to_string(counts.collision) + " in collision";
   if (counts.undecided > 0)
     text += ", " + std::to_string(counts.undecided) + " undecided at " +
             exactNumber(kTruthTolerance) + " m and left out";

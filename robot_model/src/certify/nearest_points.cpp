@@ -1,13 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/nearest_points.hpp"
 
+#include <algorithm>
+
 namespace swept::detail {
 
+namespace {
+
+/// Moving obstacles come last: no name of a link or attached body is one of theirs.
+int carrierNamed(const CheckerModel& model, const std::string& name) {
+  const auto found = std::ranges::find(model.carriers, name, &Carrier::name);
+  return found == model.carriers.end() ? -1 : static_cast<int>(found - model.carriers.begin());
+}
+
+int bodyNamed(const CheckerModel& model, const std::string& name) {
+  const auto& bodies = model.world->bodies();
+  const auto found = std::ranges::find(bodies, name, &WorldBody::name);
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+}
+
+}  // namespace
+
 void takeNearestPoints(const CheckerModel& model, PairQuery& query, Witness& witness) {
+  if (!(witness.distance > 0.0)) return;
+  const int a = carrierNamed(model, witness.bodyA);
+  const int body = witness.selfPair ? -1 : bodyNamed(model, witness.bodyB);
+  const int carrier = body < 0 ? carrierNamed(model, witness.bodyB) : -1;
   for (const GeometryPair& pair : model.pairs) {
-    if (!(witness.distance > 0.0)) return;
-    const bool same = model.isSelfPair(pair) == witness.selfPair &&
-                      model.nameOfA(pair) == witness.bodyA && model.nameOfB(pair) == witness.bodyB;
+    if (model.robotGeometry[pair.a].carrier != a) continue;
+    const bool same = pair.self ? model.robotGeometry[pair.b].carrier == carrier
+                                : model.worldGeometry[pair.b].body == body;
     if (!same) continue;
     const PairDistance found = query.measure(pair, witness.distance, tolerance::kDistance);
     if (!(found.upper < witness.distance)) continue;
