@@ -20,7 +20,8 @@ class MeshStore {
   explicit MeshStore(const InputSource& source) : source_(source) {}
 
   /// The mesh that `reference` names, scaled per axis (negative mirrors). The same file at the same
-  /// scale is one mesh. Cracks that rounding to single precision explains are closed. `line` and
+  /// scale is one mesh. Cracks of up to 1e-5 of its size, or what rounding explains, are filled: a
+  /// warning names those that rounding does not explain. `line` and
   /// `owner` (as in `link 'arm'`) go into the messages: an open surface is a warning, a mesh that
   /// cannot be used an InputError.
   TriangleMesh mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,

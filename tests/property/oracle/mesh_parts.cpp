@@ -143,9 +143,9 @@ MeshParts partsOf(const std::vector<Vector3d>& vertices, const std::vector<Face>
   };
   for (const auto& [ends, users] : edges) {
     // Of loose faces and of others, each by themselves.
-    int first[2] = {-1, -1};
+    int sample[2] = {-1, -1};
     for (const Use& use : users) {
-      int& at = first[loose[use.face] ? 1 : 0];
+      int& at = sample[loose[use.face] ? 1 : 0];
       if (at < 0) at = use.face;
       group[root(use.face)] = root(at);
     }
