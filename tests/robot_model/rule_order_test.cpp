@@ -119,8 +119,9 @@ TEST(RuleOrder, ALinkThatIsOffByDefaultIsCheckedAgainstTheWorldAndWhatIsEnabled)
   EXPECT_THAT(checker.explain("tip", "wall"), HasSubstr(": checked,"));
 }
 
-/// `arm` is in `base` and `cap` at the default state, and no joint connects it to either.
-TEST(RuleOrder, ContactsAtTheDefaultStateAreAllowedForWhoeverAsks) {
+/// `arm` is in `base` and `cap` at the default state, and no joint connects it to either: in `base`
+/// it always is, and it leaves `cap` when it turns.
+TEST(RuleOrder, ContactsThatAreAlwaysThereAreAllowedForWhoeverAsks) {
   const std::string turn =
       R"(<axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/>)";
   const auto robot =
@@ -134,24 +135,28 @@ TEST(RuleOrder, ContactsAtTheDefaultStateAreAllowedForWhoeverAsks) {
                        urdfJoint("p", "fixed", "arm", "pin", "") +
                        urdfJoint("b", "revolute", "pin", "tip", turn) + "</robot>",
                    "r.urdf");
-  const CollisionRules rules = allowDefaultContacts(*robot);
+  const DefaultContacts contacts = defaultContacts(*robot);
   // base and cap are in contact, too, but rigid: a standing contact.
-  ASSERT_EQ(rules.rules().size(), 2U);
-  EXPECT_TRUE(rules.allowed("base", "arm").value());
-  EXPECT_TRUE(rules.allowed("arm", "cap").value());
-  EXPECT_EQ(rules.rules()[0].reason, kDefaultContact);
+  ASSERT_EQ(contacts.always.rules().size(), 1U);
+  EXPECT_TRUE(contacts.always.allowed("base", "arm").value());
+  EXPECT_EQ(contacts.always.rules()[0].reason, kDefaultContact);
+  EXPECT_EQ(contacts.sometimes, (std::vector<std::pair<std::string, std::string>>{{"arm", "cap"}}));
   const Checker all(robot, "all", shared({}));
-  const Checker less(robot, "all", shared({}), {.rules = rules});
+  const Checker less(robot, "all", shared({}), {.rules = contacts.always});
   const Checker kept(robot, "all", shared({}),
-                     {.rules = CollisionRules().check("base", "arm").over(rules)});
-  const std::vector<double> home{0.0, 0.0};
+                     {.rules = CollisionRules().check("base", "arm").over(contacts.always)});
+  // Where the arm has left the cap.
+  const std::vector<double> turned{2.5, 0.0};
   for (const auto& [checker, verdict] :
        {std::pair{&all, Verdict::Collision}, {&less, Verdict::Free}, {&kept, Verdict::Collision}}) {
     Workspace workspace(*checker);
-    EXPECT_EQ(checker->checkState(home, workspace), verdict);
+    EXPECT_EQ(checker->checkState(turned, workspace), verdict);
   }
+  Workspace workspace(less);
+  EXPECT_EQ(less.checkState(std::vector<double>{0.0, 0.0}, workspace), Verdict::Collision);
   EXPECT_EQ(less.explain("base", "arm"),
-            "base - arm: not checked, allowed: in contact at the default state");
+            "base - arm: not checked, allowed: in contact at the "
+            "default state and at all others that were looked at");
   EXPECT_EQ(less.standingContacts().size(), 1U);
 }
 

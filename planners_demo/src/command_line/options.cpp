@@ -70,7 +70,7 @@ void addRuleOptions(CLI::App& app, Arguments& args) {
       ->allow_extra_args(false);
   app.add_flag("--keep-default-contacts", args.keepDefaultContacts,
                "without an SRDF: check pairs of links, too, that are in contact at the default "
-               "state");
+               "state and at all others that were looked at");
   app.add_option(
          "--attach", args.attached,
          "a link carries box:X,Y,Z or sphere:R or cylinder:R,L (m) or a mesh file, which is "

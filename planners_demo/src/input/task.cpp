@@ -134,8 +134,11 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   model.attached = attachedBodies(args, *model.robot, options, std::move(scene.attached));
   model.weakerRules = std::move(scene.rules);
   // A scene's matrix stands in place of all that nobody decided.
-  if (leavesOutDefaultContacts(args) && !scene.hasMatrix)
-    model.weakerRules = model.weakerRules.over(allowDefaultContacts(*model.robot));
+  if (leavesOutDefaultContacts(args) && !scene.hasMatrix) {
+    DefaultContacts contacts = defaultContacts(*model.robot);
+    model.weakerRules = model.weakerRules.over(contacts.always);
+    model.contactsAtDefault = std::move(contacts.sometimes);
+  }
   model.options = options;
   model.world = std::make_shared<const World>(std::move(world));
   return model;
@@ -158,8 +161,29 @@ std::string nearNameInRules(const CollisionRules& rules, const Model& model, con
   return {};
 }
 
+constexpr const char* kMakesSrdf =
+    "`swept acm ROBOT.urdf -o ROBOT.srdf` makes an SRDF that says which pairs are to be left out";
+
+/// Those of the pairs that are checked.
+std::vector<std::string> checkedOf(const Checker& checker,
+                                   const std::vector<std::pair<std::string, std::string>>& pairs) {
+  std::vector<std::string> checked;
+  for (const Checker::Pair& pair : checker.checkedPairs())
+    if (pair.selfPair && std::ranges::find_if(pairs, [&](const auto& other) {
+                           return std::minmax(pair.bodyA, pair.bodyB) ==
+                                  std::minmax(other.first, other.second);
+                         }) != pairs.end())
+      checked.push_back(pair.bodyA + " - " + pair.bodyB);
+  return checked;
+}
+
 /// What without an SRDF nobody has decided is said aloud, with what decides it.
-void warnOfDefaultContacts(const Checker& checker, Warnings& warnings) {
+void warnOfDefaultContacts(const Checker& checker, const Model& model, Warnings& warnings) {
+  if (const auto checked = checkedOf(checker, model.contactsAtDefault); !checked.empty())
+    warnings(
+        "swept: warning: no SRDF: in contact at the default state, though not always, and "
+        "checked: " +
+        joined(checked) + "; --allow A,B leaves a pair out, and " + kMakesSrdf);
   const CollisionRules defaults = defaultContactsOf(checker);
   if (defaults.empty()) return;
   std::vector<std::string> pairs;
@@ -171,11 +195,9 @@ void warnOfDefaultContacts(const Checker& checker, Warnings& warnings) {
   }
   if (pairs.empty()) return;
   warnings(
-      "swept: warning: no SRDF: not checked are links that are in contact at the default "
-      "state already: " +
-      joined(pairs) +
-      "; --keep-default-contacts checks them, and `swept acm ROBOT.urdf -o ROBOT.srdf` makes "
-      "an SRDF that says which pairs are to be left out");
+      "swept: warning: no SRDF: not checked are links that are in contact at the default state and "
+      "at all others that were looked at: " +
+      joined(pairs) + "; --keep-default-contacts checks them, and " + kMakesSrdf);
 }
 
 /// `alone`: nothing else goes on that shows on the terminal.
@@ -203,7 +225,7 @@ std::shared_ptr<const Checker> makeCheckerWith(
     throw UsageError(error.what() + nearNameInRules(rules, model, *in));
   }
   if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
-  warnOfDefaultContacts(*checker, warnings);
+  warnOfDefaultContacts(*checker, model, warnings);
   return checker;
 }
 
@@ -230,8 +252,8 @@ std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Mode
                                                const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings) {
-  CollisionRules rules = rulesIn(*world, rulesOf(args).over(model.weakerRules), like.robot(),
-                                 like.options().attached);
+  CollisionRules rules =
+      rulesIn(*world, rulesOf(args).over(model.weakerRules), like.robot(), like.options().attached);
   auto checker = std::make_shared<const Checker>(like.withWorld(std::move(world)));
   // What it has kept of its own rules are some of these.
   if (checker->options().rules.rules().size() != rules.rules().size())

@@ -40,7 +40,7 @@ struct SrdfChoice {
 };
 SrdfChoice chooseSrdf(const Arguments& args);
 
-/// Whether pairs of links in contact at the default state are left out, if there are any: without
+/// Whether pairs of links that are always in contact are left out, if there are any: without
 /// an SRDF nobody has said which pairs are to be checked.
 bool leavesOutDefaultContacts(const Arguments& args);
 
@@ -51,9 +51,11 @@ struct Model {
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
   std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none
-  /// Those of --scene and, without an SRDF, of what is in contact at the default state, unless
+  /// Those of --scene and, without an SRDF, of what is always in contact, unless
   /// --keep-default-contacts: the command line's are over them.
   CollisionRules weakerRules;
+  /// Likewise, of what is in contact at the default state and not always: is checked.
+  std::vector<std::pair<std::string, std::string>> contactsAtDefault;
   LoadOptions options;  ///< how the files were read
 };
 /// Throws InputError or UsageError.

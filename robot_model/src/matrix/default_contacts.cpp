@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstdint>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace swept {
 
 namespace {
 
+constexpr int kSamples = 1000;
+constexpr std::uint64_t kSeed = 1;
+
 std::set<std::pair<int, int>> adjacentLinks(const Robot& robot) {
   std::set<std::pair<int, int>> pairs;
   for (const Joint& joint : robot.joints())
@@ -21,9 +26,9 @@ std::set<std::pair<int, int>> adjacentLinks(const Robot& robot) {
 
 }  // namespace
 
-CollisionRules allowDefaultContacts(const Robot& robot) {
+DefaultContacts defaultContacts(const Robot& robot) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return allowDefaultContacts(robot); });
+    return inDefaultEnvironment([&] { return defaultContacts(robot); });
   }
   const detail::KinematicModel model = detail::wholeKinematics(robot);
   const Eigen::VectorXd start = robot.defaultState();
@@ -31,7 +36,7 @@ CollisionRules allowDefaultContacts(const Robot& robot) {
   const int count = static_cast<int>(robot.links().size());
   std::vector<detail::LinkPieces> pieces;
   for (int link = 0; link < count; ++link) pieces.push_back(detail::piecesOf(robot, model, link));
-  CollisionRules rules;
+  DefaultContacts contacts;
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
       if (pieces[a].pieces.empty() || pieces[b].pieces.empty() || adjacent.contains({a, b}))
@@ -43,10 +48,14 @@ CollisionRules allowDefaultContacts(const Robot& robot) {
       detail::ContactSearch search(pieces[a], pieces[b], chain, 0.0, place);
       detail::ContactSearch::Values values;
       for (const int v : chain.variables()) values.push_back(start[v]);
-      if (search.isContact(values))
-        rules.allow(robot.links()[a].name, robot.links()[b].name, std::string(kDefaultContact));
+      if (!search.isContact(values)) continue;
+      const std::string &nameA = robot.links()[a].name, &nameB = robot.links()[b].name;
+      if (search.findApart(kSamples, kSeed))
+        contacts.sometimes.emplace_back(nameA, nameB);
+      else
+        contacts.always.allow(nameA, nameB, std::string(kDefaultContact));
     }
-  return rules;
+  return contacts;
 }
 
 }  // namespace swept

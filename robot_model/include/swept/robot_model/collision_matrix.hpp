@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "swept/robot_model/collision_rules.hpp"
@@ -92,13 +93,21 @@ std::vector<LinkPairReport> collisionMatrix(const Robot& robot,
                                             const CollisionMatrixOptions& options = {});
 
 /// The reason of each of the rules below.
-inline constexpr std::string_view kDefaultContact = "in contact at the default state";
+inline constexpr std::string_view kDefaultContact =
+    "in contact at the default state and at all others that were looked at";
 
-/// Rules that allow the pairs of links that are in contact in Robot::defaultState(): what a robot
-/// without an SRDF would be in collision with, often in every state. For whoever asks for them: put
-/// them below the other rules (CollisionRules::over), and say which they are. Links that a joint
-/// connects, and links attached rigidly to each other, are not among them.
-CollisionRules allowDefaultContacts(const Robot& robot);
+/// Pairs of links in contact at Robot::defaultState(): what a robot without an SRDF is in collision
+/// with, often in every state. Links that a joint connects, and links attached rigidly to each
+/// other, are not among them.
+struct DefaultContacts {
+  /// Allow those that are in contact at 1000 random states, too (Always, as collisionMatrix finds
+  /// them). For whoever asks for them: put them below the other rules (CollisionRules::over), and
+  /// say which they are.
+  CollisionRules always;
+  /// Names of the others. They can be apart, so that leaving them out would prove less than asked.
+  std::vector<std::pair<std::string, std::string>> sometimes;
+};
+DefaultContacts defaultContacts(const Robot& robot);
 
 /// An SRDF that disables the pairs that are Adjacent, Never, Always or Default, with these words
 /// as reasons, in the order of the reports.
