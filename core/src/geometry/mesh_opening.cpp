@@ -31,6 +31,9 @@ double longestSide(std::span<const Eigen::Vector3d> points) {
 }  // namespace
 
 double TriangleMesh::usualCrackWidth(std::span<const Eigen::Vector3d> vertices) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([vertices] { return usualCrackWidth(vertices); });
+  }
   // A coordinate of six digits is off by up to 5e-6 of itself, and two copies of it by twice that.
   constexpr double kOfSide = 1e-5;
   constexpr double kTwoSteps = 2.0 * std::numeric_limits<float>::epsilon();

@@ -39,8 +39,10 @@ struct MeshReport {
 /// Triangles with a hierarchy over them. Immutable; copies share the data.
 ///
 /// A connected component (triangles joined by shared edges) in which every edge has an even number
-/// of triangles, nearly always two, is closed. Under `MeshInterior::Solid` a point belongs to the
-/// shape when it lies on a triangle or inside any closed component, whichever way its triangles are
+/// of triangles, nearly always two, is closed. Of what is left build() makes closed components
+/// where it finds solids: without the sheets that touch them, with cracks filled, and with walls
+/// that divide them, once for each side. Under `MeshInterior::Solid` a point belongs to the shape
+/// when it lies on a triangle or inside any closed component, whichever way its triangles are
 /// oriented; cavities formed by a component inside another are filled. Inside a component means:
 /// its winding number is not zero when its triangles are consistently oriented (so where it
 /// overlaps itself is inside), else a ray from the point crosses it an odd number of times. Open
