@@ -212,7 +212,8 @@ class Checker {
 
   /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
   /// prismatic value more than tolerance::kLimit outside its limits (what is out of reach up to
-  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of it.
+  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of
+  /// it.
   Verdict checkState(std::span<const double> q, Workspace& workspace) const;
   /// The same verdicts for many states, which follow each other in `states`; faster than one by
   /// one. Throws std::invalid_argument unless there is one verdict for each.
@@ -278,6 +279,10 @@ class Checker {
   const std::vector<Pair>& checkedPairs() const;
   const std::vector<Pair>& skippedPairs() const;
   ///@}
+  /// Of Robot::linksWithoutGeometry() those that the group moves: Free says nothing about them.
+  std::vector<std::string> linksWithoutGeometry() const;
+  /// No pair is checked, and none is proven out of reach either: Free says nothing at all.
+  bool checksNothing() const;
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;

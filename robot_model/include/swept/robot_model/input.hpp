@@ -36,8 +36,9 @@ struct PackageFolder {
 
 /// How files are read.
 struct LoadOptions {
-  /// Searched first for `package://NAME/...`; then a folder NAME beside the file or beside one of
-  /// its parent folders; then the same below ROS_PACKAGE_PATH.
+  /// Searched first for `package://NAME/...`. Then come: the folder whose `package.xml` names it
+  /// NAME, of those that the file is in; a folder NAME beside the file or beside one of its parent
+  /// folders; the same below ROS_PACKAGE_PATH; and `share/NAME` below AMENT_PREFIX_PATH.
   std::vector<PackageFolder> packages;
   /// What a scene may call the robot's model frame, besides `world` and no name: the URDF's root
   /// link. Objects in any other frame that the scene does not place are put in the model frame,
@@ -46,6 +47,10 @@ struct LoadOptions {
   /// Receives one line per remark (`file:line: warning: ...`): open meshes, entries of an SRDF that
   /// name links the robot does not have, and the like. Nothing is printed without it.
   std::function<void(const std::string&)> warn;
+  /// Receives, instead of `warn`, the remarks without which an answer would be taken for more than
+  /// it is: a link that is shown and has no collision geometry, a scene without a body. `warn`
+  /// receives them where this is empty.
+  std::function<void(const std::string&)> warnOfUnchecked;
 };
 
 }  // namespace swept

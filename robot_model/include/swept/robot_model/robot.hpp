@@ -46,6 +46,7 @@ struct Link {
   std::string name;                          ///< unique
   int parentJoint = -1;                      ///< -1 for the root link
   std::vector<CollisionGeometry> collision;  ///< none: it is checked against nothing
+  bool hasVisual = false;                    ///< the URDF shows it, whether or not it can collide
 };
 
 /// How a link moves against its parent.
@@ -143,6 +144,10 @@ class Robot {
   const Group* findGroup(std::string_view name) const;
   const NamedState* findNamedState(std::string_view name, std::string_view group) const;
   ///@}
+
+  /// Names of the links that the URDF shows (`<visual>`) without a `<collision>`: every answer is
+  /// about the robot without them. Frames, which have neither, are not among them.
+  std::vector<std::string> linksWithoutGeometry() const;
 
   /// A configuration of all variables: zero where the limits allow it, else the middle of the
   /// limits; identity for floating joints.
