@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "input_files.hpp"
@@ -18,8 +19,11 @@ namespace fs = std::filesystem;
 
 class PackagePaths : public ::testing::Test {
  protected:
-  void SetUp() override { unsetenv("ROS_PACKAGE_PATH"); }
-  void TearDown() override { unsetenv("ROS_PACKAGE_PATH"); }
+  void SetUp() override {
+    unsetenv("ROS_PACKAGE_PATH");
+    unsetenv("AMENT_PREFIX_PATH");
+  }
+  void TearDown() override { SetUp(); }
 
   std::vector<std::string> candidates(const std::string& reference) const {
     std::vector<std::string> texts;
@@ -53,6 +57,48 @@ TEST_F(PackagePaths, RosPackagePathComesLastAsPackageOrFolderOfPackages) {
   const std::vector<std::string> last(found.end() - 4, found.end());
   EXPECT_THAT(last, ElementsAre("/ros/share/arm/link.stl", "/ws/arm/arm/link.stl",
                                 "/ws/arm/link.stl", "/other/arm/link.stl"));
+}
+
+TEST_F(PackagePaths, AmentPrefixesHaveSharedFolders) {
+  setenv("AMENT_PREFIX_PATH", "/ws/install:/opt/ros/x", 1);
+  const auto found = candidates("package://arm/link.stl");
+  const std::vector<std::string> last(found.end() - 2, found.end());
+  EXPECT_THAT(last, ElementsAre("/ws/install/share/arm/link.stl", "/opt/ros/x/share/arm/link.stl"));
+}
+
+TEST_F(PackagePaths, SlashesInFrontAreNoAbsolutePath) {
+  options.packages = {{"arm", "/mapped"}};
+  setenv("ROS_PACKAGE_PATH", "/home/arm", 1);
+  const auto plain = candidates("package://arm/link.stl");
+  EXPECT_EQ(plain.front(), "/mapped/link.stl");
+  for (const char* slashes :
+       {"package:///arm/link.stl", "package:////arm/link.stl", "model:///arm/link.stl"})
+    EXPECT_EQ(candidates(slashes), plain) << slashes;
+  std::vector<std::string> sorted = plain;
+  std::sort(sorted.begin(), sorted.end());
+  EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  EXPECT_EQ(detail::packageOf("package:///arm/link.stl"), "arm");
+  EXPECT_EQ(detail::packageOf("arm/link.stl"), "");
+}
+
+/// A checked-out package is seldom in a folder of its name.
+TEST_F(PackagePaths, AManifestAboveTheFileNamesItsFolder) {
+  const test::TemporaryFolder folder;
+  const std::string urdf =
+      "<robot name='r'><link name='a'><collision><geometry>"
+      "<mesh filename='package://arm_description/meshes/link.obj'/></geometry></collision></link>"
+      "</robot>";
+  const fs::path file = folder.write("checkout/robots/deep/arm.urdf", urdf);
+  folder.write("checkout/meshes/link.obj", test::kCubeObj);
+  EXPECT_NE(test::inputError([&] { Robot::load(file); }), "");
+  for (const char* other : {"<package><name>other</name></package>", "<package>", ""}) {
+    folder.write("checkout/package.xml", other);
+    EXPECT_NE(test::inputError([&] { Robot::load(file); }), "") << other;
+  }
+  folder.write("checkout/package.xml",
+               "<?xml version='1.0'?>\n<!-- c --><package format='3'>\n<name> arm_description\n"
+               "</name></package>");
+  EXPECT_EQ(Robot::load(file)->links()[0].collision.size(), 1U);
 }
 
 TEST_F(PackagePaths, PlainAndFileReferences) {

@@ -226,19 +226,65 @@ TEST(Urdf, IgnoresWhatIsNotCollisionButNamesWhatItDoesNotKnow) {
     <visual><geometry><mesh filename="package://nowhere/x.dae"/></geometry></visual>
     <visual/>
     <inertial><mass value="heavy"/></inertial>
-    <colision><geometry><box size="1 1 1"/></geometry></colision>
+    <laser_spot/><drake:thing/>
   </link>
   <link name="b"/>
   <joint name="j" type="fixed"><parent link="a"/><child link="b"/>
-    <origin xzy="1 0 0"/><mimic joint="nobody"/></joint>
+    <origin drake:note="1"/><mimic joint="nobody"/></joint>
   <gazebo><joint name="j"/></gazebo></robot>)",
                "v.urdf", {}, {}, warnings.options());
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_THAT(
       warnings.lines,
-      ElementsAre("v.urdf:6: warning: link 'a': unknown element <colision> is ignored",
-                  "v.urdf:10: warning: <origin> of joint 'j': unknown attribute 'xzy' is ignored",
-                  "v.urdf:10: warning: joint 'j' is fixed: its <mimic> is ignored"));
+      ElementsAre("v.urdf:6: warning: link 'a': unknown element <laser_spot> is ignored",
+                  "v.urdf:10: warning: joint 'j' is fixed: its <mimic> is ignored",
+                  "v.urdf:2: warning: link 'a' has a <visual> and no <collision>: nothing is "
+                  "checked against it"));
+}
+
+/// The value of a slide that mimics `target`.
+std::string withMimicOf(const std::string& target) {
+  return "<robot name='m'><link name='a'/><link name='b'/><link name='c'/>\n"
+         "<joint name='f' type='fixed'><parent link='a'/><child link='b'/></joint>\n"
+         "<joint name='s' type='prismatic'><parent link='b'/><child link='c'/>"
+         "<limit lower='-1' upper='2'/><mimic joint='" +
+         target + "' multiplier='3'/></joint></robot>";
+}
+
+TEST(Urdf, AMimicOfNothingIsAJointOfItsOwn) {
+  for (const auto& [target, why] : {std::pair{"gone", "does not exist"},
+                                    {"f", "is no revolute, continuous or prismatic joint"}}) {
+    test::Warnings warnings;
+    const auto robot = Robot::parse(withMimicOf(target), "m.urdf", {}, {}, warnings.options());
+    ASSERT_EQ(robot->variables().size(), 1U);
+    EXPECT_EQ(robot->variables()[0].name, "s");
+    EXPECT_EQ(robot->variables()[0].upper, 2.0);
+    EXPECT_FALSE(robot->joints()[1].mimic);
+    EXPECT_THAT(warnings.lines,
+                ElementsAre(std::string("m.urdf:3: warning: joint 's' mimics '") + target +
+                            "', which " + why + ": 's' is read as a joint of its own"));
+  }
+}
+
+TEST(Urdf, APlanarJointWithoutAxisMovesNormalToXWithAWarning) {
+  test::Warnings warnings;
+  const auto robot = Robot::parse(
+      "<robot name='p'><link name='a'/><link name='b'/>\n<joint name='j' type='planar'>"
+      "<parent link='a'/><child link='b'/></joint></robot>",
+      "p.urdf", {}, {}, warnings.options());
+  EXPECT_EQ(robot->joints()[0].axis, Eigen::Vector3d(1, 0, 0));
+  EXPECT_THAT(warnings.lines,
+              ElementsAre("p.urdf:2: warning: joint 'j' is planar and has no <axis>: it moves in "
+                          "the plane normal to the x axis, which URDF takes then"));
+}
+
+TEST(Urdf, AnXmlDeclarationComesFirst) {
+  EXPECT_EQ(test::inputError([] {
+              (void)Robot::parse("<!-- first -->\n<?xml version='1.0'?>\n<robot name='r'/>",
+                                 "r.urdf");
+            }),
+            "r.urdf:2: error: malformed XML: <?xml ...?> must be the first thing in the file, "
+            "before comments and elements");
 }
 
 struct DecimalComma : std::numpunct<char> {

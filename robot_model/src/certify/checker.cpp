@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/robot_model/checker.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -104,6 +105,21 @@ const std::vector<Checker::Pair>& Checker::checkedPairs() const {
 }
 const std::vector<Checker::Pair>& Checker::skippedPairs() const {
   return *inDefaultEnvironment([this] { return &detail::pairLists(*model_).skipped; });
+}
+std::vector<std::string> Checker::linksWithoutGeometry() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < robot().links().size(); ++i) {
+    const Link& link = robot().links()[i];
+    if (link.hasVisual && link.collision.empty() && model_->kinematics.bodyOfLink[i] != 0)
+      names.push_back(link.name);
+  }
+  return names;
+}
+bool Checker::checksNothing() const {
+  return std::ranges::none_of(model_->bodyPairs, [](const detail::BodyPair& pair) {
+    return pair.reason == detail::PairReason::Checked ||
+           pair.reason == detail::PairReason::OutOfReach;
+  });
 }
 const std::vector<Checker::Pair>& Checker::standingContacts() const {
   return *inDefaultEnvironment([this] { return &detail::pairLists(*model_).standing; });

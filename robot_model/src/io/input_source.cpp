@@ -19,10 +19,18 @@ void InputSource::fail(int line, const std::string& message) const {
   throw InputError(name_, line, message);
 }
 
-void InputSource::warn(int line, const std::string& message) const {
-  if (!options_.warn) return;
+std::string InputSource::warning(int line, const std::string& message) const {
   const std::string place = line > 0 ? name_ + ":" + std::to_string(line) : name_;
-  options_.warn(place + ": warning: " + message);
+  return place + ": warning: " + message;
+}
+
+void InputSource::warn(int line, const std::string& message) const {
+  if (options_.warn) options_.warn(warning(line, message));
+}
+
+void InputSource::warnOfUnchecked(int line, const std::string& message) const {
+  const auto& taker = options_.warnOfUnchecked ? options_.warnOfUnchecked : options_.warn;
+  if (taker) taker(warning(line, message));
 }
 
 }  // namespace swept::detail

@@ -21,8 +21,11 @@ class InputSource {
 
   [[noreturn]] void fail(int line, const std::string& message) const;
   void warn(int line, const std::string& message) const;
+  /// To LoadOptions::warnOfUnchecked.
+  void warnOfUnchecked(int line, const std::string& message) const;
 
  private:
+  std::string warning(int line, const std::string& message) const;
   std::string name_;
   LoadOptions options_;
 };

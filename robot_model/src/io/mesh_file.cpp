@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/child_process.hpp"
+#include "io/collada_convex.hpp"
 #include "io/mesh_claim.hpp"
 #include "io/mesh_import.hpp"
 #include "io/numbers.hpp"
@@ -222,7 +223,10 @@ MeshFileContent MeshFileReader::read(const std::filesystem::path& file) {
   const std::string ending = lowerEnding(file);
   const Check check = checkOf(ending);
   const std::vector<std::uint8_t> bytes = readBytes(file);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::string renamed;
+  if (ending == ".dae" && text.find("<convex_mesh") != std::string_view::npos)
+    text = renamed = withConvexMeshes(text);
   const MeshClaim claim = claimOf(file, text, check);
   const std::string_view read = claim.bare ? std::string_view(*claim.bare) : text;
   // By a name of ours, whatever the file's has in it.

@@ -19,20 +19,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path locate(const std::string& reference, int line, const std::string& name,
-                const InputSource& source) {
+/// Where the file of a reference is; else what kept it from being found.
+struct Place {
+  fs::path file;
+  std::string problem;
+};
+
+Place placeOf(const std::string& reference, const InputSource& source) {
   const auto candidates = candidatePaths(reference, source.folder(), source.options());
-  if (candidates.empty()) {
-    source.fail(line, name + ": the scheme must be package://, model:// or file://");
-  }
+  if (candidates.empty()) return {{}, ": the scheme must be package://, model:// or file://"};
   std::string tried;
   for (const fs::path& candidate : candidates) {
     const std::string reason = whyUnreadable(candidate);
-    if (reason.empty()) return candidate;
+    if (reason.empty()) return {candidate, {}};
     tried += (tried.empty() ? "" : ", ") + candidate.string();
     if (reason != kNoSuchFile) tried += " (" + reason + ")";
   }
-  source.fail(line, name + " not found; looked for " + tried);
+  const std::string package = packageOf(reference);
+  const std::string hint = package.empty() ? ""
+                                           : "; --package " + package +
+                                                 "=DIR (LoadOptions::packages) tells where package "
+                                                 "'" +
+                                                 package + "' is";
+  return {{}, " not found; looked for " + tried + hint};
+}
+
+std::string nameOf(const MeshReference& mesh) {
+  return "mesh '" + mesh.reference + "' of " + mesh.owner;
 }
 
 /// The same for all names of a file; its own where the system tells none, as of an open file that
@@ -78,10 +91,30 @@ void requirePrecise(const MeshFileContent& content, const Eigen::Vector3d& scale
 
 }  // namespace
 
+void MeshStore::requireFound(const std::vector<MeshReference>& references) const {
+  constexpr std::size_t kMost = 10;
+  std::map<std::string, std::string> problems;  // of each reference, empty: none
+  std::vector<const MeshReference*> missing;
+  for (const MeshReference& mesh : references) {
+    if (problems.contains(mesh.reference)) continue;
+    const std::string problem = placeOf(mesh.reference, source_).problem;
+    problems.emplace(mesh.reference, problem);
+    if (!problem.empty()) missing.push_back(&mesh);
+  }
+  if (missing.empty()) return;
+  std::string text = nameOf(*missing.front()) + problems[missing.front()->reference];
+  for (std::size_t i = 1; i < std::min(missing.size(), kMost); ++i)
+    text += (i == 1 ? "; missing as well: '" : ", '") + missing[i]->reference + "' (line " +
+            std::to_string(missing[i]->line) + ")";
+  if (missing.size() > kMost) text += " and " + std::to_string(missing.size() - kMost) + " more";
+  source_.fail(missing.front()->line, text);
+}
+
 TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
                              const std::string& owner) {
-  const std::string name = "mesh '" + reference + "' of " + owner;
-  const fs::path file = locate(reference, line, name, source_);
+  const std::string name = nameOf({reference, line, owner});
+  const auto [file, problem] = placeOf(reference, source_);
+  if (!problem.empty()) source_.fail(line, name + problem);
   const Key key{oneName(file), {scale.x(), scale.y(), scale.z()}};
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
   try {

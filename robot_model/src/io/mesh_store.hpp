@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/input_source.hpp"
 #include "io/mesh_file.hpp"
@@ -14,10 +15,21 @@
 
 namespace swept::detail {
 
+/// A mesh as an input file names it.
+struct MeshReference {
+  std::string reference;  ///< a path or package://, as in the file
+  int line = 0;
+  std::string owner;  ///< as in `link 'arm'`
+};
+
 /// The meshes that one input file refers to: found, read, scaled and shared.
 class MeshStore {
  public:
   explicit MeshStore(const InputSource& source) : source_(source) {}
+
+  /// Throws one InputError that names all files that are not there, ten at the most and how many
+  /// more.
+  void requireFound(const std::vector<MeshReference>& references) const;
 
   /// The mesh that `reference` names, scaled per axis (negative mirrors). The same file at the same
   /// scale is one mesh. Cracks of up to 1e-5 of its size, or what rounding explains, are filled: a

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/package_paths.hpp"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
+
+#include "io/regular_file.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept::detail {
 
@@ -24,16 +29,51 @@ std::optional<std::string> below(const std::string& path, const std::string& nam
   return after(path, name.back() == '/' ? name : name + "/");
 }
 
-std::vector<std::string> rosPackagePath() {
-  std::vector<std::string> entries;
-  const char* variable = std::getenv("ROS_PACKAGE_PATH");
-  std::string_view rest = variable != nullptr ? variable : "";
+/// What is between the colons of an environment variable.
+std::vector<fs::path> foldersOf(const char* variable) {
+  std::vector<fs::path> entries;
+  const char* value = std::getenv(variable);
+  std::string_view rest = value != nullptr ? value : "";
   while (!rest.empty()) {
     const auto colon = rest.find(':');
     if (colon != 0) entries.emplace_back(rest.substr(0, colon));
     rest = colon == std::string_view::npos ? std::string_view{} : rest.substr(colon + 1);
   }
   return entries;
+}
+
+/// `NAME/rest` of a reference into a package.
+std::optional<std::string> pathInPackages(const std::string& reference) {
+  auto path = after(reference, "package://");
+  if (!path) path = after(reference, "model://");
+  // `package:///NAME/rest` is common; as an absolute path it would be in no package.
+  if (path) path->erase(0, path->find_first_not_of('/'));
+  return path;
+}
+
+/// `<name>` of the package.xml in `folder`; empty where there is none to read.
+std::string nameInManifest(const fs::path& folder) {
+  const fs::path file = folder / "package.xml";
+  if (!whyUnreadable(file).empty()) return {};
+  try {
+    const std::string text = readTextFile(file);
+    tinyxml2::XMLDocument document;
+    if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return {};
+    const auto* root = document.FirstChildElement("package");
+    const auto* name = root == nullptr ? nullptr : root->FirstChildElement("name");
+    const std::string_view words = name == nullptr || !name->GetText() ? "" : name->GetText();
+    const auto begin = words.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return {};
+    return std::string(words.substr(begin, words.find_last_not_of(" \t\r\n") + 1 - begin));
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+std::vector<fs::path> withParents(const fs::path& folder) {
+  std::vector<fs::path> all{folder};
+  while (all.back() != all.back().parent_path()) all.push_back(all.back().parent_path());
+  return all;
 }
 
 std::vector<fs::path> packageCandidates(const std::string& path, const fs::path& folder,
@@ -45,18 +85,19 @@ std::vector<fs::path> packageCandidates(const std::string& path, const fs::path&
   for (const PackageFolder& package : packages) {
     if (const auto rest = below(path, package.name)) found.push_back(package.folder / *rest);
   }
-  for (fs::path parent = folder;; parent = parent.parent_path()) {
-    found.push_back(parent / path);
-    if (parent == parent.parent_path()) break;
-  }
   const std::string name = path.substr(0, path.find('/'));
-  for (const std::string& entry : rosPackagePath()) {
-    found.push_back(fs::path(entry) / path);
-    fs::path last = fs::path(entry).lexically_normal();
+  const auto inPackage = below(path, name);
+  for (const fs::path& parent : withParents(folder))
+    if (inPackage && nameInManifest(parent) == name) found.push_back(parent / *inPackage);
+  for (const fs::path& parent : withParents(folder)) found.push_back(parent / path);
+  for (const fs::path& entry : foldersOf("ROS_PACKAGE_PATH")) {
+    found.push_back(entry / path);
+    fs::path last = entry.lexically_normal();
     if (last.filename().empty()) last = last.parent_path();
-    const auto rest = below(path, name);
-    if (last.filename() == name && rest) found.push_back(last / *rest);
+    if (last.filename() == name && inPackage) found.push_back(last / *inPackage);
   }
+  for (const fs::path& prefix : foldersOf("AMENT_PREFIX_PATH"))
+    found.push_back(prefix / "share" / path);
   return found;
 }
 
@@ -65,17 +106,24 @@ std::vector<fs::path> packageCandidates(const std::string& path, const fs::path&
 std::vector<fs::path> candidatePaths(const std::string& reference, const fs::path& folder,
                                      const LoadOptions& options) {
   std::vector<fs::path> found;
-  if (auto package = after(reference, "package://")) {
-    found = packageCandidates(*package, folder, options);
-  } else if (auto model = after(reference, "model://")) {
-    found = packageCandidates(*model, folder, options);
-  } else if (auto file = after(reference, "file://")) {
+  if (const auto path = pathInPackages(reference)) {
+    found = packageCandidates(*path, folder, options);
+  } else if (const auto file = after(reference, "file://")) {
     found = {folder / *file};
   } else if (reference.find("://") == std::string::npos) {
     found = {folder / reference};  // an absolute reference replaces the folder
   }
-  for (fs::path& path : found) path = path.lexically_normal();
-  return found;
+  std::vector<fs::path> places;
+  for (const fs::path& path : found) {
+    const fs::path place = path.lexically_normal();
+    if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+  }
+  return places;
+}
+
+std::string packageOf(const std::string& reference) {
+  const auto path = pathInPackages(reference);
+  return path ? path->substr(0, path->find('/')) : std::string();
 }
 
 }  // namespace swept::detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scene.hpp"
 
+#include "io/scene_remarks.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -8,8 +9,10 @@ namespace swept {
 
 namespace detail {
 
-PlanningScene readScene(const std::filesystem::path& scene, const Robot* robot,
-                        const LoadOptions& options) {
+namespace {
+
+PlanningScene readAnyScene(const std::filesystem::path& scene, const Robot* robot,
+                           const LoadOptions& options, const InputSource& source) {
   const std::string ending = scene.extension().string();
   if (ending == ".urdf") return {.world = readSceneUrdf(scene, options)};
   const bool yaml = ending == ".yaml" || ending == ".yml";
@@ -19,9 +22,18 @@ PlanningScene readScene(const std::filesystem::path& scene, const Robot* robot,
                          "' of a scene file; allowed are .yaml, .yml, .scene and .urdf");
   }
   const std::string text = readTextFile(scene);
-  const InputSource source(scene.string(), options);
   if (yaml) return readSceneYaml(text, source, robot);
   return {.world = readSceneText(text, source)};
+}
+
+}  // namespace
+
+PlanningScene readScene(const std::filesystem::path& scene, const Robot* robot,
+                        const LoadOptions& options) {
+  const InputSource source(scene.string(), options);
+  PlanningScene read = readAnyScene(scene, robot, options, source);
+  warnIfEmpty(read.world, source);
+  return read;
 }
 
 }  // namespace detail

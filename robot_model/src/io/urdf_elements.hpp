@@ -21,12 +21,15 @@ class UrdfElements {
 
   explicit UrdfElements(XmlFile& xml) : xml_(xml) {}
 
+  /// Removes what is not in `kept`. Warns of what is not in `ignored` either and has no prefix of a
+  /// namespace; refuses it where the robot would be less without: a name of `kept` misspelt, and
+  /// what holds geometry.
+  void reduce(Element& parent, Names kept, Names ignored, const std::string& owner);
+
  protected:
   void readOrigin(Element& parent, const std::string& owner);
-  /// Misspelt names would otherwise vanish without a word.
-  void warnUnknownAttributes(const Element& element, Names known, const std::string& owner);
-  /// Removes what is not in `kept`; warns of what is not even in `ignored`.
-  void reduce(Element& parent, Names kept, Names ignored, const std::string& owner);
+  /// One of another namespace apart: a misspelt one would leave the default in its place.
+  void refuseUnknownAttributes(const Element& element, Names known, const std::string& owner);
   static std::string tag(std::string_view name);
   static void setVector(Element& element, const char* attribute, const Eigen::Vector3d& value);
   static void setNumber(Element& element, const char* attribute, double value);

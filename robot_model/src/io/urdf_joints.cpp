@@ -29,9 +29,11 @@ UrdfOutline::Joint UrdfJointReader::read(Element& element) {
          {"dynamics", "calibration", "safety_controller", "hardwareInterface"}, owner);
   const Element* parent = xml_.onlyChild(element, "parent", owner);
   if (parent == nullptr) xml_.fail(element, owner + " has no <parent>");
+  refuseUnknownAttributes(*parent, {"link"}, owner);
   joint.parent = xml_.text(*parent, "link", owner);
   const Element* child = xml_.onlyChild(element, "child", owner);
   if (child == nullptr) xml_.fail(element, owner + " has no <child>");
+  refuseUnknownAttributes(*child, {"link"}, owner);
   joint.child = xml_.text(*child, "link", owner);
   readOrigin(element, owner);
   readAxis(element, joint.type, owner);
@@ -52,12 +54,20 @@ JointType UrdfJointReader::readType(const Element& element, const std::string& o
 
 void UrdfJointReader::readAxis(Element& joint, JointType type, const std::string& owner) {
   Element* axis = xml_.onlyChild(joint, "axis", owner);
-  if (axis == nullptr) return;
+  if (axis == nullptr) {
+    // URDF's axis is then x, also as a plane's normal. MoveIt moves planar joints in x and y.
+    if (type == JointType::Planar)
+      xml_.source().warn(joint.GetLineNum(),
+                         owner +
+                             " is planar and has no <axis>: it moves in the plane normal to "
+                             "the x axis, which URDF takes then");
+    return;
+  }
   if (type == JointType::Fixed || type == JointType::Floating) {
     joint.DeleteChild(axis);  // means nothing there, and exporters write zeros
     return;
   }
-  warnUnknownAttributes(*axis, {"xyz"}, owner);
+  refuseUnknownAttributes(*axis, {"xyz"}, owner);
   const Eigen::Vector3d value = xml_.vector(*axis, "xyz", owner, Eigen::Vector3d::UnitX());
   const double largest = value.cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) {
@@ -75,8 +85,10 @@ void UrdfJointReader::readLimit(Element& joint, JointType type, const std::strin
       xml_.fail(joint, owner + " has no <limit>; revolute and prismatic joints need one");
     return;
   }
-  warnUnknownAttributes(*limit, {"lower", "upper", "effort", "velocity", "acceleration", "jerk"},
-                        owner);
+  refuseUnknownAttributes(*limit,
+                          {"lower", "upper", "effort", "velocity", "acceleration", "deceleration",
+                           "jerk", "damping", "friction"},
+                          owner);
   const double lower = xml_.number(*limit, "lower", owner, 0.0);
   const double upper = xml_.number(*limit, "upper", owner, 0.0);
   setNumber(*limit, "effort", xml_.number(*limit, "effort", owner, 0.0));
@@ -102,7 +114,7 @@ void UrdfJointReader::readMimic(Element& joint, UrdfOutline::Joint& outline,
                                 const std::string& owner) {
   Element* mimic = xml_.onlyChild(joint, "mimic", owner);
   if (mimic == nullptr) return;
-  warnUnknownAttributes(*mimic, {"joint", "multiplier", "offset"}, owner);
+  refuseUnknownAttributes(*mimic, {"joint", "multiplier", "offset"}, owner);
   const std::string target = xml_.text(*mimic, "joint", owner);
   setNumber(*mimic, "multiplier", xml_.number(*mimic, "multiplier", owner, 1.0));
   setNumber(*mimic, "offset", xml_.number(*mimic, "offset", owner, 0.0));

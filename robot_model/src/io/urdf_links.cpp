@@ -3,11 +3,26 @@
 
 namespace swept::detail {
 
+namespace {
+
+/// Has a `<visual>` with a shape.
+bool isShown(const UrdfElements::Element& link) {
+  const auto* visual = link.FirstChildElement("visual");
+  for (; visual != nullptr; visual = visual->NextSiblingElement("visual")) {
+    const auto* geometry = visual->FirstChildElement("geometry");
+    if (geometry != nullptr && geometry->FirstChildElement() != nullptr) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 UrdfOutline::Link UrdfLinkReader::read(Element& element) {
   UrdfOutline::Link link;
   link.name = xml_.text(element, "name", "");
   link.line = element.GetLineNum();
   const std::string owner = "link '" + link.name + "'";
+  link.hasVisual = isShown(element);
   reduce(element, {"collision"},
          {"inertial", "visual", "contact", "gravity", "self_collide", "sensor", "origin"}, owner);
   for (Element* c = element.FirstChildElement("collision"); c != nullptr;
@@ -41,25 +56,37 @@ void UrdfLinkReader::readShape(Element& shape, UrdfOutline::Collision& collision
                                const std::string& owner) {
   const std::string_view name = shape.Name();
   if (name == "box") {
+    refuseUnknownAttributes(shape, {"size"}, owner);
     const Eigen::Vector3d size = xml_.vector(shape, "size", owner);
-    if (!(size.minCoeff() > 0.0)) {
+    if (!(size.minCoeff() >= 0.0)) {
       xml_.fail(shape, XmlFile::quote(shape, "size") + " of " + owner +
-                           " must have three sizes greater than 0");
+                           " must have three sizes of 0 or greater");
     }
+    collision.withoutVolume = size.minCoeff() == 0.0;
     setVector(shape, "size", size);
   } else if (name == "sphere") {
-    setNumber(shape, "radius", xml_.positive(shape, "radius", owner));
-  } else if (name == "cylinder") {
-    setNumber(shape, "radius", xml_.positive(shape, "radius", owner));
-    setNumber(shape, "length", xml_.positive(shape, "length", owner));
-  } else if (name == "capsule") {
-    const double radius = xml_.positive(shape, "radius", owner);
-    collision.capsule = makeCapsule(radius, xml_.positive(shape, "length", owner));
+    refuseUnknownAttributes(shape, {"radius"}, owner);
+    const double radius = xml_.notNegative(shape, "radius", owner);
+    collision.withoutVolume = radius == 0.0;
+    setNumber(shape, "radius", radius);
+  } else if (name == "cylinder" || name == "capsule") {
+    refuseUnknownAttributes(shape, {"radius", "length"}, owner);
+    const double radius = xml_.notNegative(shape, "radius", owner);
+    const double length = xml_.notNegative(shape, "length", owner);
+    if (name == "cylinder") {
+      collision.withoutVolume = radius == 0.0 || length == 0.0;
+      setNumber(shape, "radius", radius);
+      setNumber(shape, "length", length);
+      return;
+    }
+    collision.withoutVolume = radius == 0.0;
+    collision.capsule = makeCapsule(radius, length);
     // A stand-in of a kind that urdfdom accepts; the capsule itself is taken from the outline.
     shape.SetName("sphere");
     setNumber(shape, "radius", 1.0);
   } else if (name == "mesh") {
-    xml_.text(shape, "filename", owner);
+    refuseUnknownAttributes(shape, {"filename", "scale"}, owner);
+    collision.mesh = xml_.text(shape, "filename", owner);
     const Eigen::Vector3d scale = xml_.vector(shape, "scale", owner, Eigen::Vector3d::Ones());
     if (!(scale.cwiseAbs().minCoeff() > 0.0)) {
       xml_.fail(shape, XmlFile::quote(shape, "scale") + " of " + owner +

@@ -43,6 +43,7 @@ class Assembler {
 
  private:
   void addVirtualJoint(const SrdfDocument& srdf, const InputSource& srdfSource);
+  void requireMeshes() const;
   void addLink(const UrdfOutline::Link& link, int parentJoint);
   int addJoint(const UrdfOutline::Joint& joint, int parentLink);
   CollisionGeometry geometry(const urdf::Collision& collision,
@@ -62,6 +63,7 @@ class Assembler {
 RobotParts Assembler::assemble(const SrdfDocument& srdf, const InputSource& srdfSource) {
   parts_.name = outline_.robotName;
   addVirtualJoint(srdf, srdfSource);
+  requireMeshes();
   std::map<std::string, const UrdfOutline::Link*> links;
   for (const auto& link : outline_.links) links.emplace(link.name, &link);
   std::map<std::string, std::vector<const UrdfOutline::Joint*>> children;
@@ -111,6 +113,16 @@ void Assembler::addVirtualJoint(const SrdfDocument& srdf, const InputSource& srd
   parts_.joints.push_back(joint);
 }
 
+/// Before the first is read, so that all that are missing are named at once.
+void Assembler::requireMeshes() const {
+  std::vector<MeshReference> references;
+  for (const UrdfOutline::Link& link : outline_.links)
+    for (const UrdfOutline::Collision& collision : link.collisions)
+      if (!collision.mesh.empty())
+        references.push_back({collision.mesh, collision.shapeLine, "link '" + link.name + "'"});
+  meshes_.requireFound(references);
+}
+
 void Assembler::addLink(const UrdfOutline::Link& link, int parentJoint) {
   const urdf::LinkConstSharedPtr model = model_->getLink(link.name);
   const std::string owner = "link '" + link.name + "'";
@@ -120,6 +132,7 @@ void Assembler::addLink(const UrdfOutline::Link& link, int parentJoint) {
   Link result;
   result.name = link.name;
   result.parentJoint = parentJoint;
+  result.hasVisual = link.hasVisual;
   for (std::size_t i = 0; i < link.collisions.size(); ++i) {
     result.collision.push_back(geometry(*model->collision_array[i], link.collisions[i], owner));
   }

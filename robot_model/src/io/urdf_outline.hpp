@@ -21,12 +21,15 @@ inline constexpr std::size_t kMaxJoints = 5000;
 struct UrdfOutline {
   struct Collision {
     int shapeLine = 0;
+    bool withoutVolume = false;      ///< a primitive with a size of 0
     std::optional<Capsule> capsule;  ///< a common extension that urdfdom does not know
+    std::string mesh;                ///< its file as the URDF has it; empty: a primitive
   };
   struct Link {
     std::string name;
     int line = 0;
     std::vector<Collision> collisions;
+    bool hasVisual = false;
   };
   struct Mimic {
     std::string joint;
@@ -54,7 +57,7 @@ UrdfOutline outlineUrdf(const std::string& text, const InputSource& source);
 /// Names are unique and known, and the joints join the links to one tree.
 void checkTree(const UrdfOutline& outline, const InputSource& source);
 
-/// Every mimic ends at a joint that can be followed.
+/// Every mimic names a joint that can be followed, and ends at one that follows no other.
 void checkMimics(const UrdfOutline& outline, const InputSource& source);
 
 }  // namespace swept::detail

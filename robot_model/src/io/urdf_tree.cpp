@@ -98,18 +98,8 @@ void checkMimics(const UrdfOutline& outline, const InputSource& source) {
   for (const auto& joint : outline.joints) joints.emplace(joint.name, &joint);
   for (const auto& joint : outline.joints) {
     if (!joint.mimic) continue;
-    const int line = joint.mimic->line;
-    const std::string start = "joint '" + joint.name + "' mimics ";
-    if (joint.mimic->joint == joint.name) source.fail(line, start + "itself");
-    const auto target = joints.find(joint.mimic->joint);
-    if (target == joints.end()) {
-      source.fail(line, start + "'" + joint.mimic->joint + "', which does not exist");
-    }
-    const JointType type = target->second->type;
-    if (type == JointType::Fixed || type == JointType::Planar || type == JointType::Floating) {
-      source.fail(line, start + "'" + joint.mimic->joint +
-                            "', which is no revolute, continuous or prismatic joint");
-    }
+    if (joint.mimic->joint == joint.name)
+      source.fail(joint.mimic->line, "joint '" + joint.name + "' mimics itself");
   }
   for (const auto& joint : outline.joints) {
     std::set<std::string> seen;

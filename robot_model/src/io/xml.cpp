@@ -23,6 +23,12 @@ std::string syntaxError(const tinyxml2::XMLDocument& document) {
       return "a comment is not closed";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "text is not closed by a tag";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "<?xml ...?> must be the first thing in the file, before comments and elements";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section is not closed";
+    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
+      return "a tag that starts with '<!' is not closed";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested too deeply";
     default:
@@ -96,11 +102,11 @@ double XmlFile::number(const Element& element, const char* attribute, const std:
   return *value;
 }
 
-double XmlFile::positive(const Element& element, const char* attribute,
-                         const std::string& owner) const {
+double XmlFile::notNegative(const Element& element, const char* attribute,
+                            const std::string& owner) const {
   const double value = number(element, attribute, owner);
-  if (!(value > 0.0)) {
-    fail(element, quote(element, attribute) + " of " + owner + " must be greater than 0");
+  if (!(value >= 0.0)) {
+    fail(element, quote(element, attribute) + " of " + owner + " must be 0 or greater");
   }
   return value;
 }

@@ -43,7 +43,7 @@ class XmlFile {
   /// A number; `fallback` when the attribute is absent, an error without one.
   double number(const Element& element, const char* attribute, const std::string& owner,
                 std::optional<double> fallback = {}) const;
-  double positive(const Element& element, const char* attribute, const std::string& owner) const;
+  double notNegative(const Element& element, const char* attribute, const std::string& owner) const;
   Eigen::Vector3d vector(const Element& element, const char* attribute, const std::string& owner,
                          const std::optional<Eigen::Vector3d>& fallback = {}) const;
 

@@ -31,6 +31,13 @@ std::optional<int> Robot::findVariable(std::string_view name) const {
   return find(variables_, name);
 }
 
+std::vector<std::string> Robot::linksWithoutGeometry() const {
+  std::vector<std::string> names;
+  for (const Link& link : links_)
+    if (link.hasVisual && link.collision.empty()) names.push_back(link.name);
+  return names;
+}
+
 const Group* Robot::findGroup(std::string_view name) const {
   const auto index = find(groups_, name);
   return index ? &groups_[*index] : nullptr;

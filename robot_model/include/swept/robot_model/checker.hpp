@@ -212,6 +212,10 @@ class Checker {
   const std::vector<Pair>& checkedPairs() const;
   const std::vector<Pair>& skippedPairs() const;
   ///@}
+  /// Of Robot::linksWithoutGeometry() those that the group moves: Free says nothing about them.
+  std::vector<std::string> linksWithoutGeometry() const;
+  /// No pair is checked, and none is proven out of reach either: Free says nothing at all.
+  bool checksNothing() const;
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
   const std::vector<Pair>& standingContacts() const;

@@ -36,8 +36,9 @@ struct PackageFolder {
 
 /// How files are read.
 struct LoadOptions {
-  /// Searched first for `package://NAME/...`; then a folder NAME beside the file or beside one of
-  /// its parent folders; then the same below ROS_PACKAGE_PATH.
+  /// Searched first for `package://NAME/...`. Then come: the folder whose `package.xml` names it
+  /// NAME, of those that the file is in; a folder NAME beside the file or beside one of its parent
+  /// folders; the same below ROS_PACKAGE_PATH; and `share/NAME` below AMENT_PREFIX_PATH.
   std::vector<PackageFolder> packages;
   /// What a file may call the robot's model frame, besides `world` and no name:
   /// Robot::modelFrame(). A frame that neither this nor the file itself places is refused.
@@ -48,6 +49,10 @@ struct LoadOptions {
   /// Each remark of its own, where a robot has many of one kind. Else the first of them go to
   /// `warn`, with how many there are.
   bool everyWarning = false;
+  /// Receives, instead of `warn`, the remarks without which an answer would be taken for more than
+  /// it is: a link that is shown and has no collision geometry, a scene without a body. `warn`
+  /// receives them where this is empty.
+  std::function<void(const std::string&)> warnOfUnchecked;
 };
 
 }  // namespace swept

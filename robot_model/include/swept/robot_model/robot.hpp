@@ -46,6 +46,7 @@ struct Link {
   std::string name;                          ///< unique
   int parentJoint = -1;                      ///< -1 for the root link
   std::vector<CollisionGeometry> collision;  ///< none: it is checked against nothing
+  bool hasVisual = false;                    ///< the URDF shows it, whether or not it can collide
 };
 
 /// How a link moves against its parent.
@@ -177,6 +178,10 @@ class Robot {
   std::shared_ptr<const Robot> withChain(const std::string& name, const std::string& baseLink,
                                          const std::string& tipLink) const;
   ///@}
+
+  /// Names of the links that the URDF shows (`<visual>`) without a `<collision>`: every answer is
+  /// about the robot without them. Frames, which have neither, are not among them.
+  std::vector<std::string> linksWithoutGeometry() const;
 
   /// A configuration of all variables: zero where the limits allow it, else the middle of the
   /// limits; identity for floating joints.

@@ -19,8 +19,8 @@ inline constexpr int kMaxNesting = 500;
 /// those before it.
 inline constexpr std::size_t kMaxKeys = 20'000;
 
-/// The whole file, or all that comes out of a pipe or a device such as /dev/stdin. Throws InputError
-/// (line 0) when it is neither, cannot be read, or has more than kMaxTextBytes.
+/// The whole file, or all that comes out of a pipe or a device such as /dev/stdin. Throws
+/// InputError (line 0) when it is neither, cannot be read, or has more than kMaxTextBytes.
 std::string readTextFile(const std::filesystem::path& file);
 
 /// Throws InputError with the line of the first `{` or `[` outside of strings that is nested deeper
