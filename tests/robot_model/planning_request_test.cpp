@@ -227,8 +227,8 @@ TEST(PlanningRequest, WhatIsMissingIsNamed) {
   std::string other = kPose;
   other.replace(other.rfind("hand"), 4, "arm2");
   EXPECT_EQ(message(kStart + other),
-            ":7: error: goal_constraints[0] its position is of link 'hand', its orientation of "
-            "another");
+            ":14: error: goal_constraints[0].orientation_constraints[0].link_name is 'arm2'; the "
+            "goal's position is of link 'hand'");
 }
 
 std::string attachedTo(const std::string& link, const std::string& object) {

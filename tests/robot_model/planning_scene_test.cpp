@@ -218,6 +218,13 @@ TEST(PlanningScene, FramesAreLinksObjectsAndTheirSubframes) {
   EXPECT_EQ(verdict(checkerOf(without, "left"), 0.0), Verdict::Collision) << "the default state's";
 }
 
+TEST(PlanningScene, TheModelFramesNameIsItsOwn) {
+  const PlanningScene scene =
+      load(worldOf({ball("odom", "l", "[0, 0, 5]"), ball("b", "odom", "[0, 0, 1]")}));
+  EXPECT_EQ(scene.world.find("b")->parts[0].world_from_shape.translation(),
+            Eigen::Vector3d(0, 0, 1));
+}
+
 TEST(PlanningScene, AFrameThatNobodyKnowsIsRefused) {
   EXPECT_EQ(refusal(worldOf({ball("a", "camera", "[0, 0, 0]")})),
             ":2: error: object 'a': header.frame_id is 'camera', which is no frame of the robot or "

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -75,8 +77,8 @@ double valueInGoal(const Robot& robot, int variable, const Eigen::VectorXd& refe
   return found == goal.end() ? reference[variable] : found->second;
 }
 
-/// A path moves the group alone: a goal for another joint is only reached if it is there already,
-/// or follows to there.
+/// A path moves the group alone: another joint is only where the request has it if it is there
+/// anyway, or follows to there.
 void requireReachable(const Robot& robot, const Group& group, const Eigen::VectorXd& reference,
                       const PlanningRequest::JointValues& goal, const std::string& label) {
   for (const auto& [name, value] : goal) {
@@ -85,17 +87,22 @@ void requireReachable(const Robot& robot, const Group& group, const Eigen::Vecto
     const std::string who = label + ": joint '" + name + "'";
     if (!variable && !joint) throw UsageError(who + " is none of robot '" + robot.name() + "'");
     double reached = 0.0;
+    bool turns = false;
     if (variable) {
       if (std::ranges::find(group.variables, *variable) != group.variables.end()) continue;
       reached = reference[*variable];
+      turns = robot.variables()[static_cast<std::size_t>(*variable)].cyclic;
     } else if (const auto& mimic = robot.joints()[static_cast<std::size_t>(*joint)].mimic) {
       const Joint& master = robot.joints()[static_cast<std::size_t>(mimic->master)];
       reached = mimic->multiplier * valueInGoal(robot, master.firstVariable, reference, goal) +
                 mimic->offset;
+      turns = robot.joints()[static_cast<std::size_t>(*joint)].type == JointType::Continuous;
     }
-    if (std::abs(value - reached) <= kPlay) continue;
-    throw UsageError(who + " is not moved by group '" + group.name + "' and is at " +
-                     shortNumber(reached) + ", which is not the goal's " + shortNumber(value));
+    const double off =
+        turns ? std::remainder(value - reached, 2.0 * std::numbers::pi) : value - reached;
+    if (std::abs(off) <= kPlay) continue;
+    throw UsageError(who + " is at " + shortNumber(reached) + ", where group '" + group.name +
+                     "' has it, and not at " + shortNumber(value));
   }
 }
 
@@ -112,12 +119,16 @@ void refuseWorkspace(const Robot& robot, const Group& group, const PlanningReque
 }
 
 /// The model with what the request's robot carries: in place of a body of the scene where one has
-/// its name.
-Model withAttachedOf(const PlanningRequest& request, Model model) {
+/// its name. A body of --attach stays.
+Model withAttachedOf(const PlanningRequest& request, const Arguments& args, Model model) {
   for (const AttachedBody& body : request.attached) {
-    std::erase_if(model.attached,
-                  [&](const AttachedBody& other) { return other.name == body.name; });
-    model.attached.push_back(body);
+    const auto endOfScene = model.attached.end() - std::ssize(args.attached);
+    const auto same =
+        std::ranges::find(model.attached.begin(), endOfScene, body.name, &AttachedBody::name);
+    if (same != endOfScene)
+      *same = body;
+    else
+      model.attached.insert(endOfScene, body);
   }
   model.weakerRules = request.rules.over(model.weakerRules);
   return model;
@@ -127,7 +138,7 @@ Model withAttachedOf(const PlanningRequest& request, Model model) {
 
 Task requestTask(const Arguments& args, const Model& given, Warnings& warnings) {
   const PlanningRequest request = PlanningRequest::load(args.request, *given.robot, given.options);
-  const Model model = withAttachedOf(request, given);
+  const Model model = withAttachedOf(request, args, given);
   const Robot& robot = *model.robot;
   const Group& group =
       asksForGroup(args) ? chooseGroup(robot, args) : chooseGroup(robot, request.group);
@@ -139,6 +150,7 @@ Task requestTask(const Arguments& args, const Model& given, Warnings& warnings) 
   };
   refuseWorkspace(robot, group, request, args.request);
   const Eigen::VectorXd reference = referenceOf(model, start, args.request, std::ref(warnings));
+  requireReachable(robot, group, reference, start, args.request + ", start");
   Task task;
   task.alternatives = true;
   task.checker = makeChecker(args, model, group, model.world, warnings, reference);

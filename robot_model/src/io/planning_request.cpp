@@ -144,8 +144,8 @@ void requireParameterization(const YamlPlace& place) {
   place.fail("is " + place.text() + "; allowed are 0 (Euler angles) and 1 (a rotation vector)");
 }
 
-PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& position,
-                                       const YamlPlace& orientation, const Context& context) {
+PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& position, const YamlPlace& orientation,
+                                       const Context& context) {
   position.allowOnly({"header", "link_name", "target_point_offset", "constraint_region", "weight"});
   orientation.allowOnly({"header", "orientation", "link_name", "absolute_x_axis_tolerance",
                          "absolute_y_axis_tolerance", "absolute_z_axis_tolerance",
@@ -155,8 +155,8 @@ PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& goal, const YamlPlace& p
   if (context.robot != nullptr && !context.robot->findLink(link))
     position.at("link_name")
         .fail("is '" + link + "', which is no link of robot '" + context.robot->name() + "'");
-  if (link != orientation.at("link_name").text())
-    goal.fail("its position is of link '" + link + "', its orientation of another");
+  if (const YamlPlace other = orientation.at("link_name"); other.text() != link)
+    other.fail("is '" + other.text() + "'; the goal's position is of link '" + link + "'");
   const Region region = readRegion(position);
   PlanningRequest::PoseGoal pose{.link = link,
                                  .model_from_link = Eigen::Isometry3d::Identity(),
@@ -197,7 +197,7 @@ void readGoal(const YamlPlace& goal, const Context& context, PlanningRequest& re
   if (!joints.empty() && positions.empty() && orientations.empty())
     request.goals.push_back(readJointGoal(joints));
   else if (joints.empty() && positions.size() == 1 && orientations.size() == 1)
-    request.poseGoals.push_back(readPoseGoal(goal, positions[0], orientations[0], context));
+    request.poseGoals.push_back(readPoseGoal(positions[0], orientations[0], context));
   else
     goal.fail(
         "a goal is either joint_constraints, or one of position_constraints and one of "

@@ -106,6 +106,8 @@ void SceneFrames::setPlanningFrame(const YamlPlace& place, const std::string& na
 
 Eigen::Isometry3d SceneFrames::model_from(const YamlPlace& header) const {
   const std::string frame = frameName(header);
+  // Whatever else may have its name.
+  if (!frame.empty() && frame == source_.options().modelFrame) return Eigen::Isometry3d::Identity();
   for (const auto* frames : {&links_, &objects_, &fixed_})
     if (const auto found = frames->find(frame); found != frames->end()) return found->second;
   if (isModel(frame)) return Eigen::Isometry3d::Identity();

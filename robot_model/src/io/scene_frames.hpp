@@ -12,8 +12,8 @@
 namespace swept::detail {
 
 /// The frames that poses of a file are given in. As in MoveIt (PlanningScene::getFrameTransform)
-/// these are, in this order: links of the robot, attached bodies, objects of the world, and the
-/// scene's `fixed_frame_transforms`; then the model frame by its names.
+/// these are, in this order: the model frame, links of the robot, attached bodies, objects of the
+/// world, and the scene's `fixed_frame_transforms`; then the model frame's other names.
 ///
 /// MoveIt has fixed transforms the other way round than tf: a transform is the pose of the frame
 /// `header.frame_id` in the planning frame, which `child_frame_id` names
