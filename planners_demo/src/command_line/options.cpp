@@ -33,6 +33,22 @@ void addVerboseOption(CLI::App& app, Arguments& args) {
                "each warning, where many are of one kind, and messages of planners, on stderr");
 }
 
+void addXacroOptions(CLI::App& app, Arguments& args) {
+  auto* xacro =
+      app.add_flag("--xacro", args.xacro, "the robot is what the program xacro makes of the file");
+  app.add_option("--xacro-arg", args.xacroArguments, "argument of xacro (repeatable)")
+      ->type_name("NAME:=VALUE")
+      ->check(CLI::Validator(
+          [](std::string& text) -> std::string {
+            const auto at = text.find(":=");
+            const bool isOne = at != std::string::npos && at > 0 && text.front() != '-';
+            return isOne ? "" : "must be NAME:=VALUE, not " + text;
+          },
+          ""))
+      ->needs(xacro)
+      ->allow_extra_args(false);
+}
+
 void addRuleOptions(CLI::App& app, Arguments& args) {
   auto* group = app.add_option("--group", args.group,
                                "planning group; not needed when only one has joints, or the named "

@@ -15,6 +15,8 @@
 #include "input/request_task.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
+#include "input/unchecked.hpp"
+#include "input/xacro.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -96,16 +98,6 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
 
 }  // namespace
 
-void Warnings::operator()(const std::string& line) {
-  const std::lock_guard lock(mutex_);
-  if (quiet_ || std::ranges::find(seen_, line) != seen_.end()) return;
-  seen_.push_back(line);
-  if (taker_)
-    taker_(line);
-  else
-    printMessage(line);
-}
-
 SrdfChoice chooseSrdf(const Arguments& args) {
   if (args.srdf == "none") return {};
   if (!args.srdf.empty()) return {.file = args.srdf, .foundBesideUrdf = false};
@@ -118,13 +110,17 @@ bool leavesOutDefaultContacts(const Arguments& args) {
 }
 
 Model loadModel(const Arguments& args, Warnings& warnings) {
-  LoadOptions options{.packages = packageFolders(args),
-                      .modelFrame = {},
-                      .warn = [&](const std::string& line) { warnings(line); },
-                      .everyWarning = args.verbose};
+  LoadOptions options{
+      .packages = packageFolders(args),
+      .modelFrame = {},
+      .warn = [&](const std::string& line) { warnings(line); },
+      .everyWarning = args.verbose,
+      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); }};
   Model model;
   model.srdf = chooseSrdf(args);
-  model.robot = withAskedGroup(Robot::load(args.robot, model.srdf.file, options), args);
+  model.robot = withAskedGroup(args.xacro ? loadExpanded(args, model.srdf.file, options)
+                                          : Robot::load(args.robot, model.srdf.file, options),
+                               args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
@@ -194,7 +190,7 @@ void warnOfDefaultContacts(const Checker& checker, const Model& model, Warnings&
       pairs.push_back(pair.bodyA + " - " + pair.bodyB);
   }
   if (pairs.empty()) return;
-  warnings(
+  warnings.ofUnchecked(
       "swept: warning: no SRDF: not checked are links that are in contact at the default state and "
       "at all others that were looked at: " +
       joined(pairs) + "; --keep-default-contacts checks them, and " + kMakesSrdf);
@@ -275,11 +271,9 @@ double clearanceAccuracy(const Checker& checker) {
   return std::max(0.1 * checker.options().tolerance, kLeastAccuracy);
 }
 
-Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
-  checkStateSource(args);
-  if (!args.request.empty()) return requestTask(args, model, warnings);
-  const Group& group = chooseGroup(*model.robot, args);
-  if (!args.problems.empty()) return problemTask(args, model, group, warnings);
+namespace {
+
+Task statesTask(const Arguments& args, const Model& model, const Group& group, Warnings& warnings) {
   Task task;
   const bool plan = args.command == &kPlanCommand;
   for (std::size_t i = 0; i < args.states.size(); ++i) {
@@ -292,6 +286,22 @@ Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
     task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});
   }
   task.checker = makeChecker(args, model, group, model.world, warnings);
+  return task;
+}
+
+Task anyTask(const Arguments& args, const Model& model, Warnings& warnings) {
+  if (!args.request.empty()) return requestTask(args, model, warnings);
+  const Group& group = chooseGroup(*model.robot, args);
+  return args.problems.empty() ? statesTask(args, model, group, warnings)
+                               : problemTask(args, model, group, warnings);
+}
+
+}  // namespace
+
+Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
+  checkStateSource(args);
+  Task task = anyTask(args, model, warnings);
+  warnOfNothing(*task.checker, warnings);
   return task;
 }
 

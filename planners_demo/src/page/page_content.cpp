@@ -157,7 +157,10 @@ Json factsJson(const Arguments& args, const Robot& robot, const World& world,
     add("tolerance", shortNumber(checker->options().tolerance) + " m");
     add("pairs checked", std::to_string(checker->checkedPairs().size()) + ", left out " +
                              std::to_string(checker->skippedPairs().size()));
+    if (checker->checksNothing()) add("not checked", "nothing was checked");
   }
+  if (const auto links = robot.linksWithoutGeometry(); !links.empty())
+    add("not checked (no collision geometry)", joined(links));
   add("bodies in the world", std::to_string(world.bodies().size()));
   add("command", args.page.commandLine);
   add("swept", SWEPT_VERSION);
@@ -212,6 +215,12 @@ Finding worst(const std::vector<Finding>& findings) {
   return found == findings.end() ? Finding{} : *found;
 }
 
+void sayIfNothingIsChecked(PageContent& content, const Checker& checker) {
+  if (!checker.checksNothing() || content.tone != PageContent::Tone::Good) return;
+  content.tone = PageContent::Tone::Unsure;
+  content.headline += ", nothing was checked";
+}
+
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
   PageContent content;
   Workspace workspace(checker);
@@ -224,6 +233,7 @@ PageContent statesContent(const Checker& checker, std::vector<LabelledState> sta
   }
   content.tone = toneOf(worst(findings).verdict);
   content.headline = countsText("state", findings);
+  sayIfNothingIsChecked(content, checker);
   content.states = std::move(states);
   return content;
 }

@@ -55,6 +55,9 @@ Finding worst(const std::vector<Finding>& findings);
 /// `3 motions: 1 free, 2 in collision`, of `what` = `motion`.
 std::string countsText(const std::string& what, const std::vector<Finding>& findings);
 
+/// Where nothing is checked green would say too much: in the tone, and in the headline.
+void sayIfNothingIsChecked(PageContent& content, const Checker& checker);
+
 /// Judges states, to be shown one at a time.
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states);
 

@@ -81,6 +81,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   }
   content.tone = toneOf(worst(findings).verdict);
   content.headline = countsText("motion", findings);
+  sayIfNothingIsChecked(content, checker);
   writePage(args, *model.robot, checker.world(), &checker, content);
 }
 

@@ -46,6 +46,7 @@ void refuseRules(const Arguments& args) {
       {"--joints", !args.joints.empty()},
       {"--chain", !args.chain.empty()},
       {"--keep-default-contacts", args.keepDefaultContacts},
+      {"--xacro", args.xacro},
       {"--package", !args.packages.empty()},
       {"--pad", !args.pads.empty()},
       {"--scale", !args.scales.empty()},
@@ -179,6 +180,7 @@ PathsToView pathsToView(const Arguments& args, Warnings& warnings) {
   }
   view.content.tone = toneOf(worst(findings).verdict);
   view.content.headline = countsText("path", findings);
+  sayIfNothingIsChecked(view.content, *view.checker);
   return view;
 }
 

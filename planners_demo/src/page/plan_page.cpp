@@ -47,10 +47,11 @@ std::optional<std::size_t> badEnd(const std::vector<LabelledState>& states,
   return static_cast<std::size_t>(found - states.begin());
 }
 
-std::string pathHeadline(const PlanOutcome& outcome) {
+std::string pathHeadline(const PlanOutcome& outcome, const Checker& checker) {
   if (!outcome.solved()) return "not solved: " + shortReason(outcome);
   const std::string segments = countedText(outcome.segments.size(), "segment");
   if (!outcome.proven()) return "not proven: " + segments;
+  if (checker.checksNothing()) return "solved: " + segments;
   return "solved: " + segments +
          (outcome.segments.size() == 1 ? ", proven free" : ", all proven free");
 }
@@ -105,7 +106,8 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
     content.reason = outcome.failure;
     content.opensAt = badEnd(content.states, outcome);
   }
-  content.headline = pathHeadline(outcome);
+  content.headline = pathHeadline(outcome, *task.checker);
+  sayIfNothingIsChecked(content, *task.checker);
   addPlanFacts(content, request, outcome);
   // A path may consist of its start alone.
   if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};

@@ -9,6 +9,7 @@
 
 #include "input/problem_choice.hpp"
 #include "input/states.hpp"
+#include "input/unchecked.hpp"
 #include "output/progress.hpp"
 #include "output/quantile.hpp"
 #include "output/terminal_text.hpp"
@@ -42,8 +43,10 @@ PlanOutcome solveProblem(const Arguments& args, const Model& model, const Proble
   }
   std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
   for (const std::vector<double>& goal : ends.goals) states.push_back({.label = "goal", .q = goal});
-  const auto world = std::make_shared<const World>(problem.world);
-  return plan(makeNextChecker(args, model, like, world, warnings), states, request);
+  const auto checker =
+      makeNextChecker(args, model, like, std::make_shared<const World>(problem.world), warnings);
+  warnOfNothing(*checker, warnings);
+  return plan(checker, states, request);
 }
 
 /// Threads take the next problem when they are done with one. The first exception ends the run.

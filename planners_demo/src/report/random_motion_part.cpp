@@ -47,8 +47,8 @@ void RandomMotionPart::count(const std::string& world, const std::vector<ReportM
 }
 
 void RandomMotionPart::add(const std::string& world, std::vector<AskedMethod>& asked,
-                     const Checker& truth, const std::vector<ReportMotion>& motions,
-                     const Stopwatch& stopwatch, const ReportTick& tick) {
+                           const Checker& truth, const std::vector<ReportMotion>& motions,
+                           const Stopwatch& stopwatch, const ReportTick& tick) {
   count(world, motions);
   std::vector<ReportMotion> known;
   std::vector<JudgedMotion*> judged;
@@ -83,7 +83,8 @@ void RandomMotionPart::add(const std::string& world, std::vector<AskedMethod>& a
 
 /// `depths` (m) are of motions that some method misses.
 void RandomMotionPart::score(std::size_t method, const Answers& answers,
-                       std::span<JudgedMotion* const> motions, const std::vector<double>& depths) {
+                             std::span<JudgedMotion* const> motions,
+                             const std::vector<double>& depths) {
   RateErrors& rates = tallies_[method].rates;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const bool free = motions[i]->motion.truth.verdict == Verdict::Free;
