@@ -52,7 +52,7 @@ struct LoadOptions {
   /// Receives, instead of `warn`, the remarks without which an answer would be taken for more than
   /// it is: a link that is shown and has no collision geometry, a scene without a body. `warn`
   /// receives them where this is empty.
-  std::function<void(const std::string&)> warnOfUnchecked;
+  std::function<void(const std::string&)> warnOfUnchecked = {};
 };
 
 }  // namespace swept
