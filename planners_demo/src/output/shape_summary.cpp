@@ -55,6 +55,7 @@ struct Text {
  private:
   static std::string cracks(const MeshReport& report) {
     if (report.cracksFilled == 0) return {};
+    if (report.largestCrack == 0.0) return " (corners on edges joined)";
     return " (cracks of up to " + shortNumber(report.largestCrack) + " m filled)";
   }
   template <class Flat>
@@ -103,11 +104,12 @@ struct Facts {
     return {{"kind", "convex hull"}, {"hull_points", hull.vertices().size()}};
   }
   Json operator()(const TriangleMesh& mesh) const {
-    return {{"kind", "mesh"},
-            {"triangles", mesh.triangles().size()},
-            {"closed", mesh.isClosed()},
-            {"largest_crack_filled", mesh.report().largestCrack},
-            {"hull_points", mesh.hull().vertices().size()}};
+    Json facts = {{"kind", "mesh"},
+                  {"triangles", mesh.triangles().size()},
+                  {"closed", mesh.isClosed()},
+                  {"hull_points", mesh.hull().vertices().size()}};
+    if (mesh.report().cracksFilled > 0) facts["largest_crack_filled"] = mesh.report().largestCrack;
+    return facts;
   }
   Json operator()(const PointCloud& cloud) const {
     return {{"kind", "point cloud"},
