@@ -80,7 +80,8 @@ struct Arguments {
   BatchArguments batch;
 
   std::string planner = "RRTConnect";
-  double time = 5.0;  ///< s
+  double time = 5.0;            ///< s
+  std::optional<double> range;  ///< of the planner's motions, in the metric of the state space
   std::uint32_t seed = 1;
   std::string output;
   bool noSimplify = false;

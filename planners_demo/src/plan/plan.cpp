@@ -140,6 +140,7 @@ ExitCode runPlan(const Arguments& args) {
   routePlannerMessages(args.verbose);
   PlanRequest request{.planner = plannerName(args.planner),
                       .time = args.time,
+                      .range = args.range,
                       .seed = args.seed,
                       .simplify = !args.noSimplify,
                       .simplifyTime = args.simplifyTime.value_or(args.time),

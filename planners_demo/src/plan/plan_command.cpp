@@ -23,6 +23,11 @@ void addOptions(CLI::App& app, Arguments& args) {
   app.add_option("--time", args.time, "s; limit of the planner, per problem (default 5)")
       ->type_name("S")
       ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
+  app.add_option("--range", args.range,
+                 "longest motion that the planner tries, in the metric of the state space (rad, m; "
+                 "default: a fifth of how far a joint reaches, whatever their number)")
+      ->type_name("R")
+      ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"));
   addSeedOption(app, args);
   app.add_option("-o,--output", args.output,
                  "path file, by its ending: .json (with certificates), .csv, or .yaml "

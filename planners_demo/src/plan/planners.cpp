@@ -44,6 +44,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 #include "command_line/exit_code.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
@@ -141,6 +142,16 @@ ompl::base::PlannerPtr makePlanner(std::string_view name,
   const ompl::base::PlannerPtr planner = entry->maker(si);
   useNearestStates(*planner);
   return planner;
+}
+
+double defaultRange(const ompl::base::StateSpace& space) {
+  constexpr double kShare = 0.2;
+  return kShare * space.getMaximumExtent() / std::sqrt(static_cast<double>(space.getDimension()));
+}
+
+bool setRange(ompl::base::Planner& planner, double range) {
+  return planner.params().hasParam("range") &&
+         planner.params().setParam("range", std::to_string(range));
 }
 
 }  // namespace swept

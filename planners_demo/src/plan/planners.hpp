@@ -19,4 +19,12 @@ std::string plannerName(std::string_view anyCase);
 ompl::base::PlannerPtr makePlanner(std::string_view name,
                                    const ompl::base::SpaceInformationPtr& si);
 
+/// Longest motion of a planner, in the metric of the space: a fifth of the root mean square of what
+/// its values reach. OMPL's own default is a fifth of the extent of the space, which grows with the
+/// number of joints: arms side by side, which one motion hardly ever moves free by so much each.
+double defaultRange(const ompl::base::StateSpace& space);
+
+/// False for planners that have no such parameter.
+bool setRange(ompl::base::Planner& planner, double range);
+
 }  // namespace swept

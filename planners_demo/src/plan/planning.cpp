@@ -118,11 +118,18 @@ bool setThreads(ob::Planner& planner, int threads) {
   return false;
 }
 
+ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanRequest& request) {
+  ob::PlannerPtr planner = makePlanner(request.planner, setup.getSpaceInformation());
+  const bool has = setRange(*planner, request.range.value_or(defaultRange(*setup.getStateSpace())));
+  if (request.range && !has)
+    throw UsageError("planner " + request.planner + " has no range; --range is for others");
+  return planner;
+}
+
 /// Of the others as many run side by side, and the first path ends it.
 ob::PlannerStatus solveInParallel(og::SimpleSetup& setup, const PlanRequest& request) {
   ompl::tools::ParallelPlan parallel(setup.getProblemDefinition());
-  for (int i = 0; i < request.threads; ++i)
-    parallel.addPlanner(makePlanner(request.planner, setup.getSpaceInformation()));
+  for (int i = 0; i < request.threads; ++i) parallel.addPlanner(plannerOf(setup, request));
   return parallel.solve(request.time, 1, 1, false);
 }
 
@@ -253,7 +260,7 @@ PlanOutcome plan(const std::shared_ptr<const Checker>& checker,
       }
       setup->setGoal(goal);
     }
-    setup->setPlanner(makePlanner(request.planner, setup->getSpaceInformation()));
+    setup->setPlanner(plannerOf(*setup, request));
     setup->setup();
     return solve(*setup, *checker, request);
   } catch (const ompl::Exception& error) {

@@ -27,8 +27,9 @@ using SetupMaker = std::function<std::shared_ptr<ompl::geometric::SimpleSetup>(
     const std::shared_ptr<const Checker>&, const StateSpaceOptions&)>;
 
 struct PlanRequest {
-  std::string planner;  ///< as plannerName() returns it
-  double time = 5.0;    ///< s; limit of the planner
+  std::string planner;               ///< as plannerName() returns it
+  double time = 5.0;                 ///< s; limit of the planner
+  std::optional<double> range = {};  ///< of the planner's motions; none: defaultRange()
   std::uint32_t seed = 1;
   bool simplify = true;
   double simplifyTime = 5.0;                ///< s
