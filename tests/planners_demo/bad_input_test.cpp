@@ -201,7 +201,8 @@ TEST(BadFiles, AQuaternionMustBeOfUnitLength) {
 
 TEST(BadFiles, AFullDiskIsNoResult) {
   const Gantry gantry;
-  const Outcome run = runShell("swept check '" + gantry.urdf + "' left --group both > /dev/full");
+  const Outcome run = runShell("swept check '" + gantry.urdf + "' left --group both --scene '" +
+                               gantry.scene + "' > /dev/full");
   EXPECT_EQ(run.exitCode, 3);
   EXPECT_EQ(run.err, "swept: error: cannot write to standard output\n");
 }

@@ -230,8 +230,12 @@ TEST_F(Verify, AnEmbeddedModelNeedsNoFiles) {
 TEST_F(Verify, ChangedRulesAreNamed) {
   EXPECT_THAT(refusal([](Json& path) { path["inputs"]["margin"] = 1e-6; }),
               StartsWith("refused: rules: "));
-  EXPECT_THAT(refusal([](Json& path) { path["inputs"]["allow"] = {"cube,post"}; }),
-              StartsWith("refused: rules: "));
+  Json allowing = path_;
+  allowing["inputs"]["allow"] = {"cube,post"};
+  const Outcome run = runSwept({"verify", gantry_.folder().write("changed.json", allowing.dump())});
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_THAT(run.out, StartsWith("refused: rules: "));
+  EXPECT_THAT(run.err, StartsWith("swept: warning: nothing is checked: group 'both' moves "));
 }
 
 TEST_F(Verify, WhatMayTouchIsSaid) {

@@ -20,7 +20,8 @@ namespace {
 class BatchRun {
  public:
   /// Of an MPI job's processes, the one with rank 0 speaks for all.
-  BatchRun(const Arguments& args, int rank) : args_(args), warnings_(args.quiet || rank > 0) {
+  BatchRun(const Arguments& args, int rank)
+      : args_(args), warnings_(rank > 0 ? Warnings::none() : Warnings(args.quiet)) {
     batch_.args = &args;
     batch_.model = loadModel(args, warnings_);
     batch_.group = chooseGroup(*batch_.model.robot, args.group).name;

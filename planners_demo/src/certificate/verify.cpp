@@ -110,6 +110,13 @@ std::string summaryText(const verify::Summary& summary) {
   return text;
 }
 
+/// What the path says that it is not about, where no files say it again.
+void repeatWarnings(const Json& path, Warnings& warnings) {
+  if (!path.contains("warnings") || !path["warnings"].is_array()) return;
+  for (const Json& line : path["warnings"])
+    if (line.is_string()) warnings.ofUnchecked(line.get<std::string>());
+}
+
 Json outcomeJson(const VerifyOutcome& outcome) {
   if (!outcome.holds()) return {{"verified", false}, {"refusal", outcome.refusal}};
   const verify::Summary& summary = outcome.summary;
@@ -142,8 +149,11 @@ ExitCode runVerify(const Arguments& args) {
     outcome = examine(path, files ? &*files : nullptr, remarks);
   }
   for (const std::string& remark : remarks) warnings("swept: warning: " + remark);
+  if (!files) repeatWarnings(path, warnings);
+  Json json = outcomeJson(outcome);
+  json["warnings"] = warnings.unchecked();
   if (args.json)
-    std::cout << dumped(outcomeJson(outcome)) << '\n';
+    std::cout << dumped(json) << '\n';
   else
     std::cout << (outcome.holds() ? summaryText(outcome.summary)
                                   : "refused: " + escapedLine(outcome.refusal) + "\n");

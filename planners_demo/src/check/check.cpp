@@ -4,6 +4,7 @@
 
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
+#include "input/unchecked.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -66,13 +67,14 @@ ExitCode runCheck(const Arguments& args) {
     }
   }
   if (args.json) {
-    const Json json = {{"robot", model.robot->name()},
-                       {"group", task.checker->group().name},
-                       {"margin", args.margin},
-                       {"states", std::move(states)}};
+    Json json = {{"robot", model.robot->name()},
+                 {"group", task.checker->group().name},
+                 {"margin", args.margin},
+                 {"states", std::move(states)}};
+    addUnchecked(json, *task.checker, warnings);
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << text;
+    std::cout << text << uncheckedText(*task.checker);
   }
   dump.announce();
   writeCheckPage(args, model, task);

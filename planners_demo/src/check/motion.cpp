@@ -5,6 +5,7 @@
 
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
+#include "input/unchecked.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -102,14 +103,15 @@ ExitCode runMotion(const Arguments& args) {
     }
   }
   if (args.json) {
-    const Json json = {{"robot", model.robot->name()},
-                       {"group", task.checker->group().name},
-                       {"margin", args.margin},
-                       {"tolerance", args.tolerance},
-                       {"segments", std::move(segments)}};
+    Json json = {{"robot", model.robot->name()},
+                 {"group", task.checker->group().name},
+                 {"margin", args.margin},
+                 {"tolerance", args.tolerance},
+                 {"segments", std::move(segments)}};
+    addUnchecked(json, *task.checker, warnings);
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << text;
+    std::cout << text << uncheckedText(*task.checker);
   }
   dump.announce();
   writeMotionPage(args, model, task);

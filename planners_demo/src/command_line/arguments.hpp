@@ -31,8 +31,10 @@ struct BatchArguments {
 /// The command line, as typed. Each subcommand reads the part it has.
 struct Arguments {
   const Command* command = nullptr;
-  std::string robot;                ///< URDF file
-  std::vector<std::string> states;  ///< names or comma-separated values
+  std::string robot;                        ///< URDF file
+  bool xacro = false;                       ///< `robot` is what the program xacro makes of it
+  std::vector<std::string> xacroArguments;  ///< NAME:=VALUE
+  std::vector<std::string> states;          ///< names or comma-separated values
 
   std::string srdf;  ///< empty: a file beside the URDF; `none`: without
   std::string scene;

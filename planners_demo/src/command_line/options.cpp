@@ -27,6 +27,22 @@ void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use) {
       ->allow_extra_args(false);
 }
 
+void addXacroOptions(CLI::App& app, Arguments& args) {
+  auto* xacro =
+      app.add_flag("--xacro", args.xacro, "the robot is what the program xacro makes of the file");
+  app.add_option("--xacro-arg", args.xacroArguments, "argument of xacro (repeatable)")
+      ->type_name("NAME:=VALUE")
+      ->check(CLI::Validator(
+          [](std::string& text) -> std::string {
+            const auto at = text.find(":=");
+            const bool isOne = at != std::string::npos && at > 0 && text.front() != '-';
+            return isOne ? "" : "must be NAME:=VALUE, not " + text;
+          },
+          ""))
+      ->needs(xacro)
+      ->allow_extra_args(false);
+}
+
 void addRuleOptions(CLI::App& app, Arguments& args) {
   app.add_option("--group", args.group, "planning group; not needed when there is only one")
       ->type_name("NAME");

@@ -13,6 +13,8 @@ CLI::Validator within(double low, double high, const std::string& what);
 
 /// `use` says what the subcommand does with the SRDF besides reading it.
 void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use = {});
+/// --xacro and its arguments, of subcommands whose results do not name the robot by its file alone.
+void addXacroOptions(CLI::App& app, Arguments& args);
 /// --group, --margin and the rules.
 void addRuleOptions(CLI::App& app, Arguments& args);
 /// The same and --tolerance.

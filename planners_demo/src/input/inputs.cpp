@@ -42,6 +42,9 @@ class Writer {
   void text(const char* key, const std::string& text) {
     if (!text.empty()) json_[key] = text;
   }
+  void flag(const char* key, bool flag) {
+    if (flag) json_[key] = true;
+  }
   void texts(const char* key, const std::vector<std::string>& texts) {
     if (!texts.empty()) json_[key] = texts;
   }
@@ -97,6 +100,9 @@ class Reader {
   void text(const char* key, std::string& text) {
     if (json_.has(key)) text = json_.at(key).text();
   }
+  void flag(const char* key, bool& flag) {
+    if (json_.has(key)) flag = json_.at(key).boolean();
+  }
   void texts(const char* key, std::vector<std::string>& texts) {
     if (!json_.has(key)) return;
     for (const JsonValue& item : json_.at(key).elements()) texts.push_back(item.text());
@@ -132,6 +138,8 @@ class Reader {
 template <typename Visitor, typename Args>
 void visit(Visitor& visitor, Args& args) {
   visitor.file("robot", args.robot);
+  visitor.flag("xacro", args.xacro);
+  visitor.texts("xacro_args", args.xacroArguments);
   visitor.packages("packages", args.packages);
   visitor.text("group", args.group);
   visitor.file("scene", args.scene);

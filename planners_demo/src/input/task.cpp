@@ -13,6 +13,8 @@
 #include "input/problem_choice.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
+#include "input/unchecked.hpp"
+#include "input/xacro.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -153,16 +155,6 @@ Task requestTask(const Arguments& args, const Model& model, Warnings& warnings) 
 
 }  // namespace
 
-void Warnings::operator()(const std::string& line) {
-  const std::lock_guard lock(mutex_);
-  if (quiet_ || std::ranges::find(seen_, line) != seen_.end()) return;
-  seen_.push_back(line);
-  if (taker_)
-    taker_(line);
-  else
-    printMessage(line);
-}
-
 SrdfChoice chooseSrdf(const Arguments& args) {
   if (args.srdf == "none") return {};
   if (!args.srdf.empty()) return {.file = args.srdf, .foundBesideUrdf = false};
@@ -171,12 +163,15 @@ SrdfChoice chooseSrdf(const Arguments& args) {
 }
 
 Model loadModel(const Arguments& args, Warnings& warnings) {
-  LoadOptions options{.packages = packageFolders(args),
-                      .modelFrame = {},
-                      .warn = [&](const std::string& line) { warnings(line); }};
+  LoadOptions options{
+      .packages = packageFolders(args),
+      .modelFrame = {},
+      .warn = [&](const std::string& line) { warnings(line); },
+      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); }};
   Model model;
   model.srdf = chooseSrdf(args);
-  model.robot = Robot::load(args.robot, model.srdf.file, options);
+  model.robot = args.xacro ? loadExpanded(args, model.srdf.file, options)
+                           : Robot::load(args.robot, model.srdf.file, options);
   options.modelFrame = model.robot->links().front().name;
   World world = args.scene.empty() ? World{} : World::load(args.scene, options);
   addClouds(args, *model.robot, options, world);
@@ -268,11 +263,9 @@ double clearanceAccuracy(const Checker& checker) {
   return std::max(0.1 * checker.options().tolerance, kLeastAccuracy);
 }
 
-Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
-  checkStateSource(args);
-  if (!args.request.empty()) return requestTask(args, model, warnings);
-  const Group& group = chooseGroup(*model.robot, args.group);
-  if (!args.problems.empty()) return problemTask(args, model, group, warnings);
+namespace {
+
+Task statesTask(const Arguments& args, const Model& model, const Group& group, Warnings& warnings) {
   Task task;
   const bool plan = args.command == &kPlanCommand;
   for (std::size_t i = 0; i < args.states.size(); ++i) {
@@ -284,6 +277,22 @@ Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
     task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});
   }
   task.checker = makeChecker(args, model, group, model.world, warnings);
+  return task;
+}
+
+Task anyTask(const Arguments& args, const Model& model, Warnings& warnings) {
+  if (!args.request.empty()) return requestTask(args, model, warnings);
+  const Group& group = chooseGroup(*model.robot, args.group);
+  return args.problems.empty() ? statesTask(args, model, group, warnings)
+                               : problemTask(args, model, group, warnings);
+}
+
+}  // namespace
+
+Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
+  checkStateSource(args);
+  Task task = anyTask(args, model, warnings);
+  warnOfNothing(*task.checker, warnings);
   return task;
 }
 

@@ -23,13 +23,26 @@ class Warnings {
   using Taker = std::function<void(const std::string& line)>;
   explicit Warnings(bool quiet) : quiet_(quiet) {}
   explicit Warnings(Taker taker) : quiet_(false), taker_(std::move(taker)) {}
+  /// Says nothing at all: another process says it.
+  static Warnings none() {
+    return Warnings(Taker([](const std::string&) {}));
+  }
+  /// Left out where they are to be quiet.
   void operator()(const std::string& line);
+  /// Of what an answer is not about, though it may be taken to be: also where they are to be quiet,
+  /// and again in unchecked().
+  void ofUnchecked(const std::string& line);
+  std::vector<std::string> unchecked() const;
 
  private:
+  /// Whether it is new. The mutex is held.
+  bool isNew(const std::string& line);
+  void give(const std::string& line) const;
+
   bool quiet_;
   Taker taker_;
-  std::mutex mutex_;
-  std::vector<std::string> seen_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> seen_, unchecked_;
 };
 
 /// Which SRDF is read, and why.

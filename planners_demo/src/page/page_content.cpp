@@ -149,7 +149,10 @@ Json factsJson(const Arguments& args, const Robot& robot, const World& world,
     add("tolerance", shortNumber(checker->options().tolerance) + " m");
     add("pairs checked", std::to_string(checker->checkedPairs().size()) + ", left out " +
                              std::to_string(checker->skippedPairs().size()));
+    if (checker->checksNothing()) add("not checked", "nothing was checked");
   }
+  if (const auto links = robot.linksWithoutGeometry(); !links.empty())
+    add("not checked (no collision geometry)", joined(links));
   add("bodies in the world", std::to_string(world.bodies().size()));
   add("command", args.page.commandLine);
   add("swept", SWEPT_VERSION);

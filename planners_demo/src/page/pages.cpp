@@ -43,6 +43,13 @@ Verdict worst(const std::vector<Verdict>& verdicts) {
   return result;
 }
 
+/// Green would say too much.
+void sayIfNothingIsChecked(PageContent& content, const Checker& checker) {
+  if (!checker.checksNothing() || content.tone != PageContent::Tone::Good) return;
+  content.tone = PageContent::Tone::Unsure;
+  content.headline += ", nothing was checked";
+}
+
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
   PageContent content;
   Workspace workspace(checker);
@@ -51,6 +58,7 @@ PageContent statesContent(const Checker& checker, std::vector<LabelledState> sta
     verdicts.push_back(checker.checkState(state.q, workspace));
   content.tone = toneOf(worst(verdicts));
   content.headline = countsText("state", verdicts);
+  sayIfNothingIsChecked(content, checker);
   content.states = std::move(states);
   return content;
 }
@@ -63,11 +71,12 @@ LabelledState defaultState(const Robot& robot, const Group& group) {
   return state;
 }
 
-std::string pathHeadline(const PlanOutcome& outcome) {
+std::string pathHeadline(const PlanOutcome& outcome, const Checker& checker) {
   if (!outcome.solved()) return "not solved: " + outcome.failure;
   const std::string segments = std::to_string(outcome.segments.size()) + " segment" +
                                (outcome.segments.size() == 1 ? "" : "s");
-  return outcome.proven() ? "solved: " + segments + ", all proven free" : "not proven: " + segments;
+  if (!outcome.proven()) return "not proven: " + segments;
+  return "solved: " + segments + (checker.checksNothing() ? "" : ", all proven free");
 }
 
 void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOutcome& outcome) {
@@ -153,6 +162,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   }
   content.tone = toneOf(worst(verdicts));
   content.headline = countsText("motion", verdicts);
+  sayIfNothingIsChecked(content, checker);
   writePage(args, *model.robot, checker.world(), &checker, content);
 }
 
@@ -174,7 +184,8 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
     content = statesContent(*task.checker, task.states);
     content.tone = PageContent::Tone::Bad;
   }
-  content.headline = pathHeadline(outcome);
+  content.headline = pathHeadline(outcome, *task.checker);
+  sayIfNothingIsChecked(content, *task.checker);
   addPlanFacts(content, request, outcome);
   // A path may consist of its start alone.
   if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};

@@ -4,6 +4,7 @@
 #include "command_line/exit_code.hpp"
 #include "input/clouds.hpp"
 #include "input/states.hpp"
+#include "input/unchecked.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "verify/check.hpp"
@@ -43,8 +44,8 @@ std::string linesOf(const Json& json) {
 }
 
 std::string jsonText(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
-                     const Json& inputs, const Certificate& certificate, bool embed,
-                     const std::string& where) {
+                     const Json& inputs, const Warnings& warnings, const Certificate& certificate,
+                     bool embed, const std::string& where) {
   Json json = {{"robot", checker.robot().name()},
                {"group", checker.group().name},
                {"planner", request.planner},
@@ -59,6 +60,7 @@ std::string jsonText(const Checker& checker, const PlanRequest& request, const P
   for (const PathSegment& segment : outcome.segments)
     json["segments"].push_back({{"verdict", toString(segment.certificate.verdict)},
                                 {"clearance", finiteOrNull(segment.clearance)}});
+  addUnchecked(json, checker, warnings);
   json["inputs"] = inputs;
   requireUtf8(json, where);
   if (embed) json["model"] = certificate.model;
@@ -134,10 +136,11 @@ bool PathFile::holdsProof() const {
 }
 
 void PathFile::write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
-                     const Json& inputs, const Certificate& certificate, bool embed) const {
+                     const Json& inputs, const Warnings& warnings, const Certificate& certificate,
+                     bool embed) const {
   if (holdsProof())
-    writeWholeFile(
-        file_, jsonText(checker, request, outcome, inputs, certificate, embed, optionText(file_)));
+    writeWholeFile(file_, jsonText(checker, request, outcome, inputs, warnings, certificate, embed,
+                                   optionText(file_)));
   else if (file_.extension() == ".csv")
     writeWholeFile(file_, csvText(checker, outcome));
   else

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "certificate/certificate.hpp"
+#include "input/task.hpp"
 #include "plan/planning.hpp"
 
 namespace swept {
@@ -20,10 +21,12 @@ class PathFile {
 
   /// Whether it holds a proof: the format has a place for one.
   bool holdsProof() const;
-  /// The file appears whole or not at all. `inputs` and `certificate` are for what holds a proof.
+  /// The file appears whole or not at all. `inputs`, `warnings` (those of what is not checked) and
+  /// `certificate` are for what holds a proof.
   /// Throws UsageError naming file and reason: also for other names that are not UTF-8.
   void write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
-             const Json& inputs, const Certificate& certificate, bool embed) const;
+             const Json& inputs, const Warnings& warnings, const Certificate& certificate,
+             bool embed) const;
 
  private:
   std::filesystem::path file_;

@@ -8,6 +8,7 @@
 #include "input/clouds.hpp"
 #include "input/inputs.hpp"
 #include "input/poses.hpp"
+#include "input/unchecked.hpp"
 #include "output/clearance_text.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
@@ -46,10 +47,11 @@ std::string planTable(const PlanRequest& request, const PlanOutcome& outcome) {
   return table.text();
 }
 
-std::string resultLine(const PlanOutcome& outcome) {
+std::string resultLine(const PlanOutcome& outcome, const Checker& checker) {
   if (!outcome.solved()) return "not solved: " + escapedLine(outcome.failure) + "\n";
   if (outcome.proven())
-    return "solved: " + std::to_string(outcome.segments.size()) + " segments, all proven free\n";
+    return "solved: " + std::to_string(outcome.segments.size()) + " segments, " +
+           (checker.checksNothing() ? "nothing was checked\n" : "all proven free\n");
   for (std::size_t i = 0; i < outcome.segments.size(); ++i)
     if (const Verdict verdict = outcome.segments[i].certificate.verdict; verdict != Verdict::Free)
       return "not proven: segment " + std::to_string(i + 1) + " of " +
@@ -59,10 +61,11 @@ std::string resultLine(const PlanOutcome& outcome) {
 }
 
 Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& request,
-              const PlanOutcome& outcome) {
-  Json json = {{"robot", checker.robot().name()}, {"group", checker.group().name},
-               {"planner", request.planner},      {"seed", request.seed},
-               {"solved", outcome.solved()},      {"proven", outcome.proven()}};
+              const PlanOutcome& outcome, const Warnings& warnings) {
+  Json json = {
+      {"robot", checker.robot().name()}, {"group", checker.group().name},
+      {"planner", request.planner},      {"seed", request.seed},
+      {"solved", outcome.solved()},      {"proven", outcome.proven() && !checker.checksNothing()}};
   json["failure"] = outcome.solved() ? Json(nullptr) : Json(outcome.failure);
   json["bad_ends"] = Json::array();
   for (const EndReport& end : outcome.badEnds) json["bad_ends"].push_back(endJson(end));
@@ -77,6 +80,7 @@ Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& 
   json["states"] = Json::array();
   for (const std::vector<double>& q : outcome.states) json["states"].push_back(toJson(q));
   json["path_file"] = outcome.proven() && !args.output.empty() ? Json(args.output) : Json(nullptr);
+  addUnchecked(json, checker, warnings);
   return json;
 }
 
@@ -99,7 +103,8 @@ void writePath(const Arguments& args, const PathFile& file, const Checker& check
   if (!certificate.missing.empty())
     warnings("swept: warning: no proof in '" + args.output +
              "': no separating planes were found for " + certificate.missing);
-  file.write(checker, request, outcome, inputsJson(args, args.output), certificate, args.embed);
+  file.write(checker, request, outcome, inputsJson(args, args.output), warnings, certificate,
+             args.embed);
 }
 
 std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Task& task) {
@@ -158,10 +163,10 @@ ExitCode runPlan(const Arguments& args) {
   dumpFailures(dump, *task.checker, outcome);
   if (file && outcome.proven()) writePath(args, *file, *task.checker, request, outcome, warnings);
   if (args.json) {
-    std::cout << dumped(planJson(args, *task.checker, request, outcome)) << '\n';
+    std::cout << dumped(planJson(args, *task.checker, request, outcome, warnings)) << '\n';
   } else {
     std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
-              << resultLine(outcome);
+              << resultLine(outcome, *task.checker) << uncheckedText(*task.checker);
     if (file && outcome.proven())
       std::cout << "path written to " << escapedLine(args.output) << '\n';
   }

@@ -9,6 +9,7 @@
 
 #include "input/problem_choice.hpp"
 #include "input/states.hpp"
+#include "input/unchecked.hpp"
 #include "output/progress.hpp"
 #include "output/quantile.hpp"
 #include "output/terminal_text.hpp"
@@ -41,8 +42,10 @@ PlanOutcome solveProblem(const Arguments& args, const ProblemFile& file, const E
   }
   std::vector<LabelledState> states{{.label = "start", .q = ends.start}};
   for (const std::vector<double>& goal : ends.goals) states.push_back({.label = "goal", .q = goal});
-  return plan(makeNextChecker(args, like, std::make_shared<const World>(problem.world), warnings),
-              states, request);
+  const auto checker =
+      makeNextChecker(args, like, std::make_shared<const World>(problem.world), warnings);
+  warnOfNothing(*checker, warnings);
+  return plan(checker, states, request);
 }
 
 /// Threads take the next problem when they are done with one. The first exception ends the run.

@@ -26,7 +26,7 @@ std::shared_ptr<const Checker> checkerOf(const RobotQuestion& question) {
   inputs.quiet = true;  // many cases have one line of progress
   if (inputs.states.empty() && inputs.problems.empty() && inputs.request.empty())
     inputs.states = {valuesText(question.states.front())};
-  Warnings warnings(true);
+  Warnings warnings = Warnings::none();
   const Model model = loadModel(inputs, warnings);
   return loadTask(inputs, model, warnings).checker;
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/unchecked.hpp"
+
+#include "output/terminal_text.hpp"
+
+namespace swept {
+
+void warnOfNothing(const Checker& checker, Warnings& warnings) {
+  if (!checker.checksNothing()) return;
+  const std::size_t skipped = checker.skippedPairs().size();
+  warnings.ofUnchecked("swept: warning: nothing is checked: group '" + checker.group().name +
+                       "' moves nothing that could meet a link or a body of the world" +
+                       (skipped == 0 ? "" : ", or rules, SRDF and joints leave out its pairs"));
+}
+
+std::string uncheckedText(const Checker& checker) {
+  const std::vector<std::string> links = checker.linksWithoutGeometry();
+  if (links.empty()) return {};
+  return escapedLine("not checked, no collision geometry: " + joined(links)) + "\n";
+}
+
+void addUnchecked(Json& json, const Checker& checker, const Warnings& warnings) {
+  json["nothing_checked"] = checker.checksNothing();
+  json["links_without_geometry"] = checker.linksWithoutGeometry();
+  json["warnings"] = warnings.unchecked();
+}
+
+}  // namespace swept
