@@ -202,5 +202,19 @@ TEST(Plan, MessagesOfOmplAreSilentUnlessAskedFor) {
   EXPECT_EQ(jsonOf(verbose)["solved"], true);
 }
 
+/// Short motions take more of them.
+TEST(Plan, TheRangeIsTheLongestMotionThatIsTried) {
+  const Gantry gantry;
+  const auto tried = [&](const std::string& range) {
+    const auto json = jsonOf(gantry.plan({"left", "right", "--range", range, "--json"}));
+    EXPECT_EQ(json["proven"], true) << json["failure"];
+    return json["motions_certified"].get<int>();
+  };
+  EXPECT_GT(tried("0.02"), 4 * tried("2"));
+  const Outcome none = gantry.plan({"left", "right", "--planner", "FMT", "--range", "1"});
+  EXPECT_EQ(none.exitCode, 3);
+  EXPECT_EQ(none.err, "swept: error: planner FMT has no range; --range is for others\n");
+}
+
 }  // namespace
 }  // namespace swept::test

@@ -25,7 +25,8 @@ void addOptions(CLI::App& app, Arguments& args) {
       ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
   app.add_option("--range", args.range,
                  "longest motion that the planner tries, in the metric of the state space (rad, m; "
-                 "default: a fifth of how far a joint reaches, whatever their number)")
+                 "default: a fifth of the extent of the space, with more than 7 joints of one of "
+                 "them)")
       ->type_name("R")
       ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"));
   addSeedOption(app, args);

@@ -47,6 +47,7 @@
 #include <cmath>
 
 #include "command_line/exit_code.hpp"
+#include "output/text_output.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 
 namespace swept {
@@ -144,14 +145,16 @@ ompl::base::PlannerPtr makePlanner(std::string_view name,
   return planner;
 }
 
-double defaultRange(const ompl::base::StateSpace& space) {
-  constexpr double kShare = 0.2;
-  return kShare * space.getMaximumExtent() / std::sqrt(static_cast<double>(space.getDimension()));
+std::optional<double> defaultRange(const ompl::base::StateSpace& space) {
+  constexpr unsigned kOneArm = 7;
+  const unsigned count = space.getDimension();
+  if (count <= kOneArm) return std::nullopt;
+  return 0.2 * space.getMaximumExtent() / std::sqrt(static_cast<double>(count));
 }
 
 bool setRange(ompl::base::Planner& planner, double range) {
   return planner.params().hasParam("range") &&
-         planner.params().setParam("range", std::to_string(range));
+         planner.params().setParam("range", exactNumber(range));
 }
 
 }  // namespace swept

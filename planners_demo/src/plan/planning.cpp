@@ -120,8 +120,10 @@ bool setThreads(ob::Planner& planner, int threads) {
 
 ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanRequest& request) {
   ob::PlannerPtr planner = makePlanner(request.planner, setup.getSpaceInformation());
-  const bool has = setRange(*planner, request.range.value_or(defaultRange(*setup.getStateSpace())));
-  if (request.range && !has)
+  const std::optional<double> range =
+      request.range ? request.range : defaultRange(*setup.getStateSpace());
+  const bool isSet = range && setRange(*planner, *range);
+  if (request.range && !isSet)
     throw UsageError("planner " + request.planner + " has no range; --range is for others");
   return planner;
 }
