@@ -100,7 +100,7 @@ const Case kOptions[] = {
     {"GroupNearlyKnown",
      {"check", "%gantry.urdf", "left", "--group", "Slidre"},
      kError + "robot 'gantry' has no group 'Slidre'; it has both, slider; did you mean 'slider'?"},
-    {"OptionNearlyKnown", both("check", {"left", "--tolerence=1e-3"}),
+    {"OptionNearlyKnown", both("motion", {"left", "right", "--tolerence=1e-3"}),
      kError + "The following argument was not expected: --tolerence=1e-3; did you mean "
               "'--tolerance'? (try --help)"},
     {"JointNearlyKnown",
@@ -110,7 +110,7 @@ const Case kOptions[] = {
      {"check", "%gantry.urdf", "0", "--chain", "cube"},
      kError + "--chain 'cube': expected two names, A,B"},
     {"JointsOfAGroup", both("check", {"left", "--joints", "slide"}),
-     kError + "--joints excludes --group (try --help)"},
+     kError + "--group excludes --joints (try --help)"},
     {"LinkNearlyKnown", both("check", {"left", "--allow", "cubo,*"}),
      kError + "Checker: a rule names 'cubo', which is no link, attached body or body of the "
               "world; did you mean 'cube'?"},
