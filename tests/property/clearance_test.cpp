@@ -149,7 +149,7 @@ TEST_P(Clearances, AreOfAllPieces) {
   EXPECT_LE(counts_.contacts, counts_.states / 2) << counts_.states;
   EXPECT_GE(counts_.moving, counts_.motions / 4) << counts_.motions;
   EXPECT_GE(counts_.outOfReachMoving, counts_.motions / 20) << counts_.motions;
-  EXPECT_GE(counts_.hidden, counts_.states / 4) << counts_.states;
+  EXPECT_GE(counts_.hidden, counts_.states / 5) << counts_.states;
   EXPECT_GE(counts_.hiddenMoving, counts_.motions / 4) << counts_.motions;
 }
 

@@ -89,7 +89,8 @@ std::vector<BadInput> urdfDocuments() {
        "@/r.urdf:1: error: <robot> has no attribute 'name'"},
       {"NoLinks", "r.urdf", robot(""), "@/r.urdf:1: error: the robot has no links"},
       {"Xacro", "r.urdf", robot("<xacro:include filename='x'/>"),
-       "@/r.urdf:2: error: <xacro:include> is not expanded; run xacro on the file first, or let swept do it with --xacro"},
+       "@/r.urdf:2: error: <xacro:include> is not expanded; run xacro on the file first, or let "
+       "swept do it with --xacro"},
       {"RefusedByUrdfdom", "r.urdf", "<robot name='r' version='7.3'>\n<link name='a'/></robot>\n",
        "@/r.urdf:1: error: urdfdom refuses the robot: Invalid 'version' specified; only version "
        "1.0 is "
@@ -622,7 +623,7 @@ std::vector<BadInput> problems() {
        "@/p.json: error: malformed JSON: number overflow parsing '1e999'"},
       {"NotUtf8", "p.json", "{\"s\": [{\"index\": \"\xff\"}]}",
        "@/p.json:1: error: malformed JSON: syntax error while parsing value - invalid string: "
-       "ill-formed UTF-8 byte; last read: '\"\xFF'"},
+       "ill-formed UTF-8 byte; last read: '\"\\u00ff'"},
       {"NoWorld", "p.json", "{\"s\": [{\"index\": 4}]}",
        "@/p.json: error: set 's' problem 4: world is missing"},
       {"UnknownKind", "p.json", body("cone", "{}"),

@@ -120,9 +120,10 @@ TEST(PlanningScene, ValuesALittleBeyondALimitAreTakenToIt) {
   const auto robot = test::twoArms();
   EXPECT_EQ((*scene.state)[*robot->findVariable("jl")], 3.0);
   EXPECT_EQ((*scene.state)[*robot->findVariable("jr")], 4.0) << "as it is given";
-  ASSERT_EQ(warnings.lines.size(), 1U);
+  ASSERT_EQ(warnings.lines.size(), 2U);
   EXPECT_THAT(warnings.lines[0],
               HasSubstr("position[0] is beyond: jl is 3.000002 m, 2e-06 beyond"));
+  EXPECT_THAT(warnings.lines[1], HasSubstr("no body of the scene has geometry"));
 }
 
 TEST(PlanningScene, TheBaseIsWhereTheSceneHasIt) {

@@ -140,7 +140,7 @@ TEST(RuleOrder, ContactsThatAreAlwaysThereAreAllowedForWhoeverAsks) {
   ASSERT_EQ(contacts.always.rules().size(), 1U);
   EXPECT_TRUE(contacts.always.allowed("base", "arm").value());
   EXPECT_EQ(contacts.always.rules()[0].reason, kDefaultContact);
-  EXPECT_EQ(contacts.sometimes, (std::vector<std::pair<std::string, std::string>>{{"arm", "cap"}}));
+  EXPECT_EQ(contacts.sometimes, (std::vector<std::pair<std::string, std::string>>{{"cap", "arm"}}));
   const Checker all(robot, "all", shared({}));
   const Checker less(robot, "all", shared({}), {.rules = contacts.always});
   const Checker kept(robot, "all", shared({}),

@@ -37,11 +37,12 @@ std::string matrix(const std::string& text) {
   return "allowed_collision_matrix: {" + text + "}\n";
 }
 
-/// What Checker::explain says of a pair, without the pair and what follows.
+/// What Checker::explain says of a pair, without the pair and the reasons.
 std::string fate(const Checker& checker, const std::string& a, const std::string& b) {
   const std::string text = checker.explain(a, b);
   const std::size_t colon = text.find(": ");
-  return text.substr(colon + 2, text.find(',') - colon - 2);
+  const std::string fate = text.substr(colon + 2, text.find(',') - colon - 2);
+  return fate.substr(0, fate.find(" ("));
 }
 
 Checker checkerOf(const std::shared_ptr<const Robot>& robot, const std::string& scene,

@@ -44,10 +44,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 
 #include "command_line/exit_code.hpp"
-#include "output/text_output.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 
 namespace swept {
@@ -143,18 +141,6 @@ ompl::base::PlannerPtr makePlanner(std::string_view name,
   const ompl::base::PlannerPtr planner = entry->maker(si);
   useNearestStates(*planner);
   return planner;
-}
-
-std::optional<double> defaultRange(const ompl::base::StateSpace& space) {
-  constexpr unsigned kOneArm = 7;
-  const unsigned count = space.getDimension();
-  if (count <= kOneArm) return std::nullopt;
-  return 0.2 * space.getMaximumExtent() / std::sqrt(static_cast<double>(count));
-}
-
-bool setRange(ompl::base::Planner& planner, double range) {
-  return planner.params().hasParam("range") &&
-         planner.params().setParam("range", exactNumber(range));
 }
 
 }  // namespace swept

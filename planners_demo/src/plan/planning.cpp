@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -116,6 +117,23 @@ bool setThreads(ob::Planner& planner, int threads) {
     if (planner.params().hasParam(name))
       return planner.params().setParam(name, std::to_string(threads));
   return false;
+}
+
+/// Longest motion of a planner, in the metric of the space, where OMPL's own default will not do;
+/// empty up to seven variables. OMPL's is a fifth of the extent of the space, which grows with
+/// their number: arms side by side hardly ever move free by so much at a time. This is a fifth of
+/// the root mean square of what the variables reach.
+std::optional<double> defaultRange(const ob::StateSpace& space) {
+  constexpr unsigned kOneArm = 7;
+  const unsigned count = space.getDimension();
+  if (count <= kOneArm) return std::nullopt;
+  return 0.2 * space.getMaximumExtent() / std::sqrt(static_cast<double>(count));
+}
+
+/// False for planners that have no such parameter.
+bool setRange(ob::Planner& planner, double range) {
+  return planner.params().hasParam("range") &&
+         planner.params().setParam("range", exactNumber(range));
 }
 
 ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanRequest& request) {

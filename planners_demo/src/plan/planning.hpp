@@ -29,7 +29,7 @@ using SetupMaker = std::function<std::shared_ptr<ompl::geometric::SimpleSetup>(
 struct PlanRequest {
   std::string planner;               ///< as plannerName() returns it
   double time = 5.0;                 ///< s; limit of the planner
-  std::optional<double> range = {};  ///< of the planner's motions; none: defaultRange(), or OMPL's
+  std::optional<double> range = {};  ///< of the planner's motions; none: of our own choice
   std::uint32_t seed = 1;
   bool simplify = true;
   double simplifyTime = 5.0;                ///< s

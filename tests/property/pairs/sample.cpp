@@ -85,7 +85,9 @@ Body drawBody(Kind kind, double size, Random& random) {
     // One triangle that has an area, without which there is no mesh.
     soup.append(
         {{size * random.inCube(), size * random.inCube(), size * random.inCube()}, {{0, 1, 2}}});
-    body.shape = swept::TriangleMesh::build(soup.vertices, soup.triangles);
+    // As it is: what is nearly closed would be filled.
+    body.shape =
+        swept::TriangleMesh::build(soup.vertices, soup.triangles, swept::MeshInterior::Solid, 0.0);
     addParts(body, soup.vertices, soup.triangles);
     return body;
   }

@@ -88,7 +88,8 @@ Soup torus(double size, Random& random) {
 }
 
 void mesh(Body& body, const Soup& soup, swept::MeshInterior interior) {
-  body.shape = swept::TriangleMesh::build(soup.vertices, soup.triangles, interior);
+  // As it is: a sliver that is missing would be filled.
+  body.shape = swept::TriangleMesh::build(soup.vertices, soup.triangles, interior, 0.0);
   for (const Eigen::Vector3i& t : soup.triangles) {
     body.parts.push_back(
         ofPoints({soup.vertices[t[0]], soup.vertices[t[1]], soup.vertices[t[2]]}, 0.0));

@@ -75,7 +75,7 @@ struct ShapeCode {
     }
     const bool solid = s.interior() == swept::MeshInterior::Solid;
     return std::string("swept::TriangleMesh::build(") + vectors(s.vertices()) + ", " + triangles +
-           "}, swept::MeshInterior::" + (solid ? "Solid" : "Surface") + ")";
+           "}, swept::MeshInterior::" + (solid ? "Solid" : "Surface") + ", 0.0)";
   }
   std::string operator()(const swept::PointCloud& s) const {
     std::string radii = "std::vector<double>{";
