@@ -15,13 +15,18 @@ function plain(text) {
   return (text ~ /^\./ ? "\\\&" : "") text
 }
 
-# `-o,--output FILE` and `--set NAME Needs: --problems`: what is typed as it is in bold.
+# `-o,--output FILE`, `--set NAME Needs: --problems` and `--group NAME Excludes: --joints --chain`: what is typed as it is
+# in bold.
 function term(text,    words, count, i, out, tail) {
   count = split(text, words, " ")
   for (i = 1; i <= count; ++i) {
     if (words[i] == "REQUIRED") tail = tail " (required)"
     else if (words[i] == "Needs:") tail = tail " (with \\fB" plain(words[++i]) "\\fR)"
-    else if (words[i] ~ /^-/) {
+    else if (words[i] == "Excludes:") {
+      tail = tail " (without \\fB" plain(words[++i]) "\\fR"
+      while (i < count) tail = tail " and \\fB" plain(words[++i]) "\\fR"
+      tail = tail ")"
+    } else if (words[i] ~ /^-/) {
       words[i] = plain(words[i])
       gsub(/,/, "\\fR, \\fB", words[i])
       out = out " \\fB" words[i] "\\fR"

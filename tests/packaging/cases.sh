@@ -210,7 +210,7 @@ page_says_what_the_program_says() {
 # Without the names of arguments and options, which take 30 columns or a line.
 texts_of_help() {
   # shellcheck disable=SC2086
-  "$prefix/bin/swept" $1 --help | sed -e 's/^Usage: //' -e 's/ REQUIRED$/ (required)/' -e '/^Positionals:$/,/^$/s/^.\{30\}//' \
+  "$prefix/bin/swept" $1 --help | sed -e 's/^Usage: //' -e 's/ REQUIRED$/ (required)/' -e 's/ Needs: [^ ]*$//' -e 's/ Excludes: .*$//' -e '/^Positionals:$/,/^$/s/^.\{30\}//' \
     -e '/^Options:$/,/^$/s/^.\{30\}//' -e '/^\(Positionals\|Options\):$/d' -e '/^$/d'
 }
 

@@ -166,7 +166,7 @@ TEST(BenchEdges, TheTextHasARowPerLengthAndVerdict) {
   EXPECT_EQ(run.exitCode, 0);
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, HasSubstr("rook7, group arm: 130 motions in the worlds of 13 problems\n"));
-  EXPECT_THAT(run.out, HasSubstr("the least of 1 passes, less the clock's own "));
+  EXPECT_THAT(run.out, HasSubstr("the least of 1 pass, less the clock's own "));
   std::size_t rows = 0;
   std::istringstream lines(run.out);
   for (std::string line; std::getline(lines, line);) {

@@ -23,8 +23,9 @@ const std::string kTaken = ": taken to the limit\n";
 std::string turningArm() {
   return R"(<robot name="arm">
   <link name="base"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="flange"/><joint name="fixed" type="fixed"><parent link="base"/><child link="flange"/></joint>
   <link name="tool"><collision><origin xyz="0.3 0 0"/><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
-  <joint name="turn" type="revolute"><origin xyz="0 0 0.3"/><parent link="base"/><child link="tool"/><axis xyz="0 0 1"/>
+  <joint name="turn" type="revolute"><origin xyz="0 0 0.3"/><parent link="flange"/><child link="tool"/><axis xyz="0 0 1"/>
   <limit lower="-3.14159" upper="3.14159" effort="1" velocity="1"/></joint></robot>)";
 }
 
@@ -104,8 +105,8 @@ TEST(HairBeyond, AnswersAreThoseOfTheLimit) {
 }
 
 std::string problemAt(const std::string& lift, const std::string& slide) {
-  return R"({"set": [{"index": 1, "world": {}, "start": [)" + lift + ", " + slide +
-         R"(], "goals": [[0, 2]], "joint_names": ["lift", "slide"]}]})";
+  return R"({"set": [{"index": 1, "world": {"sphere": [{"name": "ball", "position": [0, 0, 9], "radius": 0.1}]}, "start": [)" +
+         lift + ", " + slide + R"(], "goals": [[0, 2]], "joint_names": ["lift", "slide"]}]})";
 }
 
 TEST(HairBeyond, InProblems) {

@@ -127,7 +127,7 @@ class OutcomePage(BrowserTest):
         said = self.js("return Array.from(document.querySelectorAll('.piece')).map((p) => p.dataset.text)")
         keeps = self.js("const d = swept.data; return [].concat(...d.allMotions.filter((m) => m.path === 1)"
                         "  .map((m) => m.pieces.lower.map((v) => d.millimetres(v))));")
-        self.assertEqual([text.split("keeps ")[1] for text in said], [keep + " or more" for keep in keeps])
+        self.assertEqual([text.split("keeps ")[1].split(" (world")[0] for text in said], [keep + " or more" for keep in keeps])
         amounts = [b.text.split("\n")[1] for b in self.find("#list button")]
         self.assertEqual(amounts, self.js(
             "const d = swept.data; return d.allMotions.filter((m) => m.path === 1)"

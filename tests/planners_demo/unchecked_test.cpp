@@ -75,7 +75,7 @@ TEST(Unchecked, NothingIsNotProvenFree) {
   const Outcome run = runSwept(
       {"plan", urdf, "-q", "--embed", "-o", path, "--html", folder.path("p.html"), "0,0", "1,-1"});
   EXPECT_EQ(run.exitCode, 0);
-  EXPECT_THAT(run.out, HasSubstr(" segments, nothing was checked\n"));
+  EXPECT_THAT(run.out, HasSubstr(" segment, nothing was checked\n"));
   EXPECT_THAT(run.out, Not(HasSubstr("proven")));
   EXPECT_THAT(run.err, HasSubstr("links 'l', 'r' have a <visual> and no <collision>"));
   EXPECT_THAT(run.err, HasSubstr("swept: warning: nothing is checked: group 'all' moves"));

@@ -117,7 +117,7 @@ TEST(VerifyCrafted, AMotionIsProvenFromItsBeginningToItsEnd) {
 TEST(VerifyCrafted, ABoundIsAboveWhatThePairHasToKeep) {
   verify::Model model = solidAndGround(-1.0, true);
   const Json intervals = Json::array({Json::array({0.0, 1.0, Json::array({1, 0.9})})});
-  model.margin = 0.25;
+  model.worldMargin = 0.25;
   model.paddings = {0.5, 0.125};
   EXPECT_EQ(refusalOfFlat(model, intervals), "");
   model.paddings[1] = 0.25;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/checker_results.hpp"
 
 /// What planners have found: its configurations, and certificates for it.
 namespace swept {

@@ -33,7 +33,10 @@ struct Witness {
 struct NearestPair {
   /// m. As StateReport::clearance, of these pairs alone.
   double clearance = 0.0;
-  std::string bodyA, bodyB;  ///< as of a Witness; empty without such pairs
+  ///@{
+  /// As of a Witness; empty without such pairs.
+  std::string bodyA, bodyB;
+  ///@}
 };
 
 /// What one state looks like, completely. `clearance` is the smaller of those of `world` and
@@ -93,7 +96,7 @@ enum class MotionQuery : std::uint8_t {
 
 /// Which clearances of a motion are wanted.
 enum class ClearanceQuery : std::uint8_t {
-  Least,   ///< of all checked pairs together; MotionClearance::world and ::self stay as they begin
+  Least,   ///< of all checked pairs together; the two kinds of MotionClearance stay as they begin
   ByKind,  ///< that, and of the pairs with the world and of the others too: takes longer
 };
 
@@ -102,8 +105,11 @@ struct ClearanceInterval {
   double lower = 0.0;  ///< m, proven for every t
   /// m, attained at t, as poses are rounded; infinity: nothing is known.
   double upper = std::numeric_limits<double>::infinity();
-  double t = 0.0;            ///< in [0, 1], where upper is attained
-  std::string bodyA, bodyB;  ///< the pair that attains it, as of a Witness; empty without
+  double t = 0.0;  ///< in [0, 1], where upper is attained
+  ///@{
+  /// The pair that attains it, as of a Witness; empty without.
+  std::string bodyA, bodyB;
+  ///@}
 };
 
 /// Least distance of the checked pairs over a motion.

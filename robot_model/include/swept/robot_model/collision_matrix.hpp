@@ -107,6 +107,7 @@ struct DefaultContacts {
   /// Names of the others. They can be apart, so that leaving them out would prove less than asked.
   std::vector<std::pair<std::string, std::string>> sometimes;
 };
+/// See DefaultContacts.
 DefaultContacts defaultContacts(const Robot& robot);
 
 /// An SRDF that disables the pairs that are Adjacent, Never, Always or Default, with these words
