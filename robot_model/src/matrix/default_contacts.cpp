@@ -15,6 +15,8 @@ namespace swept {
 namespace {
 
 constexpr int kSamples = 1000;
+/// Each pair takes as long as the chain between the two, all together the cube of the links.
+constexpr int kMostLinks = 150;
 constexpr std::uint64_t kSeed = 1;
 
 std::set<std::pair<int, int>> adjacentLinks(const Robot& robot) {
@@ -37,6 +39,7 @@ DefaultContacts defaultContacts(const Robot& robot) {
   std::vector<detail::LinkPieces> pieces;
   for (int link = 0; link < count; ++link) pieces.push_back(detail::piecesOf(robot, model, link));
   DefaultContacts contacts;
+  if (robot.links().size() > kMostLinks) return contacts;
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
       if (pieces[a].pieces.empty() || pieces[b].pieces.empty() || adjacent.contains({a, b}))
