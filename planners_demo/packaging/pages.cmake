@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The pages: README.md with all that its links lead to, and theirs, in the folders of the tree, so that links work.
-set(pages README.md CHANGELOG.md)
+set(pages README.md)
 set(pending ${pages})
 while(pending)
   list(POP_FRONT pending page)
