@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/robot_model/input.hpp"
 
+#include "io/short_message.hpp"
+
 namespace swept {
 
 namespace {
-
-/// Names and values of a file may be as long as the file. What is at fault comes first, what is
-/// allowed last.
-std::string shortened(const std::string& message) {
-  constexpr std::size_t kMost = 4000, kFirst = 2500, kLast = 1000;
-  if (message.size() <= kMost) return message;
-  return message.substr(0, kFirst) + " ... (" + std::to_string(message.size() - kFirst - kLast) +
-         " bytes) ... " + message.substr(message.size() - kLast);
-}
 
 std::string located(const std::string& file, int line, const std::string& message) {
   const std::string place = line > 0 ? file + ":" + std::to_string(line) : file;
@@ -22,9 +15,9 @@ std::string located(const std::string& file, int line, const std::string& messag
 }  // namespace
 
 InputError::InputError(const std::string& file, int line, const std::string& message)
-    : std::runtime_error(located(file, line, shortened(message))),
+    : std::runtime_error(located(file, line, detail::shortMessage(message))),
       file_(file),
       line_(line),
-      message_(shortened(message)) {}
+      message_(detail::shortMessage(message)) {}
 
 }  // namespace swept

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/short_message.hpp"
+
 namespace swept::detail {
 
 InputSource::InputSource(std::string name, const LoadOptions& options)
@@ -21,7 +23,7 @@ void InputSource::fail(int line, const std::string& message) const {
 
 std::string InputSource::warning(int line, const std::string& message) const {
   const std::string place = line > 0 ? name_ + ":" + std::to_string(line) : name_;
-  return place + ": warning: " + message;
+  return place + ": warning: " + shortMessage(message);
 }
 
 void InputSource::warn(int line, const std::string& message) const {

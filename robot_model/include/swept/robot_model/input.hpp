@@ -10,7 +10,8 @@
 namespace swept {
 
 /// A file, or a user's value, that cannot be used. what() is `file:line: error: message`, which has
-/// the element, the value seen and what is allowed; beyond 4000 bytes its middle is left out.
+/// the element, the value seen and what is allowed. The middle is left out of a word of more than 320
+/// bytes, and of a message of more than 4000.
 class InputError : public std::runtime_error {
  public:
   /// line 0: the file has no lines that matter, and is named alone.
@@ -43,8 +44,9 @@ struct LoadOptions {
   /// What a file may call the robot's model frame, besides `world` and no name:
   /// Robot::modelFrame(). A frame that neither this nor the file itself places is refused.
   std::string modelFrame;
-  /// Receives one line per remark (`file:line: warning: ...`): open meshes, entries of an SRDF that
-  /// name links the robot does not have, and the like. Nothing is printed without it.
+  /// Receives one line per remark (`file:line: warning: ...`, no longer than an InputError's): open
+  /// meshes, entries of an SRDF that name links the robot does not have, and the like. Nothing is
+  /// printed without it.
   std::function<void(const std::string&)> warn;
   /// Each remark of its own, where a robot has many of one kind. Else the first of them go to
   /// `warn`, with how many there are.
