@@ -125,7 +125,7 @@ Checker Checker::withRules(CollisionRules rules) const {
   return version(model_->world, std::move(changed));
 }
 
-WorldBody Checker::placed(std::string_view attached, std::span<const double> q) const {
+WorldBody Checker::placed(std::string_view attached, ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, attached, q] { return placed(attached, q); });
   }
