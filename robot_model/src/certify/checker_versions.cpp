@@ -69,12 +69,26 @@ Checker Checker::withBody(WorldBody body) const {
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
+Checker Checker::withBody(std::string name, Shape shape,
+                          const Eigen::Isometry3d& world_from_shape) const {
+  World next = world();
+  next.add(std::move(name), std::move(shape), world_from_shape);
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
 Checker Checker::withReplaced(WorldBody body) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return withReplaced(std::move(body)); });
   }
   World next = world();
   next.replace(std::move(body));
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
+Checker Checker::withReplaced(std::string name, Shape shape,
+                              const Eigen::Isometry3d& world_from_shape) const {
+  World next = world();
+  next.replace(std::move(name), std::move(shape), world_from_shape);
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
@@ -103,6 +117,14 @@ Checker Checker::withAttached(AttachedBody body) const {
   CheckerOptions changed = options();
   changed.attached.push_back(std::move(body));
   return version(model_->world, std::move(changed));
+}
+
+Checker Checker::withAttached(std::string name, std::string link, Shape shape,
+                              const Eigen::Isometry3d& link_from_shape,
+                              std::vector<std::string> touchLinks) const {
+  AttachedBody body{std::move(name), std::move(link), {}, std::move(touchLinks)};
+  body.parts.push_back({std::move(shape), link_from_shape});
+  return withAttached(std::move(body));
 }
 
 Checker Checker::withoutAttached(std::string_view name) const {

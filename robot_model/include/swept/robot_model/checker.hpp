@@ -109,20 +109,31 @@ class Checker {
   /// Throws std::invalid_argument for null, a body with the name of an attached one, and a moving
   /// obstacle with that of a link.
   Checker withWorld(std::shared_ptr<const World> world) const;
-  /// The world with one more body. Throws as World::add and withWorld.
+  ///@{
+  /// The world with one more body, here of one shape. Throws as World::add and withWorld.
   Checker withBody(WorldBody body) const;
+  Checker withBody(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) const;
+  ///@}
   /// The world with this body in the place of the one of the same name, and all rules kept: what a
   /// deforming surface (TriangleMesh::moved), or a sensor's next cloud, is for planners that start
   /// from now on. Takes time in proportion to what the body is made of. Throws as World::replace.
   Checker withReplaced(WorldBody body) const;
+  /// The same with a body of one shape.
+  Checker withReplaced(std::string name, Shape shape,
+                       const Eigen::Isometry3d& world_from_shape) const;
   /// The world with one more moving obstacle: a configuration has a time then. Throws as World::add
   /// and withWorld.
   Checker withObstacle(MovingObstacle obstacle) const;
   /// The world without a body or moving obstacle. Throws std::invalid_argument for a name that is
   /// not there.
   Checker withoutBody(std::string_view name) const;
-  /// With one more attached body. Throws as the constructor.
+  ///@{
+  /// With one more attached body, here of one shape. Throws as the constructor.
   Checker withAttached(AttachedBody body) const;
+  Checker withAttached(std::string name, std::string link, Shape shape,
+                       const Eigen::Isometry3d& link_from_shape,
+                       std::vector<std::string> touchLinks = {}) const;
+  ///@}
   /// Throws std::invalid_argument for a name that is not there.
   Checker withoutAttached(std::string_view name) const;
   /// Instead of the ones so far. A pair that has to keep more than it had to when the first version
