@@ -195,7 +195,8 @@ class Checker {
                       std::span<MotionCertificate> certificates,
                       MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
   /// Of each kind of pairs that is asked for: upper - lower <= accuracy (m), and lower >= upper / 2
-  /// while upper >= accuracy / 50, unless the cap on intervals ends the search.
+  /// while upper >= accuracy / 50, unless the cap on intervals ends the search. For a path see
+  /// pathClearance().
   MotionClearance motionClearance(ConfigurationView from, ConfigurationView to, double accuracy,
                                   Workspace& workspace,
                                   ClearanceQuery query = ClearanceQuery::ByKind) const;
@@ -239,6 +240,8 @@ class Checker {
 
  private:
   friend class Workspace;
+  friend PathClearance pathClearance(const Checker&, const ConfigurationList&, double, Workspace&,
+                                     ClearanceQuery);
   explicit Checker(std::shared_ptr<const detail::CheckerModel> model);
   void requireSize(std::span<const double> q) const;
   void requireSizes(std::span<const double> states, std::size_t count) const;
