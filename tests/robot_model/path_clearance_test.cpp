@@ -142,6 +142,15 @@ TEST_P(PathClearances, AreTheLeastOfAllMotionsAndStates) {
     EXPECT_GE(there, least.upper - kMeasured);
     EXPECT_EQ(least.world.upper, kInfinity);
 
+    for (const auto query : {ClearanceQuery::World, ClearanceQuery::Self}) {
+      const bool self = query == ClearanceQuery::Self;
+      const PathClearance one = pathClearance(checker_, path, kAccuracy, workspace_, query);
+      expectLeast(one, self ? loop.self : loop.world);
+      EXPECT_EQ(one.selfPair, self);
+      EXPECT_EQ(one.segment, (self ? one.self : one.world).segment);
+      EXPECT_EQ((self ? one.world : one.self).upper, kInfinity);
+    }
+
     spent += found.intervals;
     spentByLoop += loop.intervals;
     (found.world.upper > 0.0 ? apart : touching) += 1;

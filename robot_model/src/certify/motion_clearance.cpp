@@ -208,12 +208,34 @@ void addPart(const CheckerModel& model, const EvenPart& part, const KindClearanc
   all.bodyB = model.nameOfB(*own.nearest);
 }
 
+/// The whole, from what is known of the kinds that are wanted.
+void addKinds(ClearanceQuery wanted, MotionClearance& all) {
+  ClearanceInterval& whole = all;
+  if (wanted == ClearanceQuery::World) {
+    whole = all.world;
+    all.self = {};
+    return;
+  }
+  if (wanted == ClearanceQuery::Self) {
+    whole = all.self;
+    all.world = {};
+    all.selfPair = !all.bodyA.empty();
+    return;
+  }
+  all.selfPair = all.self.upper < all.world.upper;
+  whole = all.selfPair ? all.self : all.world;
+  all.lower = std::min(all.self.lower, all.world.lower);
+}
+
 }  // namespace
 
 MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, double accuracy, ClearanceQuery wanted,
                                 WorkspaceData& workspace, OtherClearances others) {
-  const bool byKind = wanted == ClearanceQuery::ByKind;
+  const bool byKind = wanted != ClearanceQuery::Least;
+  // Nothing is below 0: of the kind that is not wanted no pair is looked at.
+  if (wanted == ClearanceQuery::World) others.self = 0.0;
+  if (wanted == ClearanceQuery::Self) others.world = 0.0;
   MotionClearance all;
   all.lower = std::numeric_limits<double>::infinity();
   if (byKind) all.world.lower = all.self.lower = all.lower;
@@ -240,12 +262,7 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
     others = {search.ofKind(false).upper, search.ofKind(true).upper};
     return others.world > 0.0 || others.self > 0.0;
   });
-  if (byKind) {
-    all.selfPair = all.self.upper < all.world.upper;
-    const double lower = std::min(all.self.lower, all.world.lower);
-    static_cast<ClearanceInterval&>(all) = all.selfPair ? all.self : all.world;
-    all.lower = lower;
-  }
+  if (byKind) addKinds(wanted, all);
   return all;
 }
 

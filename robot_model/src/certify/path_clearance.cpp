@@ -26,12 +26,27 @@ void addSegment(const ClearanceInterval& own, std::size_t segment, PathClearance
   all.lower = lower;
 }
 
-/// Of all pairs, from what is known of the two kinds.
-void addKinds(PathClearance& all) {
-  all.selfPair = all.self.upper < all.world.upper;
-  const double lower = std::min(all.self.lower, all.world.lower);
-  static_cast<PathClearanceInterval&>(all) = all.selfPair ? all.self : all.world;
-  all.lower = lower;
+/// Which of the three intervals of a clearance are asked for themselves.
+struct Wanted {
+  explicit Wanted(ClearanceQuery query)
+      : whole(query == ClearanceQuery::Least),
+        world(query == ClearanceQuery::ByKind || query == ClearanceQuery::World),
+        self(query == ClearanceQuery::ByKind || query == ClearanceQuery::Self) {}
+  bool whole, world, self;
+};
+
+/// Nothing is nearer than a contact.
+bool isDone(const Wanted& wanted, const PathClearance& all) {
+  return (!wanted.whole || all.upper == 0.0) && (!wanted.world || all.world.upper == 0.0) &&
+         (!wanted.self || all.self.upper == 0.0);
+}
+
+/// Of all pairs, from what is known of the kinds that are wanted.
+void addKinds(const Wanted& wanted, PathClearance& all) {
+  PathClearanceInterval& whole = all;
+  all.selfPair = wanted.self && all.self.upper < all.world.upper;
+  whole = all.selfPair || !wanted.world ? all.self : all.world;
+  if (wanted.world && wanted.self) all.lower = std::min(all.self.lower, all.world.lower);
 }
 
 }  // namespace
@@ -49,28 +64,25 @@ PathClearance pathClearance(const Checker& checker, const ConfigurationList& sta
     throw std::invalid_argument("pathClearance: accuracy " + detail::formatNumber(accuracy) +
                                 " m must be greater than zero");
   }
-  const bool byKind = query == ClearanceQuery::ByKind;
+  const Wanted wanted(query);
   PathClearance all;
-  if (byKind)
-    all.world.lower = all.self.lower = kInfinity;
-  else
-    all.lower = kInfinity;
-  for (std::size_t i = 0; i < std::max<std::size_t>(1, states.size() - 1); ++i) {
+  if (wanted.whole) all.lower = kInfinity;
+  if (wanted.world) all.world.lower = kInfinity;
+  if (wanted.self) all.self.lower = kInfinity;
+  const std::size_t segments = std::max<std::size_t>(1, states.size() - 1);
+  for (std::size_t i = 0; i < segments && !isDone(wanted, all); ++i) {
+    const detail::OtherClearances others{wanted.whole ? all.upper : all.world.upper,
+                                         all.self.upper};
     const MotionClearance own = detail::motionClearance(
         *checker.model_, states[i], states[std::min(i + 1, states.size() - 1)], accuracy, query,
-        checker.dataOf(workspace), {byKind ? all.world.upper : all.upper, all.self.upper});
+        checker.dataOf(workspace), others);
     all.intervals += own.intervals;
-    if (byKind) {
-      addSegment(own.world, i, all.world);
-      addSegment(own.self, i, all.self);
-    } else {
-      if (own.upper < all.upper) all.selfPair = own.selfPair;
-      addSegment(own, i, all);
-    }
-    // Nothing is nearer than a contact.
-    if (byKind ? all.world.upper == 0.0 && all.self.upper == 0.0 : all.upper == 0.0) break;
+    if (wanted.whole && own.upper < all.upper) all.selfPair = own.selfPair;
+    if (wanted.whole) addSegment(own, i, all);
+    if (wanted.world) addSegment(own.world, i, all.world);
+    if (wanted.self) addSegment(own.self, i, all.self);
   }
-  if (byKind) addKinds(all);
+  if (!wanted.whole) addKinds(wanted, all);
   return all;
 }
 

@@ -95,10 +95,12 @@ enum class MotionQuery : std::uint8_t {
   FirstContact,
 };
 
-/// Which clearances of a motion are wanted.
+/// Which clearances of a motion are wanted. The others of MotionClearance stay as they begin.
 enum class ClearanceQuery : std::uint8_t {
-  Least,   ///< of all checked pairs together; the two kinds of MotionClearance stay as they begin
+  Least,   ///< of all checked pairs together
   ByKind,  ///< that, and of the pairs with the world and of the others too: takes longer
+  World,   ///< of the pairs with the world alone, which then is the least
+  Self,    ///< of the others alone, which then is the least
 };
 
 /// Least distance over a motion of some pairs, as an interval; infinite: there are none.
