@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "swept/core/shapes.hpp"
 #include "swept/core/tolerances.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/attached_body.hpp"

@@ -5,7 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
-#include <ranges>
+#include <iterator>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -66,7 +66,12 @@ concept SpanSource =
     !EigenValues<std::remove_cvref_t<Values>> && std::convertible_to<Values, std::span<Number>>;
 
 template <typename Values>
-concept ManyValues = std::ranges::range<Values&> || EigenValues<std::remove_cvref_t<Values>>;
+concept Iterable = requires(Values& values) {
+  *std::begin(values);
+};
+
+template <typename Values>
+concept ManyValues = Iterable<Values> || EigenValues<std::remove_cvref_t<Values>>;
 
 /// Numbers of another type, numbers that do not follow each other, and Eigen's expressions, which
 /// are no numbers before they are evaluated.
@@ -124,12 +129,18 @@ class PackedConfigurations : public std::span<const double> {
 
 namespace detail {
 
+template <typename Values>
+concept IsSpan =
+    std::derived_from<Values, std::span<typename Values::element_type, Values::extent>>;
+
+template <Iterable Range>
+using ElementOf = decltype(*std::begin(std::declval<Range&>()));
+
 /// Configurations that are there without the range's iterator.
 template <typename Range>
-concept ConfigurationRange = std::ranges::input_range<Range> &&
-    std::convertible_to<std::ranges::range_reference_t<Range>, ConfigurationView> &&
-    (std::is_lvalue_reference_v<std::ranges::range_reference_t<Range>> ||
-     std::ranges::borrowed_range<std::ranges::range_reference_t<Range>>);
+concept ConfigurationRange = Iterable<Range> &&
+    std::convertible_to<ElementOf<Range>, ConfigurationView> &&
+    (std::is_lvalue_reference_v<ElementOf<Range>> || IsSpan<ElementOf<Range>>);
 
 }  // namespace detail
 
@@ -141,7 +152,7 @@ class ConfigurationList {
   /// `std::vector<Eigen::VectorXd>`, ...
   template <detail::ConfigurationRange States>
   ConfigurationList(States&& states) {
-    if constexpr (std::ranges::sized_range<States>) states_.reserve(std::ranges::size(states));
+    if constexpr (requires { std::size(states); }) states_.reserve(std::size(states));
     for (auto&& state : states) states_.emplace_back(state);
   }
   /// `{start, goal}`, as an argument, of any types.
@@ -161,8 +172,3 @@ class ConfigurationList {
 };
 
 }  // namespace swept
-
-/// As a span: it refers to what others keep.
-template <typename Number>
-inline constexpr bool std::ranges::enable_borrowed_range<swept::BasicConfigurationView<Number>> =
-    true;

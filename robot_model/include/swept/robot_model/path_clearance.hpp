@@ -2,6 +2,8 @@
 #pragma once
 
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/configuration.hpp"
 
 namespace swept {
 
