@@ -30,9 +30,8 @@ std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeo
   return states;
 }
 
-MotionCertificate certifyByEither(const Checker& checker, std::span<const double> from,
-                                  std::span<const double> to, Workspace& workspace,
-                                  MotionQuery first) {
+MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
+                                  ConfigurationView to, Workspace& workspace, MotionQuery first) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
         [&, from, to, first] { return certifyByEither(checker, from, to, workspace, first); });

@@ -100,7 +100,7 @@ ompl::base::ScopedState<> stateOf(const ompl::base::StateSpacePtr& space, const 
 }  // namespace
 
 void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
-                     std::span<const double> start, std::span<const double> goal) {
+                     ConfigurationView start, ConfigurationView goal) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
         [&, start, goal] { return setStartAndGoal(setup, checker, start, goal); });

@@ -54,7 +54,7 @@ StateConversion::StateConversion(const Robot& robot, const Group& group) {
   }
 }
 
-void StateConversion::toConfiguration(const ob::State* state, std::span<double> q) const {
+void StateConversion::toConfiguration(const ob::State* state, ConfigurationSpan q) const {
   requireSize(q.size(), dimension_);
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const ob::State* part = compound_ ? state->as<ob::CompoundState>()->components[i] : state;
@@ -90,7 +90,7 @@ void StateConversion::toConfiguration(const ob::State* state, std::span<double> 
   }
 }
 
-void StateConversion::toState(std::span<const double> q, ob::State* state) const {
+void StateConversion::toState(ConfigurationView q, ob::State* state) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q, state] { return toState(q, state); });
   }

@@ -177,13 +177,12 @@ ob::StateSpacePtr finished(const std::shared_ptr<Space>& space, const Robot& rob
 }  // namespace
 
 std::map<std::string, std::pair<double, double>> limitsAround(
-    const Robot& robot, const Group& group, std::span<const std::vector<double>> configurations) {
+    const Robot& robot, const Group& group, const ConfigurationList& configurations) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment(
-        [&, configurations] { return limitsAround(robot, group, configurations); });
+    return inDefaultEnvironment([&] { return limitsAround(robot, group, configurations); });
   }
   std::map<std::string, std::pair<double, double>> limits;
-  for (const std::vector<double>& q : configurations) {
+  for (const ConfigurationView& q : configurations) {
     if (q.size() != group.variables.size())
       throw std::invalid_argument("limitsAround: a configuration of " + std::to_string(q.size()) +
                                   " values; group `" + group.name + "` has " +

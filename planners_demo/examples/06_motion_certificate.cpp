@@ -8,6 +8,7 @@
 
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/named_states.hpp"
+#include "swept/robot_model/named_values.hpp"
 
 int main(int argc, char** argv) try {
   const std::string models = argc > 1 ? argv[1] : "models";
@@ -18,9 +19,10 @@ int main(int argc, char** argv) try {
   swept::Workspace workspace(checker);
   const auto home = swept::namedConfiguration(*robot, checker.group(), "home");
   const auto ready = swept::namedConfiguration(*robot, checker.group(), "ready");
-  std::vector<double> from = ready, to = ready;
-  from[0] = -0.3;  // rad, of the first joint
-  to[0] = 0.3;
+  const auto turned = [&](double angle) {  // rad; the other joints stay
+    return swept::configurationOf(*robot, checker.group(), {{"joint1", angle}}, ready);
+  };
+  const auto from = turned(-0.3), to = turned(0.3);
   bool right = true;
 
   // Free is proven for every instant. The clearance is an interval around the least distance.
@@ -29,10 +31,8 @@ int main(int argc, char** argv) try {
   std::cout << "swing: " << toString(free.verdict) << ", keeps " << clearance.lower
             << " m, comes as near as " << clearance.upper << " m at t = " << clearance.t << '\n';
   double least = INFINITY;
-  for (int i = 0; i <= 100; ++i) {
-    const Eigen::VectorXd q = checker.interpolate(from, to, i / 100.0);
-    least = std::min(least, checker.clearance(std::span(q.data(), q.size()), workspace));
-  }
+  for (int i = 0; i <= 100; ++i)
+    least = std::min(least, checker.clearance(checker.interpolate(from, to, i / 100.0), workspace));
   right &= free.verdict == swept::Verdict::Free && clearance.lower > 0.0;
   right &= clearance.lower <= least && least <= clearance.upper + 1e-3;
 
@@ -43,8 +43,7 @@ int main(int argc, char** argv) try {
   std::cout << ", " << hit.witness->bodyA << " touches " << hit.witness->bodyB
             << " at t = " << hit.witness->t << '\n';
   const auto verdictAt = [&](double t) {
-    const Eigen::VectorXd q = checker.interpolate(home, ready, t);
-    return checker.checkState(std::span(q.data(), q.size()), workspace);
+    return checker.checkState(checker.interpolate(home, ready, t), workspace);
   };
   right &= verdictAt(hit.freeUntil) == swept::Verdict::Free;
   right &= verdictAt(hit.witness->t) == swept::Verdict::Collision;

@@ -14,19 +14,13 @@ using Eigen::Isometry3d;
 
 constexpr double kRadius = 0.015;  // m, that each point stands for: the gaps between points, noise
 
-swept::WorldBody cloudBody(const std::vector<Eigen::Vector3d>& points) {
-  // In the model frame already. Points of the robot itself: see withoutRobot in self_filter.hpp.
-  return {.name = "seen",
-          .parts = {{swept::PointCloud::build(points, kRadius), Isometry3d::Identity()}}};
-}
-
 int main(int argc, char** argv) try {
   const std::string models = argc > 1 ? argv[1] : "models";
   const std::string arm = models + "/robots/rook7/rook7";
   const auto robot = swept::Robot::load(arm + ".urdf", arm + ".srdf");
   std::vector<Eigen::Vector3d> points = swept::loadPoints(models + "/clouds/shelf.pcd");
-  swept::World world;
-  world.add(cloudBody(points));
+  swept::World world;  // Points of the robot itself: see withoutRobot in self_filter.hpp.
+  world.add("seen", swept::PointCloud::build(points, kRadius), Isometry3d::Identity());
   const swept::Checker checker(robot, "arm", std::make_shared<swept::World>(world));
   swept::Workspace workspace(checker);
 
@@ -36,10 +30,11 @@ int main(int argc, char** argv) try {
   std::cout << points.size() << " points: " << toString(before.verdict) << '\n';
 
   // The next cloud has one more point, where the tool will be half-way.
-  const Eigen::VectorXd half = checker.interpolate(home, ready, 0.5);
-  const auto tool = swept::linkPose(*robot, "arm", "tool", std::span(half.data(), half.size()));
+  const auto half = checker.interpolate(home, ready, 0.5);
+  const auto tool = swept::linkPose(*robot, "arm", "tool", half);
   points.push_back(tool.translation());
-  const swept::Checker next = checker.withReplaced(cloudBody(points));
+  const swept::Checker next = checker.withReplaced(
+      "seen", swept::PointCloud::build(points, kRadius), Isometry3d::Identity());
   const auto after = next.certifyMotion(home, ready, workspace);
   std::cout << points.size() << " points: " << toString(after.verdict) << '\n';
   if (!after.witness) return 1;

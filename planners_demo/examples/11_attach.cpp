@@ -27,9 +27,8 @@ int main(int argc, char** argv) try {
   swept::Workspace workspace(reach);
   bool right = reach.checkState(grasp, workspace) == swept::Verdict::Collision;
   // Fingers may touch what they hold.
-  const swept::AttachedBody held{
-      "can", "hand", {{can, hand_from_can}}, {"finger_left", "finger_right"}};
-  const swept::Checker carry = reach.withoutBody("can").withAttached(held);
+  const swept::Checker carry = reach.withoutBody("can").withAttached(
+      "can", "hand", can, hand_from_can, {"finger_left", "finger_right"});
   right &= carry.checkState(grasp, workspace) == swept::Verdict::Free;
 
   // The first joint turns. The can's middle goes round on a circle, its side reaches y = 0.19 m.

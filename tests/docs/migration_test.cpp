@@ -169,11 +169,9 @@ TEST_F(MigrationOfARobot, SceneRulesAndQueries) {
   EXPECT_TRUE(safe);
   EXPECT_THAT(checker.explain("hand", "board_1"), testing::HasSubstr("not checked"));
 
-  const swept::AttachedBody held{.name = "held",
-                                 .link = "hand",
-                                 .parts = {{swept::makeBox({0.04, 0.04, 0.1}), at(0.0, 0.0, 0.1)}},
-                                 .touchLinks = {"finger_left", "finger_right"}};
-  const swept::Checker holding = checker.withoutBody("parcel").withAttached(held);
+  const swept::Checker holding = checker.withoutBody("parcel").withAttached(
+      "held", "hand", swept::makeBox({0.04, 0.04, 0.1}), at(0.0, 0.0, 0.1),
+      {"finger_left", "finger_right"});
   const swept::Checker released =
       holding.withoutAttached("held").withBody(holding.placed("held", ready));
 

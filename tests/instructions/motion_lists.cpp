@@ -89,8 +89,7 @@ std::vector<double> randomConfiguration(const Checker& checker, std::span<const 
 /// The state at t is proven free.
 bool freeAt(Site& site, const Motion& motion, double t) {
   const Eigen::VectorXd q = site.checker.interpolate(motion.from, motion.to, t);
-  return site.checker.checkState({q.data(), static_cast<std::size_t>(q.size())}, site.workspace) ==
-         Verdict::Free;
+  return site.checker.checkState(q, site.workspace) == Verdict::Free;
 }
 
 }  // namespace

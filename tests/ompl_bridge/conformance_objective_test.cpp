@@ -16,7 +16,8 @@ namespace og = ompl::geometric;
 INSTANTIATE_TEST_SUITE_P(Of, Contract, testing::ValuesIn(subjects()), nameOf);
 
 TEST_P(Contract, ObjectiveCombinesTheLeastClearances) {
-  const auto shared = std::make_shared<CertifiedClearanceObjective>(si_, checker_, 1e-3);
+  const auto shared =
+      std::make_shared<CertifiedClearanceObjective>(si_, checker_, 1e-3, ClearanceOf::All);
   CertifiedClearanceObjective& objective = *shared;
   const ob::Cost identity = objective.identityCost(), worst = objective.infiniteCost();
   int apart = 0, together = 0;

@@ -56,10 +56,7 @@ TEST(CheckerReference, AQuaternionNeedsADirection) {
   EXPECT_EQ(given("second", {0.0, 0.0, 3.0, 4.0}), "");
   // The words of all that takes a state of the whole robot.
   const Eigen::VectorXd state = withQuaternion(*robot, "second", Eigen::Vector4d::Zero());
-  EXPECT_EQ(messageOf([&] {
-              withoutRobot({}, *robot, {state.data(), static_cast<std::size_t>(state.size())}, 0.0);
-            }),
-            "withoutRobot: " + message);
+  EXPECT_EQ(messageOf([&] { withoutRobot({}, *robot, state, 0.0); }), "withoutRobot: " + message);
   const std::vector<double> q{0.0};
   EXPECT_EQ(messageOf([&] { LinkMotion(*robot, "tip", "tip", q, q, state); }),
             "LinkMotion: " + message);

@@ -77,7 +77,7 @@ void expectFreeUntilContact(const Checker& checker, const std::vector<double>& f
   tally.contacts += certificate.freeUntil > 0.01 && certificate.freeUntil < 1.0 ? 1 : 0;
   const auto expectFree = [&](double t) {
     const Eigen::VectorXd q = checker.interpolate(from, to, t);
-    ASSERT_NE(checker.checkState({q.data(), from.size()}, workspace), Verdict::Collision)
+    ASSERT_NE(checker.checkState(q, workspace), Verdict::Collision)
         << t << " is before " << certificate.freeUntil;
   };
   for (double t = 0.0; t < certificate.freeUntil; t += 0.005) expectFree(t);

@@ -68,19 +68,19 @@ class FirstContactWitness : public testing::TestWithParam<Scene> {
 
   StateReport reportAt(const std::vector<double>& from, const std::vector<double>& to, double t) {
     const Eigen::VectorXd q = checker_.interpolate(from, to, t);
-    return checker_.reportState({q.data(), from.size()}, workspace_);
+    return checker_.reportState(q, workspace_);
   }
 
   bool collidesAt(const std::vector<double>& from, const std::vector<double>& to, double t) {
     const Eigen::VectorXd q = checker_.interpolate(from, to, t);
-    return checker_.checkState({q.data(), from.size()}, workspace_) == Verdict::Collision;
+    return checker_.checkState(q, workspace_) == Verdict::Collision;
   }
 
   /// Pairs within the tolerance.
   std::set<BodyNames> nearAt(const std::vector<double>& from, const std::vector<double>& to,
                              double t) {
     const Eigen::VectorXd q = checker_.interpolate(from, to, t);
-    return contactsOf(near_.reportState({q.data(), from.size()}, nearWorkspace_));
+    return contactsOf(near_.reportState(q, nearWorkspace_));
   }
 
   void ask(const std::vector<double>& from, const std::vector<double>& to, Tally& tally) {

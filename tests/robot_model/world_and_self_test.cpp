@@ -117,6 +117,47 @@ TEST_F(WorldAndSelf, MotionsHaveBothClearances) {
   }
 }
 
+// Asked for one kind, the search takes less time and finds the same.
+TEST_F(WorldAndSelf, OneKindAloneIsAsInBoth) {
+  const Checker all = checker();
+  Workspace workspace(all);
+  constexpr double kAccuracy = 1e-4;
+  for (const auto& [from, to] : {std::array{-1.5, 1.5}, {-1.5, -0.5}, {-0.2, 0.0}}) {
+    const auto of = [&, from = from, to = to](ClearanceQuery query) {
+      return all.motionClearance({from, -2.0}, {to, 2.0}, kAccuracy, workspace, query);
+    };
+    const MotionClearance both = of(ClearanceQuery::ByKind);
+    const MotionClearance world = of(ClearanceQuery::World);
+    EXPECT_EQ(world.world.lower, both.world.lower);
+    EXPECT_EQ(world.world.upper, both.world.upper);
+    EXPECT_EQ(world.upper, world.world.upper);
+    EXPECT_EQ(world.lower, world.world.lower);
+    EXPECT_EQ(world.t, both.world.t);
+    EXPECT_EQ(world.bodyB, "post");
+    EXPECT_FALSE(world.selfPair);
+    EXPECT_EQ(world.self.lower, 0.0);
+    EXPECT_EQ(world.self.upper, kInfinity);
+    EXPECT_LE(world.intervals, both.intervals);
+    const MotionClearance self = of(ClearanceQuery::Self);
+    EXPECT_EQ(self.self.lower, both.self.lower);
+    EXPECT_EQ(self.self.upper, both.self.upper);
+    EXPECT_EQ(self.lower, self.self.lower);
+    EXPECT_EQ(self.bodyB, "hand");
+    EXPECT_TRUE(self.selfPair);
+    EXPECT_EQ(self.world.lower, 0.0);
+    EXPECT_EQ(self.world.upper, kInfinity);
+    EXPECT_LE(self.intervals, both.intervals);
+  }
+  // Of a kind without pairs everything is far away, and nothing is said of the other.
+  const Checker alone = all.withoutBody("post");
+  Workspace scratch(alone);
+  const MotionClearance none =
+      alone.motionClearance({0, 0}, {1, 0}, kAccuracy, scratch, ClearanceQuery::World);
+  EXPECT_EQ(none.lower, kInfinity);
+  EXPECT_EQ(none.upper, kInfinity);
+  EXPECT_FALSE(none.selfPair);
+}
+
 TEST_F(WorldAndSelf, AContactWithOneDoesNotHideTheOther) {
   const Checker all = checker().withBody(
       {.name = "in the way", .parts = {{makeSphere(kRadius), Isometry3d::Identity()}}});

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/program_options.hpp"
 #include "command_line/shell_word.hpp"
 #include "output/terminal_text.hpp"

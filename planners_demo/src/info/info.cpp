@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
 #include "output/text_output.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
 #include "output/text_output.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "input/attach.hpp"
 #include "input/clouds.hpp"
 #include "input/problem_choice.hpp"

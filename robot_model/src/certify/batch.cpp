@@ -89,7 +89,7 @@ void forRanges(const Checker& checker, std::size_t count, std::size_t grain, uns
 
 }  // namespace
 
-void Checker::checkStates(std::span<const double> states, std::span<Verdict> verdicts,
+void Checker::checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                           unsigned threads) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
@@ -104,7 +104,7 @@ void Checker::checkStates(std::span<const double> states, std::span<Verdict> ver
             });
 }
 
-void Checker::certifyMotions(std::span<const double> from, std::span<const double> to,
+void Checker::certifyMotions(PackedConfigurations from, PackedConfigurations to,
                              std::span<MotionCertificate> certificates, MotionQuery query,
                              unsigned threads) const {
   if (detail::inForeignEnvironment()) {

@@ -147,7 +147,7 @@ void Checker::requireSizes(std::span<const double> states, std::size_t count) co
                               " values, not " + std::to_string(states.size()));
 }
 
-Verdict Checker::checkState(std::span<const double> q, Workspace& workspace) const {
+Verdict Checker::checkState(ConfigurationView q, Workspace& workspace) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return checkState(q, workspace); });
   }
@@ -155,7 +155,7 @@ Verdict Checker::checkState(std::span<const double> q, Workspace& workspace) con
   return detail::checkState(*model_, q, dataOf(workspace));
 }
 
-void Checker::checkStates(std::span<const double> states, std::span<Verdict> verdicts,
+void Checker::checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                           Workspace& workspace) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
@@ -165,7 +165,7 @@ void Checker::checkStates(std::span<const double> states, std::span<Verdict> ver
   detail::checkStates(*model_, states, verdicts, dataOf(workspace));
 }
 
-StateReport Checker::reportState(std::span<const double> q, Workspace& workspace) const {
+StateReport Checker::reportState(ConfigurationView q, Workspace& workspace) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return reportState(q, workspace); });
   }
@@ -173,7 +173,7 @@ StateReport Checker::reportState(std::span<const double> q, Workspace& workspace
   return detail::reportState(*model_, q, dataOf(workspace));
 }
 
-double Checker::clearance(std::span<const double> q, Workspace& workspace) const {
+double Checker::clearance(ConfigurationView q, Workspace& workspace) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return clearance(q, workspace); });
   }
@@ -181,8 +181,8 @@ double Checker::clearance(std::span<const double> q, Workspace& workspace) const
   return detail::stateClearance(*model_, q, dataOf(workspace));
 }
 
-SignedClearance Checker::signedClearance(std::span<const double> q, Workspace& workspace,
-                                         std::span<double> gradient) const {
+SignedClearance Checker::signedClearance(ConfigurationView q, Workspace& workspace,
+                                         ConfigurationSpan gradient) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
         [&, q, gradient] { return signedClearance(q, workspace, gradient); });
@@ -192,7 +192,7 @@ SignedClearance Checker::signedClearance(std::span<const double> q, Workspace& w
   return detail::signedClearance(*model_, q, gradient, dataOf(workspace));
 }
 
-MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span<const double> to,
+MotionCertificate Checker::certifyMotion(ConfigurationView from, ConfigurationView to,
                                          Workspace& workspace, MotionQuery query) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
@@ -203,7 +203,7 @@ MotionCertificate Checker::certifyMotion(std::span<const double> from, std::span
   return detail::certifyMotion(*model_, from, to, query, dataOf(workspace));
 }
 
-MotionClearance Checker::motionClearance(std::span<const double> from, std::span<const double> to,
+MotionClearance Checker::motionClearance(ConfigurationView from, ConfigurationView to,
                                          double accuracy, Workspace& workspace,
                                          ClearanceQuery query) const {
   if (detail::inForeignEnvironment()) {
@@ -220,7 +220,7 @@ MotionClearance Checker::motionClearance(std::span<const double> from, std::span
   return detail::motionClearance(*model_, from, to, accuracy, query, dataOf(workspace));
 }
 
-bool Checker::withinLimits(std::span<const double> q) const {
+bool Checker::withinLimits(ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return withinLimits(q); });
   }
@@ -233,8 +233,7 @@ bool Checker::withinLimits(std::span<const double> q) const {
   return true;
 }
 
-Eigen::VectorXd Checker::interpolate(std::span<const double> from, std::span<const double> to,
-                                     double t) const {
+Eigen::VectorXd Checker::interpolate(ConfigurationView from, ConfigurationView to, double t) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, from, to, t] { return interpolate(from, to, t); });
   }
@@ -246,8 +245,8 @@ Eigen::VectorXd Checker::interpolate(std::span<const double> from, std::span<con
   return q;
 }
 
-void Checker::interpolate(std::span<const double> from, std::span<const double> to, double t,
-                          std::span<double> q) const {
+void Checker::interpolate(ConfigurationView from, ConfigurationView to, double t,
+                          ConfigurationSpan q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, from, to, t, q] { return interpolate(from, to, t, q); });
   }

@@ -69,12 +69,26 @@ Checker Checker::withBody(WorldBody body) const {
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
+Checker Checker::withBody(std::string name, Shape shape,
+                          const Eigen::Isometry3d& world_from_shape) const {
+  World next = world();
+  next.add(std::move(name), std::move(shape), world_from_shape);
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
 Checker Checker::withReplaced(WorldBody body) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return withReplaced(std::move(body)); });
   }
   World next = world();
   next.replace(std::move(body));
+  return withWorld(std::make_shared<const World>(std::move(next)));
+}
+
+Checker Checker::withReplaced(std::string name, Shape shape,
+                              const Eigen::Isometry3d& world_from_shape) const {
+  World next = world();
+  next.replace(std::move(name), std::move(shape), world_from_shape);
   return withWorld(std::make_shared<const World>(std::move(next)));
 }
 
@@ -105,6 +119,14 @@ Checker Checker::withAttached(AttachedBody body) const {
   return version(model_->world, std::move(changed));
 }
 
+Checker Checker::withAttached(std::string name, std::string link, Shape shape,
+                              const Eigen::Isometry3d& link_from_shape,
+                              std::vector<std::string> touchLinks) const {
+  AttachedBody body{std::move(name), std::move(link), {}, std::move(touchLinks)};
+  body.parts.push_back({std::move(shape), link_from_shape});
+  return withAttached(std::move(body));
+}
+
 Checker Checker::withoutAttached(std::string_view name) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, name] { return withoutAttached(name); });
@@ -125,7 +147,7 @@ Checker Checker::withRules(CollisionRules rules) const {
   return version(model_->world, std::move(changed));
 }
 
-WorldBody Checker::placed(std::string_view attached, std::span<const double> q) const {
+WorldBody Checker::placed(std::string_view attached, ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, attached, q] { return placed(attached, q); });
   }

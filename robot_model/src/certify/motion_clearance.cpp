@@ -20,7 +20,8 @@ struct KindClearance {
   double lower = std::numeric_limits<double>::infinity();  ///< m
   double upper = std::numeric_limits<double>::infinity();  ///< m
   double t = 0.0;                                          ///< of the part
-  std::optional<GeometryPair> nearest;                     ///< the pair that attains `upper`
+  /// The pair that attains `upper`; none: no pair is known to come nearer than the others.
+  std::optional<GeometryPair> nearest;
 };
 
 /// Branch and bound over intervals and pairs. Distances at the middles give upper bounds; less what
@@ -32,16 +33,19 @@ struct KindClearance {
 class ClearanceSearch {
  public:
   /// `budget`: intervals that may be examined, at least 1. `queries`: pairs that may be looked at,
-  /// but for the first interval's.
+  /// but for the first interval's. `others`: see motionClearance.
   ClearanceSearch(const CheckerModel& model, double accuracy, bool byKind, int budget,
-                  std::int64_t queries, WorkspaceData& workspace)
+                  std::int64_t queries, const OtherClearances& others, WorkspaceData& workspace)
       : model_(model),
         workspace_(workspace),
         query_(model, workspace),
         accuracy_(accuracy),
         byKind_(byKind),
         budget_(budget),
-        queriesLeft_(queries) {}
+        queriesLeft_(queries) {
+    kinds_[0].upper = others.world;
+    kinds_[1].upper = others.self;
+  }
 
   void run(std::span<const double> from, std::span<const double> to) {
     if (!query_.start(from, to)) {
@@ -84,7 +88,8 @@ class ClearanceSearch {
       return kind.upper;
     };
     NearGeometries near(model_, query_, workspace_);
-    byKind_ ? near.forNearestByKind(0.5, look) : near.forNearest(0.5, look);
+    byKind_ ? near.forNearestByKind(0.5, look, kinds_[0].upper, kinds_[1].upper)
+            : near.forNearest(0.5, look, kinds_[0].upper);
     workspace_.generation.clear();
     if (isLast(0, open.size())) {
       for (const MeasuredPair& pair : open) settle(pair.bound, kindOf(pair.pair));
@@ -196,19 +201,41 @@ class ClearanceSearch {
 void addPart(const CheckerModel& model, const EvenPart& part, const KindClearance& own,
              ClearanceInterval& all) {
   all.lower = std::min(all.lower, own.lower);
-  if (!(own.upper < all.upper)) return;
+  if (!own.nearest || !(own.upper < all.upper)) return;
   all.upper = own.upper;
   all.t = part.timeOf(own.t);
   all.bodyA = model.nameOfA(*own.nearest);
   all.bodyB = model.nameOfB(*own.nearest);
 }
 
+/// The whole, from what is known of the kinds that are wanted.
+void addKinds(ClearanceQuery wanted, MotionClearance& all) {
+  ClearanceInterval& whole = all;
+  if (wanted == ClearanceQuery::World) {
+    whole = all.world;
+    all.self = {};
+    return;
+  }
+  if (wanted == ClearanceQuery::Self) {
+    whole = all.self;
+    all.world = {};
+    all.selfPair = !all.bodyA.empty();
+    return;
+  }
+  all.selfPair = all.self.upper < all.world.upper;
+  whole = all.selfPair ? all.self : all.world;
+  all.lower = std::min(all.self.lower, all.world.lower);
+}
+
 }  // namespace
 
 MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, double accuracy, ClearanceQuery wanted,
-                                WorkspaceData& workspace) {
-  const bool byKind = wanted == ClearanceQuery::ByKind;
+                                WorkspaceData& workspace, OtherClearances others) {
+  const bool byKind = wanted != ClearanceQuery::Least;
+  // Nothing is below 0: of the kind that is not wanted no pair is looked at.
+  if (wanted == ClearanceQuery::World) others.self = 0.0;
+  if (wanted == ClearanceQuery::Self) others.world = 0.0;
   MotionClearance all;
   all.lower = std::numeric_limits<double>::infinity();
   if (byKind) all.world.lower = all.self.lower = all.lower;
@@ -219,26 +246,23 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
       all.lower = all.world.lower = all.self.lower = 0.0;
       return false;
     }
-    ClearanceSearch search(model, accuracy, byKind, budget, queries, workspace);
+    ClearanceSearch search(model, accuracy, byKind, budget, queries, others, workspace);
     search.run(part.from, part.to);
     queries = search.queriesLeft();
     all.intervals += search.intervals();
     if (!byKind) {
       const KindClearance& own = search.ofKind(false);
-      if (own.upper < all.upper) all.selfPair = model.isSelfPair(*own.nearest);
+      if (own.nearest) all.selfPair = model.isSelfPair(*own.nearest);
       addPart(model, part, own, all);
-      return all.upper > 0.0;
+      others.world = own.upper;
+      return others.world > 0.0;
     }
     addPart(model, part, search.ofKind(false), all.world);
     addPart(model, part, search.ofKind(true), all.self);
-    return all.world.upper > 0.0 || all.self.upper > 0.0;
+    others = {search.ofKind(false).upper, search.ofKind(true).upper};
+    return others.world > 0.0 || others.self > 0.0;
   });
-  if (byKind) {
-    all.selfPair = all.self.upper < all.world.upper;
-    const double lower = std::min(all.self.lower, all.world.lower);
-    static_cast<ClearanceInterval&>(all) = all.selfPair ? all.self : all.world;
-    all.lower = lower;
-  }
+  if (byKind) addKinds(wanted, all);
   return all;
 }
 

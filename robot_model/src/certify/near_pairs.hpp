@@ -32,11 +32,11 @@ class NearGeometries {
   void collect(double half, std::vector<std::uint32_t>& pairs);
 
   /// Visits pairs of pieces of the bodies that are checked against each other, pieces out of reach
-  /// too, until all others are proven to stay at least as far apart on [t - half, t + half] as the
-  /// least bound (m) that `visit(const GeometryPair&)` has returned.
+  /// too, until all others are proven to stay at least as far apart on [t - half, t + half] as
+  /// `least` (m) or the least bound that `visit(const GeometryPair&)` has returned.
   template <typename Visitor>
-  void forNearest(double half, const Visitor& visit) {
-    double least = std::numeric_limits<double>::infinity();
+  void forNearest(double half, const Visitor& visit,
+                  double least = std::numeric_limits<double>::infinity()) {
     forNearestOfWorld(half, least, visit);
     for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
       visitNear(model_.pairs[pair], half, least, visit);
@@ -45,9 +45,9 @@ class NearGeometries {
   /// The same, of pairs with the world, moving obstacles among it, and of the others: the bounds on
   /// the ones say nothing of the others.
   template <typename Visitor>
-  void forNearestByKind(double half, const Visitor& visit) {
-    double world = std::numeric_limits<double>::infinity();
-    double self = std::numeric_limits<double>::infinity();
+  void forNearestByKind(double half, const Visitor& visit,
+                        double world = std::numeric_limits<double>::infinity(),
+                        double self = std::numeric_limits<double>::infinity()) {
     forNearestOfWorld(half, world, visit);
     for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
       visitNear(model_.pairs[pair], half, model_.isSelfPair(model_.pairs[pair]) ? self : world,

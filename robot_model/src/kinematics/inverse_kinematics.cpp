@@ -245,8 +245,8 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, std::st
 InverseKinematics::InverseKinematics(std::shared_ptr<const ToolChain> chain)
     : chain_(std::move(chain)) {}
 
-InverseKinematics InverseKinematics::within(std::span<const double> lower,
-                                            std::span<const double> upper) const {
+InverseKinematics InverseKinematics::within(ConfigurationView lower,
+                                            ConfigurationView upper) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, lower, upper] { return within(lower, upper); });
   }
@@ -285,7 +285,7 @@ int InverseKinematics::degreesOfFreedom() const {
   return static_cast<int>(chain_->degrees.size());
 }
 
-std::optional<Isometry3d> InverseKinematics::findPose(std::span<const double> q) const {
+std::optional<Isometry3d> InverseKinematics::findPose(ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return findPose(q); });
   }
@@ -299,7 +299,7 @@ std::optional<Isometry3d> InverseKinematics::findPose(std::span<const double> q)
   return world_from_body * chain_->body_from_tool;
 }
 
-Isometry3d InverseKinematics::pose(std::span<const double> q) const {
+Isometry3d InverseKinematics::pose(ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return pose(q); });
   }
@@ -362,7 +362,7 @@ void requireSensible(const InverseKinematicsOptions& options) {
 
 }  // namespace
 
-Jacobian InverseKinematics::jacobian(std::span<const double> q) const {
+Jacobian InverseKinematics::jacobian(ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return jacobian(q); });
   }
@@ -503,7 +503,7 @@ class InverseKinematics::Search {
   Vector6 error_;   ///< rad; at q_
 };
 
-bool InverseKinematics::solve(const Isometry3d& model_from_tool, std::span<double> q,
+bool InverseKinematics::solve(const Isometry3d& model_from_tool, ConfigurationSpan q,
                               const InverseKinematicsOptions& options, Workspace& workspace) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return solve(model_from_tool, q, options, workspace); });

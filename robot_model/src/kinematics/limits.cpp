@@ -64,7 +64,7 @@ bool isOrientation(const Robot& robot, const Variable& variable) {
 }
 
 std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group,
-                                       std::span<double> q) {
+                                       ConfigurationSpan q) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return takeToLimits(robot, group, q); });
   }

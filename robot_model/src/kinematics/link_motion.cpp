@@ -82,7 +82,7 @@ MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& l
 }  // namespace
 
 LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_view link,
-                       std::span<const double> from, std::span<const double> to,
+                       ConfigurationView from, ConfigurationView to,
                        const std::optional<Eigen::VectorXd>& reference)
     : Motion(Vector3d::Zero()) {
   if (detail::inForeignEnvironment()) {
@@ -182,7 +182,7 @@ double LinkMotion::rounding(double reach) const {
 }
 
 Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,
-                    std::span<const double> q, const std::optional<Eigen::VectorXd>& reference) {
+                    ConfigurationView q, const std::optional<Eigen::VectorXd>& reference) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
         [&, group, link, q] { return linkPose(robot, group, link, q, reference); });

@@ -44,7 +44,7 @@ std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
   return q;
 }
 
-NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q) {
+NamedState makeNamedState(const Group& group, std::string name, ConfigurationView q) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return makeNamedState(group, std::move(name), q); });
   }

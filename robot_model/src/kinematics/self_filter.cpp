@@ -147,7 +147,7 @@ class CubeFilter {
 }  // namespace
 
 std::vector<Vector3d> withoutRobot(std::span<const Vector3d> points, const Robot& robot,
-                                   std::span<const double> state, double margin) {
+                                   ConfigurationView state, double margin) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
         [&, points, state, margin] { return withoutRobot(points, robot, state, margin); });
@@ -159,7 +159,7 @@ std::vector<Vector3d> withoutRobot(std::span<const Vector3d> points, const Robot
   return kept;
 }
 
-Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const double> state,
+Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, ConfigurationView state,
                         double margin) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
@@ -180,7 +180,7 @@ Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const 
 }
 
 OccupancyMap mapWithoutRobot(const OccupancyMap& map, const Isometry3d& world_from_map,
-                             const Robot& robot, std::span<const double> state, double margin) {
+                             const Robot& robot, ConfigurationView state, double margin) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
         [&, state, margin] { return mapWithoutRobot(map, world_from_map, robot, state, margin); });

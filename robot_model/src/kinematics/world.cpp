@@ -20,6 +20,13 @@ using detail::orthonormalized;
 
 namespace {
 
+WorldBody bodyOf(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) {
+  WorldBody body;
+  body.name = std::move(name);
+  body.parts.push_back({std::move(shape), world_from_shape});
+  return body;
+}
+
 void makeRigid(WorldBody& body) {
   for (WorldBody::Part& part : body.parts) {
     if (!isRigid(part.world_from_shape)) {
@@ -73,14 +80,7 @@ void World::add(WorldBody body) {
 }
 
 void World::add(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) {
-  if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment(
-        [&] { return add(std::move(name), std::move(shape), world_from_shape); });
-  }
-  WorldBody body;
-  body.name = std::move(name);
-  body.parts.push_back({std::move(shape), world_from_shape});
-  add(std::move(body));
+  add(bodyOf(std::move(name), std::move(shape), world_from_shape));
 }
 
 void World::add(MovingObstacle obstacle) {
@@ -119,6 +119,10 @@ void World::replace(WorldBody body) {
     throw std::invalid_argument("World: there is no body '" + body.name + "' to replace");
   makeRigid(body);
   bodies_[old->second] = std::move(body);
+}
+
+void World::replace(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) {
+  replace(bodyOf(std::move(name), std::move(shape), world_from_shape));
 }
 
 bool World::remove(std::string_view name) {

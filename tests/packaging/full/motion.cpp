@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/robot_model/named_values.hpp"
+#include "swept/robot_model/path_clearance.hpp"
 
 namespace {
 
-using Configuration = std::vector<double>;
-
 bool validInOmpl(const ompl::geometric::SimpleSetup& setup, const swept::Checker& checker,
-                 const Configuration& from, const Configuration& to) {
+                 swept::ConfigurationView from, swept::ConfigurationView to) {
   const swept::StateConversion conversion(checker.robot(), checker.group());
   ompl::base::ScopedState<> a(setup.getStateSpace()), b(setup.getStateSpace());
   conversion.toState(from, a.get());
@@ -30,13 +30,14 @@ int certify(char** argv) {
 
   const auto home = swept::namedConfiguration(*robot, checker->group(), "home");
   const auto ready = swept::namedConfiguration(*robot, checker->group(), "ready");
-  Configuration near = home;
-  near.front() += 0.01;
+  const auto near = swept::configurationOf(*robot, checker->group(), {{"joint1", 0.01}}, home);
   const auto nearby = checker->certifyMotion(home, near, workspace);
   const auto far = checker->certifyMotion(home, ready, workspace);
   std::cout << "nearby " << toString(nearby.verdict) << ", far " << toString(far.verdict)
             << ", free until " << far.freeUntil << '\n';
-  const bool right = nearby.verdict == swept::Verdict::Free && nearby.freeUntil == 1.0 &&
+  const auto keeps = swept::pathClearance(*checker, {home, near}, 1e-3, workspace);
+  const bool right = keeps.world.lower > 0.0 && keeps.segment == 0 &&
+                     nearby.verdict == swept::Verdict::Free && nearby.freeUntil == 1.0 &&
                      far.verdict == swept::Verdict::Collision && far.witness.has_value();
   const bool same =
       validInOmpl(*setup, *checker, home, near) && !validInOmpl(*setup, *checker, home, ready);

@@ -5,11 +5,11 @@
 #include <ompl/base/PlannerData.h>
 #include <ompl/geometric/PathGeometric.h>
 
-#include <span>
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/configuration.hpp"
 
 /// What planners have found: its configurations, and certificates for it.
 namespace swept {
@@ -22,8 +22,8 @@ std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeo
 /// The motion as CertifiedMotionValidator judges it. Near the tolerance a proof may hang on the
 /// order in which a motion is looked at, and the two queries have each its own: where `first`
 /// leaves the motion undecided and the other one proves it free, the certificate is the other's.
-MotionCertificate certifyByEither(const Checker& checker, std::span<const double> from,
-                                  std::span<const double> to, Workspace& workspace,
+MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
+                                  ConfigurationView to, Workspace& workspace,
                                   MotionQuery first = MotionQuery::FirstContact);
 
 /// Certificates, by certifyByEither(), of all segments of a path, in order: one fewer than it has

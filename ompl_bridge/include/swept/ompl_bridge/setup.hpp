@@ -5,10 +5,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/configuration.hpp"
 
 namespace swept {
 
@@ -50,6 +50,6 @@ void setChecker(const ompl::base::SpaceInformation& si, std::shared_ptr<const Ch
 /// when the setup's space is not of that group, and unless either configuration has a value for
 /// each of the group's variables; the setup stays as it was then.
 void setStartAndGoal(ompl::geometric::SimpleSetup& setup, const Checker& checker,
-                     std::span<const double> start, std::span<const double> goal);
+                     ConfigurationView start, ConfigurationView goal);
 
 }  // namespace swept

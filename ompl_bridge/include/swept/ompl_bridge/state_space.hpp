@@ -5,11 +5,11 @@
 
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -56,7 +56,7 @@ ompl::base::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
 /// of the configurations: they reach 10 m beyond it. Throws std::invalid_argument for a
 /// configuration of another size than the group's.
 std::map<std::string, std::pair<double, double>> limitsAround(
-    const Robot& robot, const Group& group, std::span<const std::vector<double>> configurations);
+    const Robot& robot, const Group& group, const ConfigurationList& configurations);
 
 /// Copies between a state of makeStateSpace(robot, group) and the group's configuration.
 /// Both throw std::invalid_argument unless q has `dimension()` values.
@@ -67,12 +67,12 @@ class StateConversion {
   /// Values of a configuration.
   int dimension() const { return dimension_; }
   /// Fills `q` with the values as they are: rad, m, components of quaternions.
-  void toConfiguration(const ompl::base::State* state, std::span<double> q) const;
+  void toConfiguration(const ompl::base::State* state, ConfigurationSpan q) const;
   /// Puts angles of cyclic variables into [-pi, pi) and scales quaternions to unit length, as OMPL
   /// wants them, and takes what is at most tolerance::kLimit beyond a limit of the robot to it
   /// (limitNear()). A zero or non-finite quaternion is copied as it is; such a state is never
   /// valid.
-  void toState(std::span<const double> q, ompl::base::State* state) const;
+  void toState(ConfigurationView q, ompl::base::State* state) const;
 
  private:
   struct Block {

@@ -10,11 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "swept/core/shapes.hpp"
 #include "swept/core/tolerances.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/attached_body.hpp"
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/collision_rules.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
@@ -80,15 +82,16 @@ class Workspace {
 /// Validity of states and motions of one group of a robot in one world. Immutable: any number of
 /// threads may use one Checker, each with a Workspace of its own.
 ///
-/// A configuration has the values of the group's variables. If the world has moving obstacles, one
-/// more follows: the time on their clock, in s.
+/// A configuration has the values of the group's variables, in a vector of whichever kind (see
+/// configuration.hpp). If the world has moving obstacles, one more follows: the time on their
+/// clock, in s.
 ///
 /// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0), cyclic variables the shorter way, floating
 /// orientations by slerp along the shorter arc, mimicking joints following. Checked are: each link
 /// that the group moves, and each body attached to one, against each world body, and each pair of
 /// links or attached bodies whose relative pose the group changes, unless the rules, the SRDF, or
 /// by default a joint between the two, leave the pair out: see CheckerOptions::rules. Queries never
-/// throw on spans of the right size (std::invalid_argument otherwise).
+/// throw on configurations of the right size (std::invalid_argument otherwise).
 ///
 /// What changes makes a new version: `with...` and `without...` return another Checker that shares
 /// with this one what is the same, and is built in a fraction of the time. This one stays as it is,
@@ -107,20 +110,31 @@ class Checker {
   /// Throws std::invalid_argument for null, a body with the name of an attached one, and a moving
   /// obstacle with that of a link.
   Checker withWorld(std::shared_ptr<const World> world) const;
-  /// The world with one more body. Throws as World::add and withWorld.
+  ///@{
+  /// The world with one more body, here of one shape. Throws as World::add and withWorld.
   Checker withBody(WorldBody body) const;
+  Checker withBody(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) const;
+  ///@}
   /// The world with this body in the place of the one of the same name, and all rules kept: what a
   /// deforming surface (TriangleMesh::moved), or a sensor's next cloud, is for planners that start
   /// from now on. Takes time in proportion to what the body is made of. Throws as World::replace.
   Checker withReplaced(WorldBody body) const;
+  /// The same with a body of one shape.
+  Checker withReplaced(std::string name, Shape shape,
+                       const Eigen::Isometry3d& world_from_shape) const;
   /// The world with one more moving obstacle: a configuration has a time then. Throws as World::add
   /// and withWorld.
   Checker withObstacle(MovingObstacle obstacle) const;
   /// The world without a body or moving obstacle. Throws std::invalid_argument for a name that is
   /// not there.
   Checker withoutBody(std::string_view name) const;
-  /// With one more attached body. Throws as the constructor.
+  ///@{
+  /// With one more attached body, here of one shape. Throws as the constructor.
   Checker withAttached(AttachedBody body) const;
+  Checker withAttached(std::string name, std::string link, Shape shape,
+                       const Eigen::Isometry3d& link_from_shape,
+                       std::vector<std::string> touchLinks = {}) const;
+  ///@}
   /// Throws std::invalid_argument for a name that is not there.
   Checker withoutAttached(std::string_view name) const;
   /// Instead of the ones so far. A pair that has to keep more than it had to when the first version
@@ -131,7 +145,7 @@ class Checker {
   /// An attached body where it is at a configuration, as a body of the world: what a gripper lets
   /// go of. Throws std::invalid_argument for a name that is not there, and a configuration in which
   /// no pose is known (see checkState).
-  WorldBody placed(std::string_view attached, std::span<const double> q) const;
+  WorldBody placed(std::string_view attached, ConfigurationView q) const;
 
   ///@{
   /// What this version checks. The references live as long as it does.
@@ -146,55 +160,56 @@ class Checker {
   /// prismatic value more than tolerance::kLimit outside its limits (what is out of reach up to
   /// there is not looked at). The answer is about `q` as it is, not about what limits would make of
   /// it.
-  Verdict checkState(std::span<const double> q, Workspace& workspace) const;
-  /// The same verdicts for many states, which follow each other in `states`; faster than one by
-  /// one. Throws std::invalid_argument unless there is one verdict for each.
-  void checkStates(std::span<const double> states, std::span<Verdict> verdicts,
+  Verdict checkState(ConfigurationView q, Workspace& workspace) const;
+  /// The same verdicts for many states, which follow each other in `states` or are the columns of a
+  /// matrix; faster than one by one. Throws std::invalid_argument unless there is one verdict for
+  /// each.
+  void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                    Workspace& workspace) const;
   /// The same on so many threads (0: as many as there are processors), whatever their number.
-  void checkStates(std::span<const double> states, std::span<Verdict> verdicts,
+  void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                    unsigned threads = 0) const;
   /// Every violating pair and the clearance. Measures distances where checkState proves them large
   /// enough: about a millisecond for an arm, hundreds to thousands of times what that takes.
-  StateReport reportState(std::span<const double> q, Workspace& workspace) const;
+  StateReport reportState(ConfigurationView q, Workspace& workspace) const;
   /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not
   /// finite. Takes as long as reportState: nothing to ask while planning.
-  double clearance(std::span<const double> q, Workspace& workspace) const;
+  double clearance(ConfigurationView q, Workspace& workspace) const;
   /// Negative in contact; more work than clearance(). `gradient`, if not empty, receives the
   /// derivatives of the pair's signed distance by the values of the configuration (m per rad, m per
   /// m, m per s; of a quaternion's components as it is scaled to unit length): zero where `normal`
   /// is. Where several pairs are equally near, of one of them. Throws std::invalid_argument for a
   /// gradient that has another size than a configuration.
-  SignedClearance signedClearance(std::span<const double> q, Workspace& workspace,
-                                  std::span<double> gradient = {}) const;
+  SignedClearance signedClearance(ConfigurationView q, Workspace& workspace,
+                                  ConfigurationSpan gradient = {}) const;
 
   /// What is proven about the motion from one configuration to another. Undecided, too, where an
   /// end is not finite. Limits do not enter it, but for those of prismatic joints (see checkState):
   /// an end that is a little beyond a limit is where it is given.
-  MotionCertificate certifyMotion(std::span<const double> from, std::span<const double> to,
+  MotionCertificate certifyMotion(ConfigurationView from, ConfigurationView to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
   /// Many at once, which follow each other in `from` and `to`, on so many threads (0: as many as
   /// there are processors). The certificates do not depend on their number. Throws
   /// std::invalid_argument unless there is one certificate for each.
-  void certifyMotions(std::span<const double> from, std::span<const double> to,
+  void certifyMotions(PackedConfigurations from, PackedConfigurations to,
                       std::span<MotionCertificate> certificates,
                       MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
   /// Of each kind of pairs that is asked for: upper - lower <= accuracy (m), and lower >= upper / 2
-  /// while upper >= accuracy / 50, unless the cap on intervals ends the search.
-  MotionClearance motionClearance(std::span<const double> from, std::span<const double> to,
-                                  double accuracy, Workspace& workspace,
+  /// while upper >= accuracy / 50, unless the cap on intervals ends the search. For a path see
+  /// pathClearance().
+  MotionClearance motionClearance(ConfigurationView from, ConfigurationView to, double accuracy,
+                                  Workspace& workspace,
                                   ClearanceQuery query = ClearanceQuery::ByKind) const;
 
   /// Each variable is within its limits, or at most tolerance::kLimit beyond (isWithin()). False
   /// for what is not finite. Who wants the robot at the limit then uses takeToLimits() first.
-  bool withinLimits(std::span<const double> q) const;
+  bool withinLimits(ConfigurationView q) const;
   /// The configuration at t on the motion that certifyMotion checks.
-  Eigen::VectorXd interpolate(std::span<const double> from, std::span<const double> to,
-                              double t) const;
+  Eigen::VectorXd interpolate(ConfigurationView from, ConfigurationView to, double t) const;
   /// The same into `q`, which is neither `from` nor `to`; nothing is allocated.
-  void interpolate(std::span<const double> from, std::span<const double> to, double t,
-                   std::span<double> q) const;
+  void interpolate(ConfigurationView from, ConfigurationView to, double t,
+                   ConfigurationSpan q) const;
 
   /// One checked pair of bodies, and one that is left out with the reason.
   struct Pair {
@@ -226,6 +241,8 @@ class Checker {
 
  private:
   friend class Workspace;
+  friend PathClearance pathClearance(const Checker&, const ConfigurationList&, double, Workspace&,
+                                     ClearanceQuery);
   explicit Checker(std::shared_ptr<const detail::CheckerModel> model);
   void requireSize(std::span<const double> q) const;
   void requireSizes(std::span<const double> states, std::size_t count) const;

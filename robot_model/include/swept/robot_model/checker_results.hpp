@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -94,10 +95,12 @@ enum class MotionQuery : std::uint8_t {
   FirstContact,
 };
 
-/// Which clearances of a motion are wanted.
+/// Which clearances of a motion are wanted. The others of MotionClearance stay as they begin.
 enum class ClearanceQuery : std::uint8_t {
-  Least,   ///< of all checked pairs together; the two kinds of MotionClearance stay as they begin
+  Least,   ///< of all checked pairs together
   ByKind,  ///< that, and of the pairs with the world and of the others too: takes longer
+  World,   ///< of the pairs with the world alone, which then is the least
+  Self,    ///< of the others alone, which then is the least
 };
 
 /// Least distance over a motion of some pairs, as an interval; infinite: there are none.
@@ -118,6 +121,21 @@ struct MotionClearance : ClearanceInterval {
   int intervals = 0;        ///< examined
   ClearanceInterval world;  ///< of the pairs with the world, moving obstacles among it
   ClearanceInterval self;   ///< of the pairs of two links or attached bodies
+};
+
+/// Least distance over a path of some pairs, as an interval.
+struct PathClearanceInterval : ClearanceInterval {
+  /// Where `upper` is attained, at `t` of it: 0 is the motion from the first state to the second.
+  /// None: there is no such pair, or nothing is known.
+  std::optional<std::size_t> segment = {};
+};
+
+/// Least distance of the checked pairs over a path.
+struct PathClearance : PathClearanceInterval {
+  bool selfPair = false;        ///< of bodyA and bodyB, as Witness::selfPair
+  std::int64_t intervals = 0;   ///< examined, of all motions
+  PathClearanceInterval world;  ///< of the pairs with the world, moving obstacles among it
+  PathClearanceInterval self;   ///< of the pairs of two links or attached bodies
 };
 
 /// Signed distance of the checked pair that is nearest or, where some overlap, deepest in each

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -69,7 +69,7 @@ class InverseKinematics {
   /// own, which hold as well: one that is beyond those by at most tolerance::kLimit is taken for
   /// them. Those of cyclic variables and of quaternions are not looked at. Throws
   /// std::invalid_argument for spans of the wrong size, and where no value is left.
-  InverseKinematics within(std::span<const double> lower, std::span<const double> upper) const;
+  InverseKinematics within(ConfigurationView lower, ConfigurationView upper) const;
 
   ///@{
   /// As given when it was made.
@@ -83,15 +83,15 @@ class InverseKinematics {
   /// The tool's frame: model_from_tool. Throws std::invalid_argument for a configuration that has
   /// the wrong size or a value that is not finite, a quaternion without direction, and a prismatic
   /// value outside its limits by more than tolerance::kLimit.
-  Eigen::Isometry3d pose(std::span<const double> q) const;
+  Eigen::Isometry3d pose(ConfigurationView q) const;
   /// The same, and nothing where `pose` throws for a value. Throws for the wrong size.
-  std::optional<Eigen::Isometry3d> findPose(std::span<const double> q) const;
+  std::optional<Eigen::Isometry3d> findPose(ConfigurationView q) const;
 
   /// Velocity of the tool's origin (m, rows 0 to 2) and angular velocity (rad, rows 3 to 5), both
   /// in the model frame, per unit (rad or m) of each degree of freedom, in the order of the
   /// variables. The three of a quaternion are turns of the joint's child frame about the axes of
   /// the joint frame. Throws as `pose`.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(std::span<const double> q) const;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(ConfigurationView q) const;
 
   /// True: at `q` the tool is within both tolerances of `model_from_tool`, all variables are within
   /// their limits, cyclic ones that take part in [-pi, pi], quaternions that do of unit length.
@@ -104,7 +104,7 @@ class InverseKinematics {
   /// wrong size, a value that is not finite or a quaternion without direction, a tolerance that is
   /// not positive, a negative number of iterations and a workspace of another object that
   /// does not fit.
-  bool solve(const Eigen::Isometry3d& model_from_tool, std::span<double> q,
+  bool solve(const Eigen::Isometry3d& model_from_tool, ConfigurationSpan q,
              const InverseKinematicsOptions& options, Workspace& workspace) const;
 
  private:

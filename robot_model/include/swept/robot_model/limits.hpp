@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "swept/core/tolerances.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/robot.hpp"
 
 /// A value beyond a limit means the same everywhere. Up to tolerance::kLimit beyond, it stands for
@@ -39,7 +40,7 @@ struct TakenToLimit {
 
 /// Takes the values of a group's configuration to their limits (limitNear()), and tells which. An
 /// orientation has none. Throws std::invalid_argument unless there is a value for each variable.
-std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group, std::span<double> q);
+std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group, ConfigurationSpan q);
 
 /// `elbow is 2.000002 rad, 2e-06 beyond its limit 2: taken to the limit`, or what else was done.
 std::string limitRemark(const TakenToLimit& taken, const std::string& done = "taken to the limit");

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "swept/core/continuous/motion.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -27,7 +27,7 @@ class LinkMotion : public Motion {
   /// there, a span or reference of the wrong size, a value that is not finite, a quaternion without
   /// direction, and a prismatic value outside its limits by more than tolerance::kLimit.
   LinkMotion(const Robot& robot, std::string_view group, std::string_view link,
-             std::span<const double> from, std::span<const double> to,
+             ConfigurationView from, ConfigurationView to,
              const std::optional<Eigen::VectorXd>& reference = {});
 
   Eigen::Isometry3d at(double t) const override;
@@ -44,7 +44,7 @@ class LinkMotion : public Motion {
 /// model_from_link: where a link is at one configuration of a group. `reference` and what it throws
 /// are LinkMotion's, which is quicker for many configurations along one motion.
 Eigen::Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,
-                           std::span<const double> q,
+                           ConfigurationView q,
                            const std::optional<Eigen::VectorXd>& reference = {});
 
 }  // namespace swept

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -23,6 +23,6 @@ std::vector<double> namedConfiguration(const Robot& robot, const Group& group,
 
 /// The other way: a state as an SRDF has it, of the group's values in its order. Throws
 /// std::invalid_argument unless there is one for each of its variables.
-NamedState makeNamedState(const Group& group, std::string name, std::span<const double> q);
+NamedState makeNamedState(const Group& group, std::string name, ConfigurationView q);
 
 }  // namespace swept

@@ -8,6 +8,7 @@
 
 #include "swept/core/sensed_space.hpp"
 #include "swept/robot_model/cloud_file.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -23,7 +24,7 @@ namespace swept {
 /// is negative or not finite, a state of another size or with a value that is not finite, and a
 /// quaternion without direction.
 std::vector<Eigen::Vector3d> withoutRobot(std::span<const Eigen::Vector3d> points,
-                                          const Robot& robot, std::span<const double> state,
+                                          const Robot& robot, ConfigurationView state,
                                           double margin);
 
 /// Those of `balls` (m, model frame), in their order, that keep more than `margin` (m) from the
@@ -31,7 +32,7 @@ std::vector<Eigen::Vector3d> withoutRobot(std::span<const Eigen::Vector3d> point
 /// (occludedBalls() of the points that withoutRobot() leaves out) they are what the robot is not in
 /// contact with at `state`. Throws likewise, and std::invalid_argument unless each ball has a
 /// radius.
-Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const double> state,
+Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, ConfigurationView state,
                         double margin);
 
 /// The map without its smallest cubes whose middles are within `margin` (m) of the robot; what else
@@ -39,6 +40,6 @@ Balls ballsWithoutRobot(const Balls& balls, const Robot& robot, std::span<const 
 /// smaller ones. Throws likewise, and std::invalid_argument for a map whose resolution is not above
 /// zero, and one of which more than 10 million parts would have to be looked at.
 OccupancyMap mapWithoutRobot(const OccupancyMap& map, const Eigen::Isometry3d& world_from_map,
-                             const Robot& robot, std::span<const double> state, double margin);
+                             const Robot& robot, ConfigurationView state, double margin);
 
 }  // namespace swept

@@ -74,6 +74,8 @@ class World {
   /// Throws std::invalid_argument for a name that no body which stands still has, and a pose that
   /// is not a rigid finite transform.
   void replace(WorldBody body);
+  /// A body of one shape. Throws likewise.
+  void replace(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape);
   /// Either kind. False: nothing has this name.
   bool remove(std::string_view name);
 
