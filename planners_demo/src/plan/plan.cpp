@@ -13,6 +13,7 @@
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "output/text_table.hpp"
 #include "page/pages.hpp"
 #include "plan/path_files.hpp"
 #include "plan/plan_dump.hpp"

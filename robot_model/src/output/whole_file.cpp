@@ -16,7 +16,7 @@
 #include <mutex>
 #include <utility>
 
-#include "command_line/exit_code.hpp"
+#include "swept/robot_model/usage_error.hpp"
 
 namespace swept {
 namespace {

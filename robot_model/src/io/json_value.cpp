@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 
 #include <algorithm>
 
