@@ -8,9 +8,9 @@
 #include <string>
 
 #include "certificate/shape_json.hpp"
-#include "command_line/exit_code.hpp"
 #include "output/robot_json.hpp"
 #include "swept/core/axis_frame.hpp"
+#include "swept/robot_model/usage_error.hpp"
 
 namespace swept {
 namespace {

@@ -10,7 +10,7 @@
 
 namespace swept {
 
-/// A proof that planners_demo/verify can check.
+/// A proof that robot_model/verify can check.
 // NOLINTNEXTLINE(bugprone-exception-escape): Json's move is noexcept, which is not believed of it.
 struct Certificate {
   Json model;           ///< what it is about; see modelJson()

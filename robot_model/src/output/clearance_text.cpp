@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "output/terminal_text.hpp"
+#include "output/escaped_text.hpp"
 
 namespace swept {
 namespace {

@@ -9,7 +9,7 @@
 namespace swept {
 
 /// Looks for intervals and planes that prove two bodies apart during a motion, as checkPair() of
-/// planners_demo/verify takes them. The library's distances say where to put a plane; whether it
+/// robot_model/verify takes them. The library's distances say where to put a plane; whether it
 /// holds, and how far, that checker's own bound does.
 class PairSearch {
  public:

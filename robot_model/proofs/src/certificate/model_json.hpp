@@ -27,7 +27,7 @@ struct CertifiedBody {
 /// no other to have that name.
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 
-/// What a proof is about, in the form that planners_demo/verify reads: kinematics, geometry bit for
+/// What a proof is about, in the form that robot_model/verify reads: kinematics, geometry bit for
 /// bit, margins, pairs that may touch. Throws UsageError for moving obstacles, which have no place
 /// in it.
 Json modelJson(const Checker& checker);
