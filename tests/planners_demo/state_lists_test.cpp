@@ -55,7 +55,7 @@ TEST_F(StateLists, AFileHasAStateOnEachLine) {
 
 TEST_F(StateLists, StandardInputIsSuchAFile) {
   const Outcome run = runShell("printf '0,0.25\\n1 0\\n' | swept check " + gantry_.urdf +
-                               " - --scene " + gantry_.scene + " --srdf " + gantry_.srdf);
+                               " - --scene " + gantry_.scene + " --group both");
   EXPECT_EQ(run.exitCode, 1) << run.err;
   EXPECT_THAT(run.out, StartsWith("-:1: free"));
   EXPECT_THAT(run.out, HasSubstr("\n-:2: collision"));
@@ -161,7 +161,7 @@ TEST_F(StateLists, AreRefusedWithFileAndLine) {
   EXPECT_EQ(refusal("check", {"@" + write("empty.txt", "# nothing\n")}),
             gantry_.folder().path("empty.txt") + ": error: there is no state in it\n");
   EXPECT_EQ(refusal("check", {"@" + gantry_.folder().path("absent.txt")}),
-            gantry_.folder().path("absent.txt") + ": error: no such file\n");
+            gantry_.folder().path("absent.txt") + ": error: file not found\n");
   EXPECT_EQ(refusal("check", {"@"}), "swept: error: @: expected @FILE\n");
   EXPECT_EQ(refusal("motion", {"-", "-"}), "swept: error: -: standard input is read once\n");
   EXPECT_EQ(refusal("motion", {"--degrees", "path.csv"}),
