@@ -30,20 +30,6 @@ std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeo
   return states;
 }
 
-MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
-                                  ConfigurationView to, Workspace& workspace, MotionQuery first) {
-  if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment(
-        [&, from, to, first] { return certifyByEither(checker, from, to, workspace, first); });
-  }
-  MotionCertificate certificate = checker.certifyMotion(from, to, workspace, first);
-  if (certificate.verdict != Verdict::Undecided) return certificate;
-  const MotionQuery second =
-      first == MotionQuery::VerdictOnly ? MotionQuery::FirstContact : MotionQuery::VerdictOnly;
-  MotionCertificate other = checker.certifyMotion(from, to, workspace, second);
-  return other.verdict == Verdict::Free ? other : certificate;
-}
-
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker) {
   if (detail::inForeignEnvironment()) {

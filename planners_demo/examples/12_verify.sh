@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # A path with a proof that needs no trust in what found it: plans one, and has its proof checked.
 #   12_verify.sh SWEPT
-# `swept verify` decides with code that shares nothing with planner and library. The library has no
-# call that writes or checks a proof, the program has; so this is a script. Exits 0 if the proof
-# holds as it was written, and is refused after each change.
+# `swept verify` decides with code that shares nothing with planner and library; 13_certify_path has
+# the library's calls. Exits 0 if the proof holds as it was written, and is refused after each
+# change.
 set -euo pipefail
 swept="$1"
 folder="$(mktemp -d)"

@@ -21,7 +21,8 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
-  ${PROJECT_BINARY_DIR}/core ${PROJECT_BINARY_DIR}/robot_model ${PROJECT_BINARY_DIR}/ompl_bridge)
+  ${PROJECT_BINARY_DIR}/core ${PROJECT_BINARY_DIR}/robot_model ${PROJECT_BINARY_DIR}/robot_model/proofs
+  ${PROJECT_BINARY_DIR}/ompl_bridge)
 
 # swept_package(PART NAME package SECTION section SUMMARY "one line" [OF parts] [DEPENDS "others' packages"]
 #   [RECOMMENDS package]): PART is of install().
@@ -73,6 +74,9 @@ swept_library_packages(core "proven distances and first contacts of shapes" libe
 if(TARGET swept_robot_model)
   swept_library_packages(robot_model "proven verdicts on motions of URDF robots" "" core)
 endif()
+if(TARGET swept_proofs)
+  swept_library_packages(proofs "proofs of robot paths that others can check" "" robot_model)
+endif()
 if(TARGET swept_ompl_bridge)
   # OMPL's CMake file names the three Boost libraries.
   swept_library_packages(ompl_bridge "OMPL classes over proven motions"
@@ -80,10 +84,10 @@ if(TARGET swept_ompl_bridge)
 endif()
 if(TARGET swept)
   swept_package(program NAME swept SECTION science SUMMARY "plans, checks and proves robot motions"
-    OF ompl_bridge)
+    OF ompl_bridge proofs)
 endif()
 if(TARGET swept_mpi)
   swept_package(program_mpi NAME swept-mpi SECTION science SUMMARY "swept for batches on MPI jobs"
-    OF ompl_bridge RECOMMENDS openmpi-bin)
+    OF ompl_bridge proofs RECOMMENDS openmpi-bin)
 endif()
 include(CPack)

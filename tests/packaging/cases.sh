@@ -9,7 +9,7 @@ case_files() {
   done
   for component in "${installed[@]}"; do
     # What is not installed is for sources of swept alone.
-    diff -r -x simd_dispatch.hpp "$root/$component/include/swept/$component" "$prefix/include/swept/$component" ||
+    diff -r -x simd_dispatch.hpp "$(sources_of "$component")/include/swept/$component" "$prefix/include/swept/$component" ||
       fail "the headers of $component are not those of the tree"
     [[ -f "$library_folder/pkgconfig/swept-${component//_/-}.pc" ]] || fail "no .pc file of $component"
   done
@@ -20,6 +20,10 @@ case_files() {
     fail "these files name a folder of the sources, of the build, or where they were first installed"
   fi
   links_lead_somewhere
+}
+
+sources_of() {
+  if [[ "$1" == proofs ]]; then echo "$root/robot_model/proofs"; else echo "$root/$1"; fi
 }
 
 # Links of the installed pages, but those to other sites and within a page; words in brackets behind links of code are none.
@@ -62,7 +66,7 @@ case_requests() {
   configure requests -D INSTALLED="${names%;}" -D IS_STATIC="$is_static"
   # As if the core alone were installed.
   cp -r "$prefix" "$temporary/core_only"
-  find "$temporary/core_only" -name 'swept_robot_model*.cmake' -delete -o -name 'swept_ompl*.cmake' -delete
+  find "$temporary/core_only" -name 'swept_robot_model*.cmake' -delete -o -name 'swept_proofs*.cmake' -delete -o -name 'swept_ompl*.cmake' -delete
   rm -r "$temporary/requests"
   prefix="$temporary/core_only" configure requests -D INSTALLED=core -D IS_STATIC="$is_static"
 }
@@ -76,6 +80,18 @@ case_full() {
   cmake --build "$temporary/full"
   "$temporary/full/motion" "$root/models/robots/rook7/rook7.urdf" "$root/models/scenes/narrow_slot.yaml" ||
     fail "the certificates are wrong"
+}
+
+# Certificates and proofs where there is no OMPL.
+case_proofs() {
+  if ! has proofs; then
+    echo "proofs: left out (it is not installed)"
+    return
+  fi
+  configure proofs -D CMAKE_DISABLE_FIND_PACKAGE_ompl=ON -D EXAMPLE="$root/planners_demo/examples/13_certify_path.cpp"
+  cmake --build "$temporary/proofs"
+  "$temporary/proofs/certify_path" "$root/models" || fail "the proof is wrong"
+  if ldd "$temporary/proofs/certify_path" | grep -E 'libompl|libboost'; then fail "the program needs these libraries"; fi
 }
 
 # The same programs by pkg-config alone.
@@ -94,6 +110,11 @@ case_pkg_config() {
   [[ " $words " == *" -ffp-contract=off "* ]] || fail "no -ffp-contract=off in '$words'"
   compile_by_words "$here/core/distance.cpp" "$words"
   "$temporary/by_words" || fail "the core's answers are wrong"
+  if has proofs; then
+    words="$(pkg-config "${static[@]}" --cflags --libs swept-proofs)"
+    compile_by_words "$root/planners_demo/examples/13_certify_path.cpp" "$words"
+    "$temporary/by_words" "$root/models" || fail "the proof is wrong"
+  fi
   if ! has ompl_bridge; then return; fi
   words="$(pkg-config "${static[@]}" --cflags --libs swept-ompl-bridge)"
   compile_by_words "$here/full/motion.cpp" "$words"

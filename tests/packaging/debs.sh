@@ -47,6 +47,8 @@ expect_depends libswept-core-dev 'libswept-core0.1 \(= .*libeigen3-dev|libeigen3
 expect_depends libswept-robot-model0.1 'libassimp5' ompl
 expect_depends libswept-robot-model0.1 'libswept-core0.1'
 expect_depends libswept-robot-model-dev 'libswept-core-dev' ompl
+expect_depends libswept-proofs0.1 'libswept-robot-model0.1' ompl
+expect_depends libswept-proofs-dev 'libswept-robot-model-dev' ompl
 expect_depends libswept-ompl-bridge0.1 'libompl16'
 expect_depends libswept-ompl-bridge-dev 'libompl-dev'
 expect_depends swept 'libswept-ompl-bridge0.1' 'dev'

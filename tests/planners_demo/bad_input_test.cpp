@@ -88,7 +88,7 @@ const Case kOptions[] = {
     {"NoSubcommand", {}, kError + "A subcommand is required (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
-     kError + "no subcommand 'verfy'; there are info, check, motion, plan, verify, acm, replay, " +
+     kError + "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, acm, replay, " +
          (programHasPages() ? "view, " : "") +
          "bench, report, completion; did you mean 'verify'? (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},

@@ -9,6 +9,7 @@
 
 #include "command_line/shell_word.hpp"
 #include "output/terminal_text.hpp"
+#include "output/text_table.hpp"
 
 namespace swept {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "command_line/arguments.hpp"
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/problems.hpp"
 

@@ -9,15 +9,14 @@
 #include "certificate/verify_outcome.hpp"
 #include "command_line/commands.hpp"
 #include "input/inputs.hpp"
-#include "input/json_value.hpp"
 #include "input/task.hpp"
+#include "io/json_value.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/limits.hpp"
-#include "verify/check.hpp"
 
 namespace swept {
 namespace {
@@ -82,16 +81,9 @@ std::vector<std::string> limitRemarks(const Json& path, const Json& model) {
 
 /// `files`: those of filesOf(), or null.
 VerifyOutcome examine(const Json& path, const Files* files, std::vector<std::string>& remarks) {
-  VerifyOutcome outcome;
-  try {
-    const Json model = files == nullptr ? Json() : modelJson(*files->task.checker);
-    const Json& own = path.contains("model") ? path["model"] : model;
-    outcome.summary = verify::checkProof(path, own);
-    if (files != nullptr && path.contains("model")) verify::requireSameModel(path["proof"], model);
-    remarks = limitRemarks(path, own);
-  } catch (const verify::Refusal& refusal) {
-    outcome.refusal = refusal.what();
-  }
+  const Json model = files == nullptr ? Json() : modelJson(*files->task.checker);
+  VerifyOutcome outcome = verified(path, model);
+  if (outcome.holds()) remarks = limitRemarks(path, path.contains("model") ? path["model"] : model);
   return outcome;
 }
 
@@ -145,9 +137,7 @@ Json outcomeJson(const VerifyOutcome& outcome) {
 ExitCode runVerify(const Arguments& args) {
   requirePageFile(args);
   Warnings warnings(args.quiet);
-  const Json path = parseOrderedJson(args.verify.path);
-  if (!path.is_object() || !path.contains("proof") || path["proof"].is_null())
-    throw InputError(args.verify.path, 0, "there is no proof in it");
+  const Json path = pathWithProof(args.verify.path);
   std::optional<Files> files;
   VerifyOutcome outcome;
   std::vector<std::string> remarks;

@@ -1,46 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
 
+#include "check/many_states.hpp"
+#include "check/state_report.hpp"
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
 #include "input/unchecked.hpp"
-#include "output/clearance_text.hpp"
 #include "output/progress.hpp"
-#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "replay/query_dump.hpp"
 
 namespace swept {
-namespace {
-
-std::string stateText(const std::string& label, const StateReport& report) {
-  std::string text = escapedLine(label) + ": " + std::string(toString(report.verdict));
-  if (keepApart(report.contacts)) text += " (closer than the margin)";
-  if (report.verdict != Verdict::Collision)
-    text.append(", ").append(clearanceText(clearancesOf(report)));
-  text += "\n";
-  for (const Witness& contact : report.contacts) text += "  " + witnessText(contact) + "\n";
-  return text;
-}
-
-Json stateJson(const LabelledState& state, const StateReport& report) {
-  Json contacts = Json::array();
-  for (const Witness& contact : report.contacts) {
-    contacts.push_back(toJson(contact));
-    contacts.back().erase("t");
-  }
-  Json json = {{"label", state.label},
-               {"values", toJson(state.q)},
-               {"verdict", toString(report.verdict)},
-               {"clearance", finiteOrNull(report.clearance)}};
-  json["nearest"] = nearestJson(report.nearestA, report.nearestB);
-  addClearances(clearancesOf(report), json);
-  json["contacts"] = std::move(contacts);
-  return json;
-}
-
-}  // namespace
 
 ExitCode runCheck(const Arguments& args) {
   requirePageFile(args);
@@ -48,6 +19,8 @@ ExitCode runCheck(const Arguments& args) {
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = loadTask(args, model, warnings);
+  dump.setFirstState(task.states.front().q);
+  if (areMany(task)) return checkMany(args, model, task, dump, warnings);
   Workspace workspace(*task.checker);
   ExitCode code = ExitCode::Free;
   std::string text;
@@ -56,8 +29,8 @@ ExitCode runCheck(const Arguments& args) {
     Progress progress("checking states", args.quiet);
     for (const LabelledState& state : task.states) {
       const StateReport report = task.checker->reportState(state.q, workspace);
-      text += stateText(state.label, report);
-      states.push_back(stateJson(state, report));
+      text += reportText(state.label, report);
+      states.push_back(reportJson(state, report));
       dump.state(*task.checker, state.label, state.q, report.verdict);
       code = worse(code, exitCodeOf(report.verdict));
     }

@@ -13,7 +13,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   addRuleOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
-  app.add_option("states", args.states, "states to check")->type_name("STATE");
+  addStateListOption(app, args, "states to check");
   addProblemOptions(app, args, "checks start and goals in its world");
   addDumpOption(app, args);
   addHtmlOption(app, args);
@@ -31,6 +31,7 @@ const Command kCheckCommand{.name = "check",
                             .exitCodes = kVerdictExitCodes,
                             .addOptions = addOptions,
                             .run = runCheck,
-                            .notes = stateNotes};
+                            .notes = stateListNotes,
+                            .takesLists = true};
 
 }  // namespace swept

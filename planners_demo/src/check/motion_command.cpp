@@ -13,7 +13,7 @@ void addOptions(CLI::App& app, Arguments& args) {
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
-  app.add_option("states", args.states, "two states or more")->type_name("STATE");
+  addStateListOption(app, args, "two states or more");
   addProblemOptions(app, args, "the motion from start to goal in its world");
   addDumpOption(app, args);
   addHtmlOption(app, args);
@@ -32,6 +32,7 @@ const Command kMotionCommand{
     .exitCodes = kVerdictExitCodes,
     .addOptions = addOptions,
     .run = runMotion,
-    .notes = stateNotes};
+    .notes = stateListNotes,
+    .takesLists = true};
 
 }  // namespace swept

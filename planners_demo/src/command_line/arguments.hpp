@@ -35,7 +35,9 @@ struct Arguments {
   std::string robot;                        ///< URDF file
   bool xacro = false;                       ///< `robot` is what the program xacro makes of it
   std::vector<std::string> xacroArguments;  ///< NAME:=VALUE
-  std::vector<std::string> states;          ///< names or comma-separated values
+  std::vector<std::string> states;  ///< names, comma-separated values, @FILE, - or a path file
+  bool degrees = false;             ///< angles of values in `states`
+  std::string path;                 ///< path file of certify
 
   std::string srdf;  ///< empty: a file beside the URDF; `none`: without
   std::string scene;

@@ -23,6 +23,7 @@ struct Command {
   void (*addOptions)(CLI::App& app, Arguments& args);
   ExitCode (*run)(const Arguments& args);
   std::string (*notes)() = nullptr;  ///< more text for the help, above the example; null: none
+  bool takesLists = false;           ///< a STATE may be `@FILE`, `-` or a path file
 };
 
 /// All there are, in the order of the help.
@@ -34,5 +35,7 @@ inline constexpr std::string_view kVerdictExitCodes =
 
 /// How states are written on the command line.
 std::string stateNotes();
+/// The same, and what stands for many states.
+std::string stateListNotes();
 
 }  // namespace swept

@@ -9,9 +9,9 @@ namespace swept {
 
 std::span<const Command* const> commands() {
   static const std::vector<const Command*> all = [] {
-    std::vector<const Command*> list{&kInfoCommand,  &kCheckCommand,  &kMotionCommand,
-                                     &kPlanCommand,  &kVerifyCommand, &kAcmCommand,
-                                     &kReplayCommand};
+    std::vector<const Command*> list{&kInfoCommand,    &kCheckCommand, &kMotionCommand,
+                                     &kCertifyCommand, &kPlanCommand,  &kVerifyCommand,
+                                     &kAcmCommand,     &kReplayCommand};
     list.insert(list.end(), pageCommands().begin(), pageCommands().end());
     list.insert(list.end(), {&kBenchEdgesCommand, &kBenchPlannersCommand, &kBenchSummaryCommand,
                              &kReportCommand, &kCompletionCommand});
@@ -25,6 +25,13 @@ std::string stateNotes() {
          "comma-separated\n"
          "values (rad, m) in the order of the group's variables, such as "
          "0.1,-0.5,0,-1.2,0,1.5,0.7.\n";
+}
+
+std::string stateListNotes() {
+  return stateNotes() +
+         "Many at once: @FILE has one on each line, its values between commas or blanks, with "
+         "remarks behind\n"
+         "a #; - is the same from standard input; a path file (.csv, .yaml, .json) its states.\n";
 }
 
 }  // namespace swept

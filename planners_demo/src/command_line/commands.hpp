@@ -15,6 +15,9 @@ ExitCode runCheck(const Arguments& args);
 extern const Command kMotionCommand;
 ExitCode runMotion(const Arguments& args);
 
+extern const Command kCertifyCommand;
+ExitCode runCertify(const Arguments& args);
+
 extern const Command kPlanCommand;
 ExitCode runPlan(const Arguments& args);
 

@@ -35,7 +35,11 @@ std::vector<NamedFile> read(const Arguments& args) {
   std::vector<NamedFile> files{{"robot", args.robot},
                                {"--scene", args.scene},
                                {"--problems", args.problems},
-                               {"--request", args.request}};
+                               {"--request", args.request},
+                               {"path", args.path}};
+  for (const std::string& state : args.states)
+    if (const std::string file = state.substr(state.starts_with('@') ? 1 : 0); file != "-")
+      files.push_back({"states", file});
   for (const std::string& cloud : args.clouds) files.push_back({"--cloud", cloud});
   for (const std::string& results : args.batch.files) files.push_back({"results", results});
   return files;

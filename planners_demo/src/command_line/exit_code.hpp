@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <stdexcept>
-#include <string>
-
 #include "swept/core/verdict.hpp"
+#include "swept/robot_model/usage_error.hpp"
 
 namespace swept {
 
@@ -15,12 +13,6 @@ enum class ExitCode : int {
   Undecided = 2,
   BadInput = 3,
   Interrupted = 130,  ///< a batch that a signal ended before it was done
-};
-
-/// An option, a state or a combination of them that cannot be used. what() is one line for stderr.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 constexpr ExitCode exitCodeOf(Verdict verdict) {

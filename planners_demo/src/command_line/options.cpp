@@ -135,6 +135,12 @@ void addSelfFilterOption(CLI::App& app, Arguments& args) {
       ->check(within(0.0, 10.0, "between 0 and 10 m"));
 }
 
+void addStateListOption(CLI::App& app, Arguments& args, const std::string& what) {
+  app.add_option("states", args.states, what)->type_name("STATE");
+  app.add_flag("--degrees", args.degrees,
+               "values of states are in degrees where they are angles; in m otherwise, as always");
+}
+
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what) {
   auto* problems =
       app.add_option("--problems", args.problems, "problem file: " + what)->type_name("FILE.json");

@@ -25,6 +25,8 @@ void addCheckerOptions(CLI::App& app, Arguments& args);
 void addSceneOptions(CLI::App& app, Arguments& args);
 /// For subcommands that take states: the first tells where the robot is.
 void addSelfFilterOption(CLI::App& app, Arguments& args);
+/// The states of `check` and `motion`, and --degrees. `what` says which they are.
+void addStateListOption(CLI::App& app, Arguments& args, const std::string& what);
 /// `what` says what the subcommand does with a problem.
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
 /// `what` says what is done with the peer.

@@ -10,6 +10,7 @@
 #include "output/robot_json.hpp"
 #include "output/shape_summary.hpp"
 #include "output/terminal_text.hpp"
+#include "output/text_table.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {

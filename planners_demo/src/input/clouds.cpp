@@ -11,7 +11,7 @@
 
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
-#include "input/states.hpp"
+#include "input/state_lists.hpp"
 #include "input/task.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -30,11 +30,10 @@ class SelfFilter {
              const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options)
       : robot_(robot), margin_(args.selfFilter), warn_(options.warn) {
     if (!margin_) return;
-    if (args.states.empty())
+    if (args.states.empty() && args.path.empty())
       throw UsageError("--self-filter needs a state: that in which the robot was seen");
     const Group& group = chooseGroup(robot, args);
-    const std::vector<double> q =
-        readState(robot, group, args.states.front(), "--self-filter", options.warn);
+    const std::vector<double> q = firstState(args, robot, group, reference, options);
     const Eigen::VectorXd others = reference.value_or(robot.defaultState());
     state_.assign(others.begin(), others.end());
     for (std::size_t i = 0; i < q.size(); ++i)
@@ -149,19 +148,6 @@ WorldBody cloudBody(const Arguments& args, const std::string& file, const std::s
       .parts = {{PointCloud::build(balls.centers, balls.radii), Eigen::Isometry3d::Identity()}}};
 }
 
-/// Calls `visit` with each body of the world that has a cloud, and the cloud.
-template <typename Visit>
-void forEachCloud(const World& world, const Visit& visit) {
-  for (const WorldBody& body : world.bodies()) {
-    const auto boxes = std::ranges::count_if(body.parts, [](const WorldBody::Part& part) {
-      return std::holds_alternative<Box>(part.shape);
-    });
-    for (const WorldBody::Part& part : body.parts) {
-      if (const auto* cloud = std::get_if<PointCloud>(&part.shape)) visit(body, *cloud, boxes);
-    }
-  }
-}
-
 }  // namespace
 
 void addClouds(const Arguments& args, const Robot& robot,
@@ -204,18 +190,6 @@ std::string cloudsText(const World& world) {
     text += "\n";
   });
   return text;
-}
-
-Json cloudsJson(const World& world) {
-  Json clouds = Json::array();
-  forEachCloud(world, [&](const WorldBody& body, const PointCloud& cloud, auto boxes) {
-    clouds.push_back({{"body", body.name},
-                      {"balls", cloud.points().size()},
-                      {"least_radius", cloud.leastRadius()},
-                      {"largest_radius", cloud.largestRadius()},
-                      {"boxes", boxes}});
-  });
-  return clouds;
 }
 
 }  // namespace swept

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "command_line/arguments.hpp"
-#include "output/text_output.hpp"
+#include "output/clouds_json.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
@@ -21,7 +21,5 @@ void addClouds(const Arguments& args, const Robot& robot,
 
 /// What a proof in this world is a proof for, where it has clouds: a line per body; else empty.
 std::string cloudsText(const World& world);
-/// The same: an array of bodies with their balls.
-Json cloudsJson(const World& world);
 
 }  // namespace swept

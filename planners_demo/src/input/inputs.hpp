@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "command_line/arguments.hpp"
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "output/text_output.hpp"
 
 namespace swept {

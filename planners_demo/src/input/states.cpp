@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/states.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -9,7 +8,7 @@
 
 #include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
-#include "input/poses.hpp"
+#include "io/judged_state.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "swept/robot_model/named_states.hpp"
@@ -37,34 +36,19 @@ Number readNumber(const std::string& text) {
   return number;
 }
 
-/// A quaternion of almost unit norm becomes one of unit norm.
-void normaliseOrientation(const Robot& robot, const Group& group, std::vector<double>& q,
-                          const std::string& label) {
-  for (std::size_t i = 0; i < group.variables.size(); ++i) {
-    const Joint& joint = robot.joints()[robot.variables()[group.variables[i]].joint];
-    if (joint.type != JointType::Floating || group.variables[i] != joint.firstVariable + 3)
-      continue;
-    Eigen::Map<Eigen::Vector4d> orientation(q.data() + i);
-    orientation = unitQuaternion(orientation, label + ": the quaternion of joint " + joint.name);
-  }
-}
-
-/// Refuses values outside the limits; takes those a little beyond a limit to it, with a remark, and
-/// angles of joints without limits to the turn around zero.
+/// See detail::judgeState(). Refuses values outside the limits; of those that it takes to one
+/// `warn` is told.
 void keepLimits(const Robot& robot, const Group& group, std::vector<double>& q,
                 const std::string& label, const Warn& warn) {
-  for (std::size_t i = 0; i < group.variables.size(); ++i) {
-    const Variable& variable = robot.variables()[group.variables[i]];
-    double& value = q[i];
-    if (variable.cyclic && !(value >= variable.lower && value <= variable.upper))
-      value = std::remainder(value, 2.0 * std::numbers::pi);
-    if (!isWithin(value, variable.lower, variable.upper))
-      throw UsageError(label + ": " +
-                       outsideText(variable.name, value, variable.lower, variable.upper,
-                                   unitOf(robot, variable)));
-  }
-  for (const TakenToLimit& taken : takeToLimits(robot, group, q))
-    warn("swept: warning: " + limitRemark(taken));
+  const detail::JudgedState judged = detail::judgeState(robot, group, q);
+  if (!judged.problem.empty()) throw UsageError(label + ": " + judged.problem);
+  for (const TakenToLimit& taken : judged.taken) warn("swept: warning: " + limitRemark(taken));
+}
+
+void toRadians(const Robot& robot, const Group& group, std::vector<double>& q) {
+  for (std::size_t i = 0; i < q.size(); ++i)
+    if (unitOf(robot, robot.variables()[group.variables[i]]) == "rad")
+      q[i] *= std::numbers::pi / 180.0;
 }
 
 std::vector<double> namedState(const Robot& robot, const Group& group, const NamedState& state,
@@ -102,7 +86,6 @@ std::vector<double> reordered(const Robot& robot, const Group& group,
                               const Warn& warn) {
   std::vector<double> q;
   for (const std::size_t place : order) q.push_back(values.at(place));
-  normaliseOrientation(robot, group, q, label);
   keepLimits(robot, group, q, label, warn);
   return q;
 }
@@ -146,18 +129,19 @@ std::vector<double> readValues(const std::string& text, std::span<const std::str
 }
 
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
-                              const std::string& label, const Warn& warn) {
+                              const std::string& label, const Warn& warn, AngleUnit unit) {
   const std::string wanted = trimmed(text);
   std::vector<double> q;
-  if (const NamedState* state = robot.findNamedState(wanted, group.name))
+  if (const NamedState* state = robot.findNamedState(wanted, group.name)) {
     q = namedState(robot, group, *state, label);
-  else if (wanted == kDefaultState)
+  } else if (wanted == kDefaultState) {
     q = namedConfiguration(robot, group, wanted);
-  else if (wanted.find(',') != std::string::npos || readNumber(wanted).readable)
+  } else if (wanted.find(',') != std::string::npos || readNumber(wanted).readable) {
     q = readValues(wanted, variableNames(robot, group), label);
-  else
+    if (unit == AngleUnit::Degree) toRadians(robot, group, q);
+  } else {
     refuseName(robot, group, wanted, label);
-  normaliseOrientation(robot, group, q, label);
+  }
   keepLimits(robot, group, q, label, warn);
   return q;
 }

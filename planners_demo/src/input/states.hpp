@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -26,12 +27,17 @@ using Warn = std::function<void(const std::string& line)>;
 std::vector<double> readValues(const std::string& text, std::span<const std::string> names,
                                const std::string& label);
 
+/// Of angles that are typed.
+enum class AngleUnit : std::uint8_t { Radian, Degree };
+
 /// A configuration of the group from a named state or comma-separated values. Throws UsageError,
 /// which starts with `label`, for an unknown name, a wrong count, anything that is not a finite
 /// number, and a value outside its limits. The result is within the limits exactly: of each value
-/// that is taken to one (takeToLimits()) `warn` is told.
+/// that is taken to one (takeToLimits()) `warn` is told. Values of named states are in rad whatever
+/// `unit` is.
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
-                              const std::string& label, const Warn& warn);
+                              const std::string& label, const Warn& warn,
+                              AngleUnit unit = AngleUnit::Radian);
 
 /// For each variable of the group, its place in the problem's joint names. Throws UsageError when
 /// those are not exactly the group's variables.

@@ -14,6 +14,7 @@
 #include "input/problem_choice.hpp"
 #include "input/request_task.hpp"
 #include "input/rules.hpp"
+#include "input/state_lists.hpp"
 #include "input/states.hpp"
 #include "input/unchecked.hpp"
 #include "input/xacro.hpp"
@@ -63,6 +64,7 @@ CollisionRules defaultContactsOf(const Checker& checker) {
 /// States of the command line, one problem or a request.
 void checkStateSource(const Arguments& args) {
   requireOneSource(args);
+  requireDegreesForValues(args);
   if (!args.request.empty()) return;
   if (args.problems.empty()) {
     if (args.states.empty()) throw UsageError(std::string(args.command->name) + ": no state given");
@@ -276,11 +278,17 @@ namespace {
 Task statesTask(const Arguments& args, const Model& model, const Group& group, Warnings& warnings) {
   Task task;
   const bool plan = args.command == &kPlanCommand;
+  const AngleUnit unit = args.degrees ? AngleUnit::Degree : AngleUnit::Radian;
   for (std::size_t i = 0; i < args.states.size(); ++i) {
     const std::string& text = args.states[i];
+    if (args.command->takesLists && isStateList(text)) {
+      addStateList(args, *model.robot, group, model.reference, model.options, text, task.states);
+      continue;
+    }
     const std::string goal = args.states.size() > 2 ? "goal " + std::to_string(i) : "goal";
     const std::string label = plan ? (i == 0 ? "start" : goal) : "state " + std::to_string(i + 1);
-    const std::vector<double> q = readState(*model.robot, group, text, label, std::ref(warnings));
+    const std::vector<double> q =
+        readState(*model.robot, group, text, label, std::ref(warnings), unit);
     const bool named =
         text == kDefaultState || model.robot->findNamedState(text, group.name) != nullptr;
     task.states.push_back({.label = named ? label + " (" + text + ")" : label, .q = q});

@@ -2,6 +2,7 @@
 #include "input/unchecked.hpp"
 
 #include "output/terminal_text.hpp"
+#include "output/unchecked_json.hpp"
 
 namespace swept {
 
@@ -20,9 +21,7 @@ std::string uncheckedText(const Checker& checker) {
 }
 
 void addUnchecked(Json& json, const Checker& checker, const Warnings& warnings) {
-  json["nothing_checked"] = checker.checksNothing();
-  json["links_without_geometry"] = checker.linksWithoutGeometry();
-  json["warnings"] = warnings.unchecked();
+  addUnchecked(json, checker, warnings.unchecked());
 }
 
 }  // namespace swept

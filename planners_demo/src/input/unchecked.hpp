@@ -14,8 +14,7 @@ void warnOfNothing(const Checker& checker, Warnings& warnings);
 /// A line on the links that the group moves and nothing is known about; empty: there are none.
 std::string uncheckedText(const Checker& checker);
 
-/// What answers are not about, though they may be taken to be: `warnings` (lines),
-/// `links_without_geometry` (names of links that the group moves) and `nothing_checked`.
+/// What answers are not about, as output/unchecked_json.hpp has it.
 void addUnchecked(Json& json, const Checker& checker, const Warnings& warnings);
 
 }  // namespace swept

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <streambuf>
-#include <string>
 #include <string_view>
 
-/// What names and values of files may say to a terminal: nothing. Control characters of theirs
-/// would move its cursor, change its title or make up lines.
-namespace swept {
+#include "output/escaped_text.hpp"
 
-/// One line: control characters are `\u001b`, as JSON has them, and ends of lines `\n`. Tabs, and
-/// bytes that are not UTF-8 and no control characters of Latin-1 either, stay.
-std::string escapedLine(std::string_view text);
+/// What is printed to a terminal.
+namespace swept {
 
 /// One line on stderr, escaped.
 void printMessage(std::string_view line);

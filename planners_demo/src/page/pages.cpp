@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "command_line/options.hpp"
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "output/clearance_text.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"

@@ -9,6 +9,7 @@
 #include "input/task.hpp"
 #include "output/text_output.hpp"
 #include "plan/planning.hpp"
+#include "swept/robot_model/path_certificate.hpp"
 
 namespace CLI {
 class App;
@@ -32,6 +33,8 @@ void requirePageFile(const Arguments& args);
 /// They write the page and say so on stdout, unless that is JSON. Throw UsageError.
 void writeCheckPage(const Arguments& args, const Model& model, const Task& task);
 void writeMotionPage(const Arguments& args, const Model& model, const Task& task);
+void writeCertifyPage(const Arguments& args, const Model& model, const Task& task,
+                      const PathCertificate& path);
 void writePlanPage(const Arguments& args, const Model& model, const Task& task,
                    const PlanRequest& request, const PlanOutcome& outcome);
 /// `file`: the path's, as parsed; its states are shown.

@@ -13,6 +13,7 @@ std::span<const Command* const> pageCommands() {
 void requirePageFile(const Arguments&) {}
 void writeCheckPage(const Arguments&, const Model&, const Task&) {}
 void writeMotionPage(const Arguments&, const Model&, const Task&) {}
+void writeCertifyPage(const Arguments&, const Model&, const Task&, const PathCertificate&) {}
 void writePlanPage(const Arguments&, const Model&, const Task&, const PlanRequest&,
                    const PlanOutcome&) {}
 void writeVerifyPage(const Arguments&, const Model&, const Task&, const Json&,

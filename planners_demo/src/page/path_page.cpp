@@ -9,7 +9,7 @@
 #include "command_line/commands.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/inputs.hpp"
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "verify/check.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "certificate/certificate.hpp"
-#include "input/task.hpp"
-#include "plan/planning.hpp"
+#include "certificate/path_json.hpp"
+#include "swept/robot_model/robot.hpp"
 
 namespace swept {
 
@@ -21,11 +21,9 @@ class PathFile {
 
   /// Whether it holds a proof: the format has a place for one.
   bool holdsProof() const;
-  /// The file appears whole or not at all. `inputs`, `warnings` (those of what is not checked) and
-  /// `certificate` are for what holds a proof.
-  /// Throws UsageError naming file and reason: also for other names that are not UTF-8.
-  void write(const Checker& checker, const PlanRequest& request, const PlanOutcome& outcome,
-             const Json& inputs, const Warnings& warnings, const Certificate& certificate,
+  /// The file appears whole or not at all. All but the states is for what holds a proof. Throws
+  /// UsageError naming file and reason: also for other names that are not UTF-8.
+  void write(const Checker& checker, const PathRecord& record, const Certificate& certificate,
              bool embed) const;
 
  private:

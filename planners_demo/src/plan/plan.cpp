@@ -13,6 +13,7 @@
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "output/text_table.hpp"
 #include "page/pages.hpp"
 #include "plan/path_files.hpp"
 #include "plan/plan_dump.hpp"
@@ -107,8 +108,14 @@ void writePath(const Arguments& args, const PathFile& file, const Checker& check
   if (!certificate.missing.empty())
     warnings("swept: warning: no proof in '" + args.output +
              "': no separating planes were found for " + certificate.missing);
-  file.write(checker, request, outcome, inputsJson(args, args.output), warnings, certificate,
-             args.embed);
+  PathRecord record{.maker = {{"planner", request.planner}, {"seed", request.seed}},
+                    .states = outcome.states,
+                    .segments = {},
+                    .inputs = inputsJson(args, args.output),
+                    .warnings = warnings.unchecked()};
+  for (const PathSegment& segment : outcome.segments)
+    record.segments.push_back({segment.certificate.verdict, segment.clearance, segment.clearances});
+  file.write(checker, record, certificate, args.embed);
 }
 
 std::optional<PoseTarget> goalPoseOf(const Arguments& args, const Task& task) {

@@ -14,6 +14,7 @@
 #include "output/quantile.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "output/text_table.hpp"
 #include "plan/plan_dump.hpp"
 #include "plan/plan_sets.hpp"
 #include "plan/planning.hpp"

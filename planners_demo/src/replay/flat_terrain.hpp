@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 
 namespace swept {
 

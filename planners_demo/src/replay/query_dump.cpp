@@ -2,12 +2,14 @@
 #include "replay/query_dump.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
 #include "command_line/exit_code.hpp"
 #include "input/inputs.hpp"
+#include "input/state_lists.hpp"
 #include "input/states.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -68,6 +70,12 @@ void QueryDump::motion(const Checker& checker, const std::string& label,
                        const std::vector<double>& from, const std::vector<double>& to,
                        const MotionCertificate& certificate) {
   write(checker, label, {from, to}, certificate);
+}
+
+void QueryDump::setFirstState(const std::vector<double>& q) {
+  const bool asTyped =
+      !args_.degrees && std::ranges::none_of(args_.states, isStateList) && args_.path.empty();
+  if (!asTyped) args_.states = {stateText(q)};
 }
 
 void QueryDump::setProblem(const std::string& set, int index) {

@@ -33,6 +33,8 @@ class QueryDump {
   void motion(const Checker& checker, const std::string& label, const std::vector<double>& from,
               const std::vector<double>& to, const MotionCertificate& certificate);
 
+  /// What was typed in place of states is not to be read again: the first state stands for it.
+  void setFirstState(const std::vector<double>& q);
   /// The answers from now on are in the world of this problem.
   void setProblem(const std::string& set, int index);
 

@@ -6,6 +6,7 @@
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
 #include "output/text_output.hpp"
+#include "output/text_table.hpp"
 #include "replay/answer.hpp"
 #include "replay/replay_cases.hpp"
 

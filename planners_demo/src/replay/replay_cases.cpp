@@ -8,7 +8,7 @@
 #include <set>
 #include <variant>
 
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "replay/replay_shapes.hpp"
 
 namespace swept {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command_line/arguments.hpp"
-#include "input/json_value.hpp"
+#include "io/json_value.hpp"
 #include "swept/core/verdict.hpp"
 
 namespace swept {

@@ -29,6 +29,7 @@ class YamlPlace {
   bool isSequence() const { return node_.IsSequence(); }
   bool isMap() const { return node_.IsMap(); }
   int line() const { return line_; }
+  const std::string& name() const { return name_; }  ///< for messages; empty: the whole document
   [[noreturn]] void fail(const std::string& message) const;
   void warn(const std::string& message) const;
 

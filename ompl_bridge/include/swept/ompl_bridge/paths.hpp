@@ -9,7 +9,7 @@
 
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/checker_results.hpp"
-#include "swept/robot_model/configuration.hpp"
+#include "swept/robot_model/path_certificate.hpp"
 
 /// What planners have found: its configurations, and certificates for it.
 namespace swept {
@@ -18,13 +18,6 @@ namespace swept {
 /// std::invalid_argument when the path is not of that group.
 std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
                                                   const Checker& checker);
-
-/// The motion as CertifiedMotionValidator judges it. Near the tolerance a proof may hang on the
-/// order in which a motion is looked at, and the two queries have each its own: where `first`
-/// leaves the motion undecided and the other one proves it free, the certificate is the other's.
-MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
-                                  ConfigurationView to, Workspace& workspace,
-                                  MotionQuery first = MotionQuery::FirstContact);
 
 /// Certificates, by certifyByEither(), of all segments of a path, in order: one fewer than it has
 /// states. They say nothing about bounds. Throws std::invalid_argument when the path is not one of

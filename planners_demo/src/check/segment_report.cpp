@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/segment_report.hpp"
+
+#include <cmath>
+
+#include "output/clearance_text.hpp"
+#include "output/terminal_text.hpp"
+
+namespace swept {
+namespace {
+
+/// The lesser one first.
+std::string clearanceLines(const MotionClearance& clearance) {
+  if (std::isinf(clearance.lower)) return "  clearance   no pair to check\n";
+  const auto line = [](const std::string& kind, const ClearanceInterval& of) {
+    return "  " + kind + std::string(12 - kind.size(), ' ') + boundsText(of);
+  };
+  return line("clearance", clearance) +
+         (clearance.selfPair ? " (self)\n" + line("world", clearance.world)
+                             : " (world)\n" + line("self", clearance.self)) +
+         "\n";
+}
+
+}  // namespace
+
+std::string segmentText(const SegmentReport& segment) {
+  const MotionCertificate& certificate = segment.certificate;
+  std::string text =
+      escapedLine(segment.from + " to " + segment.to) + ": " +
+      std::string(toString(certificate.verdict)) +
+      (certificate.witness && keepsApart(*certificate.witness) ? " (closer than the margin)\n"
+                                                               : "\n");
+  if (certificate.verdict != Verdict::Free)
+    text += "  free until  t = " + shortNumber(certificate.freeUntil) + "\n";
+  if (certificate.witness)
+    text += "  contact     t = " + shortNumber(certificate.witness->t) + ", " +
+            witnessText(*certificate.witness) + "\n";
+  if (certificate.verdict == Verdict::Undecided)
+    text += "  undecided   t = " + shortNumber(certificate.undecidedAt) + "\n";
+  if (segment.clearance) text += clearanceLines(*segment.clearance);
+  const Effort& effort = certificate.effort;
+  return text + "  effort      intervals in lanes " + std::to_string(effort.lanes) + ", exactly " +
+         std::to_string(effort.intervals) + "; distances " + std::to_string(effort.distances) +
+         ", settled by bounding volumes " + std::to_string(effort.culled) + "\n";
+}
+
+Json segmentJson(const SegmentReport& segment) {
+  const MotionCertificate& certificate = segment.certificate;
+  Json json = {{"from", segment.from},
+               {"to", segment.to},
+               {"verdict", toString(certificate.verdict)},
+               {"free_until", certificate.freeUntil}};
+  json["witness"] = certificate.witness ? toJson(*certificate.witness) : Json(nullptr);
+  json["undecided_at"] =
+      certificate.verdict == Verdict::Undecided ? Json(certificate.undecidedAt) : Json(nullptr);
+  const std::optional<MotionClearance>& clearance = segment.clearance;
+  json["clearance"] = clearance ? boundsJson(*clearance) : Json(nullptr);
+  json["clearance_world"] = clearance ? boundsJson(clearance->world) : Json(nullptr);
+  json["clearance_self"] = clearance ? boundsJson(clearance->self) : Json(nullptr);
+  json["effort"] = {{"intervals", certificate.effort.intervals},
+                    {"lanes", certificate.effort.lanes},
+                    {"distances", certificate.effort.distances},
+                    {"culled", certificate.effort.culled}};
+  return json;
+}
+
+}  // namespace swept

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "output/text_output.hpp"
+#include "swept/robot_model/checker.hpp"
+
+/// How `motion` and `certify` print what they know about a motion.
+namespace swept {
+
+struct SegmentReport {
+  std::string from, to;  ///< labels of its ends
+  MotionCertificate certificate;
+  std::optional<MotionClearance> clearance;  ///< not asked for where there is a collision
+};
+
+/// Several lines, with what is known beyond the verdict.
+std::string segmentText(const SegmentReport& segment);
+Json segmentJson(const SegmentReport& segment);
+
+}  // namespace swept

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/state_report.hpp"
+
+#include <utility>
+
+#include "output/clearance_text.hpp"
+#include "output/terminal_text.hpp"
+
+namespace swept {
+
+std::string reportText(const std::string& label, const StateReport& report) {
+  std::string text = escapedLine(label) + ": " + std::string(toString(report.verdict));
+  if (keepApart(report.contacts)) text += " (closer than the margin)";
+  if (report.verdict != Verdict::Collision)
+    text.append(", ").append(clearanceText(clearancesOf(report)));
+  text += "\n";
+  for (const Witness& contact : report.contacts) text += "  " + witnessText(contact) + "\n";
+  return text;
+}
+
+Json reportJson(const LabelledState& state, const StateReport& report) {
+  Json contacts = Json::array();
+  for (const Witness& contact : report.contacts) {
+    contacts.push_back(toJson(contact));
+    contacts.back().erase("t");
+  }
+  Json json = {{"label", state.label},
+               {"values", toJson(state.q)},
+               {"verdict", toString(report.verdict)},
+               {"clearance", finiteOrNull(report.clearance)}};
+  json["nearest"] = nearestJson(report.nearestA, report.nearestB);
+  addClearances(clearancesOf(report), json);
+  json["contacts"] = std::move(contacts);
+  return json;
+}
+
+}  // namespace swept

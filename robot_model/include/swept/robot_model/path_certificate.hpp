@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "swept/core/verdict.hpp"
+#include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/configuration.hpp"
+
+namespace swept {
+
+/// The motion by one query, and by the other one where that leaves it undecided. Near the tolerance
+/// a proof may hang on the order in which a motion is looked at, and the two queries have each its
+/// own: where `first` leaves the motion undecided and the other one proves it free, the certificate
+/// is the other's.
+MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
+                                  ConfigurationView to, Workspace& workspace,
+                                  MotionQuery first = MotionQuery::FirstContact);
+
+/// The motion from one state of a path to the next.
+struct CertifiedSegment {
+  MotionCertificate certificate;  ///< of certifyByEither()
+  /// By kinds of pairs. None where the verdict is Collision, or it was not asked for.
+  std::optional<MotionClearance> clearance;
+};
+
+/// What is known about a path: a robot's straight motions between configurations.
+struct PathCertificate {
+  /// The i-th leads from state i to state i + 1.
+  std::vector<CertifiedSegment> segments;
+
+  /// Free where all segments are; Collision where one is that; else Undecided.
+  Verdict verdict() const;
+  std::size_t count(Verdict verdict) const;  ///< of segments
+};
+
+/// What is asked about a path.
+struct PathQuery {
+  bool clearances = true;  ///< writeProof() needs them
+  unsigned threads = 0;    ///< 0: as many as there are processors
+  /// Called between segments with the number of those that are done, on the caller's thread.
+  std::function<void(std::size_t done)> progress = {};
+};
+
+/// Certificates of all segments of a path that any planner has made; of a single state, of the
+/// motion that stays there. They do not depend on the number of threads. Clearances are as exact as
+/// `swept` prints them: a tenth of CheckerOptions::tolerance, but no less than 1e-5 m. Limits are
+/// not looked at: see Checker::withinLimits() and readPath(). Throws std::invalid_argument for a
+/// path without a state, and for a state of another size than the group's.
+PathCertificate certifyPath(const Checker& checker, const ConfigurationList& states,
+                            const PathQuery& query = {});
+
+}  // namespace swept

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certificate/model_json.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "certificate/shape_json.hpp"
+#include "output/robot_json.hpp"
+#include "swept/core/axis_frame.hpp"
+#include "swept/robot_model/usage_error.hpp"
+
+namespace swept {
+namespace {
+
+using Eigen::Isometry3d;
+
+using Names = std::map<std::string, std::string>;
+
+/// What a proof calls the bodies of the world, which may have the names of links, by their names.
+Names proofNamesInWorld(const Checker& checker) {
+  std::set<std::string> taken;
+  for (const Link& link : checker.robot().links()) taken.insert(link.name);
+  for (const AttachedBody& body : checker.options().attached) taken.insert(body.name);
+  for (const WorldBody& body : checker.world().bodies()) taken.insert(body.name);
+  Names names;
+  for (const WorldBody& body : checker.world().bodies()) {
+    std::string name = body.name;
+    if (checker.robot().findLink(name))
+      while (!taken.insert(name).second) name += " (world)";
+    names[body.name] = name;
+  }
+  return names;
+}
+
+Json poseJson(const Isometry3d& pose) {
+  Json numbers = Json::array();
+  for (Eigen::Index row = 0; row < 3; ++row)
+    for (Eigen::Index column = 0; column < 3; ++column)
+      numbers.push_back(pose.linear()(row, column));
+  for (Eigen::Index row = 0; row < 3; ++row) numbers.push_back(pose.translation()[row]);
+  return numbers;
+}
+
+std::size_t valuesOf(JointType type) {
+  switch (type) {
+    case JointType::Fixed:
+      return 0;
+    case JointType::Planar:
+      return 3;
+    case JointType::Floating:
+      return 7;
+    default:
+      return 1;
+  }
+}
+
+/// Where the joint's values come from: the group's variables, or those that stay as they are.
+void addValues(const Checker& checker, const Joint& joint, Json& json) {
+  const Robot& robot = checker.robot();
+  const Joint& source = joint.mimic ? robot.joints()[joint.mimic->master] : joint;
+  const std::vector<int>& variables = checker.group().variables;
+  const auto found = std::ranges::find(variables, source.firstVariable);
+  const double multiplier = joint.mimic ? joint.mimic->multiplier : 1.0;
+  const double offset = joint.mimic ? joint.mimic->offset : 0.0;
+  if (joint.type != JointType::Fixed && found != variables.end()) {
+    json["variable"] = static_cast<std::size_t>(found - variables.begin());
+    json["multiplier"] = multiplier;
+    json["offset"] = offset;
+    return;
+  }
+  const Eigen::VectorXd reference = checker.options().reference.value_or(robot.defaultState());
+  json["variable"] = nullptr;
+  json["values"] = Json::array();
+  for (std::size_t i = 0; i < valuesOf(joint.type); ++i)
+    json["values"].push_back(
+        multiplier * reference[source.firstVariable + static_cast<Eigen::Index>(i)] + offset);
+}
+
+Json jointJson(const Checker& checker, const Joint& joint) {
+  const std::vector<Link>& links = checker.robot().links();
+  Json json = {{"name", joint.name}, {"type", toString(joint.type)}};
+  json["parent"] = joint.parentLink < 0 ? Json(nullptr) : Json(links[joint.parentLink].name);
+  json["child"] = links[joint.childLink].name;
+  json["pose"] = poseJson(joint.parent_from_joint);
+  json["axis"] = toJson(joint.axis);
+  if (joint.type == JointType::Planar)
+    json["planar_x"] = toJson(Eigen::Vector3d(axisFrame(joint.axis).col(0)));
+  addValues(checker, joint, json);
+  return json;
+}
+
+Json bodyJson(const Checker& checker, const CertifiedBody& body) {
+  Json json = {{"name", body.proofName}};
+  json["link"] = body.link < 0 ? Json(nullptr) : Json(checker.robot().links()[body.link].name);
+  json["shapes"] = Json::array();
+  for (const CertifiedBody::Part& part : body.parts) {
+    json["shapes"].push_back(exactShapeJson(part.shape));
+    json["shapes"].back()["pose"] = poseJson(part.body_from_shape);
+  }
+  return json;
+}
+
+/// Joints and links the group does not move need no word of anyone: the checker of proofs knows.
+bool isAllowed(const Checker::Pair& pair) {
+  for (const char* word : {"allowed", "SRDF", "touch link", "attached to"})
+    if (pair.reason.starts_with(word)) return true;
+  return false;
+}
+
+Json allowedJson(const Checker& checker) {
+  const Names namesInWorld = proofNamesInWorld(checker);
+  Json allowed = Json::array();
+  for (const Checker::Pair& pair : checker.skippedPairs()) {
+    if (!isAllowed(pair)) continue;
+    allowed.push_back(
+        {pair.bodyA, pair.selfPair ? pair.bodyB : namesInWorld.at(pair.bodyB), pair.reason});
+  }
+  return allowed;
+}
+
+/// Links that a joint connects, which the checker of proofs would leave out by itself, and that are
+/// checked all the same.
+Json askedJson(const Checker& checker) {
+  std::set<std::pair<std::string, std::string>> connected;
+  for (const Joint& joint : checker.robot().joints()) {
+    if (joint.parentLink < 0) continue;
+    const std::string& parent = checker.robot().links()[joint.parentLink].name;
+    const std::string& child = checker.robot().links()[joint.childLink].name;
+    connected.insert({parent, child});
+    connected.insert({child, parent});
+  }
+  Json asked = Json::array();
+  for (const Checker::Pair& pair : checker.checkedPairs())
+    if (pair.selfPair && connected.contains({pair.bodyA, pair.bodyB}))
+      asked.push_back({pair.bodyA, pair.bodyB});
+  return asked;
+}
+
+}  // namespace
+
+std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
+  const CollisionRules& rules = checker.options().rules;
+  const Names namesInWorld = proofNamesInWorld(checker);
+  std::vector<CertifiedBody> bodies;
+  const auto add = [&](const std::string& name, int link, const auto& parts, auto&& poseOf) {
+    if (parts.empty()) return;
+    CertifiedBody body{.name = name,
+                       .proofName = link < 0 ? namesInWorld.at(name) : name,
+                       .link = link,
+                       .parts = {}};
+    for (const auto& part : parts) {
+      const double factor = rules.scale(name);
+      body.parts.push_back({factor == 1.0 ? part.shape : scaled(part.shape, factor), poseOf(part)});
+    }
+    bodies.push_back(std::move(body));
+  };
+  const std::vector<Link>& links = checker.robot().links();
+  for (std::size_t i = 0; i < links.size(); ++i)
+    add(links[i].name, static_cast<int>(i), links[i].collision,
+        [](const CollisionGeometry& part) { return part.link_from_shape; });
+  for (const AttachedBody& body : checker.options().attached)
+    add(body.name, *checker.robot().findLink(body.link), body.parts,
+        [](const AttachedBody::Part& part) { return part.link_from_shape; });
+  for (const WorldBody& body : checker.world().bodies())
+    add(body.name, -1, body.parts,
+        [](const WorldBody::Part& part) { return part.world_from_shape; });
+  return bodies;
+}
+
+Json modelJson(const Checker& checker) {
+  if (!checker.world().obstacles().empty())
+    throw UsageError("a proof cannot be written beside moving obstacles");
+  const Robot& robot = checker.robot();
+  Json json = {{"links", Json::array()}, {"variables", Json::array()}, {"joints", Json::array()}};
+  for (const Link& link : robot.links()) json["links"].push_back(link.name);
+  for (const int v : checker.group().variables)
+    json["variables"].push_back(variableJson(robot.variables()[v]));
+  for (const Joint& joint : robot.joints()) json["joints"].push_back(jointJson(checker, joint));
+  json["bodies"] = Json::array();
+  json["margin"] = checker.options().margin;
+  if (checker.options().selfMargin) json["margin_self"] = *checker.options().selfMargin;
+  if (checker.options().worldMargin) json["margin_world"] = *checker.options().worldMargin;
+  json["paddings"] = Json::object();
+  for (const CertifiedBody& body : certifiedBodies(checker)) {
+    json["bodies"].push_back(bodyJson(checker, body));
+    const double padding = checker.options().rules.padding(body.name);
+    if (padding != 0.0) json["paddings"][body.proofName] = padding;
+  }
+  json["allowed"] = allowedJson(checker);
+  Json asked = askedJson(checker);
+  if (!asked.empty()) json["asked"] = std::move(asked);
+  return json;
+}
+
+void requireModelNames(const Checker& checker, const std::string& where) {
+  for (const Link& link : checker.robot().links()) requireUtf8(link.name, where);
+  for (const Joint& joint : checker.robot().joints()) requireUtf8(joint.name, where);
+  for (const AttachedBody& body : checker.options().attached) requireUtf8(body.name, where);
+  for (const WorldBody& body : checker.world().bodies()) requireUtf8(body.name, where);
+  requireUtf8(allowedJson(checker), where);
+}
+
+}  // namespace swept

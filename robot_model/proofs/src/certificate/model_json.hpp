@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "output/text_output.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// A link, an attached body or a body of the world as it is checked.
+struct CertifiedBody {
+  std::string name;       ///< the robot's or the world's: what rules are about
+  std::string proofName;  ///< of this body alone
+  int link = -1;          ///< that it moves with; -1: the world
+  struct Part {
+    Shape shape;
+    Eigen::Isometry3d body_from_shape;
+  };
+  std::vector<Part> parts;
+};
+
+/// Those with geometry, the robot's first: in the order of modelJson()'s bodies. In a proof, a body
+/// of the world that has the name of a link has ` (world)` behind its own, as often as it takes for
+/// no other to have that name.
+std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
+
+/// What a proof is about, in the form that robot_model/verify reads: kinematics, geometry bit for
+/// bit, margins, pairs that may touch. Throws UsageError for moving obstacles, which have no place
+/// in it.
+Json modelJson(const Checker& checker);
+
+/// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is
+/// not UTF-8.
+void requireModelNames(const Checker& checker, const std::string& where);
+
+}  // namespace swept

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "certificate/body_search.hpp"
+#include "output/text_output.hpp"
+#include "verify/motion.hpp"
+#include "verify/proof.hpp"
+
+namespace swept {
+
+/// Looks for intervals and planes that prove two bodies apart during a motion, as checkPair() of
+/// robot_model/verify takes them. The library's distances say where to put a plane; whether it
+/// holds, and how far, that checker's own bound does.
+class PairSearch {
+ public:
+  /// `keep`: m; what the planes have to show, more than the margin of the pair.
+  PairSearch(const verify::Model& model, const verify::Motion& motion, verify::PairToProve pair,
+             SearchedBody& a, SearchedBody& b, double keep)
+      : model_(model), motion_(motion), pair_(pair), a_(a), b_(b), keep_(keep) {}
+
+  /// The pair's entry without its digest; null where nothing was found: the bodies come nearer than
+  /// `keep`, or so near that it takes intervals that are too many.
+  Json run();
+
+ private:
+  struct Between;
+  double distanceOf(Between& between) const;
+  bool intervals(double begin, double end, int depth, Json& list, bool flat, std::size_t index);
+  Json tree(Between& between, int a, int b);
+  Json plane(const Between& between, int a, int b, const Eigen::Vector3d& direction) const;
+  Json besideFlat(const verify::PairMotion& motion, std::size_t flat) const;
+
+  const verify::Model& model_;
+  const verify::Motion& motion_;
+  verify::PairToProve pair_;
+  SearchedBody& a_;
+  SearchedBody& b_;
+  double keep_;
+};
+
+}  // namespace swept

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certificate/path_json.hpp"
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "output/clouds_json.hpp"
+#include "output/unchecked_json.hpp"
+#include "swept/robot_model/text_file.hpp"
+#include "swept/robot_model/usage_error.hpp"
+#include "verify/check.hpp"
+
+namespace swept {
+namespace {
+
+/// A line for each of what the first two levels hold, and for each pair of a proof: short enough to
+/// look at, and to compare.
+std::string linesOf(const Json& json) {
+  std::string text = "{";
+  for (const auto& [key, value] : json.items()) {
+    text += (text.size() > 1 ? ",\n " : "\n ") + Json(key).dump() + ": ";
+    if (key == "proof" && !value.is_null()) {
+      text += "{\n  \"digests\": " + value["digests"].dump() + ",\n  \"segments\": [";
+      for (const Json& segment : value["segments"]) {
+        text += (text.back() == '[' ? "\n   " : ",\n   ");
+        text += "{\"states_digest\": " + segment["states_digest"].dump() + ", \"pairs\": [";
+        for (const Json& pair : segment["pairs"])
+          text += (text.back() == '[' ? "\n    " : ",\n    ") + pair.dump();
+        text += "]}";
+      }
+      text += "]}";
+    } else if (value.is_array()) {
+      text += "[";
+      for (const Json& item : value) text += (text.back() == '[' ? "\n  " : ",\n  ") + item.dump();
+      text += "]";
+    } else {
+      text += value.dump();
+    }
+  }
+  return text + "\n}\n";
+}
+
+std::vector<std::string> jointNames(const Checker& checker) {
+  std::vector<std::string> names;
+  for (const int variable : checker.group().variables)
+    names.push_back(checker.robot().variables()[variable].name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<double> ProvenPath::clearances() const {
+  std::vector<double> least;
+  for (const SegmentRecord& segment : segments) least.push_back(segment.clearance);
+  return least;
+}
+
+ProvenPath provenPath(std::span<const std::vector<double>> states,
+                      const PathCertificate& certificate) {
+  ProvenPath path{.states = {states.begin(), states.end()}, .segments = {}};
+  // What is proven of a single state is that the motion which stays there is free.
+  if (path.states.size() == 1) path.states.push_back(path.states.front());
+  if (certificate.segments.size() + 1 != path.states.size())
+    throw std::invalid_argument("a certificate of " + std::to_string(certificate.segments.size()) +
+                                " segments is not of a path of " + std::to_string(states.size()) +
+                                " states");
+  for (const CertifiedSegment& segment : certificate.segments) {
+    SegmentRecord record{
+        .verdict = segment.certificate.verdict, .clearance = 0.0, .clearances = {}};
+    if (segment.clearance) {
+      record.clearance = segment.clearance->lower;
+      record.clearances = clearancesOf(*segment.clearance);
+    } else if (record.verdict == Verdict::Free) {
+      throw std::invalid_argument("a proof needs a certificate with clearances");
+    }
+    path.segments.push_back(std::move(record));
+  }
+  return path;
+}
+
+std::string pathJsonText(const Checker& checker, const PathRecord& record,
+                         const Certificate& certificate, bool embed, const std::string& where) {
+  Json json = {{"robot", checker.robot().name()}, {"group", checker.group().name}};
+  json.update(record.maker);
+  json["margin"] = checker.options().margin;
+  if (checker.options().selfMargin) json["margin_self"] = *checker.options().selfMargin;
+  if (checker.options().worldMargin) json["margin_world"] = *checker.options().worldMargin;
+  json["tolerance"] = checker.options().tolerance;
+  json["clouds"] = cloudsJson(checker.world());
+  json["joint_names"] = jointNames(checker);
+  json["states"] = Json::array();
+  for (const std::vector<double>& q : record.states) json["states"].push_back(toJson(q));
+  json["segments"] = Json::array();
+  for (const SegmentRecord& segment : record.segments) {
+    json["segments"].push_back(
+        {{"verdict", toString(segment.verdict)}, {"clearance", finiteOrNull(segment.clearance)}});
+    addClearances(segment.clearances, json["segments"].back());
+  }
+  addUnchecked(json, checker, record.warnings);
+  if (!record.inputs.is_null()) json["inputs"] = record.inputs;
+  requireUtf8(json, where);
+  if (embed) json["model"] = certificate.model;
+  json["proof"] = certificate.proof;
+  if (!certificate.proof.is_null()) json["proof"]["digests"]["claims"] = verify::claimDigests(json);
+  std::string text = linesOf(json);
+  if (text.size() > kMaxTextBytes)
+    throw UsageError(where + ": with its proof the path takes " + std::to_string(text.size()) +
+                     " bytes, and files of more than " + std::to_string(kMaxTextBytes) +
+                     " are not read; proofs of parts of the path are smaller");
+  return text;
+}
+
+}  // namespace swept

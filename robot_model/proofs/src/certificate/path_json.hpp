@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certificate/certificate.hpp"
+#include "output/clearance_text.hpp"
+#include "output/text_output.hpp"
+#include "swept/core/verdict.hpp"
+#include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/path_certificate.hpp"
+
+namespace swept {
+
+/// What a path file says of a segment.
+struct SegmentRecord {
+  Verdict verdict = Verdict::Undecided;
+  double clearance = 0.0;  ///< m, proven lower bound; infinity: no pairs
+  Clearances clearances;   ///< likewise
+};
+
+/// What a path file says besides what its checker and its proof do.
+struct PathRecord {
+  Json maker = Json::object();  ///< who has made the path: `planner`, `seed`
+  std::span<const std::vector<double>> states;
+  std::vector<SegmentRecord> segments;
+  Json inputs;                        ///< what its checker was made from; null: nobody says
+  std::vector<std::string> warnings;  ///< on what is not checked
+};
+
+/// A path whose segments were certified, as files have it.
+struct ProvenPath {
+  std::vector<std::vector<double>> states;  ///< two at least: of one state, it twice
+  std::vector<SegmentRecord> segments;
+
+  std::vector<double> clearances() const;  ///< m, of the segments
+};
+/// Throws std::invalid_argument for a certificate of another path, or without clearances.
+ProvenPath provenPath(std::span<const std::vector<double>> states,
+                      const PathCertificate& certificate);
+
+/// The path file that robot_model/verify and readPath() read. `embed`: with the robot and the
+/// world. Throws UsageError, beginning with `where`, for names that are not UTF-8, and for more
+/// text than is read of a file.
+std::string pathJsonText(const Checker& checker, const PathRecord& record,
+                         const Certificate& certificate, bool embed, const std::string& where);
+
+}  // namespace swept

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certificate/verify_outcome.hpp"
+
+#include "io/json_value.hpp"
+#include "swept/robot_model/input.hpp"
+#include "verify/check.hpp"
+
+namespace swept {
+
+Json pathWithProof(const std::string& file) {
+  Json path = parseOrderedJson(file);
+  if (!path.is_object() || !path.contains("proof") || path["proof"].is_null())
+    throw InputError(file, 0, "there is no proof in it");
+  return path;
+}
+
+VerifyOutcome verified(const Json& path, const Json& other) {
+  VerifyOutcome outcome;
+  const bool embedded = path.contains("model");
+  try {
+    outcome.summary = verify::checkProof(path, embedded ? path["model"] : other);
+    if (embedded && !other.is_null()) verify::requireSameModel(path["proof"], other);
+  } catch (const verify::Refusal& refusal) {
+    outcome.refusal = refusal.what();
+  }
+  return outcome;
+}
+
+}  // namespace swept

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/judged_state.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "io/numbers.hpp"
+#include "output/text_output.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// Empty, or why it is none.
+std::string normaliseOrientation(const Robot& robot, const Group& group, std::span<double> q) {
+  for (std::size_t i = 0; i < group.variables.size(); ++i) {
+    const Joint& joint = robot.joints()[robot.variables()[group.variables[i]].joint];
+    if (joint.type != JointType::Floating || group.variables[i] != joint.firstVariable + 3)
+      continue;
+    Eigen::Map<Eigen::Vector4d> orientation(q.data() + i);
+    const double norm = orientation.norm();
+    if (!unitQuaternion(orientation))
+      return "the quaternion of joint " + joint.name + " has norm " + shortNumber(norm) +
+             ", allowed is 1";
+    orientation /= norm;
+  }
+  return {};
+}
+
+}  // namespace
+
+JudgedState judgeState(const Robot& robot, const Group& group, std::span<double> q) {
+  JudgedState judged{.problem = normaliseOrientation(robot, group, q), .taken = {}};
+  for (std::size_t i = 0; i < group.variables.size() && judged.problem.empty(); ++i) {
+    const Variable& variable = robot.variables()[group.variables[i]];
+    double& value = q[i];
+    if (variable.cyclic && !(value >= variable.lower && value <= variable.upper))
+      value = std::remainder(value, 2.0 * std::numbers::pi);
+    if (!isWithin(value, variable.lower, variable.upper))
+      judged.problem = outsideText(variable.name, value, variable.lower, variable.upper,
+                                   unitOf(robot, variable));
+  }
+  if (judged.problem.empty()) judged.taken = takeToLimits(robot, group, q);
+  return judged;
+}
+
+}  // namespace swept::detail
