@@ -44,12 +44,11 @@ CheckedProof checkedProof(const VerifyOutcome& outcome) {
 }  // namespace
 
 WrittenProof writeProof(const std::filesystem::path& file, const Checker& checker,
-                        std::span<const std::vector<double>> states,
-                        const PathCertificate& certificate,
+                        const ConfigurationList& states, const PathCertificate& certificate,
                         const std::vector<std::string>& warnings) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
-        [&, states] { return writeProof(file, checker, states, certificate, warnings); });
+        [&] { return writeProof(file, checker, states, certificate, warnings); });
   }
   const std::string where = "'" + file.string() + "'";
   if (file.extension() != ".json") throw UsageError(where + ": a file with a proof ends in .json");

@@ -56,9 +56,9 @@ std::vector<double> ProvenPath::clearances() const {
   return least;
 }
 
-ProvenPath provenPath(std::span<const std::vector<double>> states,
-                      const PathCertificate& certificate) {
-  ProvenPath path{.states = {states.begin(), states.end()}, .segments = {}};
+ProvenPath provenPath(const ConfigurationList& states, const PathCertificate& certificate) {
+  ProvenPath path;
+  for (const ConfigurationView& q : states) path.states.emplace_back(q.begin(), q.end());
   // What is proven of a single state is that the motion which stays there is free.
   if (path.states.size() == 1) path.states.push_back(path.states.front());
   if (certificate.segments.size() + 1 != path.states.size())

@@ -10,6 +10,7 @@
 #include "output/text_output.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 
 namespace swept {
@@ -38,8 +39,7 @@ struct ProvenPath {
   std::vector<double> clearances() const;  ///< m, of the segments
 };
 /// Throws std::invalid_argument for a certificate of another path, or without clearances.
-ProvenPath provenPath(std::span<const std::vector<double>> states,
-                      const PathCertificate& certificate);
+ProvenPath provenPath(const ConfigurationList& states, const PathCertificate& certificate);
 
 /// The path file that robot_model/verify and readPath() read. `embed`: with the robot and the
 /// world. Throws UsageError, beginning with `where`, for names that are not UTF-8, and for more

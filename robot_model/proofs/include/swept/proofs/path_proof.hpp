@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 
 /// Proofs of paths in files that others can check: with `swept verify`, or with verifyProof(). Both
@@ -35,8 +35,7 @@ struct WrittenProof {
 /// files that are read (kMaxTextBytes); std::invalid_argument for a certificate of another number
 /// of segments, or without clearances.
 WrittenProof writeProof(const std::filesystem::path& file, const Checker& checker,
-                        std::span<const std::vector<double>> states,
-                        const PathCertificate& certificate,
+                        const ConfigurationList& states, const PathCertificate& certificate,
                         const std::vector<std::string>& warnings = {});
 
 /// What came of checking a proof.
