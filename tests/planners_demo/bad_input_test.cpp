@@ -85,7 +85,11 @@ const Case kStates[] = {
 };
 
 const Case kOptions[] = {
-    {"NoSubcommand", {}, kError + "A subcommand is required (try --help)"},
+    {"NoSubcommand",
+     {},
+     kError +
+         "a subcommand is required; there are info, check, motion, plan, verify, acm, replay, " +
+         (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
      kError + "no subcommand 'verfy'; there are info, check, motion, plan, verify, acm, replay, " +

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "output/quantile.hpp"
+#include "output/text_table.hpp"
 
 namespace swept {
 namespace {

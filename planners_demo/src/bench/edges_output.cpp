@@ -7,6 +7,7 @@
 
 #include "output/quantile.hpp"
 #include "output/terminal_text.hpp"
+#include "output/text_table.hpp"
 
 namespace swept {
 namespace {

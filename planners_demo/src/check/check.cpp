@@ -15,7 +15,7 @@ namespace swept {
 namespace {
 
 std::string stateText(const std::string& label, const StateReport& report) {
-  std::string text = escapedLine(label) + ": " + std::string(toString(report.verdict));
+  std::string text = escapedLine(label) + ": " + painted(report.verdict);
   if (keepApart(report.contacts)) text += " (closer than the margin)";
   if (report.verdict != Verdict::Collision)
     text.append(", ").append(clearanceText(clearancesOf(report)));
@@ -72,7 +72,7 @@ ExitCode runCheck(const Arguments& args) {
     addUnchecked(json, *task.checker, warnings);
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << text << uncheckedText(*task.checker);
+    printText(text + uncheckedText(*task.checker));
   }
   dump.announce();
   writeCheckPage(args, model, task);

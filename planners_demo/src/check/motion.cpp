@@ -47,8 +47,7 @@ std::string clearanceLines(const MotionClearance& clearance) {
 std::string segmentText(const Segment& segment) {
   const MotionCertificate& certificate = segment.certificate;
   std::string text =
-      escapedLine(segment.from + " to " + segment.to) + ": " +
-      std::string(toString(certificate.verdict)) +
+      escapedLine(segment.from + " to " + segment.to) + ": " + painted(certificate.verdict) +
       (certificate.witness && keepsApart(*certificate.witness) ? " (closer than the margin)\n"
                                                                : "\n");
   if (certificate.verdict != Verdict::Free)
@@ -121,7 +120,7 @@ ExitCode runMotion(const Arguments& args) {
     addUnchecked(json, *task.checker, warnings);
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << text << uncheckedText(*task.checker);
+    printText(text + uncheckedText(*task.checker));
   }
   dump.announce();
   writeMotionPage(args, model, task);

@@ -14,6 +14,7 @@
 #include "output/quantile.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "output/text_table.hpp"
 #include "plan/plan_dump.hpp"
 #include "plan/plan_sets.hpp"
 #include "plan/planning.hpp"
@@ -199,7 +200,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   if (args.json)
     std::cout << dumped(setsJson(entries, request)) << '\n';
   else
-    std::cout << setsText(entries);
+    printText(setsText(entries));
   dump.announce();
   return code;
 }

@@ -6,6 +6,7 @@
 
 #include "command_line/arguments.hpp"
 #include "output/text_output.hpp"
+#include "output/text_table.hpp"
 #include "report/plot.hpp"
 #include "report/report.hpp"
 
