@@ -131,9 +131,9 @@ TEST_F(Narrow, EveryTextFitsAndNothingIsLost) {
       "bench planners models/robots/rook7/rook7.urdf --group arm --problems "
       "models/problems.json --set shelf -q",
       "bench edges models/robots/rook7/rook7.urdf --group arm --problems "
-      "models/problems.json --edges models/edges.csv --passes 1",
+      "models/problems.json --edges models/edges.csv --passes 1 --limit 40",
       "report models/robots/rook7/rook7.urdf --group arm --scene "
-      "models/scenes/shelf.yaml --motions 30 --passes 1 -q"};
+      "models/scenes/shelf.yaml --motions 10 --passes 1 -q"};
   for (const std::string& line : lines) {
     const Outcome wide = runSwept(words(line));
     const Outcome narrow = runOnTerminal(words(line), kColumns, {"NO_COLOR=1"});

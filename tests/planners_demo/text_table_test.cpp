@@ -51,6 +51,24 @@ TEST(TextTable, StacksRowsThatDoNotFitSideBySide) {
             "  number of people: 7\n");
 }
 
+/// Numbers are to be compared with those above and below.
+TEST(TextTable, PartsManyNumbersAmongSeveralTables) {
+  TextTable table({{"set"}, {"solved", true}, {"median", true}, {"mean", true}, {"worst", true}});
+  table.add({"shelf", "10/10", "0.001 s", "0.002 s", "0.01 s"});
+  table.add({"bin", "9/10", "0.1 s", "0.2 s", "-"});
+  table.add({"cage", "8/10", "0.1 s", "0.2 s", "-"});
+  EXPECT_EQ(table.text(26),
+            "set    solved   median\n"
+            "shelf   10/10  0.001 s\n"
+            "bin      9/10    0.1 s\n"
+            "cage     8/10    0.1 s\n"
+            "\n"
+            "set       mean   worst\n"
+            "shelf  0.002 s  0.01 s\n"
+            "bin      0.2 s       -\n"
+            "cage     0.2 s       -\n");
+}
+
 TEST(TextTable, CutsNoWordAndNoNumber) {
   TextTable table({{"link"}, {"value", true}});
   table.add({"a_name_of_more_letters_than_the_line", "0.123456789012345678"});

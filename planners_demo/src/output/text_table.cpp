@@ -17,7 +17,7 @@ using Cells = std::vector<std::string>;
 using Widths = std::vector<std::size_t>;
 
 struct Grid {
-  const std::vector<TextTable::Column>& columns;
+  std::vector<TextTable::Column> columns;
   std::vector<Cells> rows;  ///< escaped; the first has the titles
 };
 
@@ -133,6 +133,40 @@ std::string stacked(const Grid& grid, std::size_t columns) {
   return text;
 }
 
+/// Those columns of it.
+Grid part(const Grid& grid, const std::vector<std::size_t>& columns) {
+  Grid some{.columns = {}, .rows = std::vector<Cells>(grid.rows.size())};
+  for (const std::size_t c : columns) {
+    some.columns.push_back(grid.columns[c]);
+    for (std::size_t r = 0; r < grid.rows.size(); ++r) some.rows[r].push_back(grid.rows[r][c]);
+  }
+  return some;
+}
+
+/// One below the other, tables of some of the numbers each, with the columns in front of them
+/// repeated. Empty where there are texts behind numbers, or no room.
+std::string parted(const Grid& grid, std::size_t columns) {
+  std::size_t keys = grid.columns.size();
+  while (keys > 0 && grid.columns[keys - 1].number) --keys;
+  if (keys == 0) return {};
+  const Widths least = leastWidths(grid);
+  std::string text;
+  for (std::size_t next = keys; next < least.size();) {
+    std::vector<std::size_t> some(keys);
+    std::iota(some.begin(), some.end(), std::size_t{0});
+    std::size_t width = lineOf(Widths(least.begin(), least.begin() + static_cast<int>(keys)));
+    while (next < least.size() && width + kGap + least[next] <= columns) {
+      width += kGap + least[next];
+      some.push_back(next++);
+    }
+    if (some.size() == keys) return {};
+    const Grid table = part(grid, some);
+    text += (text.empty() ? "" : "\n") +
+            aligned(table, fittedWidths(naturalWidths(table, 0), leastWidths(table), columns));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string TextTable::text(std::optional<std::size_t> columns) const {
@@ -145,12 +179,15 @@ std::string TextTable::text(std::optional<std::size_t> columns) const {
   }
   const Widths natural = naturalWidths(grid, 0), least = leastWidths(grid);
   if (!columns || lineOf(natural) <= *columns) return aligned(grid, natural);
-  if (lineOf(least) > *columns) return stacked(grid, *columns);
-  // Titles are there once, and can do with several lines.
-  const Widths forRows = fittedWidths(naturalWidths(grid, 1), least, *columns);
-  const std::string table = aligned(grid, fittedWidths(natural, forRows, *columns));
-  const std::string list = stacked(grid, *columns);
-  return std::ranges::count(table, '\n') <= std::ranges::count(list, '\n') ? table : list;
+  std::vector<std::string> layouts{parted(grid, *columns), stacked(grid, *columns)};
+  if (lineOf(least) <= *columns) {
+    // Titles are there once, and can do with several lines.
+    const Widths forRows = fittedWidths(naturalWidths(grid, 1), least, *columns);
+    layouts.insert(layouts.begin(), aligned(grid, fittedWidths(natural, forRows, *columns)));
+  }
+  std::erase(layouts, "");
+  return *std::ranges::min_element(
+      layouts, {}, [](const std::string& layout) { return std::ranges::count(layout, '\n'); });
 }
 
 }  // namespace swept
