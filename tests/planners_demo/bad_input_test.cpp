@@ -85,7 +85,11 @@ const Case kStates[] = {
 };
 
 const Case kOptions[] = {
-    {"NoSubcommand", {}, kError + "A subcommand is required (try --help)"},
+    {"NoSubcommand",
+     {},
+     kError +
+         "a subcommand is required; there are info, check, motion, plan, verify, acm, replay, " +
+         (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
      kError + "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, acm, replay, " +
@@ -216,6 +220,25 @@ TEST(BadFiles, AQuaternionMustBeOfUnitLength) {
   EXPECT_EQ(run.exitCode, 3);
   EXPECT_EQ(run.err,
             "swept: error: state 1: the quaternion of joint free has norm 0.5, allowed is 1\n");
+}
+
+/// Of names that come with a long list of others.
+TEST(BadNames, TheNearestIsSuggested) {
+  const Gantry gantry;
+  const auto suggests = [&](const Words& words, const std::string& name) {
+    const Outcome run = gantry.run(words.front(), {words.begin() + 1, words.end()});
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_THAT(run.err, testing::EndsWith("; did you mean '" + name + "'?\n"));
+  };
+  suggests({"plan", "left", "right", "--planner", "RRTConect"}, "RRTConnect");
+  suggests({"plan", "left", "--goal-pose", "0,0,0,0,0,0,1", "--link", "cubee"}, "cube");
+  suggests({"check", "left", "--attach", "box:0.1,0.1,0.1@cubee"}, "cube");
+  const Outcome set = runSwept({"plan", gantry.urdf, "--group", "both", "--problems",
+                                gantry.problems, "--set", "blockd", "--index", "7"});
+  EXPECT_THAT(set.err, testing::EndsWith("; did you mean 'blocked'?\n"));
+  const Outcome sets = runSwept(
+      {"plan", gantry.urdf, "--group", "both", "--problems", gantry.problems, "--set", "blockd"});
+  EXPECT_THAT(sets.err, testing::EndsWith("; did you mean 'blocked'?\n"));
 }
 
 TEST(BadFiles, AFullDiskIsNoResult) {

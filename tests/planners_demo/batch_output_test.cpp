@@ -115,7 +115,9 @@ TEST_F(BatchOutput, TheCsvHasTheValuesOfTheLines) {
   const auto rows = quotedCsvRows(sharedFolder->read("csv"));
   ASSERT_EQ(rows.size(), sharedRuns.size() + 1);
   EXPECT_THAT(rows[0], testing::IsSupersetOf({"path_length [rad or m]", "certified_clearance [m]",
-                                              "planning [s]", "certification [s]"}));
+                                              "certified_clearance_world [m]",
+                                              "certified_clearance_self [m]", "planning [s]",
+                                              "certification [s]"}));
   for (std::size_t i = 0; i < sharedRuns.size(); ++i) {
     ASSERT_EQ(rows[i + 1].size(), rows[0].size());
     for (std::size_t c = 0; c < rows[0].size(); ++c) {
@@ -217,6 +219,8 @@ void expectRun(const LogReader& log, const LogReader::Planner& planner,
   const std::map<std::string, json> expected{
       {"certified", run["certified"]},
       {"certified clearance", run["certified_clearance"]},
+      {"certified clearance of itself", run["certified_clearance_self"]},
+      {"certified clearance of the world", run["certified_clearance_world"]},
       {"missed collisions", run["missed_collisions"]},
       {"motions checked", run["motions_checked"]},
       {"random seed", run["seed"]},

@@ -46,6 +46,10 @@ TEST(Batch, ARunIsWhatPlanFinds) {
     EXPECT_EQ(run["path_length"], plan["path_length"]);
     EXPECT_EQ(run["certified"], plan["proven"]);
     EXPECT_EQ(run["certified_clearance"], plan["minimum_certified_clearance"]);
+    for (const std::string kind : {"world", "self"}) {
+      EXPECT_EQ(run["certified_clearance_" + kind], plan["clearance_" + kind]) << kind;
+      EXPECT_EQ(run["nearest_" + kind], plan["nearest_" + kind]) << kind;
+    }
     EXPECT_EQ(run["motions_checked"],
               plan["motions_certified"].get<int>() + plan["motions_refused"].get<int>());
     EXPECT_EQ(run["segments"].get<std::size_t>() + 1, plan["states"].size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include "models_dir.hpp"
@@ -70,42 +71,27 @@ TEST_P(Examples, RunAsTheyStand) {
 INSTANTIATE_TEST_SUITE_P(Help, Examples, testing::ValuesIn(allCommands()));
 
 TEST(Completion, KnowsAllSubcommandsAndOptions) {
-  const std::string bash = runSwept({"completion", "bash"}).out;
   const std::string fish = runSwept({"completion", "fish"}).out;
   EXPECT_GE(allCommands().size(), 9u);
   for (const std::vector<std::string>& command : allCommands()) {
-    EXPECT_THAT(bash, HasSubstr("\"" + command.front() +
-                                (command.size() > 1 ? " " + command.back() : "") + "\") words="));
+    std::string line = "swept";
+    for (const std::string& word : command) line += " " + word;
+    EXPECT_THAT("\n" + runSwept({"completion", "words", line}).out,
+                HasSubstr("\n" + command.back() + "\n"));
+    // The long options of the help, each at the beginning of its line.
+    std::vector<std::string> words = command;
+    words.emplace_back("--help");
+    const std::string help = runSwept(words).out;
+    const std::string options = "\n" + runSwept({"completion", "words", line + " --"}).out;
+    static const std::regex kOption("\n  (?:-.,)?(--[a-z-]+)");
+    for (std::sregex_iterator it(help.begin(), help.end(), kOption), end; it != end; ++it)
+      EXPECT_THAT(options, HasSubstr("\n" + it->str(1) + "\n")) << line;
     EXPECT_THAT(fish, HasSubstr(" -a " + command.back() + " -d '"));
   }
   EXPECT_EQ(runSwept({"completion", "csh"}).err,
-            "swept: error: shell: must be bash, zsh or fish, not csh (try --help)\n");
-}
-
-/// What bash offers for a line with the cursor behind it.
-std::string offered(const std::string& line) {
-  const TemporaryFolder folder;
-  folder.write("ask.bash",
-               "eval \"$(swept completion bash)\"\n"
-               "COMP_WORDS=(" +
-                   line +
-                   ")\n"
-                   "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
-                   "_swept\n"
-                   "echo ${COMPREPLY[*]}\n");
-  const Outcome run = runCommands("bash ask.bash", folder.path());
-  EXPECT_EQ(run.err, "");
-  return run.out;
-}
-
-TEST(Completion, CompletesInBash) {
-  EXPECT_EQ(offered("swept ver"), "verify\n");
-  EXPECT_EQ(offered("swept plan --goal"), "--goal-pose\n");
-  EXPECT_EQ(offered("swept bench ed"), "edges\n");
-  EXPECT_EQ(offered("swept bench edges --pass"), "--passes\n");
-  EXPECT_THAT(offered("swept plan --planner RRTC"), HasSubstr("RRTConnect"));
-  EXPECT_EQ(runShell("swept completion zsh | head -1").out,
-            "autoload -U +X bashcompinit && bashcompinit\n");
+            "swept: error: shell: must be bash, zsh, fish or words, not csh (try --help)\n");
+  EXPECT_EQ(runSwept({"completion", "zsh", "swept"}).err,
+            "swept: error: completion zsh: a line is for 'completion words'\n");
 }
 
 }  // namespace

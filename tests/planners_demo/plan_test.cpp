@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <regex>
+#include <sstream>
 #include <utility>
 
 #include "gantry.hpp"
@@ -27,12 +28,67 @@ TEST(Plan, PrintsATable) {
   std::string normal =
       std::regex_replace(run.out, std::regex("[0-9]+(\\.[0-9]+)?(e-[0-9]+)?"), "N");
   normal = std::regex_replace(normal, std::regex(" +"), " ");
-  EXPECT_EQ(normal,
-            "planner planning time simplification path length segments motions certified refused "
-            "minimum certified clearance\n"
-            "RRTConnect N s N s N N N N N m\n"
-            "solved: N segments, all proven free\n"
-            "clearance N m, nearest cube - post (world); self: no pair to check\n");
+  EXPECT_THAT(normal,
+              testing::StartsWith(
+                  "planner planning time simplification path length segments motions certified "
+                  "refused\n"
+                  "RRTConnect N s N s N N N N\n"
+                  "solved: N segments, all proven free\n"
+                  "clearance N m, nearest cube - post (world); self: no pair to check\n"
+                  "path of N states, m\n"));
+}
+
+/// The lines below the titles of the path.
+std::vector<std::string> pathLines(const std::string& out) {
+  std::istringstream lines(out.substr(out.find("\nstate ") + 1));
+  std::vector<std::string> rows;
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(std::regex_replace(line, std::regex(" +"), " "), "state slide lift");
+  while (std::getline(lines, line)) rows.push_back(line);
+  EXPECT_EQ(rows.back(), "not kept: -o FILE.json writes it with its proof, .csv or .yaml without");
+  rows.pop_back();
+  return rows;
+}
+
+TEST(Plan, WithoutAFileThePathIsPrinted) {
+  const Gantry gantry;
+  const auto states = jsonOf(gantry.run("plan", {"left", "right", "--json"}))["states"];
+  const std::vector<std::string> rows = pathLines(gantry.run("plan", {"left", "right"}).out);
+  ASSERT_EQ(rows.size(), states.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::istringstream row(rows[i]);
+    std::size_t number = 0;
+    double slide = 0.0, lift = 0.0;
+    row >> number >> slide >> lift;
+    EXPECT_EQ(number, i + 1);
+    EXPECT_NEAR(slide, states[i][0].get<double>(), 1e-5);
+    EXPECT_NEAR(lift, states[i][1].get<double>(), 1e-5);
+  }
+  const std::string kept =
+      gantry.run("plan", {"left", "right", "-o", gantry.folder().path("p.csv")}).out;
+  EXPECT_THAT(kept, testing::Not(HasSubstr("path of")));
+  const std::string unsolved = gantry.run("plan", {"left", "1,0"}).out;
+  EXPECT_THAT(unsolved, testing::Not(HasSubstr("path of")));
+}
+
+TEST(Plan, OfALongPathTheEndsArePrinted) {
+  const Gantry gantry;
+  const std::vector<std::string> words{"left", "right", "--range", "0.04", "--no-simplify"};
+  std::vector<std::string> asJson = words;
+  asJson.emplace_back("--json");
+  const std::size_t states = jsonOf(gantry.run("plan", asJson))["states"].size();
+  ASSERT_GT(states, 25u);
+  const std::string out = gantry.run("plan", words).out;
+  EXPECT_THAT(out,
+              HasSubstr("path of " + std::to_string(states) + " states, 20 of them shown, m\n"));
+  const std::vector<std::string> rows = pathLines(out);
+  ASSERT_EQ(rows.size(), 21u);
+  const auto numberOf = [&](std::size_t row) { return std::stoul(rows[row]); };
+  EXPECT_EQ(numberOf(9), 10u);
+  EXPECT_THAT(rows[10], testing::EndsWith("..."));
+  EXPECT_EQ(numberOf(11), states - 9);
+  EXPECT_EQ(numberOf(20), states);
 }
 
 TEST(Plan, ThePathLeadsFromStartToGoalAndKeepsTheClearanceItClaims) {

@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,17 +54,46 @@ class Terminal {
   int master_;
 };
 
-Outcome runArgv(const std::vector<std::string>& words, Stderr where) {
+/// What a program's streams are, and what it finds in its environment.
+struct Place {
+  int terminal = -1;  ///< STDOUT_FILENO, STDERR_FILENO or none
+  int columns = 0;    ///< of the terminal; 0: it does not say
+  std::vector<std::string> environment = {};
+};
+
+/// As wide as is wanted, and bytes come through as they are.
+void prepare(int terminal, int columns) {
+  winsize size{};
+  size.ws_col = static_cast<unsigned short>(columns);
+  ioctl(terminal, TIOCSWINSZ, &size);
+  termios settings{};
+  tcgetattr(terminal, &settings);
+  cfmakeraw(&settings);
+  tcsetattr(terminal, TCSANOW, &settings);
+}
+
+/// What the person who runs the tests wants of a terminal is of no account.
+void setEnvironment(const std::vector<std::string>& variables) {
+  unsetenv("COLUMNS");
+  unsetenv("NO_COLOR");
+  for (const std::string& variable : variables) {
+    const std::size_t equals = variable.find('=');
+    setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);
+  }
+}
+
+Outcome runArgv(const std::vector<std::string>& words, const Place& place) {
   const TemporaryFolder folder;
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   std::optional<Terminal> terminal;
   int keepOpen = -1;
-  if (where == Stderr::Terminal) {
+  if (place.terminal >= 0) {
     terminal.emplace();
     // Open already here: reading ends when all writers have closed, not before the first opens.
     keepOpen = open(terminal->name().c_str(), O_RDWR | O_NOCTTY);
+    prepare(keepOpen, place.columns);
   }
   const std::string out = folder.path("out"), err = folder.path("err");
 
@@ -70,26 +101,26 @@ Outcome runArgv(const std::vector<std::string>& words, Stderr where) {
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
     if (chdir(SWEPT_SOURCE_DIR) != 0) _exit(126);
+    setEnvironment(place.environment);
     redirect("/dev/null", STDIN_FILENO);
     redirect(out, STDOUT_FILENO);
-    if (where == Stderr::Terminal)
-      dup2(keepOpen, STDERR_FILENO);
-    else
-      redirect(err, STDERR_FILENO);
+    redirect(err, STDERR_FILENO);
+    if (place.terminal >= 0) dup2(keepOpen, place.terminal);
     execv(argv[0], argv.data());
     _exit(127);
   }
   Outcome run;
+  std::string shown;
   if (terminal) {
     close(keepOpen);
-    run.err = terminal->readToEnd();
+    shown = terminal->readToEnd();
   }
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFEXITED(status)) run.exitCode = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);
-  run.out = contents(out);
-  if (where == Stderr::File) run.err = contents(err);
+  run.out = place.terminal == STDOUT_FILENO ? shown : contents(out);
+  run.err = place.terminal == STDERR_FILENO ? shown : contents(err);
   return run;
 }
 
@@ -98,18 +129,29 @@ Outcome runArgv(const std::vector<std::string>& words, Stderr where) {
 Outcome runSwept(const std::vector<std::string>& arguments, Stderr where) {
   std::vector<std::string> words{SWEPT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  return runArgv(words, where);
+  const bool terminal = where == Stderr::Terminal;
+  return runArgv(
+      words, terminal ? Place{.terminal = STDERR_FILENO, .environment = {"TERM=xterm"}} : Place{});
+}
+
+Outcome runOnTerminal(const std::vector<std::string>& arguments, int columns,
+                      const std::vector<std::string>& environment) {
+  std::vector<std::string> words{SWEPT_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  Place place{.terminal = STDOUT_FILENO, .columns = columns, .environment = {"TERM=xterm"}};
+  place.environment.insert(place.environment.end(), environment.begin(), environment.end());
+  return runArgv(words, place);
 }
 
 Outcome runShell(const std::string& commandLine) {
   const std::string function = std::string("swept() { exec '") + SWEPT_PROGRAM + "' \"$@\"; }; ";
-  return runArgv({"/bin/sh", "-c", function + commandLine}, Stderr::File);
+  return runArgv({"/bin/sh", "-c", function + commandLine}, {});
 }
 
 Outcome runCommands(const std::string& commands, const std::string& folder) {
   const std::string path = std::filesystem::path(SWEPT_PROGRAM).parent_path().string();
   return runArgv({"/bin/sh", "-c", "PATH='" + path + "':$PATH; cd '" + folder + "'; " + commands},
-                 Stderr::File);
+                 {});
 }
 
 nlohmann::json jsonOf(const Outcome& run) {

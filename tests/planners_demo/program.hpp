@@ -22,6 +22,11 @@ enum class Stderr { File, Terminal };
 /// `arguments` after the program's name; run from the folder that holds `models`.
 Outcome runSwept(const std::vector<std::string>& arguments, Stderr where = Stderr::File);
 
+/// With stdout being a terminal of so many columns and TERM=xterm, and `environment` (NAME=VALUE)
+/// over what is set. What the program wrote is in `out`, byte for byte.
+Outcome runOnTerminal(const std::vector<std::string>& arguments, int columns,
+                      const std::vector<std::string>& environment = {});
+
 /// A shell command line, with `swept` being the program. Nothing runs after it in the foreground.
 Outcome runShell(const std::string& commandLine);
 

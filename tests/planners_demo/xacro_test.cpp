@@ -59,5 +59,52 @@ TEST_F(Xacro, FailuresAreSaid) {
   EXPECT_THAT(run("--xacro --xacro-arg b").err, HasSubstr("must be NAME:=VALUE, not b"));
 }
 
+/// A robot of one joint, for whatever is called with its name.
+constexpr const char* kArm =
+    "cat <<'END'\n<robot name='arm'><link name='a'><collision><geometry><sphere radius='0.1'/>"
+    "</geometry></collision></link><link name='b'><collision><origin xyz='0.5 0 0'/><geometry>"
+    "<sphere radius='0.1'/></geometry></collision></link><joint name='turn' type='revolute'>"
+    "<parent link='a'/><child link='b'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' "
+    "velocity='1'/></joint></robot>\nEND";
+
+TEST_F(Xacro, IsRunWhereverARobotIsNamed) {
+  install(kArm);
+  folder_.write("s.yaml",
+                "world:\n  collision_objects:\n    - id: post\n      primitives: [{type: box, "
+                "dimensions: [0.1, 0.1, 0.1]}]\n      primitive_poses: [{position: [0, 2, 0], "
+                "orientation: [0, 0, 0, 1]}]\n");
+  const auto outcome = [&](const std::string& line) {
+    return runCommands("PATH=\"$PWD/bin:$PATH\" swept " + line + " --xacro", folder_.path());
+  };
+  for (const std::string line : {"info arm.urdf", "check arm.urdf 0.1", "acm arm.urdf --json",
+                                 "report arm.urdf --scene s.yaml --motions 10 --passes 1 -q"}) {
+    const Outcome run = outcome(line);
+    EXPECT_EQ(run.exitCode, 0) << line << run.out << run.err;
+    EXPECT_NE(run.out, "") << line;
+  }
+}
+
+/// What differs once it is expanded, is another robot, whatever the file says.
+TEST_F(Xacro, ResultsOfBatchesAreOfWhatItWrote) {
+  install(kArm);
+  folder_.write("p.json",
+                R"({"one": [{"index": 1, "world": {"box": [], "cylinder": [], "sphere": []},
+                    "start": [0.0], "goals": [[0.5]], "joint_names": ["turn"]}]})");
+  const auto batch = [&](const std::string& more) {
+    return runCommands(
+        "PATH=\"$PWD/bin:$PATH\" swept bench planners arm.urdf --xacro --problems "
+        "p.json -o r.jsonl --no-times -q " +
+            more,
+        folder_.path());
+  };
+  const Outcome first = batch("");
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  EXPECT_EQ(batch("").exitCode, 0);
+  install(std::string("echo '<!-- changed -->'; ") + kArm);
+  const Outcome changed = batch("");
+  EXPECT_EQ(changed.exitCode, 3);
+  EXPECT_THAT(changed.err, HasSubstr("r.jsonl:1: error: urdf is "));
+}
+
 }  // namespace
 }  // namespace swept::test

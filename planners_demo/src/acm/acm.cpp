@@ -9,6 +9,7 @@
 #include "command_line/commands.hpp"
 #include "input/read_again.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -80,7 +81,7 @@ ExitCode runAcm(const Arguments& args) {
   if (args.json) {
     std::cout << dumped(acmJson(result, differences)) << '\n';
   } else {
-    std::cout << acmText(result, differences);
+    printText(acmText(result, differences));
   }
   return exitCodeOf(differences);
 }

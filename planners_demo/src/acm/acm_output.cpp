@@ -40,6 +40,9 @@ std::string checkCommand(const AcmResult& result, const LinkPairReport& pair) {
   }
   std::string command = "swept check " + shellWord(result.args.robot) + " --srdf none " + values;
   if (result.args.margin > 0.0) command += " --margin " + exactNumber(result.args.margin);
+  if (result.args.xacro) command += " --xacro";
+  for (const std::string& argument : result.args.xacroArguments)
+    command += " --xacro-arg " + shellWord(argument);
   for (const std::string& package : result.args.packages)
     command += " --package " + shellWord(package);
   return command;
@@ -149,7 +152,7 @@ std::string differenceText(const AcmResult& result,
     const bool collides = difference.kind == AcmDisagreement::Kind::Collides;
     if (collides) line += ": " + witnessValues(robot, difference.pair);
     text += escapedLine(line) + "\n";
-    if (collides) text += "    " + checkCommand(result, difference.pair) + "\n";
+    if (collides) text += "    " + escapedLine(checkCommand(result, difference.pair)) + "\n";
   }
   return text;
 }

@@ -6,8 +6,9 @@ namespace {
 
 constexpr std::string_view kHeader =
     "set,index,planner,validator,run,seed,solved,status,failure,states_checked,motions_checked,"
-    "path_length [rad or m],segments,certified,certified_clearance [m],missed_collisions,undecided,"
-    "path,planning [s],simplification [s],certification [s]\n";
+    "path_length [rad or m],segments,certified,certified_clearance [m],"
+    "certified_clearance_world [m],certified_clearance_self [m],missed_collisions,undecided,path,"
+    "planning [s],simplification [s],certification [s]\n";
 
 std::string truth(bool value) {
   return value ? "true" : "false";
@@ -18,11 +19,13 @@ std::string count(const std::optional<std::uint64_t>& value) {
 }
 
 std::vector<std::string> pathCells(const std::optional<PathFacts>& path) {
-  if (!path) return std::vector<std::string>(7);
+  if (!path) return std::vector<std::string>(9);
   return {exactNumber(path->length),
           std::to_string(path->segments),
           truth(path->certified),
           path->clearance ? exactNumber(*path->clearance) : "",
+          path->world ? exactNumber(path->world->clearance) : "",
+          path->self ? exactNumber(path->self->clearance) : "",
           std::to_string(path->missedCollisions),
           std::to_string(path->undecided),
           path->digest};

@@ -53,6 +53,10 @@ std::string number(bool known, double value) {
   return known ? exactNumber(value) : "";
 }
 
+std::string clearanceOf(const std::optional<NearestPair>& pair) {
+  return pair ? exactNumber(pair->clearance) : "";
+}
+
 /// In one order; the values are empty where there are none.
 std::vector<Property> propertiesOf(const RunResult& run, bool simplified) {
   const PathFacts path = run.path.value_or(PathFacts{});
@@ -67,6 +71,8 @@ std::vector<Property> propertiesOf(const RunResult& run, bool simplified) {
       {"certified", "BOOLEAN", solved ? truth(path.certified) : ""},
       {"certified clearance", "REAL",
        number(path.clearance.has_value(), path.clearance.value_or(0.0))},
+      {"certified clearance of itself", "REAL", clearanceOf(path.self)},
+      {"certified clearance of the world", "REAL", clearanceOf(path.world)},
       {"missed collisions", "INTEGER", count(solved, path.missedCollisions)},
       {"motions checked", "INTEGER",
        count(run.motionsChecked.has_value(), run.motionsChecked.value_or(0))},

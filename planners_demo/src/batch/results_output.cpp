@@ -9,6 +9,7 @@
 #include "batch/results_log.hpp"
 #include "batch/results_table.hpp"
 #include "command_line/exit_code.hpp"
+#include "output/terminal_text.hpp"
 #include "output/whole_file.hpp"
 
 namespace swept {
@@ -27,7 +28,7 @@ void printResults(const Arguments& args, const Json& header, std::vector<RunResu
   std::ranges::sort(results, {}, &RunResult::key);
   const std::vector<TableRow> rows = tableRows(results);
   if (!args.json) {
-    std::cout << tableText(rows);
+    printText(tableText(rows));
     return;
   }
   Json json = {{"header", header}, {"runs", results.size()}, {"rows", tableJson(rows)}};

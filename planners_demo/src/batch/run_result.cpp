@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "output/clearance_text.hpp"
+
 namespace swept {
 namespace {
 
@@ -17,11 +19,31 @@ std::optional<std::uint64_t> countOf(const JsonValue& json) {
   return static_cast<std::uint64_t>(json.whole(0, std::numeric_limits<std::int64_t>::max()));
 }
 
+void addNearest(Json& json, const std::string& kind, const std::optional<NearestPair>& pair) {
+  json["certified_clearance_" + kind] = pair ? Json(pair->clearance) : Json(nullptr);
+  json["nearest_" + kind] = pair ? nearestJson(pair->bodyA, pair->bodyB) : Json(nullptr);
+}
+
+/// Files of the time before the kinds were told apart do not have them.
+std::optional<NearestPair> nearestOf(const JsonValue& json, const std::string& kind) {
+  const std::string clearance = "certified_clearance_" + kind, nearest = "nearest_" + kind;
+  if (!json.has(clearance) || json.at(clearance).isNull()) return {};
+  NearestPair pair;
+  pair.clearance = json.at(clearance).number();
+  if (!json.has(nearest) || json.at(nearest).isNull()) return pair;
+  const std::vector<JsonValue> names = json.at(nearest).elements(2);
+  pair.bodyA = names[0].text();
+  pair.bodyB = names[1].text();
+  return pair;
+}
+
 void addPath(Json& json, const PathFacts& path) {
   json["path_length"] = path.length;
   json["segments"] = path.segments;
   json["certified"] = path.certified;
   json["certified_clearance"] = path.clearance ? Json(*path.clearance) : Json(nullptr);
+  addNearest(json, "world", path.world);
+  addNearest(json, "self", path.self);
   json["missed_collisions"] = path.missedCollisions;
   json["undecided"] = path.undecided;
   json["path"] = path.digest;
@@ -32,7 +54,8 @@ void addPath(Json& json, const PathFacts& path) {
 
 void addNoPath(Json& json) {
   for (const char* key : {"path_length", "segments", "certified", "certified_clearance",
-                          "missed_collisions", "undecided", "path"})
+                          "certified_clearance_world", "nearest_world", "certified_clearance_self",
+                          "nearest_self", "missed_collisions", "undecided", "path"})
     json[key] = nullptr;
 }
 
@@ -43,6 +66,8 @@ PathFacts pathOf(const JsonValue& json) {
   path.certified = json.at("certified").boolean();
   if (const JsonValue clearance = json.at("certified_clearance"); !clearance.isNull())
     path.clearance = clearance.number();
+  path.world = nearestOf(json, "world");
+  path.self = nearestOf(json, "self");
   path.missedCollisions = static_cast<int>(json.at("missed_collisions").whole(0, kLargestCount));
   path.undecided = static_cast<int>(json.at("undecided").whole(0, kLargestCount));
   path.digest = json.at("path").text();

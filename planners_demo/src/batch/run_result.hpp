@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "batch/run_key.hpp"
+#include "swept/robot_model/checker.hpp"
 
 namespace swept {
 
@@ -19,7 +20,11 @@ struct PathFacts {
   int missedCollisions = 0;         ///< segments with a witness of a collision
   int undecided = 0;                ///< segments that are neither
   std::optional<double> clearance;  ///< m, proven lower bound; none: not certified, or no pairs
-  std::string digest;               ///< of the states' bits, in order
+  ///@{
+  /// Likewise of pairs with the world and of the robot's own bodies, with the pair that is nearest.
+  std::optional<NearestPair> world, self;
+  ///@}
+  std::string digest;                       ///< of the states' bits, in order
   std::vector<std::vector<double>> states;  ///< only where they are asked for
 };
 

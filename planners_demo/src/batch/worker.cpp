@@ -31,8 +31,15 @@ PathFacts factsOf(const PlanOutcome& outcome, const BatchArguments& args) {
     path.undecided += segment.certificate.verdict == Verdict::Undecided ? 1 : 0;
   }
   path.certified = outcome.proven();
-  if (path.certified && !args.noClearance && std::isfinite(outcome.leastClearance()))
-    path.clearance = outcome.leastClearance();
+  if (path.certified && !args.noClearance) {
+    const auto finite = [](const NearestPair& pair) {
+      return std::isfinite(pair.clearance) ? std::optional(pair) : std::nullopt;
+    };
+    const Clearances least = outcome.leastClearances();
+    path.world = finite(least.world);
+    path.self = finite(least.self);
+    if (std::isfinite(outcome.leastClearance())) path.clearance = outcome.leastClearance();
+  }
   path.digest = digestOf(outcome.states);
   if (args.states) path.states = outcome.states;
   return path;

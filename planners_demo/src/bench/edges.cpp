@@ -14,6 +14,7 @@
 #include "input/states.hpp"
 #include "input/task.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "replay/query_dump.hpp"
 #include "swept/robot_model/limits.hpp"
@@ -200,7 +201,7 @@ ExitCode runBenchEdges(const Arguments& args) {
   if (args.json)
     std::cout << dumped(benchJson(bench)) << '\n';
   else
-    std::cout << benchText(bench);
+    printText(benchText(bench));
   return ExitCode::Free;
 }
 

@@ -99,7 +99,8 @@ std::string keptText(const verify::Summary& summary) {
 }
 
 std::string summaryText(const verify::Summary& summary) {
-  std::string text = "verified: " + countedText(summary.segments, "segment") + ", " +
+  std::string text = painted(Hue::Good, "verified") + ": " +
+                     countedText(summary.segments, "segment") + ", " +
                      countedText(summary.pairs, "pair of bodies", "pairs of bodies") + ", " +
                      countedText(summary.intervals, "interval") + ", " +
                      countedText(summary.planes, "plane") + "\n" + keptText(summary) + "\n";
@@ -153,8 +154,9 @@ ExitCode runVerify(const Arguments& args) {
   if (args.json)
     std::cout << dumped(json) << '\n';
   else
-    std::cout << (outcome.holds() ? summaryText(outcome.summary)
-                                  : "refused: " + escapedLine(outcome.refusal) + "\n");
+    printText(outcome.holds()
+                  ? summaryText(outcome.summary)
+                  : painted(Hue::Bad, "refused") + ": " + escapedLine(outcome.refusal) + "\n");
   if (files) writeVerifyPage(args, files->model, files->task, path, outcome);
   return outcome.holds() ? ExitCode::Free : ExitCode::Collision;
 }

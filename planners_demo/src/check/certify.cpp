@@ -144,18 +144,18 @@ Json certifyJson(const Arguments& args, const Task& task, const PathCertificate&
   return json;
 }
 
-void printText(const Arguments& args, const Task& task, const PathCertificate& path,
-               const Report& report, const std::string& noProof) {
-  std::cout << report.counts.text("segment")
-            << (task.checker->checksNothing() ? ", nothing was checked\n" : "\n") << report.text
-            << report.counts.furtherText("segment", report.told.size());
-  if (const auto least = leastClearances(path)) std::cout << clearanceText(*least) << '\n';
-  std::cout << uncheckedText(*task.checker);
-  if (args.output.empty()) return;
-  if (noProof.empty())
-    std::cout << "proof written to " << escapedLine(args.output) << '\n';
-  else
-    std::cout << escapedLine("no proof written to " + args.output + ": " + noProof) << '\n';
+std::string certifyText(const Arguments& args, const Task& task, const PathCertificate& path,
+                        const Report& report, const std::string& noProof) {
+  std::string text = report.counts.text("segment");
+  text += task.checker->checksNothing() ? ", nothing was checked\n" : "\n";
+  text += report.text + report.counts.furtherText("segment", report.told.size());
+  if (const auto least = leastClearances(path)) text += clearanceText(*least) + "\n";
+  text += uncheckedText(*task.checker);
+  if (args.output.empty()) return text;
+  return text +
+         escapedLine(noProof.empty() ? "proof written to " + args.output
+                                     : "no proof written to " + args.output + ": " + noProof) +
+         "\n";
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ ExitCode runCertify(const Arguments& args) {
   if (args.json)
     std::cout << dumped(certifyJson(args, task, path, report, noProof, warnings)) << '\n';
   else
-    printText(args, task, path, report, noProof);
+    printText(certifyText(args, task, path, report, noProof));
   dump.announce();
   writeCertifyPage(args, model, task, path);
   // A proof that was asked for and not found is a question that stays open.

@@ -14,7 +14,6 @@ void addOptions(CLI::App& app, Arguments& args) {
                  "(JointTrajectory, RobotTrajectory, DisplayTrajectory) or .json (of 'swept plan')")
       ->required()
       ->type_name("PATH");
-  addXacroOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);

@@ -45,7 +45,7 @@ ExitCode runCheck(const Arguments& args) {
     addUnchecked(json, *task.checker, warnings);
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << text << uncheckedText(*task.checker);
+    printText(text + uncheckedText(*task.checker));
   }
   dump.announce();
   writeCheckPage(args, model, task);

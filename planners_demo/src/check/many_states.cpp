@@ -11,6 +11,7 @@
 #include "check/state_report.hpp"
 #include "input/unchecked.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 
 namespace swept {
 namespace {
@@ -44,9 +45,8 @@ struct Answers {
 void print(const Arguments& args, const Model& model, const Task& task, const Warnings& warnings,
            const std::string& what, Answers& answers) {
   if (!args.json) {
-    std::cout << answers.counts.text(what) << '\n'
-              << answers.text << answers.counts.furtherText(what, answers.told.size())
-              << uncheckedText(*task.checker);
+    printText(answers.counts.text(what) + "\n" + answers.text +
+              answers.counts.furtherText(what, answers.told.size()) + uncheckedText(*task.checker));
     return;
   }
   Json json = {{"robot", model.robot->name()},

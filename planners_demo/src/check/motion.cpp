@@ -62,7 +62,7 @@ ExitCode runMotion(const Arguments& args) {
     addUnchecked(json, *task.checker, warnings);
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << text << uncheckedText(*task.checker);
+    printText(text + uncheckedText(*task.checker));
   }
   dump.announce();
   writeMotionPage(args, model, task);

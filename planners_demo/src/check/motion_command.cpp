@@ -9,7 +9,6 @@ namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
-  addXacroOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);

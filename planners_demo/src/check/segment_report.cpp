@@ -26,8 +26,7 @@ std::string clearanceLines(const MotionClearance& clearance) {
 std::string segmentText(const SegmentReport& segment) {
   const MotionCertificate& certificate = segment.certificate;
   std::string text =
-      escapedLine(segment.from + " to " + segment.to) + ": " +
-      std::string(toString(certificate.verdict)) +
+      escapedLine(segment.from + " to " + segment.to) + ": " + painted(certificate.verdict) +
       (certificate.witness && keepsApart(*certificate.witness) ? " (closer than the margin)\n"
                                                                : "\n");
   if (certificate.verdict != Verdict::Free)

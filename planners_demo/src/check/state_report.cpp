@@ -9,7 +9,7 @@
 namespace swept {
 
 std::string reportText(const std::string& label, const StateReport& report) {
-  std::string text = escapedLine(label) + ": " + std::string(toString(report.verdict));
+  std::string text = escapedLine(label) + ": " + painted(report.verdict);
   if (keepApart(report.contacts)) text += " (closer than the margin)";
   if (report.verdict != Verdict::Collision)
     text.append(", ").append(clearanceText(clearancesOf(report)));

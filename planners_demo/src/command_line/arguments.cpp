@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 #include <vector>
 
 #include "command_line/command.hpp"
@@ -120,8 +121,9 @@ std::string nearOption(const CLI::App& program, int argc, const char* const* arg
 /// The parser misses a subcommand before it says that it does not know the one given.
 std::string messageOf(const CLI::ParseError& error, const CLI::App& program, int argc,
                       const char* const* argv) {
-  const bool noSubcommand = argc > 1 && std::string_view(error.what()).starts_with("A subcommand");
+  const bool noSubcommand = std::string_view(error.what()).starts_with("A subcommand");
   if (!noSubcommand) return error.what() + nearOption(program, argc, argv);
+  if (argc < 2) return "a subcommand is required; there are " + joined(listIn(""));
   const std::string family = argv[1];
   const bool known = std::ranges::any_of(
       commands(), [&](const Command* command) { return familyOf(command->name) == family; });
@@ -167,7 +169,12 @@ ParsedArguments parseArguments(int argc, const char* const* argv) {
     program.parse(reversedArguments(argc, argv));
     refuseEmptyValues(program);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return {.run = {}, .exitCode = program.exit(error)};
+    if (error.get_exit_code() == 0) {
+      std::ostringstream help;
+      const int code = program.exit(error, help, help);
+      printText(help.str());
+      return {.run = {}, .exitCode = code};
+    }
     printMessage("swept: error: " + messageOf(error, program, argc, argv) + " (try --help)");
     return {.run = {}, .exitCode = static_cast<int>(ExitCode::BadInput)};
   }

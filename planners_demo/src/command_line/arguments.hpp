@@ -72,7 +72,8 @@ struct Arguments {
 
   std::vector<std::string> cases;  ///< JSON files of replay
   std::string dump;                ///< folder for queries that are not free
-  std::string shell;               ///< of completion
+  std::string shell;               ///< of completion; `words`: no script, but what may follow
+  std::string line;                ///< what is typed so far, for it
 
   std::string edges;  ///< CSV file of bench edges
   int passes = 5;

@@ -15,23 +15,7 @@ CLI::Validator within(double low, double high, const std::string& what) {
       "");
 }
 
-void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use) {
-  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
-  app.add_option("--srdf", args.srdf,
-                 "SRDF file" + use +
-                     "; without: a .srdf beside the URDF with the same stem, if there is one; "
-                     "'none': no SRDF")
-      ->type_name("FILE");
-  app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
-      ->type_name("NAME=DIR")
-      ->allow_extra_args(false);
-  addVerboseOption(app, args);
-}
-
-void addVerboseOption(CLI::App& app, Arguments& args) {
-  app.add_flag("-v,--verbose", args.verbose,
-               "each warning, where many are of one kind, and messages of planners, on stderr");
-}
+namespace {
 
 void addXacroOptions(CLI::App& app, Arguments& args) {
   auto* xacro =
@@ -47,6 +31,29 @@ void addXacroOptions(CLI::App& app, Arguments& args) {
           ""))
       ->needs(xacro)
       ->allow_extra_args(false);
+}
+
+}  // namespace
+
+void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use) {
+  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
+  app.add_option("--srdf", args.srdf,
+                 "SRDF file" + use +
+                     "; without: a .srdf beside the URDF with the same stem, if there is one; "
+                     "'none': no SRDF")
+      ->type_name("FILE");
+  app.add_option("--package", args.packages, "folder of package://NAME/... (repeatable)")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+  addVerboseOption(app, args);
+  addXacroOptions(app, args);
+}
+
+void addVerboseOption(CLI::App& app, Arguments& args) {
+  app.add_flag(
+      "-v,--verbose", args.verbose,
+      "each warning, where many are of one kind, and messages of planners, on stderr; with info "
+      "each pair of links");
 }
 
 void addRuleOptions(CLI::App& app, Arguments& args) {

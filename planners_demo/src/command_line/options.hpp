@@ -11,12 +11,11 @@ namespace swept {
 
 CLI::Validator within(double low, double high, const std::string& what);
 
-/// `use` says what the subcommand does with the SRDF besides reading it.
+/// The robot's files and how they are read. `use` says what the subcommand does with the SRDF
+/// besides reading it.
 void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use = {});
 /// -v: for subcommands that load a robot.
 void addVerboseOption(CLI::App& app, Arguments& args);
-/// --xacro and its arguments, of subcommands whose results do not name the robot by its file alone.
-void addXacroOptions(CLI::App& app, Arguments& args);
 /// --group and what makes one, --margin and the rules.
 void addRuleOptions(CLI::App& app, Arguments& args);
 /// The same and --tolerance.

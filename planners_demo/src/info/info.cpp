@@ -10,6 +10,7 @@
 #include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 
@@ -61,7 +62,7 @@ ExitCode runInfo(const Arguments& args) {
   if (args.json) {
     std::cout << dumped(infoJson(args, model, checker.get())) << '\n';
   } else {
-    std::cout << infoText(args, model, checker.get());
+    printText(infoText(args, model, checker.get()));
   }
   writeInfoPage(args, model, checker.get());
   return ExitCode::Free;

@@ -8,7 +8,6 @@ namespace {
 
 void addOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
-  addXacroOptions(app, args);
   addRuleOptions(app, args);
   addSceneOptions(app, args);
   app.add_option("--explain", args.explained,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <span>
 
 #include "info/info.hpp"
 #include "input/states.hpp"
@@ -117,8 +118,17 @@ std::string shortReason(const std::string& reason) {
   return reason.starts_with("adjacent") ? "adjacent" : reason;
 }
 
+/// `(2): a - b, c - d`; of many the first, unless all are asked for.
+std::string listText(const std::vector<std::string>& pairs, bool all) {
+  constexpr std::size_t kMany = 60, kShown = 20;
+  const std::string count = "(" + std::to_string(pairs.size()) + "): ";
+  if (all || pairs.size() <= kMany) return count + joined(pairs);
+  return count + joined(std::span(pairs).first(kShown)) + ", and " +
+         std::to_string(pairs.size() - kShown) + " more (--verbose names them)";
+}
+
 /// Pairs are many; their reasons are few.
-std::string pairText(const Checker& checker) {
+std::string pairText(const Checker& checker, bool all) {
   std::size_t selfPairs = 0;
   for (const Checker::Pair& pair : checker.checkedPairs()) selfPairs += pair.selfPair ? 1 : 0;
   std::string text = "group " + escapedLine(checker.group().name) + " checks " +
@@ -131,14 +141,12 @@ std::string pairText(const Checker& checker) {
     byMargin[{pair.margin, pair.reason}].push_back(escapedLine(pair.bodyA + " - " + pair.bodyB));
   for (const auto& [how, pairs] : byMargin)
     text += "checked, more than " + shortNumber(how.first) + " m apart" +
-            (how.second.empty() ? "" : ", " + how.second) + " (" + std::to_string(pairs.size()) +
-            "): " + joined(pairs) + "\n";
+            (how.second.empty() ? " " : ", " + how.second + " ") + listText(pairs, all) + "\n";
   std::map<std::string, std::vector<std::string>> byReason;
   for (const Checker::Pair& pair : checker.skippedPairs())
     byReason[shortReason(pair.reason)].push_back(escapedLine(pair.bodyA + " - " + pair.bodyB));
   for (const auto& [reason, pairs] : byReason)
-    text += "not checked, " + reason + " (" + std::to_string(pairs.size()) + "): " + joined(pairs) +
-            "\n";
+    text += "not checked, " + reason + " " + listText(pairs, all) + "\n";
   for (const Checker::Pair& pair : checker.standingContacts())
     text += "standing contact: " + escapedLine(pair.bodyA + " - " + pair.bodyB) + "\n";
   return text;
@@ -150,10 +158,10 @@ std::string infoText(const Arguments& args, const Model& model, const Checker* c
   const Robot& robot = *model.robot;
   const auto withGeometry = std::ranges::count_if(
       robot.links(), [](const Link& link) { return !link.collision.empty(); });
-  std::string text = "robot " + robot.name() + " from " + args.robot + "\n";
+  std::string text = escapedLine("robot " + robot.name() + " from " + args.robot) + "\n";
   text += model.srdf.file.empty()
               ? "no SRDF\n"
-              : "SRDF " + model.srdf.file +
+              : escapedLine("SRDF " + model.srdf.file) +
                     (model.srdf.foundBesideUrdf ? " (found beside the URDF)\n" : "\n");
   text += count(robot.links().size(), "link", "links") + ", " + std::to_string(withGeometry) +
           " with collision geometry; " + count(robot.joints().size(), "joint", "joints") + ", " +
@@ -161,12 +169,12 @@ std::string infoText(const Arguments& args, const Model& model, const Checker* c
           count(robot.disabledPairs().size(), "pair", "pairs") + " disabled by the SRDF\n";
   text += "\n" + linkTable(robot) + "\n" + jointTable(robot) + "\n" + groupTable(robot);
   if (!model.world->bodies().empty() || !args.scene.empty())
-    text += "\n" + (args.scene.empty() ? "world" : "scene " + args.scene) + ": " +
+    text += "\n" + (args.scene.empty() ? "world" : escapedLine("scene " + args.scene)) + ": " +
             count(model.world->bodies().size(), "body", "bodies") + "\n" + worldTable(*model.world);
   if (checker == nullptr) return text;
-  text.append("\n").append(pairText(*checker));
+  text.append("\n").append(pairText(*checker, args.verbose));
   for (const std::string& sentence : explanations(args, *checker))
-    text.append(sentence).append("\n");
+    text.append(escapedLine(sentence)).append("\n");
   return text;
 }
 

@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "command_line/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
 #include "input/states.hpp"
@@ -65,6 +67,12 @@ Shape meshOf(const std::string& file, const LoadOptions& options) {
   return Robot::parse(urdf, file, {}, {}, options)->links().front().collision.front().shape;
 }
 
+std::vector<std::string> linkNames(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const Link& link : robot.links()) names.push_back(link.name);
+  return names;
+}
+
 std::string nameOf(const Spec& spec, bool isPrimitive, const std::vector<AttachedBody>& others) {
   const std::string base = isPrimitive ? spec.shape.substr(0, spec.shape.find(':'))
                                        : std::filesystem::path(spec.shape).stem().string();
@@ -85,7 +93,8 @@ std::vector<AttachedBody> attachedBodies(const Arguments& args, const Robot& rob
     const Spec spec = specOf(text);
     const std::string label = "--attach '" + text + "'";
     if (!robot.findLink(spec.link))
-      throw UsageError(label + ": robot '" + robot.name() + "' has no link '" + spec.link + "'");
+      throw UsageError(label + ": robot '" + robot.name() + "' has no link '" + spec.link + "'" +
+                       didYouMean(spec.link, linkNames(robot)));
     const Eigen::Isometry3d pose =
         spec.pose.empty() ? Eigen::Isometry3d::Identity() : readPlace(spec.pose, label);
     const std::optional<Shape> shape = primitive(spec.shape, label);

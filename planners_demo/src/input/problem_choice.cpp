@@ -1,10 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input/problem_choice.hpp"
 
+#include <algorithm>
+
+#include "command_line/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
+#include "swept/robot_model/input.hpp"
 
 namespace swept {
+
+PlanningProblem chosenProblem(const ProblemFile& file, const std::string& name,
+                              const std::string& set, int index) {
+  const std::vector<std::string> sets = file.sets();
+  try {
+    return file.problem(set, index);
+  } catch (const InputError& error) {
+    // The file's own message names the sets it has.
+    if (std::ranges::find(sets, set) != sets.end()) throw;
+    throw InputError(name, 0, error.message() + didYouMean(set, sets));
+  }
+}
 
 std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Arguments& args) {
   std::vector<ProblemChoice> chosen;
@@ -14,8 +30,7 @@ std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Argumen
     for (const int index : file.indices(set))
       if (place++ % args.report.every == 0) chosen.push_back({.set = set, .index = index});
   }
-  // The file's own message names the sets it has.
-  if (chosen.empty() && !args.set.empty()) file.problem(args.set, 0);
+  if (chosen.empty() && !args.set.empty()) chosenProblem(file, args.problems, args.set, 0);
   if (chosen.empty()) throw UsageError("'" + args.problems + "' has no problems");
   if (args.limit && chosen.size() > static_cast<std::size_t>(*args.limit))
     chosen.resize(static_cast<std::size_t>(*args.limit));

@@ -16,6 +16,10 @@ struct ProblemChoice {
   int index = 0;
 };
 
+/// The problem of a file that was read as `name`. Throws InputError, naming the sets there are.
+PlanningProblem chosenProblem(const ProblemFile& file, const std::string& name,
+                              const std::string& set, int index);
+
 /// Those that --set, --every and --limit leave, in the order of the file: one or more. Throws
 /// UsageError or InputError, naming the sets there are.
 std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Arguments& args);

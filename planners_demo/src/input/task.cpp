@@ -77,7 +77,7 @@ void checkStateSource(const Arguments& args) {
 Task problemTask(const Arguments& args, const Model& model, const Group& group,
                  Warnings& warnings) {
   const ProblemFile file = ProblemFile::load(args.problems);
-  const PlanningProblem problem = file.problem(args.set, *args.index);
+  const PlanningProblem problem = chosenProblem(file, args.problems, args.set, *args.index);
   const ProblemStates states = problemStates(*model.robot, group, problem, std::ref(warnings));
   Task task;
   task.alternatives = true;
@@ -120,9 +120,11 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
       .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); }};
   Model model;
   model.srdf = chooseSrdf(args);
-  model.robot = withAskedGroup(args.xacro ? loadExpanded(args, model.srdf.file, options)
-                                          : Robot::load(args.robot, model.srdf.file, options),
-                               args);
+  if (args.xacro) model.expanded = expandedUrdf(args);
+  model.robot =
+      withAskedGroup(args.xacro ? loadExpanded(args, model.expanded, model.srdf.file, options)
+                                : Robot::load(args.robot, model.srdf.file, options),
+                     args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);

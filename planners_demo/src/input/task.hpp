@@ -60,6 +60,7 @@ bool leavesOutDefaultContacts(const Arguments& args);
 /// What a subcommand works on: the files of the command line, read.
 struct Model {
   std::shared_ptr<const Robot> robot;
+  std::string expanded;                ///< URDF that --xacro made; empty without
   std::shared_ptr<const World> world;  ///< of --scene; empty without
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;        ///< of --scene, then of --attach

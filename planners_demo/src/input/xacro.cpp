@@ -62,7 +62,9 @@ pid_t start(std::vector<std::string>& words, int output) {
   return child;
 }
 
-std::string expanded(const Arguments& args) {
+}  // namespace
+
+std::string expandedUrdf(const Arguments& args) {
   std::vector<std::string> words{"xacro", args.robot};
   words.insert(words.end(), args.xacroArguments.begin(), args.xacroArguments.end());
   std::array<int, 2> ends{};
@@ -88,11 +90,10 @@ std::string expanded(const Arguments& args) {
   return text;
 }
 
-}  // namespace
-
-std::shared_ptr<const Robot> loadExpanded(const Arguments& args, const std::filesystem::path& srdf,
+std::shared_ptr<const Robot> loadExpanded(const Arguments& args, const std::string& urdf,
+                                          const std::filesystem::path& srdf,
                                           const LoadOptions& options) {
-  return Robot::parse(expanded(args), args.robot + " (expanded)",
+  return Robot::parse(urdf, args.robot + " (expanded)",
                       srdf.empty() ? std::string() : readTextFile(srdf), srdf.string(), options);
 }
 

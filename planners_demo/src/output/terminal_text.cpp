@@ -1,12 +1,79 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/terminal_text.hpp"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
+#include <utility>
+
+#include "output/line_breaks.hpp"
+#include "output/terminal.hpp"
 
 namespace swept {
+namespace {
+
+// Around words of painted(); widthOf() knows them. Of a file's own such characters nothing is left.
+constexpr char kEndOfHue = '\x04';
+
+struct Mark {
+  char letter;
+  const char* sequence;  ///< what a terminal takes for it
+};
+constexpr std::array kMarks{Mark{'\x01', "\033[32m"}, Mark{'\x02', "\033[31m"},
+                            Mark{'\x03', "\033[33m"}, Mark{kEndOfHue, "\033[0m"}};
+constexpr std::string_view kLetters = "\x01\x02\x03\x04";
+
+/// The marks as a terminal takes them, or gone.
+std::string shown(std::string_view text, bool coloured) {
+  std::string result;
+  for (const char letter : text) {
+    const auto mark = std::ranges::find(kMarks, letter, &Mark::letter);
+    if (mark == kMarks.end())
+      result += letter;
+    else if (coloured)
+      result += mark->sequence;
+  }
+  return result;
+}
+
+/// `swept: error: ...` with `error:` in its colour.
+std::string withPaintedKind(std::string_view line) {
+  for (const auto& [kind, hue] : {std::pair{"error:", Hue::Bad}, {"warning:", Hue::Doubtful}}) {
+    const std::size_t at = line.find(": " + std::string(kind) + " ");
+    if (at == std::string_view::npos) continue;
+    const std::size_t end = at + 2 + std::string_view(kind).size();
+    return std::string(line.substr(0, at + 2)) + painted(hue, kind) + std::string(line.substr(end));
+  }
+  return std::string(line);
+}
+
+}  // namespace
+
+std::string painted(Hue hue, std::string_view word) {
+  return kMarks[static_cast<std::size_t>(hue)].letter + std::string(word) + kEndOfHue;
+}
+
+std::string painted(Verdict verdict) {
+  const Hue hue = verdict == Verdict::Free        ? Hue::Good
+                  : verdict == Verdict::Collision ? Hue::Bad
+                                                  : Hue::Doubtful;
+  return painted(hue, toString(verdict));
+}
 
 void printMessage(std::string_view line) {
-  std::cerr << escapedLine(line) + "\n";
+  std::string text = withPaintedKind(escapedLine(line));
+  if (const auto columns = columnsOf(Stream::Err)) text = brokenLines(text, *columns);
+  std::cerr << shown(text, isColoured(Stream::Err)) + "\n";
+}
+
+void printText(std::string_view text) {
+  std::string lines = escapedText(text, kLetters);
+  if (const auto columns = columnsOf(Stream::Out)) lines = brokenLines(lines, *columns);
+  lines = shown(lines, isColoured(Stream::Out));
+  auto* escaping = dynamic_cast<EscapedOutput*>(std::cout.rdbuf());
+  std::streambuf* to = escaping == nullptr ? std::cout.rdbuf() : escaping->behind_;
+  const auto size = static_cast<std::streamsize>(lines.size());
+  if (to->sputn(lines.data(), size) != size) std::cout.setstate(std::ios::badbit);
 }
 
 EscapedOutput::EscapedOutput() : behind_(std::cout.rdbuf(this)) {}

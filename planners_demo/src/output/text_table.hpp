@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "output/terminal.hpp"
 
 namespace swept {
 
@@ -16,8 +19,11 @@ class TextTable {
   };
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// One line per row below the line of titles.
-  std::string text() const;
+  /// One line per row below the line of titles. Where lines must not be longer than `columns`,
+  /// titles and text are broken over several lines, at blanks and behind commas, or the columns
+  /// of numbers are parted among several tables, or below the first cell of each row stand the
+  /// others, each behind its title: what is shortest. Words and numbers stay whole, however long.
+  std::string text(std::optional<std::size_t> columns = columnsOf(Stream::Out)) const;
 
  private:
   std::vector<Column> columns_;

@@ -55,7 +55,7 @@ void writePage(const Arguments& args, const Robot& robot, const World& world,
     Progress progress("making the page", args.quiet);
     writeWholeFile(args.page.file, htmlOf(pageJson(args, robot, world, checker, content)));
   }
-  if (!args.json) std::cout << "page written to " << escapedLine(args.page.file) << '\n';
+  if (!args.json) printText("page written to " + escapedLine(args.page.file) + "\n");
 }
 
 void writeCheckPage(const Arguments& args, const Model& model, const Task& task) {

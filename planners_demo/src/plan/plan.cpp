@@ -16,6 +16,7 @@
 #include "output/text_table.hpp"
 #include "page/pages.hpp"
 #include "plan/path_files.hpp"
+#include "plan/path_text.hpp"
 #include "plan/plan_dump.hpp"
 #include "plan/plan_options.hpp"
 #include "plan/plan_sets.hpp"
@@ -36,31 +37,41 @@ std::string planTable(const PlanRequest& request, const PlanOutcome& outcome) {
                    {"path length", true},
                    {"segments", true},
                    {"motions certified", true},
-                   {"refused", true},
-                   {"minimum certified clearance", true}});
+                   {"refused", true}});
   const bool solved = outcome.solved();
   table.add({request.planner, secondsText(outcome.planningTime),
              request.simplify && solved ? secondsText(outcome.simplifyTime) : "-",
              solved ? shortNumber(outcome.length) : "-",
              solved ? std::to_string(outcome.segments.size()) : "-",
-             std::to_string(outcome.certified), std::to_string(outcome.refused),
-             outcome.proven() ? clearanceText(outcome.leastClearance()) : "-"});
+             std::to_string(outcome.certified), std::to_string(outcome.refused)});
   return table.text();
 }
 
 std::string resultLine(const PlanOutcome& outcome, const Checker& checker) {
-  if (!outcome.solved()) return "not solved: " + escapedLine(outcome.failure) + "\n";
+  if (!outcome.solved())
+    return painted(Hue::Bad, "not solved") + ": " + escapedLine(outcome.failure) + "\n";
   if (outcome.proven())
-    return "solved: " + countedText(outcome.segments.size(), "segment") +
+    return painted(Hue::Good, "solved") + ": " + countedText(outcome.segments.size(), "segment") +
            (checker.checksNothing()        ? ", nothing was checked\n"
             : outcome.segments.size() == 1 ? ", proven free\n"
                                            : ", all proven free\n");
   for (std::size_t i = 0; i < outcome.segments.size(); ++i)
     if (const Verdict verdict = outcome.segments[i].certificate.verdict; verdict != Verdict::Free)
-      return "not proven: segment " + std::to_string(i + 1) + " of " +
-             std::to_string(outcome.segments.size()) + " is " + std::string(toString(verdict)) +
-             "\n";
+      return painted(Hue::Bad, "not proven") + ": segment " + std::to_string(i + 1) + " of " +
+             std::to_string(outcome.segments.size()) + " is " + painted(verdict) + "\n";
   return {};
+}
+
+std::string planText(const Arguments& args, const Checker& checker, const PlanRequest& request,
+                     const PlanOutcome& outcome) {
+  std::string text =
+      planTable(request, outcome) + cloudsText(checker.world()) + resultLine(outcome, checker);
+  if (outcome.proven()) text += clearanceText(outcome.leastClearances()) + "\n";
+  text += uncheckedText(checker);
+  if (!outcome.proven()) return text;
+  if (!args.output.empty()) return text + "path written to " + escapedLine(args.output) + "\n";
+  return text + pathText(checker.robot(), checker.group(), outcome.states) +
+         "not kept: -o FILE.json writes it with its proof, .csv or .yaml without\n";
 }
 
 Json planJson(const Arguments& args, const Checker& checker, const PlanRequest& request,
@@ -177,12 +188,7 @@ ExitCode runPlan(const Arguments& args) {
   if (args.json) {
     std::cout << dumped(planJson(args, *task.checker, request, outcome, warnings)) << '\n';
   } else {
-    std::cout << planTable(request, outcome) << cloudsText(task.checker->world())
-              << resultLine(outcome, *task.checker);
-    if (outcome.proven()) std::cout << clearanceText(outcome.leastClearances()) << '\n';
-    std::cout << uncheckedText(*task.checker);
-    if (file && outcome.proven())
-      std::cout << "path written to " << escapedLine(args.output) << '\n';
+    printText(planText(args, *task.checker, request, outcome));
   }
   dump.announce();
   writePlanPage(args, model, task, request, outcome);

@@ -200,7 +200,7 @@ ExitCode runPlanSets(const Arguments& args, const PlanRequest& request) {
   if (args.json)
     std::cout << dumped(setsJson(entries, request)) << '\n';
   else
-    std::cout << setsText(entries);
+    printText(setsText(entries));
   dump.announce();
   return code;
 }

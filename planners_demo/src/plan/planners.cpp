@@ -45,7 +45,9 @@
 #include <array>
 #include <cctype>
 
+#include "command_line/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
+#include "output/text_output.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 
 namespace swept {
@@ -129,9 +131,9 @@ std::vector<std::string> plannerNames() {
 std::string plannerName(std::string_view anyCase) {
   for (const Entry& entry : kPlanners)
     if (lower(entry.name) == lower(anyCase)) return std::string(entry.name);
-  std::string list;
-  for (const std::string& name : plannerNames()) list += (list.empty() ? "" : ", ") + name;
-  throw UsageError("no planner '" + std::string(anyCase) + "'; there are " + list);
+  const std::vector<std::string> names = plannerNames();
+  throw UsageError("no planner '" + std::string(anyCase) + "'; there are " + joined(names) +
+                   didYouMean(std::string(anyCase), names));
 }
 
 ompl::base::PlannerPtr makePlanner(std::string_view name,

@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "command_line/did_you_mean.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "plan/planners.hpp"
@@ -104,7 +105,11 @@ std::shared_ptr<PoseGoal> sampledGoal(const og::SimpleSetup& setup,
     goal = std::make_shared<PoseGoal>(setup.getSpaceInformation(), checker, target.link,
                                       target.model_from_link, options);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--goal-pose: ") + error.what());
+    std::vector<std::string> links;
+    for (const Link& link : checker->robot().links()) links.push_back(link.name);
+    const bool known = std::ranges::find(links, target.link) != links.end();
+    throw UsageError(std::string("--goal-pose: ") + error.what() +
+                     (known ? "" : didYouMean(target.link, links)));
   }
   goal->startSampling();
   while (goal->isSampling()) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -5,6 +5,7 @@
 
 #include "command_line/commands.hpp"
 #include "input/task.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "output/text_table.hpp"
 #include "replay/answer.hpp"
@@ -91,8 +92,10 @@ ExitCode runReplay(const Arguments& args) {
     json["skipped"] = skipped;
     std::cout << dumped(json) << '\n';
   } else {
-    std::cout << table.text() << passed << " passed, " << failed << " failed, " << skipped
-              << " skipped\n";
+    const std::string fails = std::to_string(failed) + " failed";
+    printText(table.text() + std::to_string(passed) + " passed, " +
+              (failed == 0 ? fails : painted(Hue::Bad, fails)) + ", " + std::to_string(skipped) +
+              " skipped\n");
   }
   return failed == 0 ? ExitCode::Free : ExitCode::Collision;
 }

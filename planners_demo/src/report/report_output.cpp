@@ -46,8 +46,8 @@ void writeReport(const Arguments& args, const ErrorReport& report) {
               << '\n';
     return;
   }
-  std::cout << reportText(report);
-  for (const std::string& file : written) std::cout << "written to " << escapedLine(file) << '\n';
+  printText(reportText(report));
+  for (const std::string& file : written) printText("written to " + escapedLine(file) + "\n");
 }
 
 }  // namespace swept
