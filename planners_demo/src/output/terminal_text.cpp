@@ -42,19 +42,15 @@ bool isControl(unsigned code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }
 
-enum class Kept { LinesAndTabs, Tabs, LinesTabsAndMarks };
-
-std::string escaped(std::string_view text, Kept kept) {
+std::string escaped(std::string_view text, bool oneLine) {
   std::string safe;
   while (!text.empty()) {
     const std::size_t size = sizeOfCharacter(text);
     // The second byte of U+0080 to U+00BF is the character's number.
     const bool latin = size == 2 && text[0] == '\xc2';
     const unsigned code = static_cast<unsigned char>(text[latin ? 1 : 0]);
-    if (text[0] == '\n' && kept == Kept::Tabs) {
+    if (text[0] == '\n' && oneLine) {
       safe += "\\n";
-    } else if (kept == Kept::LinesTabsAndMarks && isMark(text[0])) {
-      safe += text[0];
     } else if (text[0] == '\n' || text[0] == '\t' || (size > 1 && !latin) || !isControl(code)) {
       safe += text.substr(0, size);
     } else {
@@ -63,6 +59,19 @@ std::string escaped(std::string_view text, Kept kept) {
       safe += number.data();
     }
     text.remove_prefix(size);
+  }
+  return safe;
+}
+
+/// Escaped but for the marks.
+std::string escapedBetweenMarks(std::string_view text) {
+  std::string safe;
+  while (!text.empty()) {
+    const auto mark = std::ranges::find_if(text, isMark);
+    const auto size = static_cast<std::size_t>(mark - text.begin());
+    safe += escaped(text.substr(0, size), false);
+    if (mark != text.end()) safe += *mark;
+    text.remove_prefix(std::min(size + 1, text.size()));
   }
   return safe;
 }
@@ -94,7 +103,7 @@ std::string withPaintedKind(std::string_view line) {
 }  // namespace
 
 std::string escapedLine(std::string_view text) {
-  return escaped(text, Kept::Tabs);
+  return escaped(text, true);
 }
 
 std::string painted(Hue hue, std::string_view word) {
@@ -115,7 +124,7 @@ void printMessage(std::string_view line) {
 }
 
 void printText(std::string_view text) {
-  std::string lines = escaped(text, Kept::LinesTabsAndMarks);
+  std::string lines = escapedBetweenMarks(text);
   if (const auto columns = columnsOf(Stream::Out)) lines = brokenLines(lines, *columns);
   lines = shown(lines, isColoured(Stream::Out));
   auto* escaping = dynamic_cast<EscapedOutput*>(std::cout.rdbuf());
@@ -136,7 +145,7 @@ EscapedOutput::int_type EscapedOutput::overflow(int_type letter) {
 }
 
 std::streamsize EscapedOutput::xsputn(const char* text, std::streamsize count) {
-  const std::string safe = escaped({text, static_cast<std::size_t>(count)}, Kept::LinesAndTabs);
+  const std::string safe = escaped({text, static_cast<std::size_t>(count)}, false);
   const auto size = static_cast<std::streamsize>(safe.size());
   return behind_->sputn(safe.data(), size) == size ? count : 0;
 }
