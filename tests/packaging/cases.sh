@@ -212,13 +212,15 @@ page_says_what_the_program_says() {
   gzip -dc "$prefix/share/man/man1/swept.1.gz" | mandoc -T utf8 -O width=1000 |
     LC_ALL=C.UTF-8 sed 's/.\x08//g' >"$temporary/page.txt"
   local commands command options option text
-  mapfile -t commands < <("$prefix/bin/swept" completion bash | sed -n 's/^      "\([a-z ]*\)") words=.*/\1/p')
+  mapfile -t commands < <("$prefix/bin/swept" completion fish |
+    sed -n "s/^complete .* '__fish_use_subcommand' -a \([a-z]*\) -d .*/\1/p
+      s/^complete .* '__fish_seen_subcommand_from \([a-z]*\)' -a \([a-z]*\) -d .*/\1 \2/p")
   ((${#commands[@]} > 5)) || fail "only these subcommands: ${commands[*]}"
   for command in "${commands[@]}"; do
     # Headings are set in by three.
     awk -v heading="   swept $command" '/^[^ ]/ || /^   [^ ]/ { inside = $0 == heading } inside' \
       "$temporary/page.txt" | sed 's/^ *//' >"$temporary/part.txt"
-    options="$("$prefix/bin/swept" completion bash | sed -n "s/^      \"$command\") words=\"\(.*\)\" ;;/\1/p")"
+    options="$("$prefix/bin/swept" completion words "swept $command -")"
     for option in $options; do
       grep -qE -e "^(-[a-z], )?$option( |,|\$)" "$temporary/part.txt" || fail "no $option of '$command' on the page"
     done

@@ -180,7 +180,8 @@ TEST_F(PlannedPage, FactsAreTheRuns) {
   EXPECT_EQ(facts["margin"], "0 m");
   EXPECT_EQ(facts["tolerance"], "0.001 m");
   EXPECT_EQ(facts["swept"], SWEPT_VERSION);
-  EXPECT_THAT(sharedRun.out, testing::HasSubstr(facts["least certified clearance"] + "\n"));
+  EXPECT_THAT(sharedRun.out, testing::HasSubstr("\nclearance " +
+                                                facts["least certified clearance"] + ", nearest "));
   EXPECT_THAT(facts["command"], testing::StartsWith("swept plan " + kRook + " --group arm"));
 }
 

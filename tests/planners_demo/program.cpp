@@ -57,7 +57,7 @@ class Terminal {
 /// What a program's streams are, and what it finds in its environment.
 struct Place {
   int terminal = -1;  ///< STDOUT_FILENO, STDERR_FILENO or none
-  int columns = 0;    ///< of the terminal; 0: it does not say
+  int columns = 0;    ///< of the terminal; 0: it has no width
   std::vector<std::string> environment = {};
 };
 
@@ -131,7 +131,9 @@ Outcome runSwept(const std::vector<std::string>& arguments, Stderr where) {
   words.insert(words.end(), arguments.begin(), arguments.end());
   const bool terminal = where == Stderr::Terminal;
   return runArgv(
-      words, terminal ? Place{.terminal = STDERR_FILENO, .environment = {"TERM=xterm"}} : Place{});
+      words, terminal
+                 ? Place{.terminal = STDERR_FILENO, .columns = 400, .environment = {"TERM=xterm"}}
+                 : Place{});
 }
 
 Outcome runOnTerminal(const std::vector<std::string>& arguments, int columns,

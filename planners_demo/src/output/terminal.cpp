@@ -13,15 +13,17 @@ namespace swept {
 namespace {
 
 constexpr std::size_t kLeastColumns = 20;
-// Of a terminal that does not say how wide it is.
-constexpr std::size_t kUsualColumns = 80;
 
 int numberOf(Stream stream) {
   return stream == Stream::Out ? STDOUT_FILENO : STDERR_FILENO;
 }
 
-bool isTerminal(Stream stream) {
-  return isatty(numberOf(stream)) == 1;
+/// Columns of the terminal that it is. None where it is no terminal, or one that has no width:
+/// nobody looks at those, which mpirun gives to the processes of a job.
+std::optional<std::size_t> ownColumns(Stream stream) {
+  winsize size{};
+  if (isatty(numberOf(stream)) != 1 || ioctl(numberOf(stream), TIOCGWINSZ, &size) != 0) return {};
+  return size.ws_col > 0 ? std::optional<std::size_t>(size.ws_col) : std::nullopt;
 }
 
 /// Empty: it is not set.
@@ -44,19 +46,14 @@ std::optional<std::size_t> askedColumns() {
 std::optional<std::size_t> columnsOf(Stream stream) {
   std::optional<std::size_t> columns;
   if (stream == Stream::Out) columns = askedColumns();
-  if (!columns) {
-    if (!isTerminal(stream)) return {};
-    winsize size{};
-    const bool known = ioctl(numberOf(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    columns = known ? size.ws_col : kUsualColumns;
-  }
-  return std::max(*columns, kLeastColumns);
+  if (!columns) columns = ownColumns(stream);
+  return columns ? std::optional(std::max(*columns, kLeastColumns)) : std::nullopt;
 }
 
 bool isColoured(Stream stream) {
   const std::string_view terminal = ofEnvironment("TERM");
   return ofEnvironment("NO_COLOR").empty() && !terminal.empty() && terminal != "dumb" &&
-         isTerminal(stream);
+         ownColumns(stream).has_value();
 }
 
 }  // namespace swept

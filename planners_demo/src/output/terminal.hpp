@@ -15,8 +15,8 @@ enum class Stream { Out, Err };
 /// least 20.
 std::optional<std::size_t> columnsOf(Stream stream);
 
-/// It is a terminal that shows colours, and the environment's NO_COLOR is not set, or empty. TERM
-/// is set and not `dumb`.
+/// It is a terminal, with a width, that shows colours, and the environment's NO_COLOR is not set,
+/// or empty. TERM is set and not `dumb`.
 bool isColoured(Stream stream);
 
 }  // namespace swept

@@ -21,7 +21,23 @@ struct Mark {
 };
 constexpr std::array kMarks{Mark{'\x01', "\033[32m"}, Mark{'\x02', "\033[31m"},
                             Mark{'\x03', "\033[33m"}, Mark{kEndOfHue, "\033[0m"}};
-constexpr std::string_view kLetters = "\x01\x02\x03\x04";
+
+bool isMark(char letter) {
+  return std::ranges::find(kMarks, letter, &Mark::letter) != kMarks.end();
+}
+
+/// Escaped but for the marks.
+std::string escapedBetweenMarks(std::string_view text) {
+  std::string safe;
+  while (!text.empty()) {
+    const auto mark = std::ranges::find_if(text, isMark);
+    const auto size = static_cast<std::size_t>(mark - text.begin());
+    safe += escapedText(text.substr(0, size));
+    if (mark != text.end()) safe += *mark;
+    text.remove_prefix(std::min(size + 1, text.size()));
+  }
+  return safe;
+}
 
 /// The marks as a terminal takes them, or gone.
 std::string shown(std::string_view text, bool coloured) {
@@ -67,7 +83,7 @@ void printMessage(std::string_view line) {
 }
 
 void printText(std::string_view text) {
-  std::string lines = escapedText(text, kLetters);
+  std::string lines = escapedBetweenMarks(text);
   if (const auto columns = columnsOf(Stream::Out)) lines = brokenLines(lines, *columns);
   lines = shown(lines, isColoured(Stream::Out));
   auto* escaping = dynamic_cast<EscapedOutput*>(std::cout.rdbuf());

@@ -22,7 +22,7 @@ bool isControl(unsigned code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }
 
-std::string escaped(std::string_view text, bool oneLine, std::string_view kept) {
+std::string escaped(std::string_view text, bool oneLine) {
   std::string safe;
   while (!text.empty()) {
     const std::size_t size = sizeOfCharacter(text);
@@ -31,8 +31,7 @@ std::string escaped(std::string_view text, bool oneLine, std::string_view kept) 
     const unsigned code = static_cast<unsigned char>(text[latin ? 1 : 0]);
     if (text[0] == '\n' && oneLine) {
       safe += "\\n";
-    } else if (text[0] == '\n' || text[0] == '\t' || (size > 1 && !latin) || !isControl(code) ||
-               (size == 1 && kept.find(text[0]) != std::string_view::npos)) {
+    } else if (text[0] == '\n' || text[0] == '\t' || (size > 1 && !latin) || !isControl(code)) {
       safe += text.substr(0, size);
     } else {
       std::array<char, 8> number{};
@@ -46,12 +45,12 @@ std::string escaped(std::string_view text, bool oneLine, std::string_view kept) 
 
 }  // namespace
 
-std::string escapedText(std::string_view text, std::string_view kept) {
-  return escaped(text, false, kept);
+std::string escapedText(std::string_view text) {
+  return escaped(text, false);
 }
 
 std::string escapedLine(std::string_view text) {
-  return escaped(text, true, {});
+  return escaped(text, true);
 }
 
 }  // namespace swept

@@ -11,7 +11,7 @@ namespace swept {
 /// One line: control characters are `\u001b`, as JSON has them, and ends of lines `\n`. Tabs, and
 /// bytes that are not UTF-8 and no control characters of Latin-1 either, stay.
 std::string escapedLine(std::string_view text);
-/// The same, but ends of lines stay, and so do the control characters `kept`.
-std::string escapedText(std::string_view text, std::string_view kept = {});
+/// The same, but ends of lines stay.
+std::string escapedText(std::string_view text);
 
 }  // namespace swept
