@@ -198,6 +198,12 @@ TEST_F(Certify, RefusesWhatItCannotDo) {
   EXPECT_EQ(refusal({}, path("absent.csv")), path("absent.csv") + ": error: file not found\n");
   EXPECT_EQ(refusal({}, write("late.csv", "slide,lift\n0,0\n3,0\n")),
             path("late.csv") + ":3: error: slide is 3, allowed is -0.5 to 2.5 m\n");
+  if (programHasPages()) {
+    std::string longPath = "slide,lift\n";
+    for (int i = 0; i < 5002; ++i) longPath += "0,0\n";
+    EXPECT_EQ(refusal({"--html", path("page.html")}, write("long.csv", longPath)),
+              "swept: error: --html shows 5000 segments at most; these are 5001\n");
+  }
   const std::string itself =
       write("self.json", R"({"joint_names": ["slide", "lift"], "states": [[0, 0]]})");
   EXPECT_EQ(refusal({"-o", itself}, itself),

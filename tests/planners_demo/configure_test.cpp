@@ -14,7 +14,7 @@ TEST(Configure, WithoutZlibThereIsNoProgram) {
                                "' -D CMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON -D SWEPT_BUILD_TESTS=OFF");
   EXPECT_EQ(run.exitCode, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("-- swept: planners_demo left out (needs ompl_bridge, "
-                                          "CLI11, OpenSSL and zlib)\n"));
+                                          "proofs, CLI11 and zlib)\n"));
 }
 
 }  // namespace

@@ -26,6 +26,15 @@
 namespace swept {
 namespace {
 
+/// A page holds each segment's course.
+constexpr std::size_t kMostShown = 5000;
+
+void requirePageOf(const Arguments& args, std::size_t segments) {
+  if (!args.page.file.empty() && segments > kMostShown)
+    throw UsageError("--html shows " + std::to_string(kMostShown) +
+                     " segments at most; these are " + std::to_string(segments));
+}
+
 Task pathTask(const Arguments& args, const Model& model, Warnings& warnings) {
   const Group& group = chooseGroup(*model.robot, args);
   Task task;
@@ -166,6 +175,7 @@ ExitCode runCertify(const Arguments& args) {
   Warnings warnings(args.quiet);
   const Model model = loadModel(args, warnings);
   const Task task = pathTask(args, model, warnings);
+  requirePageOf(args, task.states.size() - 1);
   dump.setFirstState(task.states.front().q);
   const std::optional<PathFile> file = proofFile(args, task);
   PathCertificate path;

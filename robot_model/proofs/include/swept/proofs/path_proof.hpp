@@ -21,7 +21,7 @@ struct WrittenProof {
   /// Empty: the file is written.
   std::string missing;
 
-  bool isWritten() const { return missing.empty(); }
+  bool isWritten() const { return missing.empty(); }  ///< there is the file
 };
 
 /// Looks for planes that keep all pairs of bodies apart during the motions between `states`, and
@@ -55,7 +55,7 @@ struct CheckedProof {
   /// Pairs that may touch and were not looked at (`a - b`), by who says so.
   std::map<std::string, std::vector<std::string>> notChecked;
 
-  bool holds() const { return refusal.empty(); }
+  bool holds() const { return refusal.empty(); }  ///< what the file says is proven
 };
 
 /// Checks the proof of a path file against the robot and the world that are in it: of writeProof(),
