@@ -174,7 +174,8 @@ void SceneObjects::addShapes(const YamlPlace& object, const char* shapesKey, con
 Shape SceneObjects::readMesh(const YamlPlace& place, const std::string& id) {
   if (const YamlPlace resource = place.at("resource"); resource.present()) {
     place.allowOnly({"resource", "scale", "dimensions"});
-    return meshes_.mesh(resource.text(), meshScale(place), resource.line(), "object '" + id + "'");
+    return *meshes_.get({resource.text(), resource.line(), "object '" + id + "'", meshScale(place)})
+                .mesh;
   }
   place.allowOnly({"vertices", "triangles"});
   std::vector<Eigen::Vector3d> vertices;
