@@ -70,6 +70,8 @@ Outcome runArgv(const std::vector<std::string>& words, Stderr where) {
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
     if (chdir(SWEPT_SOURCE_DIR) != 0) _exit(126);
+    // That of whoever runs the tests; those of the cache name their own.
+    unsetenv("SWEPT_CACHE");
     redirect("/dev/null", STDIN_FILENO);
     redirect(out, STDOUT_FILENO);
     if (where == Stderr::Terminal)

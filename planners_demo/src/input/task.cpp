@@ -13,10 +13,10 @@
 #include "input/clouds.hpp"
 #include "input/problem_choice.hpp"
 #include "input/request_task.hpp"
+#include "input/robot_loading.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
 #include "input/unchecked.hpp"
-#include "input/xacro.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -115,12 +115,12 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
       .modelFrame = {},
       .warn = [&](const std::string& line) { warnings(line); },
       .everyWarning = args.verbose,
-      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); }};
+      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); },
+      .progress = {},
+      .cache = cacheFolder()};
   Model model;
   model.srdf = chooseSrdf(args);
-  model.robot = withAskedGroup(args.xacro ? loadExpanded(args, model.srdf.file, options)
-                                          : Robot::load(args.robot, model.srdf.file, options),
-                               args);
+  model.robot = withAskedGroup(loadRobot(args, model.srdf.file, options), args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
