@@ -147,10 +147,26 @@ TEST(PlanGoals, WrongAttachmentsAreNamed) {
   EXPECT_EQ(message("box:1,1@cube"),
             "swept: error: --attach 'box:1,1@cube': 2 values, expected 3: x,y,z\n");
   EXPECT_EQ(message("sphere:-1@cube"),
-            "swept: error: --attach 'sphere:-1@cube': radius is -1, allowed is more than 0 m\n");
+            "swept: error: --attach 'sphere:-1@cube': radius is -1, allowed is from 0 m\n");
   EXPECT_EQ(message("sphere:1@hook"),
             "swept: error: --attach 'sphere:1@hook': robot 'gantry' has no link 'hook'\n");
   EXPECT_EQ(message("no.stl@cube"), "no.stl: error: file not found\n");
+}
+
+TEST(PlanGoals, AttachmentsWithoutASizeAreSurfacesAndPoints) {
+  const Gantry gantry;
+  // The cube's face and the post's are 0.8 m apart; the sheet stands 0.5 m ahead of the cube.
+  const auto run = [&](const std::string& shape) {
+    return gantry.run("check", {"left", "--attach", shape + "@cube:0.5,0,0"});
+  };
+  const Outcome solid = run("box:0.0001,0.1,0.1");
+  for (const std::string shape : {"box:0,0.1,0.1", "sphere:0", "cylinder:0,0"}) {
+    const Outcome flat = run(shape);
+    EXPECT_EQ(flat.exitCode, solid.exitCode) << flat.err;
+    EXPECT_EQ(flat.err, "swept: warning: --attach '" + shape +
+                            "@cube:0.5,0,0': a shape with a size of 0 is checked as the point, "
+                            "segment or surface that it is\n");
+  }
 }
 
 /// Joints in another order than the group's.

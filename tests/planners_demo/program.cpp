@@ -72,10 +72,11 @@ void prepare(int terminal, int columns) {
   tcsetattr(terminal, TCSANOW, &settings);
 }
 
-/// What the person who runs the tests wants of a terminal is of no account.
+/// What the person who runs the tests wants of a terminal, and of a cache, is of no account.
 void setEnvironment(const std::vector<std::string>& variables) {
   unsetenv("COLUMNS");
   unsetenv("NO_COLOR");
+  unsetenv("SWEPT_CACHE");
   for (const std::string& variable : variables) {
     const std::size_t equals = variable.find('=');
     setenv(variable.substr(0, equals).c_str(), variable.c_str() + equals + 1, 1);

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "gantry.hpp"
 #include "urdf_text.hpp"
@@ -60,6 +62,49 @@ TEST(Terminal, BuildingACheckerOfManyLinksShows) {
   EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
   EXPECT_THAT(run.err, HasSubstr("building the checker of 1501 links ("));
   EXPECT_THAT(run.err, EndsWith("\r\033[K"));
+}
+
+/// A wavy ball of as many triangles as take a while.
+std::string largeMesh(double phase) {
+  constexpr int kRings = 200;
+  std::string text;
+  for (int i = 0; i <= kRings; ++i)
+    for (int j = 0; j < kRings; ++j) {
+      const double a = std::numbers::pi * i / kRings, b = 2.0 * std::numbers::pi * j / kRings;
+      const double r = 0.3 + 0.02 * std::sin(7.0 * a + phase) * std::cos(5.0 * b);
+      text += "v " + std::to_string(r * std::sin(a) * std::cos(b)) + " " +
+              std::to_string(r * std::sin(a) * std::sin(b)) + " " +
+              std::to_string(r * std::cos(a)) + "\n";
+    }
+  for (int i = 0; i < kRings; ++i)
+    for (int j = 0; j < kRings; ++j) {
+      const auto at = [&](int ring, int sector) {
+        return " " + std::to_string(ring * kRings + sector % kRings + 1);
+      };
+      text += "f" + at(i, j) + at(i + 1, j) + at(i + 1, j + 1) + "\n";
+      text += "f" + at(i, j) + at(i + 1, j + 1) + at(i, j + 1) + "\n";
+    }
+  return text;
+}
+
+TEST(Terminal, LoadingLargeMeshesShows) {
+  const TemporaryFolder folder;
+  std::string urdf = "<robot name='large'><link name='a'>";
+  for (const std::string name : {"a.obj", "b.obj", "c.obj", "d.obj"}) {
+    folder.write(name, largeMesh(name[0]));
+    urdf += "<collision><geometry><mesh filename='" + name + "'/></geometry></collision>";
+  }
+  folder.write("r.urdf", urdf + "<collision><geometry><sphere radius='0'/></geometry></collision>" +
+                             "</link></robot>");
+  const Outcome run = runSwept({"info", folder.path("r.urdf")}, Stderr::Terminal);
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("loading the robot: "));
+  EXPECT_THAT(run.err, HasSubstr(" of 4 meshes ("));
+  // Remarks wait for the line to be gone.
+  const std::size_t wiped = run.err.rfind("\r\033[K");
+  EXPECT_GT(run.err.find("warning: link 'a'"), wiped);
+  EXPECT_THAT(runSwept({"info", folder.path("r.urdf"), "-q"}, Stderr::Terminal).err,
+              Not(HasSubstr("loading")));
 }
 
 /// The line is that of the cases, and of none when there is to be silence.

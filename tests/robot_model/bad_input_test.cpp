@@ -401,9 +401,8 @@ std::vector<BadInput> yamlScenes() {
        "[height, radius]"},
       {"NegativeDimension", "s.yaml",
        boxed("      primitives: [{type: sphere, dimensions: [-1]}]\n"),
-       "@/s.yaml:4: error: object 'crate': primitives[0].dimensions[0] is '-1'; it must be greater "
-       "than "
-       "0"},
+       "@/s.yaml:4: error: object 'crate': primitives[0].dimensions[0] is '-1'; it must be 0 or "
+       "greater"},
       {"DimensionNotFinite", "s.yaml",
        boxed("      primitives: [{type: sphere, dimensions: [.inf]}]\n"),
        "@/s.yaml:4: error: object 'crate': primitives[0].dimensions[0] is '.inf'; it must be a "
@@ -584,7 +583,7 @@ std::vector<BadInput> textScenes() {
        "numbers, a "
        "normal that is not zero"},
       {"SceneSize", "s.scene", "name\n* a\n1\nbox\n1 -1 1\n",
-       "@/s.scene:5: error: object 'a': the size of a box is '-1'; it must be greater than 0"},
+       "@/s.scene:5: error: object 'a': the size of a box is '-1'; it must be 0 or greater"},
       {"SceneNumber", "s.scene", "name\n* a\n1\nsphere\n1\n0 zero 0\n",
        "@/s.scene:6: error: object 'a': a position is 'zero'; it must be a finite number"},
       {"SceneCount", "s.scene", "name\n* a\n1.5\n",
@@ -644,8 +643,8 @@ std::vector<BadInput> problems() {
        "@/p.json: error: set 's' problem 4: world.sphere[0].name is missing"},
       {"NegativeRadius", "p.json",
        body("sphere", R"({"name": "a", "radius": -1, "position": [0, 0, 0]})"),
-       "@/p.json: error: set 's' problem 4: world.sphere[0].radius is -1; it must be greater than "
-       "0"},
+       "@/p.json: error: set 's' problem 4: world.sphere[0].radius is -1; it must be 0 or "
+       "greater"},
       {"RadiusIsText", "p.json", body("sphere", R"({"name": "a", "radius": "1"})"),
        "@/p.json: error: set 's' problem 4: world.sphere[0].radius is \"1\"; it must be a finite "
        "number"},

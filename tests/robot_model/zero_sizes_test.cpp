@@ -5,10 +5,15 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "input_files.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/problems.hpp"
+#include "swept/robot_model/world.hpp"
 
 /// Shapes with a size of 0 are the points, segments and surfaces that they are: closed sets, which
 /// collide. Distances are closed forms.
@@ -153,6 +158,137 @@ TEST(ZeroSizesInUrdf, GiveOneWarningAndNegativeOnesAreRefused) {
   for (const char* shape : {"<sphere radius='-0.1'/>", "<sphere radius='nan'/>",
                             "<box size='0 -1 0'/>", "<cylinder radius='1' length='-1e-9'/>"})
     EXPECT_THAT(test::inputError([&] { load(shape); }), testing::StartsWith("r.urdf:2: error: "));
+}
+
+/// A planning scene of one object for each primitive, as `type: dimensions`.
+std::string sceneOf(const std::vector<std::pair<std::string, std::string>>& primitives) {
+  std::string text = "name: s\nworld:\n  collision_objects:\n";
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    text += "    - id: o" + std::to_string(i) +
+            "\n      primitives: [{type: " + primitives[i].first + ", dimensions: [" +
+            primitives[i].second + "]}]\n      primitive_poses: [{position: [" +
+            std::to_string(10 * i) + ", 0, 0], orientation: [0, 0, 0, 1]}]\n";
+  return text;
+}
+
+struct Primitive {
+  const char* type;
+  const char* flat;  ///< dimensions, as a scene has them
+  const char* thin;  ///< with 1e-9 m in place of 0
+};
+
+constexpr std::array<Primitive, 10> kPrimitives{{{"sphere", "0", "1e-9"},
+                                                 {"box", "0, 0, 0", "1e-9, 1e-9, 1e-9"},
+                                                 {"box", "0.4, 0, 0", "0.4, 1e-9, 1e-9"},
+                                                 {"box", "0.4, 0.2, 0", "0.4, 0.2, 1e-9"},
+                                                 {"cylinder", "0.4, 0", "0.4, 1e-9"},
+                                                 {"cylinder", "0, 0.2", "1e-9, 0.2"},
+                                                 {"cylinder", "0, 0", "1e-9, 1e-9"},
+                                                 {"cone", "0.4, 0", "0.4, 1e-9"},
+                                                 {"cone", "0, 0.2", "1e-9, 0.2"},
+                                                 {"cone", "0, 0", "1e-9, 1e-9"}}};
+
+TEST(ZeroSizesInScenes, AreReadWithOneWarning) {
+  const test::TemporaryFolder folder;
+  test::Warnings warnings;
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const Primitive& primitive : kPrimitives) all.emplace_back(primitive.type, primitive.flat);
+  const World world = World::load(folder.write("s.yaml", sceneOf(all)), warnings.options());
+  EXPECT_EQ(world.bodies().size(), all.size());
+  EXPECT_THAT(warnings.lines,
+              testing::ElementsAre(testing::EndsWith(
+                  "s.yaml:5: warning: 10 shapes with a size of 0 are checked as the points, "
+                  "segments and surfaces that they are (first at line 5)")));
+  warnings.lines.clear();
+  World::load(folder.write("s.yaml", sceneOf({{"sphere", "1"}, {"box", "1, 0, 1"}})),
+              warnings.options());
+  EXPECT_THAT(warnings.lines,
+              testing::ElementsAre(testing::EndsWith(
+                  "s.yaml:8: warning: object 'o1': a shape with a size of 0 is checked as the "
+                  "point, segment or surface that it is")));
+  for (const auto& [type, sizes] : std::vector<std::pair<std::string, std::string>>{
+           {"sphere", "-1e-300"}, {"sphere", ".nan"}, {"box", "0, -1, 0"}, {"cone", "1, -1"}})
+    EXPECT_THAT(test::inputError([&, type = type, sizes = sizes] {
+                  World::load(folder.write("s.yaml", sceneOf({{type, sizes}})));
+                }),
+                testing::HasSubstr("s.yaml:5: error: "))
+        << sizes;
+}
+
+TEST(ZeroSizesInScenes, AreReadFromTextToo) {
+  const test::TemporaryFolder folder;
+  test::Warnings warnings;
+  const std::string end = "0 0 0\n0 0 0 1\n0 0 0 0\n";
+  const World world = World::load(
+      folder.write("s.scene", "name\n* a\n1\nsphere\n0\n" + end + "* b\n1\nbox\n0 1 0\n" + end +
+                                  "* c\n1\ncylinder\n0.2 0\n" + end + "* d\n1\ncone\n0.2 0\n" +
+                                  end + "* e\n1\nbox\n1 1 1\n" + end + ".\n"),
+      warnings.options());
+  EXPECT_EQ(world.bodies().size(), 5);
+  EXPECT_THAT(warnings.lines,
+              testing::ElementsAre(testing::EndsWith(
+                  "s.scene:5: warning: 4 shapes with a size of 0 are checked as the points, "
+                  "segments and surfaces that they are (first at line 5)")));
+}
+
+TEST(ZeroSizesInProblems, AreReadAndNamed) {
+  const test::TemporaryFolder folder;
+  const auto load = [&](const std::string& radius, const std::string& halves) {
+    return ProblemFile::load(folder.write(
+        "p.json",
+        R"({"s": [{"index": 1, "joint_names": ["j"], "start": [0], "goals": [[1]], "world": {
+          "sphere": [{"name": "point", "position": [0, 0, 0], "radius": )" +
+            radius + R"(}, {"name": "ball", "position": [0, 0, 0], "radius": 1}],
+          "box": [{"name": "sheet", "position": [0, 0, 0], "orientation": [0, 0, 0, 1],
+                   "half_extents": )" +
+            halves + "}]}}]}"));
+  };
+  const PlanningProblem problem = load("0", "[0.5, 0, 1]").problem("s", 1);
+  EXPECT_THAT(problem.withZeroSize, testing::ElementsAre("point", "sheet"));
+  EXPECT_EQ(problem.world.bodies().size(), 3);
+  EXPECT_THAT(test::inputError([&] { load("-1", "[1, 1, 1]"); }),
+              testing::HasSubstr("radius is -1; it must be 0 or greater"));
+  EXPECT_THAT(test::inputError([&] { load("1", "[1, -0.5, 1]"); }),
+              testing::HasSubstr("is -0.5; it must be 0 or greater"));
+}
+
+/// A ball that slides past each of them answers as it does for the same shape with tiny sizes.
+TEST(ZeroSizesInScenes, AreTheLimitOfSmallSizes) {
+  const test::TemporaryFolder folder;
+  const auto robot = Robot::parse(
+      "<robot name='r'><link name='base'/><link name='l'>" +
+          collision("<sphere radius='0.1'/>", "0") +
+          "</link><joint name='s' type='prismatic'><parent link='base'/><child link='l'/><origin "
+          "xyz='0.02 0.03 0'/><axis xyz='0 0 1'/><limit lower='-3' upper='3'/></joint></robot>",
+      "r.urdf");
+  for (const Primitive& primitive : kPrimitives) {
+    const auto checker = [&](const std::string& sizes) {
+      return Checker(robot, "all",
+                     std::make_shared<const World>(
+                         World::load(folder.write("s.yaml", sceneOf({{primitive.type, sizes}})))));
+    };
+    const Checker flat = checker(primitive.flat);
+    const Checker thin = checker(primitive.thin);
+    Workspace ofFlat(flat), ofThin(thin);
+    int free = 0, hit = 0;
+    for (double q = -0.6; q <= 0.6; q += 0.037) {
+      const StateReport a = flat.reportState(std::array{q}, ofFlat);
+      const StateReport b = thin.reportState(std::array{q}, ofThin);
+      EXPECT_EQ(a.verdict, b.verdict) << primitive.flat << " at " << q;
+      EXPECT_NEAR(a.clearance, b.clearance, 4e-9) << primitive.flat << " at " << q;
+      EXPECT_EQ(flat.checkState(std::array{q}, ofFlat), a.verdict);
+      (a.verdict == Verdict::Free ? free : hit) += 1;
+    }
+    EXPECT_GT(free, 5);
+    EXPECT_GT(hit, 2);
+    const MotionCertificate through = flat.certifyMotion(std::array{-1.0}, std::array{1.0}, ofFlat);
+    const MotionCertificate throughThin =
+        thin.certifyMotion(std::array{-1.0}, std::array{1.0}, ofThin);
+    EXPECT_EQ(through.verdict, Verdict::Collision) << primitive.flat;
+    EXPECT_EQ(throughThin.verdict, Verdict::Collision);
+    EXPECT_NEAR(through.freeUntil, throughThin.freeUntil, 1e-3) << primitive.flat;
+    EXPECT_EQ(flat.certifyMotion(std::array{1.0}, std::array{2.0}, ofFlat).verdict, Verdict::Free);
+  }
 }
 
 }  // namespace

@@ -88,6 +88,23 @@ void extremesFirst(std::vector<Vector3d>& points) {
   }
 }
 
+/// Adds what clipPolygon() leaves of a patch. Most patches are on one side.
+void addPart(std::span<const Vector3d> polygon, int triangle, int axis, double at, double side,
+             Cell& half) {
+  const auto kept = static_cast<std::size_t>(
+      std::count_if(polygon.begin(), polygon.end(),
+                    [&](const Vector3d& corner) { return side * (corner[axis] - at) <= 0.0; }));
+  if (kept == 0) return;
+  const std::size_t before = half.corners.size();
+  if (kept == polygon.size()) {
+    half.corners.insert(half.corners.end(), polygon.begin(), polygon.end());
+  } else {
+    clipPolygon(polygon, axis, at, side,
+                [&](const Vector3d& corner) { half.corners.push_back(corner); });
+  }
+  half.patches.push_back({static_cast<int>(half.corners.size() - before), triangle});
+}
+
 }  // namespace
 
 bool Cell::isIn(const Vector3d& center, double radius) const {
@@ -148,25 +165,23 @@ void Cells::split(const Cell& cell, std::vector<Cell>& out) {
   int axis = 0;
   (cell.upper - cell.lower).maxCoeff(&axis);
   const double at = 0.5 * (cell.lower[axis] + cell.upper[axis]);
-  for (const double side : {1.0, -1.0}) {
-    Cell half;
+  std::array<Cell, 2> halves;
+  for (Cell& half : halves) {
     half.lower = cell.lower;
     half.upper = cell.upper;
-    (side > 0.0 ? half.upper : half.lower)[axis] = at;
     half.corners.reserve(cell.corners.size() / 2 + 8);
     half.patches.reserve(cell.patches.size() / 2 + 2);
-    std::size_t first = 0;
-    for (const Cell::Patch& patch : cell.patches) {
-      const auto count = static_cast<std::size_t>(patch.count);
-      const std::size_t before = half.corners.size();
-      clipPolygon(std::span(cell.corners).subspan(first, count), axis, at + side * margin_, side,
-                  [&](const Vector3d& corner) { half.corners.push_back(corner); });
-      first += count;
-      const auto kept = static_cast<int>(half.corners.size() - before);
-      if (kept > 0) half.patches.push_back({kept, patch.triangle});
-    }
-    if (!half.isSolid() || cell.isSolid() || middleIsSolid(half)) out.push_back(std::move(half));
   }
+  halves[0].upper[axis] = halves[1].lower[axis] = at;
+  std::span<const Vector3d> rest = cell.corners;
+  for (const Cell::Patch& patch : cell.patches) {
+    const auto polygon = rest.first(static_cast<std::size_t>(patch.count));
+    rest = rest.subspan(polygon.size());
+    addPart(polygon, patch.triangle, axis, at + margin_, 1.0, halves[0]);
+    addPart(polygon, patch.triangle, axis, at - margin_, -1.0, halves[1]);
+  }
+  for (Cell& half : halves)
+    if (!half.isSolid() || cell.isSolid() || middleIsSolid(half)) out.push_back(std::move(half));
 }
 
 void Cells::gather(Cell& cell) {

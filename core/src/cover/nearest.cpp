@@ -70,33 +70,6 @@ Nearest::Nearest(std::span<const Vector3d> vertices, std::span<const Eigen::Vect
 Nearest::Nearest(std::span<const Vector3d> points, const WideBvh& bvh)
     : vertices_(points), bvh_(bvh) {}
 
-Nearest::Nearest(std::span<const Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
-                 std::span<const int> firstOf, const WideBvh& bvh)
-    : vertices_(vertices), triangles_(triangles), firstOf_(firstOf), bvh_(bvh) {
-  findNodesWithParts();
-}
-
-void Nearest::findNodesWithParts() {
-  const std::vector<WideNode>& nodes = bvh_.nodes();
-  std::vector<int> order{0};  // parents first
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const WideNode& node = nodes[order[i]];
-    for (int lane = 0; lane < node.count; ++lane) {
-      if (node.child[lane] >= 0) order.push_back(node.child[lane]);
-    }
-  }
-  hasParts_.assign(nodes.size(), false);
-  for (auto i = order.size(); i-- > 0;) {
-    const WideNode& node = nodes[order[i]];
-    for (int lane = 0; lane < node.count; ++lane) {
-      const int child = node.child[lane];
-      if (child >= 0 ? hasParts_[child] : firstOf_[~child] < firstOf_[~child + 1]) {
-        hasParts_[order[i]] = true;
-      }
-    }
-  }
-}
-
 double Nearest::error(const Vector3d& p) const {
   constexpr double kRelative = 4e-6;
   constexpr double kOffset = 1e-15;
@@ -118,13 +91,9 @@ Vector3d Nearest::unitNormal(int primitive) const {
 
 void Nearest::test(int primitive, const Vector3d& p, Found& best) const {
   if (triangles_.empty()) return consider(p, vertices_[primitive], primitive, best);
-  const int first = firstOf_.empty() ? primitive : firstOf_[primitive];
-  const int end = firstOf_.empty() ? primitive + 1 : firstOf_[primitive + 1];
-  for (int i = first; i < end; ++i) {
-    const Eigen::Vector3i& corners = triangles_[i];
-    considerTriangle(p, vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]],
-                     primitive, best);
-  }
+  const Eigen::Vector3i& corners = triangles_[primitive];
+  considerTriangle(p, vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]],
+                   primitive, best);
 }
 
 Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
@@ -144,9 +113,7 @@ Nearest::Found Nearest::find(const Vector3d& p, double bound) const {
     for (std::uint32_t near = pointBoxes(node, p, roundedUp(best.squared + kNormalSquare), squared);
          near != 0; near &= near - 1) {
       const int lane = std::countr_zero(near);
-      const std::int32_t child = node.child[lane];
-      if (!hasParts_.empty() && child >= 0 && !hasParts_[child]) continue;
-      pending.push({squared[lane], child});
+      pending.push({squared[lane], node.child[lane]});
     }
   }
   return best;

@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "bvh/wide_bvh.hpp"
 
@@ -37,10 +36,6 @@ class Nearest {
           const WideBvh& bvh);
   /// For points, in the order of the tree's leaves.
   Nearest(std::span<const Eigen::Vector3d> points, const WideBvh& bvh);
-  /// For parts of triangles that the tree has: those of primitive i are `triangles` from firstOf[i]
-  /// up to, and without, firstOf[i + 1].
-  Nearest(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
-          std::span<const int> firstOf, const WideBvh& bvh);
 
   /// Looks only for what is nearer than `bound` (m).
   Found find(const Eigen::Vector3d& p, double bound) const;
@@ -50,12 +45,9 @@ class Nearest {
 
  private:
   void test(int primitive, const Eigen::Vector3d& p, Found& best) const;
-  void findNodesWithParts();
 
   std::span<const Eigen::Vector3d> vertices_;  ///< or points
   std::span<const Eigen::Vector3i> triangles_;
-  std::span<const int> firstOf_;  ///< empty: one triangle, or point, each
-  std::vector<bool> hasParts_;    ///< per node; empty: all
   const WideBvh& bvh_;
 };
 

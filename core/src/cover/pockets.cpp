@@ -98,7 +98,6 @@ void Pockets::peel(const Parts& parts, std::span<const Vector3d> vertices,
   };
   auto part = parts.list.begin();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    skinOf_.push_back(static_cast<int>(skinTriangles_.size()));
     const auto first = part;
     while (part != parts.list.end() && part->triangle == static_cast<int>(i)) ++part;
     if (!isSkin_[i]) continue;
@@ -112,7 +111,6 @@ void Pockets::peel(const Parts& parts, std::span<const Vector3d> vertices,
       add(std::span(parts.corners).subspan(each->first, static_cast<std::size_t>(each->count)));
     }
   }
-  skinOf_.push_back(static_cast<int>(skinTriangles_.size()));
 }
 
 bool Pockets::touchesOutside(const Index& cell) {

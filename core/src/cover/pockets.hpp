@@ -20,11 +20,9 @@ class Pockets {
   bool areNone() const { return areNone_; }
   /// Whether some of the triangle is next to the outside; the others are within.
   bool isSkin(int triangle) const { return isSkin_[triangle]; }
-  /// Those triangles, or the parts of them next to the outside where others are within; by
-  /// triangle of the mesh, the i-th from skinOf()[i] on.
+  /// Those triangles, or the parts of them next to the outside where others are within.
   const std::vector<Eigen::Vector3d>& skinVertices() const { return skinVertices_; }  ///< m
   const std::vector<Eigen::Vector3i>& skinTriangles() const { return skinTriangles_; }
-  const std::vector<int>& skinOf() const { return skinOf_; }
   /// False where contain() is false whatever the distance.
   bool mayContain(const Eigen::Vector3d& p) const { return kindAt(p) != Kind::Outside; }
   /// Whether a point is within; `toSkin`: m, its distance from the nearest triangle of the skin.
@@ -67,7 +65,6 @@ class Pockets {
   std::vector<bool> isSkin_;
   std::vector<Eigen::Vector3d> skinVertices_;
   std::vector<Eigen::Vector3i> skinTriangles_;
-  std::vector<int> skinOf_;
 };
 
 }  // namespace swept::detail

@@ -28,6 +28,24 @@ double distance(const Nearest& nearest, const Vector3d& p,
 template <typename S, typename... Others>
 constexpr bool kIsOneOf = (std::is_same_v<S, Others> || ...);
 
+std::vector<Vector3d> cornersOf(std::span<const Vector3d> vertices,
+                                std::span<const Eigen::Vector3i> triangles) {
+  std::vector<Vector3d> corners;
+  corners.reserve(3 * triangles.size());
+  for (const Eigen::Vector3i& triangle : triangles) {
+    for (const int corner : triangle) corners.push_back(vertices[corner]);
+  }
+  return corners;
+}
+
+std::vector<Eigen::Vector3i> inOrder(std::span<const Eigen::Vector3i> triangles,
+                                     std::span<const int> order) {
+  std::vector<Eigen::Vector3i> ordered;
+  ordered.reserve(order.size());
+  for (const int index : order) ordered.push_back(triangles[index]);
+  return ordered;
+}
+
 [[noreturn]] void refuse(const char* name) {
   throw std::invalid_argument(std::string("no balls cover a ") + name + ", which is unbounded");
 }
@@ -115,11 +133,27 @@ std::span<const Eigen::Vector3i> Solid::triangles() const {
   return mesh_->triangles();
 }
 
+Solid::Surface::Surface(std::span<const Vector3d> vertices,
+                        std::span<const Eigen::Vector3i> unordered)
+    : Surface(vertices, unordered,
+              TreeTopology::build({cornersOf(vertices, unordered), 3}, SurfaceAreaSplit{},
+                                  WideNode::kLanes)) {}
+
+Solid::Surface::Surface(std::span<const Vector3d> vertices,
+                        std::span<const Eigen::Vector3i> unordered, const TreeTopology& tree)
+    : triangles(inOrder(unordered, tree.order)),
+      bvh(tree, {cornersOf(vertices, triangles), 3}),
+      nearest(vertices, triangles, bvh) {}
+
+Solid::Shell::Shell(std::span<const Vector3d> vertices, std::span<const Eigen::Vector3i> unordered,
+                    const Aabb& box, bool oriented)
+    : surface(vertices, unordered),
+      component{vertices, surface.triangles, surface.bvh, box, oriented} {}
+
 void Solid::findPockets() {
   pockets_.emplace(mesh_->vertices(), mesh_->triangles());
   if (pockets_->areNone()) return pockets_.reset();
-  nearestSkin_.emplace(pockets_->skinVertices(), pockets_->skinTriangles(), pockets_->skinOf(),
-                       mesh_->bvh());
+  skin_ = std::make_unique<const Surface>(pockets_->skinVertices(), pockets_->skinTriangles());
 }
 
 /// Parts inside a link, or links made of parts that overlap, have triangles within the solid; they
@@ -144,12 +178,9 @@ void Solid::findShells() {
       }
     }
     if (box.size() < kLarge * kLarge * whole.size()) continue;
-    const TriangleMesh mesh =
-        TriangleMesh::build(mesh_->vertices(), trianglesOf[i], MeshInterior::Solid, 0.0);
-    if (!mesh.isClosed()) continue;
     shellOfComponent[i] = static_cast<int>(shells_.size());
-    shells_.push_back(std::make_unique<const Shell>(
-        Shell{mesh, Nearest(mesh.vertices(), mesh.triangles(), mesh.bvh()), box}));
+    shells_.push_back(
+        std::make_unique<const Shell>(mesh_->vertices(), trianglesOf[i], box, parts.oriented[i]));
   }
   for (const int component : parts.componentOf) {
     shellOf_.push_back(component < 0 ? -1 : shellOfComponent[component]);
@@ -160,14 +191,14 @@ double Solid::depthIn(const Vector3d& p, double toTriangles) const {
   double depth = toTriangles - nearest_->error(p);
   for (const auto& shell : shells_) {
     if (!shell->encloses(p)) continue;
-    depth = std::max(depth, distance(shell->nearest, p) - shell->nearest.error(p));
+    depth = std::max(depth, distance(shell->surface.nearest, p) - shell->surface.nearest.error(p));
   }
   return depth - slack_;
 }
 
 Candidate Solid::at(const Vector3d& p, double near) const {
   if (pockets_ && pockets_->mayContain(p)) {
-    const double toSkin = distance(*nearestSkin_, p);
+    const double toSkin = distance(skin_->nearest, p);
     if (pockets_->contain(p, toSkin)) return {p, toSkin - nearest_->error(p), true};
   }
   return {p, depth(p, near)};
@@ -192,7 +223,10 @@ std::optional<Candidate> Solid::inscribed(const Vector3d& foot, int triangle, do
   for (const auto& shell : shells_) {
     if (shell.get() != own && shell->encloses(foot)) return std::nullopt;
   }
-  const Hollow hollow{pockets_ ? *nearestSkin_ : own != nullptr ? own->nearest : *nearest_, own};
+  const Hollow hollow{pockets_         ? skin_->nearest
+                      : own != nullptr ? own->surface.nearest
+                                       : *nearest_,
+                      own};
   // Normals nearly always point outward.
   bool wrongSide = false;
   auto ball = inscribedAlong(foot, -normal, radius, hollow, contacts, wrongSide);

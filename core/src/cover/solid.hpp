@@ -12,6 +12,8 @@
 
 #include "cover/nearest.hpp"
 #include "cover/pockets.hpp"
+#include "geometry/closed_component.hpp"
+#include "swept/core/bvh/bv_tree.hpp"
 #include "swept/core/shapes.hpp"
 
 namespace swept::detail {
@@ -88,12 +90,24 @@ class Solid {
  private:
   void useHull(const ConvexHull& hull, double slack);
   void usePoints(std::span<const Eigen::Vector3d> points, double radius);
+  /// Triangles with a tree over them.
+  struct Surface {
+    Surface(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> unordered);
+    std::vector<Eigen::Vector3i> triangles;  ///< in the order of the tree's leaves
+    WideBvh bvh;
+    Nearest nearest;
+
+   private:
+    Surface(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> unordered,
+            const TreeTopology& tree);
+  };
   /// One closed component of several. It is part of the solid whatever the others do within it.
   struct Shell {
-    TriangleMesh mesh;
-    Nearest nearest;
-    Aabb box;
-    bool encloses(const Eigen::Vector3d& p) const { return box.contains(p) && mesh.encloses(p); }
+    Shell(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> unordered,
+          const Aabb& box, bool oriented);
+    Surface surface;
+    ClosedComponent component;
+    bool encloses(const Eigen::Vector3d& p) const { return detail::encloses(component, p); }
   };
   /// What bounds a ball: triangles, and the component that it has to stay in, if it is one.
   struct Hollow {
@@ -116,7 +130,7 @@ class Solid {
   std::optional<PointCloud> cloud_;
   std::optional<Nearest> nearest_;
   std::optional<Pockets> pockets_;
-  std::optional<Nearest> nearestSkin_;                ///< of the pockets
+  std::unique_ptr<const Surface> skin_;               ///< of the pockets
   std::vector<std::unique_ptr<const Shell>> shells_;  ///< the large ones; none: a single component
   std::vector<int> shellOf_;                          ///< per triangle; -1: none
   bool isFlat_ = false;

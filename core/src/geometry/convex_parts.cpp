@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swept/core/tolerances.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -60,6 +62,39 @@ bool isConvex(std::span<const Vector3i> triangles, std::span<const Vector3d> ver
   return allSupport(triangles, vertices, hull, kConvexPart * size);
 }
 
+/// False where some corners are clearly ahead of the plane of a triangle and others behind it, for
+/// a few of the triangles: then isConvex() is false too, and there is no need of a hull. Clearly is
+/// a thousand times as far as allSupport() takes, and as a hull may leave points outside.
+bool mayBeConvex(std::span<const Vector3i> triangles, std::span<const Vector3d> vertices,
+                 std::span<const Vector3d> corners) {
+  constexpr std::size_t kLooks = 8;
+  Vector3d lower = corners.front();
+  Vector3d upper = lower;
+  for (const Vector3d& p : corners) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  const double size =
+      (upper - lower).norm() + upper.cwiseAbs().maxCoeff() + lower.cwiseAbs().maxCoeff();
+  const double clearly = 1e3 * std::max(kConvexPart, tolerance::kHull) * size;
+  for (std::size_t look = 0; look < kLooks; ++look) {
+    const Vector3i& t = triangles[look * (triangles.size() - 1) / (kLooks - 1)];
+    const Vector3d& a = vertices[t[0]];
+    const Vector3d normal = (vertices[t[1]] - a).cross(vertices[t[2]] - a);
+    const double least = clearly * normal.norm();
+    if (!(least > 0.0)) continue;
+    bool isAhead = false;
+    bool isBehind = false;
+    for (const Vector3d& p : corners) {
+      const double height = normal.dot(p - a);
+      isAhead = isAhead || height > least;
+      isBehind = isBehind || height < -least;
+    }
+    if (isAhead && isBehind) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<ConvexHull> convexParts(std::span<const Vector3d> vertices,
@@ -80,6 +115,7 @@ std::vector<ConvexHull> convexParts(std::span<const Vector3d> vertices,
     for (const Vector3i& t : component) {
       for (const int corner : t) corners.push_back(vertices[corner]);
     }
+    if (!mayBeConvex(component, vertices, corners)) continue;
     ConvexHull hull = ConvexHull::of(corners);
     if (isConvex(component, vertices, hull)) parts.push_back(std::move(hull));
   }

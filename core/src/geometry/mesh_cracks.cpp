@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "geometry/crack_paths.hpp"
-#include "geometry/open_patches.hpp"
 #include "geometry/patch_cycles.hpp"
 
 namespace swept::detail {
@@ -183,15 +182,19 @@ CracksClosed closeCracks(std::span<const Vector3d> vertices, double width, MeshC
   return done;
 }
 
-bool closesAll(std::span<const Vector3d> vertices, double width, const MeshComponents& parts) {
+OpenParts::OpenParts(std::span<const Vector3d> vertices, const MeshComponents& parts)
+    : vertices_(vertices) {
   std::vector<Vector3i> open;
   for (std::size_t i = 0; i < parts.triangles.size(); ++i)
     if (parts.componentOf[i] < 0) open.push_back(parts.triangles[i]);
-  const OpenPatches patches = openPatches(open);
-  CrackPaths paths(vertices, patches.edges, width);
-  std::vector<bool> isClosed(static_cast<std::size_t>(patches.count), false);
-  for (const std::vector<int>& solid :
-       solidsOf(patches.edges, areasOf(vertices, open, patches), paths))
+  patches_ = openPatches(open);
+  areas_ = areasOf(vertices, open, patches_);
+}
+
+bool OpenParts::areClosedBy(double width) const {
+  CrackPaths paths(vertices_, patches_.edges, width);
+  std::vector<bool> isClosed(static_cast<std::size_t>(patches_.count), false);
+  for (const std::vector<int>& solid : solidsOf(patches_.edges, areas_, paths))
     for (const int patch : solid) isClosed[patch] = true;
   return std::ranges::find(isClosed, false) == isClosed.end();
 }

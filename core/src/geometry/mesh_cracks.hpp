@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/mesh_components.hpp"
+#include "geometry/open_patches.hpp"
 
 namespace swept::detail {
 
@@ -24,8 +25,18 @@ struct CracksClosed {
 CracksClosed closeCracks(std::span<const Eigen::Vector3d> vertices, double width,
                          MeshComponents& parts);
 
-/// Whether this width alone would leave no component open.
-bool closesAll(std::span<const Eigen::Vector3d> vertices, double width,
-               const MeshComponents& parts);
+/// Of the open components of a mesh: which widths would leave none of them open.
+class OpenParts {
+ public:
+  /// `vertices` (m) have to outlive this.
+  OpenParts(std::span<const Eigen::Vector3d> vertices, const MeshComponents& parts);
+  /// Whether this width (m) alone would do.
+  bool areClosedBy(double width) const;
+
+ private:
+  std::span<const Eigen::Vector3d> vertices_;
+  OpenPatches patches_;
+  std::vector<double> areas_;  ///< m^2, twice that of each patch
+};
 
 }  // namespace swept::detail

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bvh/wide_bvh.hpp"
+#include "geometry/closed_component.hpp"
 #include "geometry/ray_crossing.hpp"
 #include "simd/box_bounds.hpp"
 #include "swept/core/floating_point_environment.hpp"
@@ -85,14 +86,17 @@ class CrossingCounts {
   int size_ = 0;
 };
 
-/// A ray against the triangles of one mesh.
+/// A ray against triangles.
 class RayCount {
  public:
-  /// `scale` is a power of two.
-  RayCount(const TriangleMesh& mesh, std::span<const int> componentOf,
+  /// `componentOf`: per triangle; none: all are of component 0. `scale` is a power of two.
+  RayCount(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
+           const detail::WideBvh& bvh, std::span<const int> componentOf,
            const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double scale,
            CrossingCounts& counts)
-      : mesh_(mesh),
+      : vertices_(vertices),
+        triangles_(triangles),
+        bvh_(bvh),
         componentOf_(componentOf),
         origin_(origin),
         direction_(direction),
@@ -101,13 +105,12 @@ class RayCount {
 
   /// False when the ray passes within rounding of the border of a triangle that matters.
   bool run() {
-    const detail::WideBvh& bvh = mesh_.bvh();
     // Each level leaves at most seven siblings behind.
     std::array<int, (detail::WideNode::kLanes - 1) * detail::WideBvh::kMaxDepth + 1> stack;
     int pending = 0;
     stack[pending++] = 0;
     while (pending > 0) {
-      const detail::WideNode& node = bvh.nodes()[stack[--pending]];
+      const detail::WideNode& node = bvh_.nodes()[stack[--pending]];
       for (std::uint32_t hits = detail::boxesHit(node, origin_, direction_); hits != 0;
            hits &= hits - 1) {
         const int lane = std::countr_zero(hits);
@@ -123,12 +126,12 @@ class RayCount {
 
  private:
   bool count(int triangle) {
-    int* const crossings = counts_.find(componentOf_[triangle]);
+    int* const crossings = counts_.find(componentOf_.empty() ? 0 : componentOf_[triangle]);
     if (crossings == nullptr) return true;
-    const Eigen::Vector3i& corners = mesh_.triangles()[triangle];
-    Eigen::Vector3d a = mesh_.vertices()[corners[0]] - origin_;
-    Eigen::Vector3d b = mesh_.vertices()[corners[1]] - origin_;
-    Eigen::Vector3d c = mesh_.vertices()[corners[2]] - origin_;
+    const Eigen::Vector3i& corners = triangles_[triangle];
+    Eigen::Vector3d a = vertices_[corners[0]] - origin_;
+    Eigen::Vector3d b = vertices_[corners[1]] - origin_;
+    Eigen::Vector3d c = vertices_[corners[2]] - origin_;
     if (scale_ != 1.0) {
       a *= scale_;
       b *= scale_;
@@ -149,7 +152,9 @@ class RayCount {
     return true;
   }
 
-  const TriangleMesh& mesh_;
+  std::span<const Eigen::Vector3d> vertices_;
+  std::span<const Eigen::Vector3i> triangles_;
+  const detail::WideBvh& bvh_;
   std::span<const int> componentOf_;
   const Eigen::Vector3d& origin_;
   const Eigen::Vector3d& direction_;
@@ -165,7 +170,42 @@ double scaleFor(double size) {
                                            : 1.0;
 }
 
+/// Shoots rays until one is sure. `isInside` says what the crossings of a component mean.
+template <typename Shoot, typename IsInside>
+bool anyRayInside(CrossingCounts& counts, const Shoot& shoot, const IsInside& isInside) {
+  static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
+  for (const Eigen::Vector3d& direction : directions) {
+    counts.reset();
+    if (shoot(direction)) return counts.any(isInside);
+  }
+  // Only a point within rounding of a triangle leaves no direction: it touches the solid.
+  return true;
+}
+
+bool isWithin(int crossings, bool oriented) {
+  return oriented ? crossings != 0 : crossings % 2 != 0;
+}
+
 }  // namespace
+
+namespace detail {
+
+bool encloses(const ClosedComponent& component, const Eigen::Vector3d& point) {
+  if (!component.box.contains(point)) return false;
+  CrossingCounts counts;
+  counts.add(0);
+  const double scale = scaleFor((component.box.upper - component.box.lower).maxCoeff());
+  return anyRayInside(
+      counts,
+      [&](const Eigen::Vector3d& direction) {
+        return RayCount(component.vertices, component.triangles, component.bvh, {}, point,
+                        direction, scale, counts)
+            .run();
+      },
+      [&](int, int crossings) { return isWithin(crossings, component.oriented); });
+}
+
+}  // namespace detail
 
 bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
   if (detail::inForeignEnvironment()) {
@@ -184,17 +224,17 @@ bool TriangleMesh::encloses(const Eigen::Vector3d& point) const {
   }
   if (counts.empty()) return false;
 
-  static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
   const double scale = scaleFor(size);
-  for (const Eigen::Vector3d& direction : directions) {
-    counts.reset();
-    if (!RayCount(*this, data_->componentOf, point, direction, scale, counts).run()) continue;
-    return counts.any([&](int component, int crossings) {
-      return data_->components[component].oriented ? crossings != 0 : crossings % 2 != 0;
-    });
-  }
-  // Only a point within rounding of a triangle leaves no direction: it touches the solid.
-  return true;
+  return anyRayInside(
+      counts,
+      [&](const Eigen::Vector3d& direction) {
+        return RayCount(vertices(), triangles(), bvh(), data_->componentOf, point, direction, scale,
+                        counts)
+            .run();
+      },
+      [&](int component, int crossings) {
+        return isWithin(crossings, data_->components[component].oriented);
+      });
 }
 
 }  // namespace swept

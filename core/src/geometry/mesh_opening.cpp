@@ -60,16 +60,15 @@ double TriangleMesh::opening() const {
     if (detail::hasDistinctCorners(triangle)) withArea.push_back(triangle);
   // Nothing closes a line.
   if (withArea.size() < triangles().size()) return kInfinity;
-  const detail::MeshComponents parts = detail::ComponentFinder(withArea).result();
-  const auto closes = [&](double width) { return detail::closesAll(vertices(), width, parts); };
+  const detail::OpenParts parts(vertices(), detail::ComponentFinder(withArea).result());
   const double most = 0.1 * longestSide(vertices());
   int halved = 0;
-  if (!(most > 0.0) || !closes(most)) return kInfinity;
+  if (!(most > 0.0) || !parts.areClosedBy(most)) return kInfinity;
   // Widths are `most` halved so often. The last that closes all is between these two.
   int tooOften = 40;
   while (tooOften - halved > 1) {
     const int middle = (halved + tooOften) / 2;
-    (closes(std::ldexp(most, -middle)) ? halved : tooOften) = middle;
+    (parts.areClosedBy(std::ldexp(most, -middle)) ? halved : tooOften) = middle;
   }
   return std::ldexp(most, -halved);
 }

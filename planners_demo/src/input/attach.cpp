@@ -36,13 +36,17 @@ Spec specOf(const std::string& text) {
   return spec;
 }
 
-std::optional<Shape> primitive(const std::string& text, const std::string& label) {
+std::optional<Shape> primitive(const std::string& text, const std::string& label,
+                               const Warn& warn) {
   const auto sizes = [&](const std::string& type, const std::vector<std::string>& names) {
     std::vector<double> values = readValues(text.substr(type.size() + 1), names, label);
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(values[i] > 0.0))
+      if (!(values[i] >= 0.0))
         throw UsageError(label + ": " + names[i] + " is " + shortNumber(values[i]) +
-                         ", allowed is more than 0 m");
+                         ", allowed is from 0 m");
+    if (std::ranges::find(values, 0.0) != values.end() && warn)
+      warn("swept: warning: " + label + ": a shape with a size of 0 is checked as the point, " +
+           "segment or surface that it is");
     return values;
   };
   if (text.starts_with("box:")) {
@@ -97,7 +101,7 @@ std::vector<AttachedBody> attachedBodies(const Arguments& args, const Robot& rob
                        didYouMean(spec.link, linkNames(robot)));
     const Eigen::Isometry3d pose =
         spec.pose.empty() ? Eigen::Isometry3d::Identity() : readPlace(spec.pose, label);
-    const std::optional<Shape> shape = primitive(spec.shape, label);
+    const std::optional<Shape> shape = primitive(spec.shape, label, options.warn);
     AttachedBody body{.name = nameOf(spec, shape.has_value(), bodies),
                       .link = spec.link,
                       .parts = {},

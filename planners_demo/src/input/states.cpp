@@ -94,6 +94,14 @@ std::string labelOf(const PlanningProblem& problem) {
   return "problem " + problem.set + " " + std::to_string(problem.index);
 }
 
+/// Of many the first, and how many more.
+std::string someOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 3;
+  if (names.size() <= kMost) return joined(names);
+  const std::vector<std::string> first(names.begin(), names.begin() + kMost);
+  return joined(first) + " and " + std::to_string(names.size() - kMost) + " more";
+}
+
 }  // namespace
 
 std::vector<std::string> splitAtCommas(const std::string& text) {
@@ -168,6 +176,9 @@ ProblemStates problemStates(const Robot& robot, const Group& group, const Planni
   for (const std::vector<double>& goal : problem.goals)
     states.goals.push_back(reordered(robot, group, order, goal, label + ", goal", warn));
   if (states.goals.empty()) throw UsageError(label + ": it has no goal");
+  if (!problem.withZeroSize.empty())
+    warn("swept: warning: " + label + ": " + someOf(problem.withZeroSize) +
+         ": a shape with a size of 0 is checked as the point, segment or surface that it is");
   return states;
 }
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "command_line/commands.hpp"
-#include "swept/robot_model/did_you_mean.hpp"
 #include "input/attach.hpp"
 #include "input/clouds.hpp"
 #include "input/problem_choice.hpp"
 #include "input/request_task.hpp"
+#include "input/robot_loading.hpp"
 #include "input/rules.hpp"
 #include "input/state_lists.hpp"
 #include "input/states.hpp"
@@ -22,6 +22,7 @@
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/planning_scene.hpp"
 
@@ -117,14 +118,13 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
       .modelFrame = {},
       .warn = [&](const std::string& line) { warnings(line); },
       .everyWarning = args.verbose,
-      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); }};
+      .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); },
+      .progress = {},
+      .cache = cacheFolder()};
   Model model;
   model.srdf = chooseSrdf(args);
   if (args.xacro) model.expanded = expandedUrdf(args);
-  model.robot =
-      withAskedGroup(args.xacro ? loadExpanded(args, model.expanded, model.srdf.file, options)
-                                : Robot::load(args.robot, model.srdf.file, options),
-                     args);
+  model.robot = withAskedGroup(loadRobot(args, model.expanded, model.srdf.file, options), args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);

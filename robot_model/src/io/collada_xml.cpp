@@ -18,16 +18,16 @@ std::string colladaTarget(const XMLElement& element, const char* attribute) {
 }
 
 std::vector<std::string_view> colladaWords(const XMLElement& element, const InputSource& source) {
-  constexpr std::string_view kSpace = " \t\r\n";
+  const auto isSpace = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
   std::vector<std::string_view> found;
   for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (node->ToComment() != nullptr) continue;
     if (node->ToText() == nullptr) failElement(source, element, "holds more than text");
     const std::string_view text = node->Value();
-    for (auto at = text.find_first_not_of(kSpace); at != std::string_view::npos;) {
-      const auto end = std::min(text.find_first_of(kSpace, at), text.size());
-      found.push_back(text.substr(at, end - at));
-      at = text.find_first_not_of(kSpace, end);
+    for (auto at = text.begin(); (at = std::find_if_not(at, text.end(), isSpace)) != text.end();) {
+      const auto end = std::find_if(at, text.end(), isSpace);
+      found.emplace_back(at, end);
+      at = end;
     }
   }
   return found;

@@ -62,9 +62,9 @@ struct JsonPlace {
     if (!value.is_number()) fail("is " + shown() + "; it must be a finite number");
     return value.get<double>();
   }
-  double positive() const {
+  double notNegative() const {
     const double given = number();
-    if (!(given > 0.0)) fail("is " + shown() + "; it must be greater than 0");
+    if (!(given >= 0.0)) fail("is " + shown() + "; it must be 0 or greater");
     return given;
   }
   std::vector<double> numbers(std::size_t count) const {

@@ -3,15 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
-#include "io/mesh_file.hpp"
+#include "io/content_hash.hpp"
+#include "io/cover_cache.hpp"
 #include "io/numbers.hpp"
 #include "io/package_paths.hpp"
-#include "io/point_faces.hpp"
+#include "io/point_file.hpp"
 #include "io/regular_file.hpp"
+#include "kinematics/work_crew.hpp"
 
 namespace swept::detail {
 
@@ -48,27 +54,38 @@ std::string nameOf(const MeshReference& mesh) {
   return "mesh '" + mesh.reference + "' of " + mesh.owner;
 }
 
+/// What files of the same content have in common. No size: it cannot be told.
+std::pair<std::string, std::uintmax_t> endingAndSize(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  return {lowerEnding(file), error ? 0 : size};
+}
+
+/// Tells LoadOptions::progress, whichever thread has done one.
+class Counted {
+ public:
+  using Progress = std::function<void(std::size_t, std::size_t)>;
+  Counted(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+  /// What the caller's function throws is lost: it is not to.
+  void addOne() noexcept {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (progress_) progress_(done_, total_);
+  }
+
+ private:
+  std::mutex mutex_;
+  const Progress& progress_;
+  std::size_t done_ = 0;
+  const std::size_t total_;
+};
+
 /// The same for all names of a file; its own where the system tells none, as of an open file that
 /// is in no folder any more.
 fs::path oneName(const fs::path& file) {
   std::error_code error;
   const fs::path whole = fs::canonical(file, error);
   return error ? file : whole;
-}
-
-/// In the file's unit: how far apart the corners of triangles may be, along each axis, that are one
-/// corner, or a corner on an edge, to the program that wrote them. Coordinates are off by up to
-/// half of what they are rounded to, single precision or six decimals, and two of them by twice
-/// that. Of a mesh that is small in its unit six decimals are few: no more than 1e-4 of its size.
-double roundingOf(const MeshFileContent& content) {
-  constexpr double kDecimals = 2e-6;
-  constexpr double kUsualWidths = 10.0;
-  double largest = 0.0;
-  for (const Eigen::Vector3d& vertex : content.vertices)
-    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
-  return std::max(
-      2.0 * largest * std::numeric_limits<float>::epsilon(),
-      std::min(kDecimals, kUsualWidths * TriangleMesh::usualCrackWidth(content.vertices)));
 }
 
 void warnOfCracks(const TriangleMesh& mesh, double rounding, const std::string& name, int line,
@@ -78,15 +95,6 @@ void warnOfCracks(const TriangleMesh& mesh, double rounding, const std::string& 
   source.warn(line, "mesh '" + name + "' has cracks of up to " +
                         formatNumber(mesh.report().largestCrack) +
                         " m, more than rounding explains: they are filled");
-}
-
-/// Assimp has coordinates in single precision; far from 0 that takes them where they are not.
-void requirePrecise(const MeshFileContent& content, const Eigen::Vector3d& scale) {
-  constexpr double kMostLost = 1e-3;  // m
-  const double lost = content.loss * scale.cwiseAbs().maxCoeff();
-  if (lost <= kMostLost) return;
-  throw MeshFileError("has coordinates that single precision moves by " + formatNumber(lost) +
-                      " m; at most " + formatNumber(kMostLost) + " m are allowed");
 }
 
 }  // namespace
@@ -110,43 +118,105 @@ void MeshStore::requireFound(const std::vector<MeshReference>& references) const
   source_.fail(missing.front()->line, text);
 }
 
-TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
-                             const std::string& owner) {
-  const std::string name = nameOf({reference, line, owner});
-  const auto [file, problem] = placeOf(reference, source_);
-  if (!problem.empty()) source_.fail(line, name + problem);
-  const Key key{oneName(file), {scale.x(), scale.y(), scale.z()}};
-  if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+MeshStore::Key MeshStore::keyOf(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
+  return {oneName(file), {scale.x(), scale.y(), scale.z()}};
+}
+
+std::vector<MeshStore::Key> MeshStore::newOnes(const std::vector<MeshReference>& references) {
+  std::vector<Key> keys;
+  std::set<Key> known;
+  for (const MeshReference& mesh : references) {
+    const Place place = placeOf(mesh.reference, source_);
+    const Key key = keyOf(place.file, mesh.scale);
+    if (place.problem.empty() && !made_.contains(key) && known.insert(key).second)
+      keys.push_back(key);
+  }
+  // Robots have the same file under several names: of a left and a right hand, say.
+  std::map<std::pair<std::string, std::uintmax_t>, int> alike;
+  for (const Key& key : keys) ++alike[endingAndSize(key.first)];
+  std::map<std::tuple<std::string, ContentHash::Digest, std::array<double, 3>>, Key> firstWith;
+  std::vector<Key> first;
+  for (const Key& key : keys) {
+    if (alike[endingAndSize(key.first)] > 1) {
+      if (const auto content = hashOfFile(key.first)) {
+        const auto [found, isNew] =
+            firstWith.emplace(std::tuple(lowerEnding(key.first), *content, key.second), key);
+        if (!isNew) {
+          copyOf_.emplace(key, found->second);
+          continue;
+        }
+      }
+    }
+    first.push_back(key);
+  }
+  return first;
+}
+
+void MeshStore::prepare(const std::vector<MeshReference>& references) {
+  const std::vector<Key> wanted = newOnes(references);
+  Counted counted(source_.options().progress, wanted.size());
+  CoverCache covers(source_.options().cache);
+  {
+    WorkCrew crew(0);
+    // What follows one that cannot be read is of no use any more.
+    bool isReadable = true;
+    for (std::size_t i = 0; i < wanted.size() && isReadable; ++i) {
+      MadeMesh& made = made_[wanted[i]];
+      const std::array<double, 3>& factors = wanted[i].second;
+      try {
+        auto content = std::make_shared<MeshFileContent>(files_.read(wanted[i].first));
+        crew.give([&made, &factors, &counted, &covers, content] {
+          made = makeMesh(std::move(*content), {factors[0], factors[1], factors[2]}, &covers);
+          counted.addOne();
+        });
+      } catch (const MeshFileError& error) {
+        made = unusable(error);
+        isReadable = false;
+      }
+    }
+  }
+  if (const std::string problem = covers.problem(); !problem.empty() && source_.options().warn)
+    source_.options().warn(source_.options().cache.string() + ": warning: " + problem);
+}
+
+const MadeMesh& MeshStore::get(const MeshReference& mesh) {
+  const std::string name = nameOf(mesh);
+  const auto [file, problem] = placeOf(mesh.reference, source_);
+  if (!problem.empty()) source_.fail(mesh.line, name + problem);
+  const Key key = keyOf(file, mesh.scale);
+  const auto copy = copyOf_.find(key);
+  auto known = made_.find(copy == copyOf_.end() ? key : copy->second);
+  if (known == made_.end()) known = made_.emplace(key, readNow(file, mesh.scale)).first;
+  const MadeMesh& made = known->second;
+  if (made.failure) std::rethrow_exception(made.failure);
+  if (!made.mesh) source_.fail(mesh.line, name + made.problem);
+  if (!told_.insert(key).second) return made;
+  warnOfCracks(*made.mesh, made.rounding, mesh.reference, mesh.line, source_);
+  warnIfOpen(made.mesh->report(), made.opening, mesh.reference, mesh.line, source_);
+  return made;
+}
+
+MadeMesh MeshStore::readNow(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
   try {
-    MeshFileContent content = files_.read(file);
-    requirePrecise(content, scale);
-    const double rounding = roundingOf(content);
-    for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
-    refuseLonePoints(content.vertices, content.triangles);
-    const double crackWidth = std::max(rounding * scale.cwiseAbs().minCoeff(),
-                                       TriangleMesh::usualCrackWidth(content.vertices));
-    TriangleMesh mesh =
-        TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
-    warnOfCracks(mesh, rounding * scale.cwiseAbs().maxCoeff(), reference, line, source_);
-    warnIfOpen(mesh, reference, line, source_);
-    meshes_.emplace(key, mesh);
-    return mesh;
+    return makeMesh(files_.read(file), scale, nullptr);
   } catch (const MeshFileError& error) {
-    source_.fail(line, name + " " + error.what());
-  } catch (const std::invalid_argument& error) {
-    source_.fail(line, name + ": " + error.what());
+    return unusable(error);
   }
 }
 
 void warnIfOpen(const TriangleMesh& mesh, const std::string& name, int line,
                 const InputSource& source) {
-  const int open = mesh.report().openComponents;
+  warnIfOpen(mesh.report(), mesh.opening(), name, line, source);
+}
+
+void warnIfOpen(const MeshReport& report, double opening, const std::string& name, int line,
+                const InputSource& source) {
+  const int open = report.openComponents;
   if (open == 0) return;
   const std::string components = std::to_string(open) + " open component" + (open == 1 ? "" : "s");
-  const double opening = mesh.opening();
   const std::string width =
       std::isfinite(opening) ? ", for openings of up to " + formatNumber(opening) + " m" : "";
-  if (mesh.report().closedComponents > 0)
+  if (report.closedComponents > 0)
     source.warn(line, "mesh '" + name + "' has " + components + " without an inside" + width);
   else
     source.warn(line, "mesh '" + name + "' is an open surface (" + components +

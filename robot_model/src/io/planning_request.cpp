@@ -58,6 +58,7 @@ void readAttached(const YamlPlace& list, const Context& context, PlanningRequest
   reader.read(list);
   World nothing;
   reader.takeFrom(nothing);
+  objects.flushWarnings();
   request.attached = reader.bodies();
   for (const auto& [a, b] : reader.touchingBodies())
     request.rules.allow(a, b, "touch link of " + a);

@@ -9,6 +9,7 @@
 
 #include "io/json_place.hpp"
 #include "io/numbers.hpp"
+#include "io/zero_sizes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -66,14 +67,14 @@ Eigen::Isometry3d readPose(const JsonPlace& body, bool oriented) {
 
 Shape readSphere(const JsonPlace& body) {
   body.allowOnly({"name", "position", "orientation", "object_pose", "primitive_pose", "radius"});
-  return makeSphere(body.at("radius").positive());
+  return makeSphere(body.at("radius").notNegative());
 }
 
 Shape readCylinder(const JsonPlace& body) {
   body.allowOnly(
       {"name", "position", "orientation", "object_pose", "primitive_pose", "radius", "length"});
-  const double radius = body.at("radius").positive();
-  return makeCylinder(radius, body.at("length").positive());
+  const double radius = body.at("radius").notNegative();
+  return makeCylinder(radius, body.at("length").notNegative());
 }
 
 Shape readBox(const JsonPlace& body) {
@@ -83,11 +84,11 @@ Shape readBox(const JsonPlace& body) {
   const auto halves = place.elements();
   if (halves.size() != 3) place.fail("must hold 3 values");
   Eigen::Vector3d half;
-  for (int axis = 0; axis < 3; ++axis) half[axis] = halves[axis].positive();
+  for (int axis = 0; axis < 3; ++axis) half[axis] = halves[axis].notNegative();
   return makeBox(2.0 * half);
 }
 
-World readWorld(const JsonPlace& place) {
+World readWorld(const JsonPlace& place, std::vector<std::string>& withZeroSize) {
   struct Kind {
     const char* key;
     bool oriented;
@@ -101,6 +102,7 @@ World readWorld(const JsonPlace& place) {
       const std::string name = body.at("name").text();
       if (world.find(name) != nullptr) body.fail("is a second body named '" + name + "'");
       const Shape shape = kind.read(body);
+      if (detail::hasZeroSize(shape)) withZeroSize.push_back(name);
       const Eigen::Isometry3d pose = readPose(body, kind.oriented);
       requireFactors(body, pose, kind.oriented);
       world.add(name, shape, pose);
@@ -124,7 +126,7 @@ PlanningProblem readProblem(const std::string& set, const JsonPlace& entry) {
   place.allowOnly({"index", "world", "joint_names", "start", "goals", "valid"});
   const JsonPlace world = place.at("world");
   if (!world.value.is_object()) world.fail("must be an object");
-  problem.world = readWorld(world);
+  problem.world = readWorld(world, problem.withZeroSize);
   for (const JsonPlace& name : place.at("joint_names").elements()) {
     problem.jointNames.push_back(name.text());
   }

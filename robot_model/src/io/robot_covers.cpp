@@ -21,7 +21,7 @@ std::vector<Task> tasksOf(std::vector<Link>& links) {
   std::vector<Task> tasks;
   for (Link& link : links) {
     for (CollisionGeometry& geometry : link.collision) {
-      if (!isBounded(geometry.shape)) continue;
+      if (geometry.cover || !isBounded(geometry.shape)) continue;
       const auto known = std::find_if(tasks.begin(), tasks.end(), [&](const Task& task) {
         return areSame(task.of.front()->shape, geometry.shape);
       });

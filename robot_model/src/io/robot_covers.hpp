@@ -7,9 +7,10 @@
 
 namespace swept::detail {
 
-/// Gives every bounded collision geometry its cover. Equal primitives share one, and so do meshes
-/// that are copies of each other. Covers are built on so many threads (0: as many as there are
-/// processors) and do not depend on their number; what building one throws is thrown here.
+/// Gives every bounded collision geometry that has none its cover. Equal primitives share one, and
+/// so do meshes that are copies of each other. Covers are built on so many threads (0: as many as
+/// there are processors) and do not depend on their number; what building one throws is thrown
+/// here.
 void addCovers(std::vector<Link>& links, unsigned threads);
 
 }  // namespace swept::detail

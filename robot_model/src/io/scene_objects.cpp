@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "io/zero_sizes.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -40,8 +42,8 @@ std::vector<double> sizes(const YamlPlace& place, std::size_t count, const std::
   std::vector<double> values;
   for (const YamlPlace& element : elements) {
     values.push_back(element.number());
-    if (!(values.back() > 0.0)) {
-      element.fail("is '" + element.text() + "'; it must be greater than 0");
+    if (!(values.back() >= 0.0)) {
+      element.fail("is '" + element.text() + "'; it must be 0 or greater");
     }
   }
   return values;
@@ -165,6 +167,7 @@ void SceneObjects::addShapes(const YamlPlace& object, const char* shapesKey, con
     const Shape shape = kind == "primitives" ? readPrimitive(shapes[i])
                         : kind == "planes"   ? readPlane(shapes[i])
                                              : readMesh(shapes[i], result.id);
+    warnOfZeroSize(shape, shapes[i].line(), "object '" + result.id + "'", warnings_);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     if (!poses.empty()) pose = poses[i].pose("position", "orientation");
     result.parts.push_back({shape, pose});
@@ -174,7 +177,8 @@ void SceneObjects::addShapes(const YamlPlace& object, const char* shapesKey, con
 Shape SceneObjects::readMesh(const YamlPlace& place, const std::string& id) {
   if (const YamlPlace resource = place.at("resource"); resource.present()) {
     place.allowOnly({"resource", "scale", "dimensions"});
-    return meshes_.mesh(resource.text(), meshScale(place), resource.line(), "object '" + id + "'");
+    return *meshes_.get({resource.text(), resource.line(), "object '" + id + "'", meshScale(place)})
+                .mesh;
   }
   place.allowOnly({"vertices", "triangles"});
   std::vector<Eigen::Vector3d> vertices;

@@ -8,6 +8,7 @@
 
 #include "io/input_source.hpp"
 #include "io/mesh_store.hpp"
+#include "io/warning_kinds.hpp"
 #include "io/yaml.hpp"
 #include "swept/core/shapes.hpp"
 
@@ -28,11 +29,14 @@ struct SceneObject {
 /// Reads the objects of one file, whose meshes they share.
 class SceneObjects {
  public:
-  explicit SceneObjects(const InputSource& source) : source_(source), meshes_(source) {}
+  explicit SceneObjects(const InputSource& source)
+      : source_(source), meshes_(source), warnings_(source) {}
 
   /// Throws InputError for an operation other than ADD, and what else is wrong in it. It may have
   /// no parts.
   SceneObject read(const YamlPlace& object, const std::string& id);
+  /// What there is to warn of only once all are read.
+  void flushWarnings() { warnings_.flush(); }
 
  private:
   void addShapes(const YamlPlace& object, const char* shapesKey, const char* posesKey,
@@ -41,6 +45,7 @@ class SceneObjects {
 
   const InputSource& source_;
   MeshStore meshes_;
+  WarningKinds warnings_;
 };
 
 /// The `id`. Throws InputError for none.

@@ -6,6 +6,7 @@
 #include "io/mesh_store.hpp"
 #include "io/numbers.hpp"
 #include "io/scene.hpp"
+#include "io/zero_sizes.hpp"
 
 namespace swept::detail {
 
@@ -39,7 +40,7 @@ std::vector<Token> tokenize(const std::string& text) {
 class SceneTextReader {
  public:
   SceneTextReader(const std::string& text, const InputSource& source)
-      : tokens_(tokenize(text)), source_(source) {}
+      : tokens_(tokenize(text)), source_(source), warnings_(source) {}
   World read();
 
  private:
@@ -59,6 +60,7 @@ class SceneTextReader {
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   const InputSource& source_;
+  WarningKinds warnings_;
   std::string owner_;  ///< `object 'x': `, in front of messages
   std::string id_;
   World world_;
@@ -86,8 +88,8 @@ double SceneTextReader::number(const std::string& meaning) {
 double SceneTextReader::size(const std::string& meaning) {
   const double value = number(meaning);
   const Token& token = tokens_[at_ - 1];
-  if (!(value > 0.0))
-    fail(token.line, meaning + " is '" + token.text + "'; it must be greater than 0");
+  if (!(value >= 0.0))
+    fail(token.line, meaning + " is '" + token.text + "'; it must be 0 or greater");
   return value;
 }
 
@@ -134,12 +136,14 @@ World SceneTextReader::read() {
   for (;;) {
     owner_.clear();
     const Token& marker = next("'*' or '.'");
-    if (marker.text == ".") return std::move(world_);
+    if (marker.text == ".") break;
     if (marker.text != "*") {
       fail(marker.line, "'" + marker.text + "' where '*' (an object) or '.' (the end) should be");
     }
     readObject();
   }
+  warnings_.flush();
+  return std::move(world_);
 }
 
 void SceneTextReader::readObject() {
@@ -155,6 +159,7 @@ void SceneTextReader::readObject() {
   const int shapes = count("the number of shapes");
   for (int i = 0; i < shapes; ++i) {
     const Shape shape = readShape();
+    warnOfZeroSize(shape, tokens_[at_ - 1].line, "object '" + id_ + "'", warnings_);
     body.parts.push_back({shape, world_from_object * pose()});
     for (int c = 0; c < 4; ++c) number("a colour");
   }

@@ -64,6 +64,7 @@ PlanningScene SceneReader::read(const YamlPlace& root) {
        (inner.present() ? inner.called("collision_objects") : outer).elements()) {
     readObject(object);
   }
+  objects_.flushWarnings();
   if (robot_ != nullptr) {
     attached_->takeFrom(scene_.world);
     scene_.attached = attached_->bodies();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "io/mesh_store.hpp"
 #include "io/numbers.hpp"
@@ -46,8 +47,11 @@ class Assembler {
   void requireMeshes() const;
   void addLink(const UrdfOutline::Link& link, int parentJoint);
   int addJoint(const UrdfOutline::Joint& joint, int parentLink);
+  /// The link's `piece`-th; a mesh is put there by addMeshes().
   CollisionGeometry geometry(const urdf::Collision& collision,
-                             const UrdfOutline::Collision& outline, const std::string& owner);
+                             const UrdfOutline::Collision& outline, const std::string& owner,
+                             std::size_t piece);
+  void addMeshes();
   void addVariables(int jointIndex);
   void resolveMimic(int jointIndex);
   void warnOfMimicRange(const Joint& joint);
@@ -56,7 +60,15 @@ class Assembler {
   const UrdfOutline& outline_;
   const InputSource& source_;
   urdf::ModelInterfaceSharedPtr model_;
+  /// Where a mesh belongs.
+  struct MeshPlace {
+    std::size_t link;
+    std::size_t piece;
+    MeshReference mesh;
+  };
   MeshStore meshes_;
+  std::vector<MeshPlace> meshPlaces_;
+  std::set<const SphereCover*> withCover_;
   RobotParts parts_;
 };
 
@@ -83,6 +95,7 @@ RobotParts Assembler::assemble(const SrdfDocument& srdf, const InputSource& srdf
     pending.pop_back();
     visit(joint->child, addJoint(*joint, parentLink));
   }
+  addMeshes();
   const int count = static_cast<int>(parts_.joints.size());
   for (int j = 0; j < count; ++j) addVariables(j);
   for (int j = 0; j < count; ++j) resolveMimic(j);
@@ -123,6 +136,20 @@ void Assembler::requireMeshes() const {
   meshes_.requireFound(references);
 }
 
+void Assembler::addMeshes() {
+  std::vector<MeshReference> references;
+  for (const MeshPlace& place : meshPlaces_) references.push_back(place.mesh);
+  meshes_.prepare(references);
+  for (const MeshPlace& place : meshPlaces_) {
+    CollisionGeometry& geometry = parts_.links[place.link].collision[place.piece];
+    const MadeMesh& made = meshes_.get(place.mesh);
+    geometry.shape = *made.mesh;
+    geometry.cover = made.cover;
+    const bool isFirst = withCover_.insert(made.cover.get()).second;
+    geometry.coverSeconds = isFirst ? made.coverSeconds : 0.0;
+  }
+}
+
 void Assembler::addLink(const UrdfOutline::Link& link, int parentJoint) {
   const urdf::LinkConstSharedPtr model = model_->getLink(link.name);
   const std::string owner = "link '" + link.name + "'";
@@ -134,14 +161,14 @@ void Assembler::addLink(const UrdfOutline::Link& link, int parentJoint) {
   result.parentJoint = parentJoint;
   result.hasVisual = link.hasVisual;
   for (std::size_t i = 0; i < link.collisions.size(); ++i) {
-    result.collision.push_back(geometry(*model->collision_array[i], link.collisions[i], owner));
+    result.collision.push_back(geometry(*model->collision_array[i], link.collisions[i], owner, i));
   }
   parts_.links.push_back(std::move(result));
 }
 
 CollisionGeometry Assembler::geometry(const urdf::Collision& collision,
                                       const UrdfOutline::Collision& outline,
-                                      const std::string& owner) {
+                                      const std::string& owner, std::size_t piece) {
   const Eigen::Isometry3d pose = toEigen(collision.origin);
   if (outline.capsule) return {*outline.capsule, pose, "capsule"};
   switch (collision.geometry->type) {
@@ -161,8 +188,9 @@ CollisionGeometry Assembler::geometry(const urdf::Collision& collision,
       break;
   }
   const auto& mesh = dynamic_cast<const urdf::Mesh&>(*collision.geometry);
-  return {meshes_.mesh(mesh.filename, toEigen(mesh.scale), outline.shapeLine, owner), pose,
-          mesh.filename};
+  meshPlaces_.push_back(
+      {parts_.links.size(), piece, {mesh.filename, outline.shapeLine, owner, toEigen(mesh.scale)}});
+  return {Sphere{0.0}, pose, mesh.filename};  // until addMeshes()
 }
 
 int Assembler::addJoint(const UrdfOutline::Joint& joint, int parentLink) {

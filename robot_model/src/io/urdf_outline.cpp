@@ -5,6 +5,7 @@
 #include <map>
 
 #include "io/urdf_elements.hpp"
+#include "io/zero_sizes.hpp"
 
 namespace swept::detail {
 
@@ -93,8 +94,7 @@ void warnOfMissingVolume(const UrdfOutline& outline, const InputSource& source) 
   }
   if (!flat.empty())
     source.warn(lineOfFlat, std::string(flat.size() == 1 ? "link " : "links ") + namesOf(flat) +
-                                ": a shape with a size of 0 is checked as the point, segment or "
-                                "surface that it is");
+                                ": " + kZeroSize);
   if (!shown.empty())
     source.warnOfUnchecked(lineOfShown,
                            std::string(shown.size() == 1 ? "link " : "links ") + namesOf(shown) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -55,6 +56,14 @@ struct LoadOptions {
   /// it is: a link that is shown and has no collision geometry, a scene without a body. `warn`
   /// receives them where this is empty.
   std::function<void(const std::string&)> warnOfUnchecked = {};
+  /// Is told, as a robot is loaded, how many of its different meshes are ready for use and how many
+  /// there are: up to seconds go by where there are many triangles. Called on any thread, never on
+  /// two at a time; it must not throw.
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
+  /// Folder that keeps the balls around a robot's meshes, which take most of the time of loading
+  /// it, for the next time (README, "The cache"); empty: nothing is kept. One that cannot be used
+  /// is a remark to `warn`.
+  std::filesystem::path cache = {};
 };
 
 }  // namespace swept

@@ -18,6 +18,8 @@ struct PlanningProblem {
   std::vector<std::string> jointNames;     ///< that start and goals have values of
   std::vector<double> start;               ///< rad or m, in the order of jointNames
   std::vector<std::vector<double>> goals;  ///< likewise
+  /// Bodies with a size of 0: checked as the points, segments and surfaces that they are.
+  std::vector<std::string> withZeroSize;
 };
 
 /// MotionBenchMaker problems in one JSON file:

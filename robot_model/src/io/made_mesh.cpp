@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/made_mesh.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "io/numbers.hpp"
+#include "io/point_faces.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// In the file's unit: how far apart the corners of triangles may be, along each axis, that are one
+/// corner, or a corner on an edge, to the program that wrote them. Coordinates are off by up to
+/// half of what they are rounded to, single precision or six decimals, and two of them by twice
+/// that. Of a mesh that is small in its unit six decimals are few: no more than 1e-4 of its size.
+double roundingOf(const MeshFileContent& content) {
+  constexpr double kDecimals = 2e-6;
+  constexpr double kUsualWidths = 10.0;
+  double largest = 0.0;
+  for (const Eigen::Vector3d& vertex : content.vertices)
+    largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  return std::max(
+      2.0 * largest * std::numeric_limits<float>::epsilon(),
+      std::min(kDecimals, kUsualWidths * TriangleMesh::usualCrackWidth(content.vertices)));
+}
+
+/// Assimp has coordinates in single precision; far from 0 that takes them where they are not.
+void requirePrecise(const MeshFileContent& content, const Eigen::Vector3d& scale) {
+  constexpr double kMostLost = 1e-3;  // m
+  const double lost = content.loss * scale.cwiseAbs().maxCoeff();
+  if (lost <= kMostLost) return;
+  throw MeshFileError("has coordinates that single precision moves by " + formatNumber(lost) +
+                      " m; at most " + formatNumber(kMostLost) + " m are allowed");
+}
+
+void addCover(MadeMesh& made, CoverCache& covers) {
+  const auto start = std::chrono::steady_clock::now();
+  made.cover = covers.coverOf(*made.mesh);
+  made.coverSeconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+MadeMesh made(MeshFileContent content, const Eigen::Vector3d& scale, CoverCache* covers) {
+  requirePrecise(content, scale);
+  MadeMesh result;
+  const double rounding = roundingOf(content);
+  for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
+  refuseLonePoints(content.vertices, content.triangles);
+  const double crackWidth = std::max(rounding * scale.cwiseAbs().minCoeff(),
+                                     TriangleMesh::usualCrackWidth(content.vertices));
+  result.mesh =
+      TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
+  result.rounding = rounding * scale.cwiseAbs().maxCoeff();
+  result.opening = result.mesh->opening();
+  if (covers != nullptr) addCover(result, *covers);
+  return result;
+}
+
+}  // namespace
+
+MadeMesh unusable(const MeshFileError& error) {
+  MadeMesh result;
+  result.problem = std::string(" ") + error.what();
+  return result;
+}
+
+MadeMesh makeMesh(MeshFileContent content, const Eigen::Vector3d& scale,
+                  CoverCache* covers) noexcept {
+  try {
+    return made(std::move(content), scale, covers);
+  } catch (const MeshFileError& error) {
+    return unusable(error);
+  } catch (const std::invalid_argument& error) {
+    MadeMesh result;
+    result.problem = std::string(": ") + error.what();
+    return result;
+  } catch (...) {
+    MadeMesh result;
+    result.failure = std::current_exception();
+    return result;
+  }
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/cover_cache.hpp"
+#include "io/mesh_file.hpp"
+#include "swept/core/sphere_cover.hpp"
+#include "swept/core/triangle_mesh.hpp"
+
+namespace swept::detail {
+
+/// A mesh file at one scale, and what there is to be said of it. Or why there is no mesh.
+struct MadeMesh {
+  std::optional<TriangleMesh> mesh;
+  double rounding = 0.0;  ///< m: along each axis, what is nearer to another thing may be the same
+  double opening = 0.0;   ///< m, TriangleMesh::opening()
+  std::shared_ptr<const SphereCover> cover;  ///< null: none was asked for
+  double coverSeconds = 0.0;                 ///< s, to build it
+  std::string problem;         ///< that the file has; goes behind its name in a message
+  std::exception_ptr failure;  ///< that the file has nothing to do with, as too little memory
+};
+
+/// How messages put a file that cannot be used.
+MadeMesh unusable(const MeshFileError& error);
+
+/// Scales what a file holds (negative: mirrors), and makes a mesh of it, with its cover if there is
+/// where that may come from. Throws nothing.
+MadeMesh makeMesh(MeshFileContent content, const Eigen::Vector3d& scale,
+                  CoverCache* covers) noexcept;
+
+}  // namespace swept::detail
