@@ -14,9 +14,8 @@ namespace swept {
 std::filesystem::path cacheFolder();
 
 /// The robot of the command line, with this SRDF (empty: none); with --xacro that of `expanded`,
-/// which expandedUrdf() gave. Meanwhile a line on the terminal
-/// says how many of its meshes are ready; remarks come when that is gone. Throws as Robot::load and
-/// loadExpanded().
+/// which expandedUrdf() gave. Meanwhile a line on the terminal says how many of its meshes are
+/// ready; remarks come when that is gone. Throws as Robot::load and loadExpanded().
 std::shared_ptr<const Robot> loadRobot(const Arguments& args, const std::string& expanded,
                                        const std::filesystem::path& srdf,
                                        const LoadOptions& options);
