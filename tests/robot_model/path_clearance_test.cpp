@@ -236,7 +236,7 @@ TEST_F(PathBesideAPost, ContactEndsTheSearch) {
 // What is not finite is not known to keep away, whatever the other motions do.
 TEST_F(PathBesideAPost, NothingIsProvenOfWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Path path{{-1, 0.5}, {1, 0.5}, {nan, 0.5}, {2, 2}};
+  const Path path{{-1, 0.5}, {1, 0.5}, {nan, 0.5}, {2, 2}, {2, 3}};
   const PathClearance found = of(path);
   EXPECT_EQ(found.lower, 0.0);
   EXPECT_EQ(found.world.lower, 0.0);

@@ -33,8 +33,8 @@ struct CheckerOptions {
   double margin = 0.0;
   /// m. A motion that keeps more than margin + tolerance everywhere is Free, never Undecided.
   double tolerance = tolerance::kMotion;
-  /// All of the robot's variables; those outside the group keep these values. Default:
-  /// Robot::defaultState().
+  /// All of the robot's variables; those outside the group keep these values (wholeStateOf() has
+  /// them by name). Default: Robot::defaultState().
   std::optional<Eigen::VectorXd> reference = {};
   /// Cap on the intervals examined per motion; a motion that needs more is Undecided. So is one
   /// that needs more than 64 times as many looks at a pair of shapes, beyond the first at each, or

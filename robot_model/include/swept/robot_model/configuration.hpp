@@ -81,6 +81,9 @@ concept NotPacked =
 
 }  // namespace detail
 
+// A view that is made of another one is a copy of it, by whichever constructor.
+// NOLINTBEGIN(bugprone-forwarding-reference-overload)
+
 /// A configuration of a group: how functions take it, and a span of it.
 template <typename Number>
 class BasicConfigurationView : public std::span<Number> {
@@ -170,5 +173,7 @@ class ConfigurationList {
  private:
   std::vector<ConfigurationView> states_;
 };
+
+// NOLINTEND(bugprone-forwarding-reference-overload)
 
 }  // namespace swept
