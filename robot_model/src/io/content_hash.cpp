@@ -41,7 +41,8 @@ std::uint64_t wordAt(const std::uint8_t* bytes) {
 
 using Working = std::array<std::uint64_t, 16>;
 
-void mix(Working& v, int a, int b, int c, int d, std::uint64_t x, std::uint64_t y) {
+void mix(Working& v, std::size_t a, std::size_t b, std::size_t c, std::size_t d, std::uint64_t x,
+         std::uint64_t y) {
   v[a] += v[b] + x;
   v[d] = std::rotr(v[d] ^ v[a], 32);
   v[c] += v[d];
@@ -92,9 +93,9 @@ void ContentHash::compress(bool isLast) {
   constexpr int kRounds = 12;
   for (int round = 0; round < kRounds; ++round) {
     const auto& order = kOrder[static_cast<std::size_t>(round) % kOrder.size()];
-    for (int i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 4; ++i)
       mix(v, i, 4 + i, 8 + i, 12 + i, words[order[2 * i]], words[order[2 * i + 1]]);
-    for (int i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 4; ++i)
       mix(v, i, 4 + (i + 1) % 4, 8 + (i + 2) % 4, 12 + (i + 3) % 4, words[order[8 + 2 * i]],
           words[order[9 + 2 * i]]);
   }
