@@ -7,6 +7,7 @@
 #include "input/task.hpp"
 #include "input/unchecked.hpp"
 #include "output/progress.hpp"
+#include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "replay/query_dump.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/poses.hpp"
 #include "input/states.hpp"

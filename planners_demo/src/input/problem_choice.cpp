@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
 #include "swept/robot_model/input.hpp"

@@ -45,7 +45,7 @@
 #include <array>
 #include <cctype>
 
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "output/text_output.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"

@@ -17,7 +17,7 @@
 #include <thread>
 #include <utility>
 
-#include "command_line/did_you_mean.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "plan/planners.hpp"

@@ -43,7 +43,8 @@ TriangleMesh loadMesh(const std::filesystem::path& file, const Eigen::Vector3d& 
   const detail::InputSource source(file.string(), options);
   const std::string reference = file.filename().string(), owner = "the program";
   try {
-    return detail::MeshStore(source).mesh(reference, scale, 0, owner);
+    detail::MeshStore store(source);
+    return *store.get({.reference = reference, .line = 0, .owner = owner, .scale = scale}).mesh;
   } catch (const InputError& error) {
     throw aboutItself(error, "mesh '" + reference + "' of " + owner);
   }
