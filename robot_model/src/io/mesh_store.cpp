@@ -19,31 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the file of a reference is; else what kept it from being found.
-struct Place {
-  fs::path file;
-  std::string problem;
-};
-
-Place placeOf(const std::string& reference, const InputSource& source) {
-  const auto candidates = candidatePaths(reference, source.folder(), source.options());
-  if (candidates.empty()) return {{}, ": the scheme must be package://, model:// or file://"};
-  std::string tried;
-  for (const fs::path& candidate : candidates) {
-    const std::string reason = whyUnreadable(candidate);
-    if (reason.empty()) return {candidate, {}};
-    tried += (tried.empty() ? "" : ", ") + candidate.string();
-    if (reason != kNoSuchFile) tried += " (" + reason + ")";
-  }
-  const std::string package = packageOf(reference);
-  const std::string hint = package.empty() ? ""
-                                           : "; --package " + package +
-                                                 "=DIR (LoadOptions::packages) tells where package "
-                                                 "'" +
-                                                 package + "' is";
-  return {{}, " not found; looked for " + tried + hint};
-}
-
 std::string nameOf(const MeshReference& mesh) {
   return "mesh '" + mesh.reference + "' of " + mesh.owner;
 }
@@ -91,13 +66,32 @@ void requirePrecise(const MeshFileContent& content, const Eigen::Vector3d& scale
 
 }  // namespace
 
+MeshPlace placeOfMesh(const std::string& reference, const InputSource& source) {
+  const auto candidates = candidatePaths(reference, source.folder(), source.options());
+  if (candidates.empty()) return {{}, ": the scheme must be package://, model:// or file://"};
+  std::string tried;
+  for (const fs::path& candidate : candidates) {
+    const std::string reason = whyUnreadable(candidate);
+    if (reason.empty()) return {candidate, {}};
+    tried += (tried.empty() ? "" : ", ") + candidate.string();
+    if (reason != kNoSuchFile) tried += " (" + reason + ")";
+  }
+  const std::string package = packageOf(reference);
+  const std::string hint = package.empty() ? ""
+                                           : "; --package " + package +
+                                                 "=DIR (LoadOptions::packages) tells where package "
+                                                 "'" +
+                                                 package + "' is";
+  return {{}, " not found; looked for " + tried + hint};
+}
+
 void MeshStore::requireFound(const std::vector<MeshReference>& references) const {
   constexpr std::size_t kMost = 10;
   std::map<std::string, std::string> problems;  // of each reference, empty: none
   std::vector<const MeshReference*> missing;
   for (const MeshReference& mesh : references) {
     if (problems.contains(mesh.reference)) continue;
-    const std::string problem = placeOf(mesh.reference, source_).problem;
+    const std::string problem = placeOfMesh(mesh.reference, source_).problem;
     problems.emplace(mesh.reference, problem);
     if (!problem.empty()) missing.push_back(&mesh);
   }
@@ -113,7 +107,7 @@ void MeshStore::requireFound(const std::vector<MeshReference>& references) const
 TriangleMesh MeshStore::mesh(const std::string& reference, const Eigen::Vector3d& scale, int line,
                              const std::string& owner) {
   const std::string name = nameOf({reference, line, owner});
-  const auto [file, problem] = placeOf(reference, source_);
+  const auto [file, problem] = placeOfMesh(reference, source_);
   if (!problem.empty()) source_.fail(line, name + problem);
   const Key key{oneName(file), {scale.x(), scale.y(), scale.z()}};
   if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
