@@ -186,7 +186,8 @@ TEST_F(Page, DrawsSomeOfALargeCloud) {
   const std::vector<std::string> command{"check",   kRook, "ready",          "--group", "arm",
                                          "--cloud", cloud, "--point-radius", "0.001"};
   const json data = pageOf(command);
-  const json& shape = data["geometries"].back();
+  const json& part = data["bodies"].back()["parts"][0];
+  const json& shape = data["geometries"][part["geometry"].get<std::size_t>()];
   const std::vector<float> balls = floats(shape["balls"]);
   EXPECT_EQ(shape["of"], kPoints);
   EXPECT_EQ(shape["drawn"], balls.size() / 4);

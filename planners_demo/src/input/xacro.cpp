@@ -90,10 +90,8 @@ std::string expanded(const Arguments& args) {
 
 }  // namespace
 
-std::shared_ptr<const Robot> loadExpanded(const Arguments& args, const std::filesystem::path& srdf,
-                                          const LoadOptions& options) {
-  return Robot::parse(expanded(args), args.robot + " (expanded)",
-                      srdf.empty() ? std::string() : readTextFile(srdf), srdf.string(), options);
+ExpandedText expandedText(const Arguments& args) {
+  return {.text = expanded(args), .name = args.robot + " (expanded)"};
 }
 
 }  // namespace swept

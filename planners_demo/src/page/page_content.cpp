@@ -14,6 +14,7 @@
 #include "page/page_frames.hpp"
 #include "page/page_pieces.hpp"
 #include "page/page_tree.hpp"
+#include "page/page_visuals.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
@@ -54,6 +55,7 @@ Json bodiesJson(const std::vector<PageBody>& bodies, const PageFrames& frames,
                     {"kind", toString(body.kind)},
                     {"frame", body.link < 0 ? Json(nullptr) : Json(place)},
                     {"padding", body.padding},
+                    {"colour", body.colour ? Json(cssColour(*body.colour)) : Json(nullptr)},
                     {"parts", geometries.partsJson(body)}});
   }
   return json;
@@ -119,14 +121,16 @@ std::vector<PageSpan> spansOf(const PageContent& content) {
   return spans;
 }
 
-/// Links that bodies move with, and the tip.
-std::vector<int> linksOf(const std::vector<PageBody>& bodies, int tipLink) {
+/// Links that bodies move with, the tip, and those that are shown.
+std::vector<int> linksOf(const std::vector<PageBody>& bodies, int tipLink,
+                         const std::vector<int>& shown) {
   std::vector<int> links;
   const auto add = [&](int link) {
     if (link >= 0 && std::ranges::find(links, link) == links.end()) links.push_back(link);
   };
   for (const PageBody& body : bodies) add(body.link);
   add(tipLink);
+  for (const int link : shown) add(link);
   return links;
 }
 
@@ -141,7 +145,7 @@ Json variablesJson(const Robot& robot, const Group& group) {
 
 /// What every page says.
 Json factsJson(const Arguments& args, const Robot& robot, const World& world,
-               const Checker* checker, const PageContent& content) {
+               const Checker* checker, const PageContent& content, const VisualModel& visuals) {
   Json json = Json::array();
   const auto add = [&](const std::string& name, const std::string& value) {
     json.push_back(Json::array({name, value}));
@@ -161,6 +165,7 @@ Json factsJson(const Arguments& args, const Robot& robot, const World& world,
   }
   if (const auto links = robot.linksWithoutGeometry(); !links.empty())
     add("not checked (no collision geometry)", joined(links));
+  if (const std::string text = visualsText(visuals); !text.empty()) add("visual", text);
   add("bodies in the world", std::to_string(world.bodies().size()));
   add("command", args.page.commandLine);
   add("swept", SWEPT_VERSION);
@@ -238,19 +243,21 @@ PageContent statesContent(const Checker& checker, std::vector<LabelledState> sta
   return content;
 }
 
-Json pageJson(const Arguments& args, const Robot& robot, const World& world, const Checker* checker,
-              const PageContent& content) {
+Json pageJson(const Arguments& args, const Model& model, const Checker* checker,
+              const PageContent& content, const VisualModel& visuals) {
+  const Robot& robot = *model.robot;
+  const World& world = checker == nullptr ? *model.world : checker->world();
   const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
   const auto reference = checker == nullptr ? std::nullopt : checker->options().reference;
-  const std::vector<PageBody> bodies = pageBodies(robot, world, checker);
+  const std::vector<PageBody> bodies = pageBodies(robot, world, checker, &visuals);
   const std::vector<PageSpan> spans = spansOf(content);
-  const PageFrames frames =
-      framesOf(robot, group, reference, spans, linksOf(bodies, group.tipLink));
+  const std::vector<int> links = linksOf(bodies, group.tipLink, linksWithVisuals(robot, visuals));
+  const PageFrames frames = framesOf(robot, group, reference, spans, links);
   PageGeometries geometries;
   Json json = {{"subcommand", args.command->name},
                {"tone", toString(content.tone)},
                {"headline", content.headline},
-               {"facts", factsJson(args, robot, world, checker, content)},
+               {"facts", factsJson(args, robot, world, checker, content, visuals)},
                {"clouds", cloudsText(world)},
                {"variables", variablesJson(robot, group)},
                {"bodies", bodiesJson(bodies, frames, geometries)}};
@@ -260,6 +267,7 @@ Json pageJson(const Arguments& args, const Robot& robot, const World& world, con
   for (const PageContent::Path& path : content.paths)
     json["paths"].push_back({{"label", path.label}, {"tone", toString(path.tone)}});
   json["tree"] = treeJson(robot, group, reference);
+  json["visuals"] = visualsJson(robot, visuals, frames, geometries);
   json["geometries"] = geometries.geometriesJson();
   json["covers"] = geometries.coversJson();
   json["frames"] = framesJson(robot, frames);

@@ -10,6 +10,7 @@
 #include "input/task.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/visual_model.hpp"
 
 namespace swept {
 
@@ -61,14 +62,15 @@ void sayIfNothingIsChecked(PageContent& content, const Checker& checker);
 /// Judges states, to be shown one at a time.
 PageContent statesContent(const Checker& checker, std::vector<LabelledState> states);
 
-/// Computes and writes the page of --html, and says so on stdout unless that is JSON.
-void writePage(const Arguments& args, const Robot& robot, const World& world,
-               const Checker* checker, const PageContent& content);
+/// Computes and writes the page of --html, and says so on stdout unless that is JSON. What the
+/// robot of `model` looks like is read for it. `checker` may be null: then the world is that of
+/// `model`, nothing is judged, and there may be states of the robot's first group, but no motions.
+void writePage(const Arguments& args, const Model& model, const Checker* checker,
+               const PageContent& content);
 
-/// Everything a page shows, computed: what planners_demo/page/data.js reads. `checker` may be null;
-/// then nothing is judged, and there may be states of the robot's first group, but no motions.
-Json pageJson(const Arguments& args, const Robot& robot, const World& world, const Checker* checker,
-              const PageContent& content);
+/// Everything a page shows, computed: what planners_demo/page/data.js reads.
+Json pageJson(const Arguments& args, const Model& model, const Checker* checker,
+              const PageContent& content, const VisualModel& visuals);
 
 /// The whole file. Text of `data` cannot end the element it is in, whatever it is.
 std::string htmlOf(const Json& data);

@@ -28,6 +28,11 @@ LabelledState defaultState(const Robot& robot, const Group& group) {
   return state;
 }
 
+VisualModel visualsOf(const Arguments& args, const Model& model) {
+  if (model.urdf) return VisualModel::parse(model.urdf->text, model.urdf->name, model.options);
+  return VisualModel::load(args.robot, model.options);
+}
+
 }  // namespace
 
 void addHtmlOption(CLI::App& app, Arguments& args) {
@@ -49,19 +54,19 @@ void requirePageFile(const Arguments& args) {
   requireWritable(file);
 }
 
-void writePage(const Arguments& args, const Robot& robot, const World& world,
-               const Checker* checker, const PageContent& content) {
+void writePage(const Arguments& args, const Model& model, const Checker* checker,
+               const PageContent& content) {
   {
     Progress progress("making the page", args.quiet);
-    writeWholeFile(args.page.file, htmlOf(pageJson(args, robot, world, checker, content)));
+    const VisualModel visuals = visualsOf(args, model);
+    writeWholeFile(args.page.file, htmlOf(pageJson(args, model, checker, content, visuals)));
   }
   if (!args.json) std::cout << "page written to " << escapedLine(args.page.file) << '\n';
 }
 
 void writeCheckPage(const Arguments& args, const Model& model, const Task& task) {
   if (args.page.file.empty()) return;
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(),
-            statesContent(*task.checker, task.states));
+  writePage(args, model, task.checker.get(), statesContent(*task.checker, task.states));
 }
 
 void writeMotionPage(const Arguments& args, const Model& model, const Task& task) {
@@ -82,7 +87,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   content.tone = toneOf(worst(findings).verdict);
   content.headline = countsText("motion", findings);
   sayIfNothingIsChecked(content, checker);
-  writePage(args, *model.robot, checker.world(), &checker, content);
+  writePage(args, model, &checker, content);
 }
 
 void writeVerifyPage(const Arguments& args, const Model& model, const Task& task, const Json& file,
@@ -116,7 +121,7 @@ void writeVerifyPage(const Arguments& args, const Model& model, const Task& task
     for (const auto& [reason, pairs] : summary.allowed)
       content.facts.emplace_back("not checked (" + reason + ")", joined(pairs));
   }
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+  writePage(args, model, task.checker.get(), content);
 }
 
 void writeInfoPage(const Arguments& args, const Model& model, const Checker* checker) {
@@ -129,7 +134,7 @@ void writeInfoPage(const Arguments& args, const Model& model, const Checker* che
   content.headline = std::to_string(robot.links().size()) + " links, " +
                      std::to_string(robot.joints().size()) + " joints";
   content.states = {defaultState(robot, group)};
-  writePage(args, robot, *model.world, checker, content);
+  writePage(args, model, checker, content);
 }
 
 }  // namespace swept

@@ -111,7 +111,7 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
   addPlanFacts(content, request, outcome);
   // A path may consist of its start alone.
   if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+  writePage(args, model, task.checker.get(), content);
 }
 
 }  // namespace swept
