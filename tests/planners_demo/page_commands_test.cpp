@@ -256,7 +256,7 @@ TEST_F(Page, ViewWritesOrOpens) {
   const Outcome written = runSwept({"view", kRook, "--scene", kShelf, "-o", page});
   EXPECT_EQ(written.exitCode, 0) << written.err;
   EXPECT_EQ(written.out, "page written to " + page + "\n");
-  EXPECT_EQ(pageData(folder_.read("v.html"))["subcommand"], "view");
+  EXPECT_EQ(pageData(folder_.read("v.html"))["title"], "swept view");
 
   folder_.write("xdg-open", "#!/bin/sh\nprintf %s \"$1\" > \"${0%/*}/opened\"\n");
   std::filesystem::permissions(folder_.path("xdg-open"), std::filesystem::perms::owner_all);

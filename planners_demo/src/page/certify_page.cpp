@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "output/clearance_text.hpp"
-#include "page/page_content.hpp"
 #include "page/pages.hpp"
+#include "page/program_page.hpp"
 
 namespace swept {
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "command_line/command.hpp"
 #include "command_line/options.hpp"
 #include "io/json_value.hpp"
 #include "output/clearance_text.hpp"
@@ -14,6 +15,7 @@
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
 #include "page/path_page.hpp"
+#include "page/program_page.hpp"
 #include "page/view.hpp"
 #include "swept/robot_model/input.hpp"
 
@@ -21,9 +23,9 @@ namespace swept {
 namespace {
 
 /// The group's values in the robot's default state.
-LabelledState defaultState(const Robot& robot, const Group& group) {
+PageContent::State defaultState(const Robot& robot, const Group& group) {
   const Eigen::VectorXd all = robot.defaultState();
-  LabelledState state{.label = "default state", .q = {}};
+  PageContent::State state{.label = "default state", .q = {}};
   for (const int variable : group.variables) state.q.push_back(all[variable]);
   return state;
 }
@@ -54,19 +56,29 @@ void requirePageFile(const Arguments& args) {
   requireWritable(file);
 }
 
+std::vector<PageContent::State> pageStates(const std::vector<LabelledState>& states) {
+  std::vector<PageContent::State> shown;
+  for (const LabelledState& state : states) shown.push_back({.label = state.label, .q = state.q});
+  return shown;
+}
+
 void writePage(const Arguments& args, const Model& model, const Checker* checker,
-               const PageContent& content) {
+               PageContent content) {
+  content.title = "swept " + std::string(args.command->name);
+  content.command = args.page.commandLine;
   {
     Progress progress("making the page", args.quiet);
+    const World& world = checker == nullptr ? *model.world : checker->world();
     const VisualModel visuals = visualsOf(args, model);
-    writeWholeFile(args.page.file, htmlOf(pageJson(args, model, checker, content, visuals)));
+    writeWholeFile(args.page.file,
+                   htmlOf(pageJson(*model.robot, world, checker, content, visuals)));
   }
   if (!args.json) std::cout << "page written to " << escapedLine(args.page.file) << '\n';
 }
 
 void writeCheckPage(const Arguments& args, const Model& model, const Task& task) {
   if (args.page.file.empty()) return;
-  writePage(args, model, task.checker.get(), statesContent(*task.checker, task.states));
+  writePage(args, model, task.checker.get(), statesContent(*task.checker, pageStates(task.states)));
 }
 
 void writeMotionPage(const Arguments& args, const Model& model, const Task& task) {

@@ -13,9 +13,9 @@
 #include <memory>
 
 #include "output/whole_file.hpp"
-#include "page/page_content.hpp"
 #include "page/pages.hpp"
 #include "page/path_page.hpp"
+#include "page/program_page.hpp"
 
 namespace swept {
 namespace {
