@@ -99,7 +99,11 @@ def rook7(meshes):
         states[(name, "arm")] = dict(zip(arm, q))
     states[("closed", "gripper")] = {"finger_joint": 0.0}
     states[("open", "gripper")] = {"finger_joint": 0.04}
-    return Robot("rook7", links, groups, states)
+    robot = Robot("rook7", links, groups, states)
+    robot.materials = {"shell": (0.93, 0.93, 0.94, 1), "slate": (0.44, 0.50, 0.58, 1), "amber": (0.91, 0.51, 0.16, 1)}
+    robot.paint = {link.name: "slate" if i % 2 == 0 else "shell" for i, link in enumerate(links)}
+    robot.paint.update({name: "amber" for name in ("elbow_ring", "finger_left", "finger_right")})
+    return robot
 
 
 def rook6_meshes():

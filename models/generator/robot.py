@@ -136,6 +136,8 @@ class Robot:
         self.origins = [compose(inverse(links[p].zero), l.zero) if p >= 0 else l.zero
                         for l, p in zip(links, self.parent)]
         self.disabled = []  # (link, link, reason)
+        self.materials = {}  # of <robot>: rgba by name
+        self.paint = {}  # names of materials by link
 
     def group(self, name):
         return next(g for g in self.groups if g.name == name)
@@ -187,8 +189,10 @@ class Robot:
     def urdf(self):
         lines = ['<?xml version="1.0"?>', "<!-- SPDX-License-Identifier: BSD-3-Clause -->",
                  f'<robot name="{self.name}">']
+        for name, rgba in self.materials.items():
+            lines.append(f'  <material name="{name}"><color rgba="{text(rgba)}"/></material>')
         for link in self.links:
-            lines += link_lines(link)
+            lines += link_lines(link, self.paint.get(link.name))
         for i, link in enumerate(self.links):
             if link.parent:
                 lines += self.joint_lines(i)
@@ -228,12 +232,14 @@ def origin(p):
     return f'<origin xyz="{text(p[1])}" rpy="{text(to_rpy(p[0]))}"/>'
 
 
-def link_lines(link):
+def link_lines(link, material):
     if not link.collision:
         return [f'  <link name="{link.name}"/>']
     lines = [f'  <link name="{link.name}">']
     for tag in ("visual", "collision"):
         for shape, p in link.collision:
-            lines += [f"    <{tag}>", f"      {origin(p)}", f"      <geometry>{shape.urdf()}</geometry>",
-                      f"    </{tag}>"]
+            lines += [f"    <{tag}>", f"      {origin(p)}", f"      <geometry>{shape.urdf()}</geometry>"]
+            if tag == "visual" and material:
+                lines.append(f'      <material name="{material}"/>')
+            lines.append(f"    </{tag}>")
     return lines + ["  </link>"]

@@ -22,6 +22,7 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
   ${PROJECT_BINARY_DIR}/core ${PROJECT_BINARY_DIR}/robot_model ${PROJECT_BINARY_DIR}/robot_model/proofs
+  ${PROJECT_BINARY_DIR}/robot_model/pages
   ${PROJECT_BINARY_DIR}/ompl_bridge)
 
 # swept_package(PART NAME package SECTION section SUMMARY "one line" [OF parts] [DEPENDS "others' packages"]
@@ -59,7 +60,7 @@ macro(swept_library_packages component summary others)
 endmacro()
 
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
-file(READ ${PROJECT_SOURCE_DIR}/planners_demo/page/three_licence.txt three_licence)
+file(READ ${PROJECT_SOURCE_DIR}/robot_model/pages/page/three_licence.txt three_licence)
 configure_file(copyright.in copyright @ONLY)
 set(changelog_packager "${SWEPT_PACKAGER}")
 if(NOT changelog_packager MATCHES "<")
@@ -77,6 +78,11 @@ endif()
 if(TARGET swept_proofs)
   swept_library_packages(proofs "proofs of robot paths that others can check" "" robot_model)
 endif()
+set(pages)
+if(TARGET swept_pages)
+  set(pages pages)
+  swept_library_packages(pages "pages of robots and proven motions" "" robot_model)
+endif()
 if(TARGET swept_ompl_bridge)
   # OMPL's CMake file names the three Boost libraries.
   swept_library_packages(ompl_bridge "OMPL classes over proven motions"
@@ -84,10 +90,10 @@ if(TARGET swept_ompl_bridge)
 endif()
 if(TARGET swept)
   swept_package(program NAME swept SECTION science SUMMARY "plans, checks and proves robot motions"
-    OF ompl_bridge proofs)
+    OF ompl_bridge proofs ${pages})
 endif()
 if(TARGET swept_mpi)
   swept_package(program_mpi NAME swept-mpi SECTION science SUMMARY "swept for batches on MPI jobs"
-    OF ompl_bridge proofs RECOMMENDS openmpi-bin)
+    OF ompl_bridge proofs ${pages} RECOMMENDS openmpi-bin)
 endif()
 include(CPack)

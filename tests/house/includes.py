@@ -103,7 +103,7 @@ def missing(path):
 
 
 def missing_public(root):
-    folders = [root / folder / "include" for folder in [*FOLDERS, "robot_model/proofs"]]
+    folders = [root / folder / "include" for folder in [*FOLDERS, "robot_model/proofs", "robot_model/pages"]]
     texts = {str(path.relative_to(folder)): path.read_text(encoding="utf-8")
              for folder in folders for path in sorted(folder.rglob("*.hpp"))}
     codes = {header: TEXT.sub("", text) for header, text in texts.items()}

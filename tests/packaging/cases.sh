@@ -23,7 +23,10 @@ case_files() {
 }
 
 sources_of() {
-  if [[ "$1" == proofs ]]; then echo "$root/robot_model/proofs"; else echo "$root/$1"; fi
+  case "$1" in
+    proofs | pages) echo "$root/robot_model/$1" ;;
+    *) echo "$root/$1" ;;
+  esac
 }
 
 # Links of the installed pages, but those to other sites and within a page; words in brackets behind links of code are none.
@@ -66,7 +69,7 @@ case_requests() {
   configure requests -D INSTALLED="${names%;}" -D IS_STATIC="$is_static"
   # As if the core alone were installed.
   cp -r "$prefix" "$temporary/core_only"
-  find "$temporary/core_only" -name 'swept_robot_model*.cmake' -delete -o -name 'swept_proofs*.cmake' -delete -o -name 'swept_ompl*.cmake' -delete
+  find "$temporary/core_only" -name 'swept_robot_model*.cmake' -delete -o -name 'swept_proofs*.cmake' -delete -o -name 'swept_pages*.cmake' -delete -o -name 'swept_ompl*.cmake' -delete
   rm -r "$temporary/requests"
   prefix="$temporary/core_only" configure requests -D INSTALLED=core -D IS_STATIC="$is_static"
 }
@@ -94,6 +97,18 @@ case_proofs() {
   if ldd "$temporary/proofs/certify_path" | grep -E 'libompl|libboost'; then fail "the program needs these libraries"; fi
 }
 
+# A page where there is no OMPL.
+case_pages() {
+  if ! has pages; then
+    echo "pages: left out (it is not installed)"
+    return
+  fi
+  configure pages -D CMAKE_DISABLE_FIND_PACKAGE_ompl=ON -D EXAMPLE="$root/planners_demo/examples/14_page.cpp"
+  cmake --build "$temporary/pages"
+  "$temporary/pages/page" "$root/models" || fail "the page is wrong"
+  if ldd "$temporary/pages/page" | grep -E 'libompl|libboost|libcrypto'; then fail "the program needs these libraries"; fi
+}
+
 # The same programs by pkg-config alone.
 case_pkg_config() {
   if ! command -v pkg-config >/dev/null; then
@@ -114,6 +129,11 @@ case_pkg_config() {
     words="$(pkg-config "${static[@]}" --cflags --libs swept-proofs)"
     compile_by_words "$root/planners_demo/examples/13_certify_path.cpp" "$words"
     "$temporary/by_words" "$root/models" || fail "the proof is wrong"
+  fi
+  if has pages; then
+    words="$(pkg-config "${static[@]}" --cflags --libs swept-pages)"
+    compile_by_words "$root/planners_demo/examples/14_page.cpp" "$words"
+    "$temporary/by_words" "$root/models" || fail "the page is wrong"
   fi
   if ! has ompl_bridge; then return; fi
   words="$(pkg-config "${static[@]}" --cflags --libs swept-ompl-bridge)"

@@ -49,6 +49,8 @@ expect_depends libswept-robot-model0.1 'libswept-core0.1'
 expect_depends libswept-robot-model-dev 'libswept-core-dev' ompl
 expect_depends libswept-proofs0.1 'libswept-robot-model0.1' ompl
 expect_depends libswept-proofs-dev 'libswept-robot-model-dev' ompl
+expect_depends libswept-pages0.1 'libswept-robot-model0.1' ompl
+expect_depends libswept-pages-dev 'libswept-robot-model-dev' ompl
 expect_depends libswept-ompl-bridge0.1 'libompl16'
 expect_depends libswept-ompl-bridge-dev 'libompl-dev'
 expect_depends swept 'libswept-ompl-bridge0.1' 'dev'

@@ -29,7 +29,7 @@ mv "$temporary/first" "$temporary/elsewhere/prefix"
 prefix="$temporary/elsewhere/prefix"
 library_folder="$(dirname "$(find "$prefix" -name 'libswept_core.*' | head -n 1)")"
 installed=()
-for component in core robot_model proofs ompl_bridge; do
+for component in core robot_model proofs pages ompl_bridge; do
   if [[ -d "$prefix/include/swept/$component" ]]; then installed+=("$component"); fi
 done
 is_static=OFF
@@ -49,7 +49,7 @@ configure() {
 }
 
 cases=("$@")
-if ((${#cases[@]} == 0)); then cases=(files core requests full proofs pkg_config flags program manual bare_options tree); fi
+if ((${#cases[@]} == 0)); then cases=(files core requests full proofs pages pkg_config flags program manual bare_options tree); fi
 for name in "${cases[@]}"; do
   if ! declare -F "case_$name" >/dev/null; then
     echo "error: no case '$name'; there are $(declare -F | sed -n 's/declare -f case_//p' | xargs)" >&2

@@ -186,7 +186,8 @@ TEST_F(Page, DrawsSomeOfALargeCloud) {
   const std::vector<std::string> command{"check",   kRook, "ready",          "--group", "arm",
                                          "--cloud", cloud, "--point-radius", "0.001"};
   const json data = pageOf(command);
-  const json& shape = data["geometries"].back();
+  const json& part = data["bodies"].back()["parts"][0];
+  const json& shape = data["geometries"][part["geometry"].get<std::size_t>()];
   const std::vector<float> balls = floats(shape["balls"]);
   EXPECT_EQ(shape["of"], kPoints);
   EXPECT_EQ(shape["drawn"], balls.size() / 4);
@@ -255,7 +256,7 @@ TEST_F(Page, ViewWritesOrOpens) {
   const Outcome written = runSwept({"view", kRook, "--scene", kShelf, "-o", page});
   EXPECT_EQ(written.exitCode, 0) << written.err;
   EXPECT_EQ(written.out, "page written to " + page + "\n");
-  EXPECT_EQ(pageData(folder_.read("v.html"))["subcommand"], "view");
+  EXPECT_EQ(pageData(folder_.read("v.html"))["title"], "swept view");
 
   folder_.write("xdg-open", "#!/bin/sh\nprintf %s \"$1\" > \"${0%/*}/opened\"\n");
   std::filesystem::permissions(folder_.path("xdg-open"), std::filesystem::perms::owner_all);

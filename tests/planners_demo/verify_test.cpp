@@ -261,7 +261,7 @@ TEST_F(Verify, APageShowsThePathAndWhetherItsProofHolds) {
     return pageData(gantry_.folder().read("page.html"));
   };
   const auto data = dataOf(path_, 0);
-  EXPECT_EQ(data["subcommand"], "verify");
+  EXPECT_EQ(data["title"], "swept verify");
   EXPECT_EQ(data["headline"], "verified");
   EXPECT_EQ(data["tone"], "good");
   EXPECT_EQ(data["motions"].size(), path_["states"].size() - 1);

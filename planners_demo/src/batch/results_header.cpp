@@ -131,7 +131,7 @@ Json resultsHeader(const Batch& batch) {
       {"version", kVersion},
       {"swept", SWEPT_VERSION},
       {"robot", batch.model.robot->name()},
-      {"urdf", args.xacro ? verify::digestOf(batch.model.expanded) : fileDigest(args.robot)},
+      {"urdf", args.xacro ? verify::digestOf(batch.model.urdf->text) : fileDigest(args.robot)},
       {"srdf", srdf.empty() ? Json(nullptr) : Json(fileDigest(srdf))},
       {"group", batch.group},
       {"problems", fileDigest(args.problems)},

@@ -178,18 +178,4 @@ void addClouds(const Arguments& args, const Robot& robot,
   }
 }
 
-std::string cloudsText(const World& world) {
-  std::string text;
-  forEachCloud(world, [&](const WorldBody& body, const PointCloud& cloud, auto boxes) {
-    text += "body " + escapedLine(body.name) + " is " + countedText(cloud.points().size(), "ball") +
-            " of radius " + shortNumber(cloud.leastRadius());
-    if (cloud.largestRadius() > cloud.leastRadius())
-      text += " to " + shortNumber(cloud.largestRadius());
-    text += " m";
-    if (boxes > 0) text += " and " + countedText(boxes, "box", "boxes");
-    text += "\n";
-  });
-  return text;
-}
-
 }  // namespace swept

@@ -19,7 +19,4 @@ void addClouds(const Arguments& args, const Robot& robot,
                const std::optional<Eigen::VectorXd>& reference, const LoadOptions& options,
                World& world);
 
-/// What a proof in this world is a proof for, where it has clouds: a line per body; else empty.
-std::string cloudsText(const World& world);
-
 }  // namespace swept

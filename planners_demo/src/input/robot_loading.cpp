@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "input/xacro.hpp"
 #include "output/progress.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 
@@ -46,7 +46,8 @@ std::filesystem::path cacheFolder() {
   return folder == nullptr ? "" : folder;
 }
 
-std::shared_ptr<const Robot> loadRobot(const Arguments& args, const std::string& expanded,
+std::shared_ptr<const Robot> loadRobot(const Arguments& args,
+                                       const std::optional<ExpandedText>& text,
                                        const std::filesystem::path& srdf,
                                        const LoadOptions& options) {
   HeldRemarks remarks(options);
@@ -57,8 +58,9 @@ std::shared_ptr<const Robot> loadRobot(const Arguments& args, const std::string&
     progress.setLabel(label + ": " + std::to_string(done) + " of " + std::to_string(total) +
                       " meshes");
   };
-  return args.xacro ? loadExpanded(args, expanded, srdf, holding)
-                    : Robot::load(args.robot, srdf, holding);
+  if (!text) return Robot::load(args.robot, srdf, holding);
+  return Robot::parse(text->text, text->name, srdf.empty() ? std::string() : readTextFile(srdf),
+                      srdf.string(), holding);
 }
 
 }  // namespace swept

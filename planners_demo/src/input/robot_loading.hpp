@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
+#include <optional>
 
 #include "command_line/arguments.hpp"
+#include "input/xacro.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -13,10 +14,11 @@ namespace swept {
 /// What SWEPT_CACHE names; empty: nothing, so that no cover is kept.
 std::filesystem::path cacheFolder();
 
-/// The robot of the command line, with this SRDF (empty: none); with --xacro that of `expanded`,
-/// which expandedUrdf() gave. Meanwhile a line on the terminal says how many of its meshes are
-/// ready; remarks come when that is gone. Throws as Robot::load and loadExpanded().
-std::shared_ptr<const Robot> loadRobot(const Arguments& args, const std::string& expanded,
+/// The robot of the command line, or of `text` in place of its file, with this SRDF (empty: none).
+/// Meanwhile a line on the terminal says how many of its meshes are ready; remarks come when that
+/// is gone. Throws as Robot::load.
+std::shared_ptr<const Robot> loadRobot(const Arguments& args,
+                                       const std::optional<ExpandedText>& text,
                                        const std::filesystem::path& srdf,
                                        const LoadOptions& options);
 

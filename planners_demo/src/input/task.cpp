@@ -17,7 +17,6 @@
 #include "input/state_lists.hpp"
 #include "input/states.hpp"
 #include "input/unchecked.hpp"
-#include "input/xacro.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -25,6 +24,7 @@
 #include "swept/robot_model/did_you_mean.hpp"
 #include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/planning_scene.hpp"
+#include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
@@ -43,6 +43,16 @@ std::vector<PackageFolder> packageFolders(const Arguments& args) {
     folders.push_back(std::move(folder));
   }
   return folders;
+}
+
+std::shared_ptr<const Robot> loadRobot(const Arguments& args, const Model& model,
+                                       const LoadOptions& options) {
+  const std::string& srdf = model.srdf.file;
+  if (!model.urdf) return Robot::load(args.robot, srdf, options);
+  const std::string srdfText = srdf.empty() ? "" : readTextFile(srdf);
+  if (!srdf.empty() && srdfText.empty())
+    throw InputError(srdf, 1, "malformed XML: the document is empty");
+  return Robot::parse(model.urdf->text, model.urdf->name, srdfText, srdf, options);
 }
 
 std::string standingContactText(const Checker& checker) {
@@ -122,9 +132,13 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
       .progress = {},
       .cache = cacheFolder()};
   Model model;
+  std::error_code unknown;
   model.srdf = chooseSrdf(args);
-  if (args.xacro) model.expanded = expandedUrdf(args);
-  model.robot = withAskedGroup(loadRobot(args, model.expanded, model.srdf.file, options), args);
+  if (args.xacro)
+    model.urdf = expandedText(args);
+  else if (!std::filesystem::is_regular_file(args.robot, unknown))  // a pipe is read once
+    model.urdf = ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
+  model.robot = withAskedGroup(loadRobot(args, model.urdf, model.srdf.file, options), args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);

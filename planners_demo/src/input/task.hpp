@@ -12,6 +12,7 @@
 
 #include "command_line/arguments.hpp"
 #include "input/groups.hpp"
+#include "input/xacro.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/problems.hpp"
@@ -60,8 +61,8 @@ bool leavesOutDefaultContacts(const Arguments& args);
 /// What a subcommand works on: the files of the command line, read.
 struct Model {
   std::shared_ptr<const Robot> robot;
-  std::string expanded;                ///< URDF that --xacro made; empty without
   std::shared_ptr<const World> world;  ///< of --scene; empty without
+  std::optional<ExpandedText> urdf;    ///< of the robot, where it cannot be read again
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
   std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none

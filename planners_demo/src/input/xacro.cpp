@@ -62,9 +62,7 @@ pid_t start(std::vector<std::string>& words, int output) {
   return child;
 }
 
-}  // namespace
-
-std::string expandedUrdf(const Arguments& args) {
+std::string expanded(const Arguments& args) {
   std::vector<std::string> words{"xacro", args.robot};
   words.insert(words.end(), args.xacroArguments.begin(), args.xacroArguments.end());
   std::array<int, 2> ends{};
@@ -90,11 +88,10 @@ std::string expandedUrdf(const Arguments& args) {
   return text;
 }
 
-std::shared_ptr<const Robot> loadExpanded(const Arguments& args, const std::string& urdf,
-                                          const std::filesystem::path& srdf,
-                                          const LoadOptions& options) {
-  return Robot::parse(urdf, args.robot + " (expanded)",
-                      srdf.empty() ? std::string() : readTextFile(srdf), srdf.string(), options);
+}  // namespace
+
+ExpandedText expandedText(const Arguments& args) {
+  return {.text = expanded(args), .name = args.robot + " (expanded)"};
 }
 
 }  // namespace swept

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "output/clearance_text.hpp"
-#include "page/page_content.hpp"
 #include "page/pages.hpp"
+#include "page/program_page.hpp"
 
 namespace swept {
 
@@ -35,7 +35,7 @@ void writeCertifyPage(const Arguments& args, const Model& model, const Task& tas
     content.facts = {{"clearance from the world", clearanceText(least->world.clearance)},
                      {"clearance from itself", clearanceText(least->self.clearance)}};
   }
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+  writePage(args, model, task.checker.get(), content);
 }
 
 }  // namespace swept

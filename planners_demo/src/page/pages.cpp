@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "command_line/command.hpp"
 #include "command_line/options.hpp"
 #include "io/json_value.hpp"
 #include "output/clearance_text.hpp"
@@ -14,6 +15,7 @@
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
 #include "page/path_page.hpp"
+#include "page/program_page.hpp"
 #include "page/view.hpp"
 #include "swept/robot_model/input.hpp"
 
@@ -21,11 +23,16 @@ namespace swept {
 namespace {
 
 /// The group's values in the robot's default state.
-LabelledState defaultState(const Robot& robot, const Group& group) {
+PageContent::State defaultState(const Robot& robot, const Group& group) {
   const Eigen::VectorXd all = robot.defaultState();
-  LabelledState state{.label = "default state", .q = {}};
+  PageContent::State state{.label = "default state", .q = {}};
   for (const int variable : group.variables) state.q.push_back(all[variable]);
   return state;
+}
+
+VisualModel visualsOf(const Arguments& args, const Model& model) {
+  if (model.urdf) return VisualModel::parse(model.urdf->text, model.urdf->name, model.options);
+  return VisualModel::load(args.robot, model.options);
 }
 
 }  // namespace
@@ -49,19 +56,29 @@ void requirePageFile(const Arguments& args) {
   requireWritable(file);
 }
 
-void writePage(const Arguments& args, const Robot& robot, const World& world,
-               const Checker* checker, const PageContent& content) {
+std::vector<PageContent::State> pageStates(const std::vector<LabelledState>& states) {
+  std::vector<PageContent::State> shown;
+  for (const LabelledState& state : states) shown.push_back({.label = state.label, .q = state.q});
+  return shown;
+}
+
+void writePage(const Arguments& args, const Model& model, const Checker* checker,
+               PageContent content) {
+  content.title = "swept " + std::string(args.command->name);
+  content.command = args.page.commandLine;
   {
     Progress progress("making the page", args.quiet);
-    writeWholeFile(args.page.file, htmlOf(pageJson(args, robot, world, checker, content)));
+    const World& world = checker == nullptr ? *model.world : checker->world();
+    const VisualModel visuals = visualsOf(args, model);
+    writeWholeFile(args.page.file,
+                   htmlOf(pageJson(*model.robot, world, checker, content, visuals)));
   }
   if (!args.json) printText("page written to " + escapedLine(args.page.file) + "\n");
 }
 
 void writeCheckPage(const Arguments& args, const Model& model, const Task& task) {
   if (args.page.file.empty()) return;
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(),
-            statesContent(*task.checker, task.states));
+  writePage(args, model, task.checker.get(), statesContent(*task.checker, pageStates(task.states)));
 }
 
 void writeMotionPage(const Arguments& args, const Model& model, const Task& task) {
@@ -82,7 +99,7 @@ void writeMotionPage(const Arguments& args, const Model& model, const Task& task
   content.tone = toneOf(worst(findings).verdict);
   content.headline = countsText("motion", findings);
   sayIfNothingIsChecked(content, checker);
-  writePage(args, *model.robot, checker.world(), &checker, content);
+  writePage(args, model, &checker, content);
 }
 
 void writeVerifyPage(const Arguments& args, const Model& model, const Task& task, const Json& file,
@@ -116,7 +133,7 @@ void writeVerifyPage(const Arguments& args, const Model& model, const Task& task
     for (const auto& [reason, pairs] : summary.allowed)
       content.facts.emplace_back("not checked (" + reason + ")", joined(pairs));
   }
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+  writePage(args, model, task.checker.get(), content);
 }
 
 void writeInfoPage(const Arguments& args, const Model& model, const Checker* checker) {
@@ -129,7 +146,7 @@ void writeInfoPage(const Arguments& args, const Model& model, const Checker* che
   content.headline = std::to_string(robot.links().size()) + " links, " +
                      std::to_string(robot.joints().size()) + " joints";
   content.states = {defaultState(robot, group)};
-  writePage(args, robot, *model.world, checker, content);
+  writePage(args, model, checker, content);
 }
 
 }  // namespace swept

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "output/clearance_text.hpp"
-#include "page/page_content.hpp"
 #include "page/pages.hpp"
+#include "page/program_page.hpp"
 
 namespace swept {
 namespace {
@@ -38,11 +38,11 @@ std::string shortReason(const PlanOutcome& outcome) {
 }
 
 /// The first end that cannot be used.
-std::optional<std::size_t> badEnd(const std::vector<LabelledState>& states,
+std::optional<std::size_t> badEnd(const std::vector<PageContent::State>& states,
                                   const PlanOutcome& outcome) {
   if (outcome.badEnds.empty()) return std::nullopt;
   const auto found =
-      std::ranges::find(states, outcome.badEnds.front().label, &LabelledState::label);
+      std::ranges::find(states, outcome.badEnds.front().label, &PageContent::State::label);
   if (found == states.end()) return std::nullopt;
   return static_cast<std::size_t>(found - states.begin());
 }
@@ -101,7 +101,7 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
     }
     content.tone = toneOf(worst(findings).verdict);
   } else {
-    content = statesContent(*task.checker, task.states);
+    content = statesContent(*task.checker, pageStates(task.states));
     content.tone = PageContent::Tone::Bad;
     content.reason = outcome.failure;
     content.opensAt = badEnd(content.states, outcome);
@@ -110,8 +110,9 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
   sayIfNothingIsChecked(content, *task.checker);
   addPlanFacts(content, request, outcome);
   // A path may consist of its start alone.
-  if (content.motions.empty() && content.states.empty()) content.states = {task.states.front()};
-  writePage(args, *model.robot, task.checker->world(), task.checker.get(), content);
+  if (content.motions.empty() && content.states.empty())
+    content.states = pageStates({task.states.front()});
+  writePage(args, model, task.checker.get(), content);
 }
 
 }  // namespace swept

@@ -13,9 +13,9 @@
 #include <memory>
 
 #include "output/whole_file.hpp"
-#include "page/page_content.hpp"
 #include "page/pages.hpp"
 #include "page/path_page.hpp"
+#include "page/program_page.hpp"
 
 namespace swept {
 namespace {
@@ -51,7 +51,7 @@ std::function<void(const Arguments&)> readPage(const Arguments& args, Warnings& 
   if (namesPaths(args)) {
     const auto view = std::make_shared<const PathsToView>(pathsToView(args, warnings));
     return [view](const Arguments& to) {
-      writePage(to, *view->model.robot, view->checker->world(), view->checker.get(), view->content);
+      writePage(to, view->model, view->checker.get(), view->content);
     };
   }
   const auto model = std::make_shared<const Model>(loadModel(args, warnings));

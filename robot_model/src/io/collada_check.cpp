@@ -36,7 +36,8 @@ using Elements = std::multimap<std::string, XMLElement*>;
 /// that shows none (a camera, a lamp, a bone) is passed over.
 class SceneReader {
  public:
-  SceneReader(XMLElement& root, const InputSource& source) : root_(root), source_(source) {}
+  SceneReader(XMLElement& root, const InputSource& source, FaceMaterials materials)
+      : root_(root), source_(source), materials_(materials) {}
   /// What is left of the elements afterwards is what the scene shows.
   MeshClaim read();
 
@@ -60,6 +61,7 @@ class SceneReader {
 
   XMLElement& root_;
   const InputSource& source_;
+  FaceMaterials materials_;
   Elements nodes_, scenes_;
   Elements nodesByName_;
   std::map<std::string, Geometry> geometries_;
@@ -80,7 +82,7 @@ void SceneReader::collectGeometry(XMLElement& element) {
       fail(*e, "in a <geometry> is not read; allowed is one <mesh>");
   }
   Geometry geometry{.element = &element, .mesh = {}};
-  if (mesh != nullptr) geometry.mesh = readColladaMesh(*mesh, source_, claim_.crossing);
+  if (mesh != nullptr) geometry.mesh = readColladaMesh(*mesh, source_, claim_.crossing, materials_);
   const bool hasFaces = geometry.mesh.triangles > 0;
   if (id == nullptr && !hasFaces) return;
   if (id == nullptr) fail(element, "has no attribute 'id'");
@@ -224,7 +226,7 @@ void SceneReader::keepShownIn(XMLElement& parent) {
     const std::string_view name = child.Name();
     if (isColladaTransform(name)) return setColladaWords(child, colladaWords(child, source_));
     if (name == "node" || name == "visual_scene") return keepShownIn(child);
-    child.DeleteChildren();
+    if (materials_ == FaceMaterials::LeftOut) child.DeleteChildren();
   });
 }
 
@@ -244,9 +246,12 @@ void SceneReader::keepShown() {
       });
     });
   });
-  keepChildren(root_, [](const XMLElement& child) {
+  keepChildren(root_, [&](const XMLElement& child) {
     const std::string_view name = child.Name();
-    return name == "asset" || name == "library_geometries" || name == "library_nodes" ||
+    const bool isOfMaterials =
+        name == "library_materials" || name == "library_effects" || name == "library_images";
+    return (isOfMaterials && materials_ == FaceMaterials::Kept) || name == "asset" ||
+           name == "library_geometries" || name == "library_nodes" ||
            name == "library_visual_scenes" || name == "scene";
   });
 }
@@ -267,20 +272,28 @@ MeshClaim SceneReader::read() {
   return std::move(claim_);
 }
 
-}  // namespace
-
-MeshClaim checkCollada(std::string_view bytes, const InputSource& source) {
+MeshClaim check(std::string_view bytes, const InputSource& source, FaceMaterials materials) {
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS)
     source.fail(document.ErrorLineNum(), "malformed XML");
   XMLElement* root = document.RootElement();
   if (root == nullptr || std::string_view(root->Name()) != "COLLADA")
     source.fail(0, "its root element is not <COLLADA>");
-  MeshClaim claim = SceneReader(*root, source).read();
+  MeshClaim claim = SceneReader(*root, source, materials).read();
   tinyxml2::XMLPrinter printer(nullptr, true);
   root->Accept(&printer);
   claim.bare = printer.CStr();
   return claim;
+}
+
+}  // namespace
+
+MeshClaim checkCollada(std::string_view bytes, const InputSource& source) {
+  return check(bytes, source, FaceMaterials::LeftOut);
+}
+
+MeshClaim checkColladaWithMaterials(std::string_view bytes, const InputSource& source) {
+  return check(bytes, source, FaceMaterials::Kept);
 }
 
 }  // namespace swept::detail

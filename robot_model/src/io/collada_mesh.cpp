@@ -37,8 +37,13 @@ bool isFaces(const XMLElement& group) {
 /// One <mesh>: every name in it is looked up in it.
 class MeshReader {
  public:
-  MeshReader(XMLElement& mesh, const InputSource& source, CrossingFace& crossing)
-      : xml_(mesh), source_(source), crossing_(crossing), positions_(mesh, source) {}
+  MeshReader(XMLElement& mesh, const InputSource& source, CrossingFace& crossing,
+             FaceMaterials materials)
+      : xml_(mesh),
+        source_(source),
+        crossing_(crossing),
+        materials_(materials),
+        positions_(mesh, source) {}
   ColladaMesh read();
 
  private:
@@ -61,6 +66,7 @@ class MeshReader {
   XMLElement& xml_;
   const InputSource& source_;
   CrossingFace& crossing_;
+  FaceMaterials materials_;
   ColladaPositions positions_;
   std::vector<bool> used_;
   std::set<const XMLElement*> groups_;  ///< that have faces
@@ -197,7 +203,7 @@ void MeshReader::readGroup(XMLElement& group) {
   if (triangles == 0) return;
   mesh_.triangles += triangles;
   groups_.insert(&group);
-  group.DeleteAttribute("material");
+  if (materials_ == FaceMaterials::LeftOut) group.DeleteAttribute("material");
   keepChildren(group, [](XMLElement& child) {
     const std::string_view name = child.Name();
     if (name == "input") child.SetAttribute("offset", 0);
@@ -229,8 +235,9 @@ ColladaMesh MeshReader::read() {
 
 }  // namespace
 
-ColladaMesh readColladaMesh(XMLElement& mesh, const InputSource& source, CrossingFace& crossing) {
-  return MeshReader(mesh, source, crossing).read();
+ColladaMesh readColladaMesh(XMLElement& mesh, const InputSource& source, CrossingFace& crossing,
+                            FaceMaterials materials) {
+  return MeshReader(mesh, source, crossing, materials).read();
 }
 
 }  // namespace swept::detail

@@ -7,6 +7,7 @@
 
 #include "io/crossing_face.hpp"
 #include "io/input_source.hpp"
+#include "io/mesh_claim.hpp"
 
 namespace tinyxml2 {
 class XMLElement;
@@ -26,6 +27,6 @@ struct ColladaMesh {
 /// no face a corner (normals, colours) is not looked at. What is left of `mesh` afterwards are the
 /// faces and one source of positions. `crossing` looks at the faces.
 ColladaMesh readColladaMesh(tinyxml2::XMLElement& mesh, const InputSource& source,
-                            CrossingFace& crossing);
+                            CrossingFace& crossing, FaceMaterials materials);
 
 }  // namespace swept::detail

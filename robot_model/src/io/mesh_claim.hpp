@@ -12,6 +12,9 @@
 
 namespace swept::detail {
 
+/// Whether what is left of a file has the materials of its faces: no proof needs them.
+enum class FaceMaterials { LeftOut, Kept };
+
 /// What a mesh file says it holds, found by small readers of ours. Assimp leaves out in silence
 /// what it does not understand, and reads faces that are not there; what it returns is held against
 /// this.
@@ -38,5 +41,7 @@ MeshClaim checkStl(std::string_view bytes, const InputSource& source);
 MeshClaim checkObj(std::string_view bytes, const InputSource& source);
 MeshClaim checkPly(std::string_view bytes, const InputSource& source);
 MeshClaim checkCollada(std::string_view bytes, const InputSource& source);
+/// As checkCollada; `bare` has the materials, too, of which nothing is judged.
+MeshClaim checkColladaWithMaterials(std::string_view bytes, const InputSource& source);
 
 }  // namespace swept::detail

@@ -49,7 +49,8 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
 
 using Check = MeshClaim (*)(std::string_view, const InputSource&);
 
-Check checkOf(const std::string& ending) {
+Check checkOf(const std::string& ending, FaceMaterials materials) {
+  if (ending == ".dae" && materials == FaceMaterials::Kept) return checkColladaWithMaterials;
   constexpr std::array<std::pair<std::string_view, Check>, 4> kFormats{
       {{".stl", checkStl}, {".obj", checkObj}, {".dae", checkCollada}, {".ply", checkPly}}};
   const auto found =
@@ -121,6 +122,7 @@ std::string saidOf(std::string_view request, const MeshImport& import) {
     std::string text(1, static_cast<char>(Kind::Content));
     append(content.vertices, text);
     append(content.triangles, text);
+    append(content.colours, text);
     return text;
   } catch (const MeshFileError& error) {
     return static_cast<char>(Kind::Error) + std::string(error.what());
@@ -175,7 +177,9 @@ MeshFileContent contentOf(std::string_view said) {
   const std::string_view rest = said.substr(1);
   if (said.front() == static_cast<char>(Kind::Error)) throw MeshFileError(std::string(rest));
   MeshFileContent content;
-  take(take(rest, content.vertices), content.triangles);
+  take(take(take(rest, content.vertices), content.triangles), content.colours);
+  if (!content.colours.empty() && content.colours.size() != content.triangles.size())
+    refuseContent();
   return content;
 }
 
@@ -220,8 +224,21 @@ MeshFileContent MeshFileReader::askForWhole(const std::string& name, std::string
 }
 
 MeshFileContent MeshFileReader::read(const std::filesystem::path& file) {
+  return readAs(file, FaceMaterials::LeftOut);
+}
+
+MeshFileContent MeshFileReader::readWithColours(const std::filesystem::path& file) {
+  if (lowerEnding(file) != ".dae") return read(file);
+  try {
+    return readAs(file, FaceMaterials::Kept);
+  } catch (const MeshFileError&) {
+    return read(file);
+  }
+}
+
+MeshFileContent MeshFileReader::readAs(const std::filesystem::path& file, FaceMaterials materials) {
   const std::string ending = lowerEnding(file);
-  const Check check = checkOf(ending);
+  const Check check = checkOf(ending, materials);
   const std::vector<std::uint8_t> bytes = readBytes(file);
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::string renamed;

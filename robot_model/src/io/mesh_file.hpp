@@ -16,11 +16,16 @@
 
 namespace swept::detail {
 
+/// Of a face without a material, or whose material is a picture.
+inline constexpr std::uint32_t kNoColour = 0xFFFFFFFF;
+
 /// What a mesh file holds, before it is welded.
 struct MeshFileContent {
   std::vector<Eigen::Vector3d> vertices;   ///< in the file's frame and unit
   std::vector<Eigen::Vector3i> triangles;  ///< indices into vertices
   double loss = 0.0;                       ///< how far coordinates may be from the file's; its unit
+  /// 0xRRGGBB of each triangle, or kNoColour; empty: the file has no colours, or nobody asked.
+  std::vector<std::uint32_t> colours;
 };
 
 /// A mesh file that cannot be used; what() says why, without the file's name.
@@ -72,8 +77,12 @@ class MeshFileReader {
   explicit MeshFileReader(MeshImport import);
 
   MeshFileContent read(const std::filesystem::path& file);
+  /// The same with the colours that a COLLADA file's materials have. What is wrong with these costs
+  /// the colours, not the file.
+  MeshFileContent readWithColours(const std::filesystem::path& file);
 
  private:
+  MeshFileContent readAs(const std::filesystem::path& file, FaceMaterials materials);
   MeshFileContent ask(const std::string& name, std::string_view text);
   /// All that `claim` says there is.
   MeshFileContent askForWhole(const std::string& name, std::string_view text,

@@ -3,13 +3,16 @@
 
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include "swept/robot_model/foreign_text.hpp"
@@ -42,8 +45,31 @@ Eigen::Matrix4d toEigen(const aiMatrix4x4& matrix) {
   return Eigen::Map<const RowMajor4f>(&matrix.a1).cast<double>();
 }
 
-void appendMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
+/// Those that FaceMaterials::Kept keeps.
+bool hasMaterials(std::span<const std::uint8_t> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.find("<library_effects") != std::string_view::npos;
+}
+
+/// 0xRRGGBB, or kNoColour.
+std::uint32_t colourOf(const aiMaterial& material) {
+  aiColor3D colour;
+  if (material.GetTextureCount(aiTextureType_DIFFUSE) > 0 ||
+      material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != AI_SUCCESS)
+    return kNoColour;
+  std::uint32_t code = 0;
+  for (const float part : {colour.r, colour.g, colour.b}) {
+    if (!(part >= 0.0F && part <= 1.0F)) return kNoColour;
+    code = code << 8 | static_cast<std::uint32_t>(std::lround(255.0F * part));
+  }
+  return code;
+}
+
+void appendMesh(const aiScene& scene, const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
                 MeshFileContent& content) {
+  const std::uint32_t colour = mesh.mMaterialIndex < scene.mNumMaterials
+                                   ? colourOf(*scene.mMaterials[mesh.mMaterialIndex])
+                                   : kNoColour;
   const int first = static_cast<int>(content.vertices.size());
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D& v = mesh.mVertices[i];
@@ -56,6 +82,7 @@ void appendMesh(const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
     content.triangles.emplace_back(first + static_cast<int>(face.mIndices[0]),
                                    first + static_cast<int>(face.mIndices[1]),
                                    first + static_cast<int>(face.mIndices[2]));
+    content.colours.push_back(colour);
   }
   requireFewTriangles(content.triangles.size());
 }
@@ -64,7 +91,7 @@ void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d&
                 MeshFileContent& content) {
   const Eigen::Matrix4d file_from_node = file_from_parent * toEigen(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    appendMesh(*scene.mMeshes[node.mMeshes[i]], file_from_node, content);
+    appendMesh(scene, *scene.mMeshes[node.mMeshes[i]], file_from_node, content);
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
     appendNode(scene, *node.mChildren[i], file_from_node, content);
@@ -96,6 +123,7 @@ MeshFileContent importMesh(const std::string& name, std::span<const std::uint8_t
   MeshFileContent content;
   appendNode(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), content);
   if (content.triangles.empty()) throw MeshFileError("has no triangles");
+  if (!hasMaterials(bytes)) content.colours.clear();  // assimp's own grey
   return content;
 }
 

@@ -25,31 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the file of a reference is; else what kept it from being found.
-struct Place {
-  fs::path file;
-  std::string problem;
-};
-
-Place placeOf(const std::string& reference, const InputSource& source) {
-  const auto candidates = candidatePaths(reference, source.folder(), source.options());
-  if (candidates.empty()) return {{}, ": the scheme must be package://, model:// or file://"};
-  std::string tried;
-  for (const fs::path& candidate : candidates) {
-    const std::string reason = whyUnreadable(candidate);
-    if (reason.empty()) return {candidate, {}};
-    tried += (tried.empty() ? "" : ", ") + candidate.string();
-    if (reason != kNoSuchFile) tried += " (" + reason + ")";
-  }
-  const std::string package = packageOf(reference);
-  const std::string hint = package.empty() ? ""
-                                           : "; --package " + package +
-                                                 "=DIR (LoadOptions::packages) tells where package "
-                                                 "'" +
-                                                 package + "' is";
-  return {{}, " not found; looked for " + tried + hint};
-}
-
 std::string nameOf(const MeshReference& mesh) {
   return "mesh '" + mesh.reference + "' of " + mesh.owner;
 }
@@ -99,13 +74,32 @@ void warnOfCracks(const TriangleMesh& mesh, double rounding, const std::string& 
 
 }  // namespace
 
+MeshPlace placeOfMesh(const std::string& reference, const InputSource& source) {
+  const auto candidates = candidatePaths(reference, source.folder(), source.options());
+  if (candidates.empty()) return {{}, ": the scheme must be package://, model:// or file://"};
+  std::string tried;
+  for (const fs::path& candidate : candidates) {
+    const std::string reason = whyUnreadable(candidate);
+    if (reason.empty()) return {candidate, {}};
+    tried += (tried.empty() ? "" : ", ") + candidate.string();
+    if (reason != kNoSuchFile) tried += " (" + reason + ")";
+  }
+  const std::string package = packageOf(reference);
+  const std::string hint = package.empty() ? ""
+                                           : "; --package " + package +
+                                                 "=DIR (LoadOptions::packages) tells where package "
+                                                 "'" +
+                                                 package + "' is";
+  return {{}, " not found; looked for " + tried + hint};
+}
+
 void MeshStore::requireFound(const std::vector<MeshReference>& references) const {
   constexpr std::size_t kMost = 10;
   std::map<std::string, std::string> problems;  // of each reference, empty: none
   std::vector<const MeshReference*> missing;
   for (const MeshReference& mesh : references) {
     if (problems.contains(mesh.reference)) continue;
-    const std::string problem = placeOf(mesh.reference, source_).problem;
+    const std::string problem = placeOfMesh(mesh.reference, source_).problem;
     problems.emplace(mesh.reference, problem);
     if (!problem.empty()) missing.push_back(&mesh);
   }
@@ -126,7 +120,7 @@ std::vector<MeshStore::Key> MeshStore::newOnes(const std::vector<MeshReference>&
   std::vector<Key> keys;
   std::set<Key> known;
   for (const MeshReference& mesh : references) {
-    const Place place = placeOf(mesh.reference, source_);
+    const MeshPlace place = placeOfMesh(mesh.reference, source_);
     const Key key = keyOf(place.file, mesh.scale);
     if (place.problem.empty() && !made_.contains(key) && known.insert(key).second)
       keys.push_back(key);
@@ -181,7 +175,7 @@ void MeshStore::prepare(const std::vector<MeshReference>& references) {
 
 const MadeMesh& MeshStore::get(const MeshReference& mesh) {
   const std::string name = nameOf(mesh);
-  const auto [file, problem] = placeOf(mesh.reference, source_);
+  const auto [file, problem] = placeOfMesh(mesh.reference, source_);
   if (!problem.empty()) source_.fail(mesh.line, name + problem);
   const Key key = keyOf(file, mesh.scale);
   const auto copy = copyOf_.find(key);

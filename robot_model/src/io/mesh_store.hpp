@@ -25,6 +25,14 @@ struct MeshReference {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< per axis; negative: mirrored
 };
 
+/// Where the file of a reference is; else what kept it from being found, as messages go on after
+/// its name.
+struct MeshPlace {
+  std::filesystem::path file;
+  std::string problem;
+};
+MeshPlace placeOfMesh(const std::string& reference, const InputSource& source);
+
 /// The meshes that one input file refers to: found, read, scaled and shared.
 class MeshStore {
  public:

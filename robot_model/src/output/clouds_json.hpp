@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <variant>
 
 #include "output/text_output.hpp"
@@ -21,6 +22,9 @@ void forEachCloud(const World& world, const Visit& visit) {
     }
   }
 }
+
+/// What a proof in this world is a proof for, where it has clouds: a line per body; else empty.
+std::string cloudsText(const World& world);
 
 /// The bodies of a world that have clouds, with their balls.
 Json cloudsJson(const World& world);

@@ -2,18 +2,16 @@
 #include "page/page_content.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "command_line/command.hpp"
-#include "input/clouds.hpp"
-#include "input/states.hpp"
 #include "output/clearance_text.hpp"
+#include "output/clouds_json.hpp"
 #include "page/packed.hpp"
 #include "page/page_bodies.hpp"
 #include "page/page_clearances.hpp"
 #include "page/page_frames.hpp"
 #include "page/page_pieces.hpp"
 #include "page/page_tree.hpp"
+#include "page/page_visuals.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
@@ -54,6 +52,7 @@ Json bodiesJson(const std::vector<PageBody>& bodies, const PageFrames& frames,
                     {"kind", toString(body.kind)},
                     {"frame", body.link < 0 ? Json(nullptr) : Json(place)},
                     {"padding", body.padding},
+                    {"colour", body.colour ? Json(cssColour(*body.colour)) : Json(nullptr)},
                     {"parts", geometries.partsJson(body)}});
   }
   return json;
@@ -93,7 +92,7 @@ Json motionsJson(const Checker& checker, const PageContent& content,
   return json;
 }
 
-Json stateJson(const LabelledState& state, const Checker* checker) {
+Json stateJson(const PageContent::State& state, const Checker* checker) {
   Json json = {{"label", state.label}, {"values", toJson(state.q)}};
   json["verdict"] = nullptr;
   json["contacts"] = Json::array();
@@ -114,19 +113,21 @@ std::vector<PageSpan> spansOf(const PageContent& content) {
   for (const PageContent::Motion& motion : content.motions)
     spans.push_back({.from = motion.from, .to = motion.to, .steps = steps});
   if (content.motions.empty())
-    for (const LabelledState& state : content.states)
+    for (const PageContent::State& state : content.states)
       spans.push_back({.from = state.q, .to = state.q, .steps = 0});
   return spans;
 }
 
-/// Links that bodies move with, and the tip.
-std::vector<int> linksOf(const std::vector<PageBody>& bodies, int tipLink) {
+/// Links that bodies move with, the tip, and those that are shown.
+std::vector<int> linksOf(const std::vector<PageBody>& bodies, int tipLink,
+                         const std::vector<int>& shown) {
   std::vector<int> links;
   const auto add = [&](int link) {
     if (link >= 0 && std::ranges::find(links, link) == links.end()) links.push_back(link);
   };
   for (const PageBody& body : bodies) add(body.link);
   add(tipLink);
+  for (const int link : shown) add(link);
   return links;
 }
 
@@ -140,8 +141,8 @@ Json variablesJson(const Robot& robot, const Group& group) {
 }
 
 /// What every page says.
-Json factsJson(const Arguments& args, const Robot& robot, const World& world,
-               const Checker* checker, const PageContent& content) {
+Json factsJson(const Robot& robot, const World& world, const Checker* checker,
+               const PageContent& content, const VisualModel& visuals) {
   Json json = Json::array();
   const auto add = [&](const std::string& name, const std::string& value) {
     json.push_back(Json::array({name, value}));
@@ -161,96 +162,28 @@ Json factsJson(const Arguments& args, const Robot& robot, const World& world,
   }
   if (const auto links = robot.linksWithoutGeometry(); !links.empty())
     add("not checked (no collision geometry)", joined(links));
+  if (const std::string text = visualsText(visuals); !text.empty()) add("visual", text);
   add("bodies in the world", std::to_string(world.bodies().size()));
-  add("command", args.page.commandLine);
+  if (!content.command.empty()) add("command", content.command);
   add("swept", SWEPT_VERSION);
   return json;
 }
 
 }  // namespace
 
-PageContent::Tone toneOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Free:
-      return PageContent::Tone::Good;
-    case Verdict::Collision:
-      return PageContent::Tone::Bad;
-    case Verdict::Undecided:
-      break;
-  }
-  return PageContent::Tone::Unsure;
-}
-
-Finding findingOf(const MotionCertificate& certificate) {
-  return {.verdict = certificate.verdict,
-          .apart = certificate.witness && keepsApart(*certificate.witness)};
-}
-
-std::string countsText(const std::string& what, const std::vector<Finding>& findings) {
-  static constexpr std::array<std::pair<Finding, const char*>, 4> kWords{
-      {{{Verdict::Free, false}, "free"},
-       {{Verdict::Collision, false}, "in collision"},
-       {{Verdict::Collision, true}, "closer than the margin"},
-       {{Verdict::Undecided, false}, "undecided"}}};
-  std::vector<std::string> counts;
-  for (const auto& [finding, word] : kWords) {
-    const auto count = std::ranges::count_if(findings, [&](const Finding& other) {
-      return other.verdict == finding.verdict && other.apart == finding.apart;
-    });
-    if (count == 0) continue;
-    const bool all = count == std::ssize(findings);
-    counts.push_back(findings.size() == 1 ? word
-                                          : (all ? "all" : std::to_string(count)) + " " + word);
-  }
-  if (findings.size() == 1) return what + ": " + counts.front();
-  return std::to_string(findings.size()) + " " + what + "s: " + joined(counts);
-}
-
-Finding worst(const std::vector<Finding>& findings) {
-  const auto badness = [](const Finding& finding) {
-    if (finding.verdict == Verdict::Collision) return finding.apart ? 2 : 3;
-    return finding.verdict == Verdict::Undecided ? 1 : 0;
-  };
-  const auto found = std::ranges::max_element(findings, {}, badness);
-  return found == findings.end() ? Finding{} : *found;
-}
-
-void sayIfNothingIsChecked(PageContent& content, const Checker& checker) {
-  if (!checker.checksNothing() || content.tone != PageContent::Tone::Good) return;
-  content.tone = PageContent::Tone::Unsure;
-  content.headline += ", nothing was checked";
-}
-
-PageContent statesContent(const Checker& checker, std::vector<LabelledState> states) {
-  PageContent content;
-  Workspace workspace(checker);
-  std::vector<Finding> findings;
-  for (const LabelledState& state : states) {
-    Finding finding{.verdict = checker.checkState(state.q, workspace)};
-    if (finding.verdict == Verdict::Collision)
-      finding.apart = keepApart(checker.reportState(state.q, workspace).contacts);
-    findings.push_back(finding);
-  }
-  content.tone = toneOf(worst(findings).verdict);
-  content.headline = countsText("state", findings);
-  sayIfNothingIsChecked(content, checker);
-  content.states = std::move(states);
-  return content;
-}
-
-Json pageJson(const Arguments& args, const Robot& robot, const World& world, const Checker* checker,
-              const PageContent& content) {
+Json pageJson(const Robot& robot, const World& world, const Checker* checker,
+              const PageContent& content, const VisualModel& visuals) {
   const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
   const auto reference = checker == nullptr ? std::nullopt : checker->options().reference;
-  const std::vector<PageBody> bodies = pageBodies(robot, world, checker);
+  const std::vector<PageBody> bodies = pageBodies(robot, world, checker, &visuals);
   const std::vector<PageSpan> spans = spansOf(content);
-  const PageFrames frames =
-      framesOf(robot, group, reference, spans, linksOf(bodies, group.tipLink));
+  const std::vector<int> links = linksOf(bodies, group.tipLink, linksWithVisuals(robot, visuals));
+  const PageFrames frames = framesOf(robot, group, reference, spans, links);
   PageGeometries geometries;
-  Json json = {{"subcommand", args.command->name},
+  Json json = {{"title", content.title},
                {"tone", toString(content.tone)},
                {"headline", content.headline},
-               {"facts", factsJson(args, robot, world, checker, content)},
+               {"facts", factsJson(robot, world, checker, content, visuals)},
                {"clouds", cloudsText(world)},
                {"variables", variablesJson(robot, group)},
                {"bodies", bodiesJson(bodies, frames, geometries)}};
@@ -260,6 +193,7 @@ Json pageJson(const Arguments& args, const Robot& robot, const World& world, con
   for (const PageContent::Path& path : content.paths)
     json["paths"].push_back({{"label", path.label}, {"tone", toString(path.tone)}});
   json["tree"] = treeJson(robot, group, reference);
+  json["visuals"] = visualsJson(robot, visuals, frames, geometries);
   json["geometries"] = geometries.geometriesJson();
   json["covers"] = geometries.coversJson();
   json["frames"] = framesJson(robot, frames);
@@ -269,7 +203,7 @@ Json pageJson(const Arguments& args, const Robot& robot, const World& world, con
   json["motions"] = Json::array();
   json["states"] = Json::array();
   if (content.motions.empty())
-    for (const LabelledState& state : content.states)
+    for (const PageContent::State& state : content.states)
       json["states"].push_back(stateJson(state, checker));
   else
     json["motions"] = motionsJson(*checker, content, spans, frames);

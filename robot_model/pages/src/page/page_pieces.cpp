@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "page/page_pieces.hpp"
 
-#include "input/task.hpp"
+#include <algorithm>
 
 namespace swept {
+
+namespace {
+
+/// m. A tenth of the tolerance that decides, but no less: where two bodies stay equally far apart
+/// all the way, the work grows with the inverse.
+double clearanceAccuracy(const Checker& checker) {
+  return std::max(0.1 * checker.options().tolerance, 1e-5);
+}
+
+}  // namespace
 
 std::vector<PagePiece> piecesOf(const Checker& checker, const PageSpan& span) {
   Workspace workspace(checker);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "output/text_output.hpp"
 #include "swept/core/sphere_cover.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/visual_model.hpp"
 
 namespace swept {
 
@@ -24,12 +26,15 @@ struct PageBody {
   Kind kind = Kind::Link;
   int link = -1;  ///< whose frame the body moves with; -1: it stands in the model frame
   std::vector<Part> parts;
-  double padding = 0.0;  ///< m
+  std::optional<Colour> colour;  ///< of a link; none: the page's own
+  double padding = 0.0;          ///< m
 };
 
 /// Links with collision geometry, attached bodies, bodies of the world, in this order. `checker`
-/// may be null: then there are no rules and nothing is attached.
-std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker);
+/// may be null: then there are no rules and nothing is attached. `visuals` may be, too: then no
+/// link has a colour.
+std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker,
+                                 const VisualModel* visuals);
 
 /// Geometries and covers, each once however many bodies share it. A page's `geometries` and
 /// `covers`.
@@ -39,14 +44,22 @@ class PageGeometries {
   Json partsJson(const PageBody& body);
   Json geometriesJson() const { return geometries_; }
   Json coversJson() const { return covers_; }
+  ///@{
+  /// Of a geometry that is in the page from then on.
+  int indexOf(const Shape& shape);
+  int indexOf(const std::shared_ptr<const VisualMesh>& mesh);
+  ///@}
 
  private:
-  int geometryIndex(const Shape& shape);
   int coverIndex(const SphereCover& cover);
   Json geometries_ = Json::array();
   Json covers_ = Json::array();
   std::vector<std::pair<const void*, int>> shared_;  ///< meshes, hulls, clouds, covers by address
-  std::vector<Shape> kept_;                          ///< keeps those addresses from being used anew
+  ///@{
+  /// Keep those addresses from being used anew.
+  std::vector<Shape> kept_;
+  std::vector<std::shared_ptr<const VisualMesh>> keptMeshes_;
+  ///@}
 };
 
 }  // namespace swept

@@ -23,7 +23,8 @@ class Collector {
   explicit Collector(const Checker* checker) : checker_(checker) {}
 
   PageBody body(const std::string& name, PageBody::Kind kind, int link) const {
-    PageBody body{.name = name, .kind = kind, .link = link, .parts = {}, .padding = 0.0};
+    PageBody body{
+        .name = name, .kind = kind, .link = link, .parts = {}, .colour = {}, .padding = 0.0};
     if (checker_ != nullptr) body.padding = checker_->options().rules.padding(name);
     return body;
   }
@@ -51,12 +52,12 @@ Json kindJson(const char* kind, Json sizes) {
   return json;
 }
 
-template <typename Triangles>
-Json trianglesJson(const std::vector<Eigen::Vector3d>& vertices, const Triangles& triangles) {
+template <typename Vertices, typename Triangles>
+Json trianglesJson(const Vertices& vertices, const Triangles& triangles) {
   std::vector<float> positions;
   positions.reserve(3 * vertices.size());
-  for (const Eigen::Vector3d& vertex : vertices)
-    for (const double value : vertex) positions.push_back(static_cast<float>(value));
+  for (const auto& vertex : vertices)
+    for (const auto value : vertex) positions.push_back(static_cast<float>(value));
   std::vector<std::uint32_t> indices;
   indices.reserve(3 * triangles.size());
   for (const Eigen::Vector3i& triangle : triangles)
@@ -145,7 +146,8 @@ int levelShown(const SphereCover& cover) {
 
 }  // namespace
 
-std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker) {
+std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker,
+                                 const VisualModel* visuals) {
   const Collector collector(checker);
   std::vector<PageBody> bodies;
   for (std::size_t i = 0; i < robot.links().size(); ++i) {
@@ -153,6 +155,8 @@ std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const C
     if (link.collision.empty()) continue;
     PageBody& body =
         bodies.emplace_back(collector.body(link.name, PageBody::Kind::Link, static_cast<int>(i)));
+    const LinkVisuals* looks = visuals == nullptr ? nullptr : visuals->find(link.name);
+    if (looks != nullptr) body.colour = looks->colour;
     for (const CollisionGeometry& piece : link.collision)
       collector.addPart(body, piece.shape, piece.link_from_shape, piece.cover);
   }
@@ -171,7 +175,7 @@ std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const C
   return bodies;
 }
 
-int PageGeometries::geometryIndex(const Shape& shape) {
+int PageGeometries::indexOf(const Shape& shape) {
   const void* const data = sharedDataOf(shape);
   const auto known = std::ranges::find(shared_, data, &std::pair<const void*, int>::first);
   if (data != nullptr && known != shared_.end()) return known->second;
@@ -180,6 +184,17 @@ int PageGeometries::geometryIndex(const Shape& shape) {
   if (data == nullptr) return index;
   shared_.emplace_back(data, index);
   kept_.push_back(shape);
+  return index;
+}
+
+int PageGeometries::indexOf(const std::shared_ptr<const VisualMesh>& mesh) {
+  const auto known = std::ranges::find(shared_, static_cast<const void*>(mesh.get()),
+                                       &std::pair<const void*, int>::first);
+  if (known != shared_.end()) return known->second;
+  const auto index = static_cast<int>(geometries_.size());
+  geometries_.push_back(trianglesJson(mesh->vertices, mesh->triangles));
+  shared_.emplace_back(mesh.get(), index);
+  keptMeshes_.push_back(mesh);
   return index;
 }
 
@@ -203,7 +218,7 @@ Json PageGeometries::partsJson(const PageBody& body) {
   for (const PageBody::Part& part : body.parts) {
     std::vector<float> pose;
     appendPose(pose, part.body_from_shape);
-    Json json = {{"geometry", geometryIndex(part.shape)}, {"pose", packed<float>(pose)}};
+    Json json = {{"geometry", indexOf(part.shape)}, {"pose", packed<float>(pose)}};
     json["shape"] = shapeText(part.shape);
     json["cover"] = part.cover == nullptr ? Json(nullptr) : Json(coverIndex(*part.cover));
     parts.push_back(std::move(json));

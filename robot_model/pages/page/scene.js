@@ -10,7 +10,11 @@ swept.scene = (function () {
   camera.up.set(0, 0, 1);
   let renderer = null, controls = null, needed = true;
   const links = data.frames.links.map(() => new THREE.Group());
-  const bodies = []; // per body of the data: {group, meshes, materials, name of its colour}
+  // Per body of the data: {group, meshes: of what is proven, visuals: of what it looks like, shown:
+  // of these two, materials, own: its colour, name: of the theme's colour where it has none}.
+  const bodies = [];
+  const loose = []; // {mesh, body}: visuals of links without a body, which follow this one
+  let looks = false; // visuals are shown
   const bounds = new THREE.Box3();
   const ground = {}, light = {};
   const changed = () => { needed = true; };
@@ -59,17 +63,53 @@ swept.scene = (function () {
       meshes.push(mesh);
     }
     (body.frame === null ? scene : links[body.frame]).add(group);
-    bodies.push({group, meshes, materials: [single, many, thin], name: colourOf(body, index)});
+    bodies.push({group, meshes, visuals: [], shown: meshes, materials: [single, many, thin],
+                 own: body.colour, name: colourOf(body, index)});
+  }
+
+  // A mesh of what a body looks like, or a link that has none (`about.checked` false).
+  function addVisual(mesh, about) {
+    mesh.userData.about = about;
+    if (about.checked) {
+      bodies[about.body].group.add(mesh);
+      bodies[about.body].visuals.push(mesh);
+    } else {
+      links[about.frame].add(mesh);
+      loose.push(mesh);
+    }
+  }
+  function showLoose() {
+    for (const mesh of loose) {
+      const about = mesh.userData.about;
+      const follows = about.body < 0 || bodies[about.body].group.visible;
+      mesh.visible = looks && follows && about.opacity > 0;
+    }
+  }
+  // Links that look like nothing are shown as proven.
+  function showVisuals(on) {
+    looks = on;
+    for (const body of bodies) {
+      const visual = on && body.visuals.length > 0;
+      body.shown = visual ? body.visuals.filter((mesh) => mesh.userData.about.opacity > 0) : body.meshes;
+      body.meshes.forEach((mesh) => { mesh.visible = !visual; });
+      body.visuals.forEach((mesh) => { mesh.visible = body.shown.includes(mesh); });
+    }
+    showLoose();
+    renderer.shadowMap.needsUpdate = true;
+    changed();
   }
 
   // What the camera should see, as it stands: all that is shown but planes and half-spaces.
   function measure() {
     const box = new THREE.Box3();
     scene.updateMatrixWorld(true);
+    const visuals = loose.concat(...bodies.filter((b) => b.group.visible).map((b) => b.visuals));
+    for (const mesh of visuals) if (mesh.visible) box.expandByObject(mesh);
     data.bodies.forEach((body, b) => body.parts.forEach((part, i) => {
       const shape = data.geometries[part.geometry];
       if (swept.geometry.isSheet(part.geometry) || !bodies[b].group.visible) return;
       const mesh = bodies[b].meshes[i];
+      if (!mesh.visible) return;
       if (shape.kind !== 'balls') {
         box.expandByObject(mesh);
         return;
@@ -161,6 +201,7 @@ swept.scene = (function () {
 
   function setVisible(body, on) {
     bodies[body].group.visible = on;
+    showLoose();
     renderer.shadowMap.needsUpdate = true;
     changed();
   }
@@ -181,9 +222,13 @@ swept.scene = (function () {
   function highlight(picked, partner) {
     bodies.forEach((body, b) => {
       const share = b === picked ? 0.85 : b === partner ? 0.45 : 0;
-      const tint = colour(body.name).lerp(colour('pick'), share);
+      const tinted = (own) => (own ? new THREE.Color(own) : colour(body.name)).lerp(colour('pick'), share);
+      const tint = tinted(body.own);
       body.materials.forEach((material) => material.color.copy(tint));
+      body.visuals.forEach((mesh) => mesh.material.color.copy(tinted(mesh.userData.about.colour)));
     });
+    for (const mesh of loose)
+      mesh.material.color.copy(mesh.userData.about.colour ? new THREE.Color(mesh.userData.about.colour) : colour('link-b'));
     changed();
   }
 
@@ -203,13 +248,15 @@ swept.scene = (function () {
   function firstHit(at) {
     const caster = new THREE.Raycaster();
     caster.setFromCamera(at, camera);
-    const meshes = [].concat(...bodies.filter((b) => b.group.visible).map((b) => b.meshes));
+    const meshes = loose.filter((mesh) => mesh.visible)
+        .concat(...bodies.filter((b) => b.group.visible).map((b) => b.shown));
     const hits = caster.intersectObjects(meshes).sort((a, b) => a.distance - b.distance);
-    return hits.length > 0 ? hits[0].object.userData.body : -1;
+    return hits.length > 0 ? hits[0].object.userData : {body: -1};
   }
 
-  // Index of the body at a pixel of the canvas; -1: none.
-  function bodyAt(x, y) {
+  // What is at a pixel of the canvas: {body: its index; -1: none, or a link that is not checked,
+  // whose name is `link`}.
+  function hitAt(x, y) {
     return firstHit(
         new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight));
   }
@@ -219,7 +266,7 @@ swept.scene = (function () {
     scene.updateMatrixWorld(true);
     const middle = new THREE.Vector3().fromArray(contact.point_a)
                        .add(new THREE.Vector3().fromArray(contact.point_b)).multiplyScalar(0.5);
-    const at = middle.project(camera), hit = firstHit(new THREE.Vector2(at.x, at.y));
+    const at = middle.project(camera), hit = firstHit(new THREE.Vector2(at.x, at.y)).body;
     return hit >= 0 && [contact.body_a, contact.body_b].includes(data.bodies[hit].name);
   }
 
@@ -261,8 +308,8 @@ swept.scene = (function () {
     return size;
   }
 
-  return {build, draw, pose, poseLinks, paint, highlight, seeThrough, setVisible, setShadows, bodyAt,
-          isSeen, project, fit, place, colour, changed, scene, links, bodies, canvas, camera,
+  return {build, draw, pose, poseLinks, paint, highlight, seeThrough, setVisible, setShadows, addVisual,
+          showVisuals, hitAt, bodyAt: (x, y) => hitAt(x, y).body, isSeen, project, fit, place, colour, changed, scene, links, bodies, canvas, camera,
           controls: () => controls, wholeBounds: () => bounds, shownBounds: measure,
           size: () => bounds.getSize(new THREE.Vector3()).length()};
 })();

@@ -124,6 +124,7 @@ swept.views = (function () {
     parts.push('view=' + saved());
     const hidden = swept.bodies.hidden().join(',');
     if (hidden !== '') parts.push('hide=' + hidden);
+    if (swept.looks.on()) parts.push('look=visual');
     if (swept.pace.chosen() !== null) parts.push('shadows=' + (swept.pace.chosen() ? 'on' : 'off'));
     return '#' + parts.join('&');
   }
@@ -152,6 +153,7 @@ swept.views = (function () {
     if (asked.has('q')) restoreValues(asked.get('q'));
     if (!picture) return asked.has('t');
     if (asked.has('shadows')) swept.pace.choose(asked.get('shadows') !== 'off');
+    if (asked.has('look')) swept.looks.choose(asked.get('look') === 'visual');
     if (asked.has('hide')) swept.bodies.hide(asked.get('hide').split(',').filter((i) => i !== '').map(Number));
     if (asked.has('view')) restore(asked.get('view'));
     return asked.has('t') || asked.has('view');

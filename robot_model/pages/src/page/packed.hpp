@@ -10,10 +10,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "verify/encoding.hpp"
-
 /// Numbers as a page holds them: base64 of little-endian bytes, for JavaScript's typed arrays.
 namespace swept {
+
+/// RFC 4648, with padding.
+std::string base64Of(std::span<const std::uint8_t> bytes);
 
 /// Of 2 or 4 bytes each.
 template <typename Number>
@@ -28,7 +29,7 @@ requires(std::integral<Number> || std::floating_point<Number>) std::string
     for (std::size_t shift = 0; shift < 8 * sizeof(Bits); shift += 8)
       bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
   }
-  return verify::base64Of(std::span<const std::uint8_t>(bytes));
+  return base64Of(bytes);
 }
 
 /// m. The largest float that is not above `value`: what is proven stays proven.

@@ -174,8 +174,8 @@ swept.panel = (function () {
 
   function build() {
     const robot = data.facts.find((fact) => fact[0] === 'robot')[1];
-    document.title = robot + ', swept ' + data.subcommand;
-    byId('subcommand').textContent = 'swept ' + data.subcommand + ' \u00b7 ' + robot;
+    document.title = robot + ', ' + data.title;
+    byId('title').textContent = data.title + ' \u00b7 ' + robot;
     byId('verdict').textContent = data.headline;
     byId('panel').dataset.tone = data.tone;
     byId('clouds').hidden = data.clouds === '';

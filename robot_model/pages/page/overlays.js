@@ -102,7 +102,7 @@ swept.overlays = (function () {
       const ghost = new THREE.Group();
       ghost.userData.body = b;
       scene.place(ghost, data.poses, data.poseAt(frame, body.frame));
-      for (const mesh of scene.bodies[b].meshes) {
+      for (const mesh of scene.bodies[b].shown) {
         const copy = new THREE.Mesh(mesh.geometry, ends.material);
         copy.position.copy(mesh.position);
         copy.quaternion.copy(mesh.quaternion);

@@ -26,6 +26,7 @@
   }
   const actions = {
     covers: toggler('tool-covers', (on) => swept.overlays.showCovers(on)),
+    looks: () => swept.looks.toggle(),
     world: toggler('tool-world', (on) => swept.scene.seeThrough(on)),
     ghosts: toggler('tool-ghosts', (on) => swept.overlays.showEnds(on)),
     reset: () => swept.views.reset(),
@@ -46,7 +47,7 @@
     h: actions.help, '?': actions.help, ' ': playback.toggle, '1': actions.front,
     '2': actions.side, '3': actions.top, '4': actions.isometric, f: actions.fit,
     w: actions.worst, p: actions.picture, l: actions.link, s: actions.shadows,
-    n: () => swept.paths.next(), a: () => swept.bodies.showAll(),
+    v: actions.looks, n: () => swept.paths.next(), a: () => swept.bodies.showAll(),
     '/': () => { byId('bodies-box').open = true; byId('bodies-filter').focus(); },
     Escape: () => {
       if (!byId('help').hidden) byId('help').hidden = true;
@@ -92,7 +93,9 @@
     canvas.addEventListener('pointerup', (event) => {
       if (down === null || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 5) return;
       const at = canvas.getBoundingClientRect();
-      swept.panel.pick(swept.scene.bodyAt(event.clientX - at.left, event.clientY - at.top));
+      const hit = swept.scene.hitAt(event.clientX - at.left, event.clientY - at.top);
+      swept.panel.pick(hit.body);
+      if (hit.body < 0 && hit.link) swept.notice(hit.link + ' has no collision geometry: it is not checked');
     });
   }
 
@@ -133,6 +136,7 @@
     for (const name of Object.keys(actions))
       byId('tool-' + name).addEventListener('click', actions[name]);
     byId('tool-ghosts').hidden = !data.isPath;
+    byId('tool-looks').hidden = data.visuals.length === 0;
     // Nothing is nearer to anything where nothing is judged.
     byId('tool-worst').hidden = data.clearances === null;
     byId('help').addEventListener('click', actions.help);

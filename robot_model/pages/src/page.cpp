@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "output/whole_file.hpp"
+#include "page/page_content.hpp"
+#include "swept/core/floating_point_environment.hpp"
+#include "swept/pages/page.hpp"
+#include "swept/robot_model/usage_error.hpp"
+
+namespace swept {
+
+namespace {
+
+enum class Kind { Nothing, States, Motions, Paths };
+
+std::vector<double> checkedState(const Checker& checker, const std::string& label,
+                                 std::span<const double> state) {
+  const std::size_t expected = checker.group().variables.size();
+  if (state.size() != expected)
+    throw std::invalid_argument("'" + label + "' has " + std::to_string(state.size()) +
+                                " values; group '" + checker.group().name + "' has " +
+                                std::to_string(expected) + " variables");
+  if (!std::ranges::all_of(state, [](double value) { return std::isfinite(value); }))
+    throw std::invalid_argument("'" + label + "' has a value that is not finite");
+  return {state.begin(), state.end()};
+}
+
+}  // namespace
+
+struct Page::Data {
+  std::shared_ptr<const Checker> checker;
+  PageOptions options;
+  PageContent content;
+  std::vector<Finding> findings;  ///< of each motion, or each path
+  Kind kind = Kind::Nothing;
+
+  void require(Kind wanted) {
+    if (kind != Kind::Nothing && kind != wanted)
+      throw std::invalid_argument("a page has either states, or motions, or paths");
+    kind = wanted;
+  }
+  Finding addMotion(const std::string& label, const std::vector<double>& from,
+                    const std::vector<double>& to);
+  PageContent judged() const;
+};
+
+Finding Page::Data::addMotion(const std::string& label, const std::vector<double>& from,
+                              const std::vector<double>& to) {
+  Workspace workspace(*checker);
+  content.motions.push_back({.label = label,
+                             .from = from,
+                             .to = to,
+                             .certificate = checker->certifyMotion(from, to, workspace),
+                             .path = static_cast<int>(content.paths.size())});
+  return findingOf(content.motions.back().certificate);
+}
+
+PageContent Page::Data::judged() const {
+  PageContent all;
+  if (kind == Kind::Nothing) throw std::invalid_argument("a page of nothing");
+  if (kind == Kind::States) {
+    all = statesContent(*checker, content.states);
+  } else {
+    all = content;
+    all.tone = toneOf(worst(findings).verdict);
+    all.headline = countsText(kind == Kind::Paths ? "path" : "motion", findings);
+    sayIfNothingIsChecked(all, *checker);
+  }
+  all.title = options.title;
+  all.facts = options.facts;
+  if (!options.headline.empty()) all.headline = options.headline;
+  return all;
+}
+
+Page::Page(std::shared_ptr<const Checker> checker, PageOptions options)
+    : data_(std::make_unique<Data>()) {
+  if (checker == nullptr) throw std::invalid_argument("a page without a checker");
+  data_->checker = std::move(checker);
+  data_->options = std::move(options);
+}
+Page::~Page() = default;
+Page::Page(Page&&) noexcept = default;
+Page& Page::operator=(Page&&) noexcept = default;
+
+void Page::addState(const std::string& label, std::span<const double> state) {
+  std::vector<double> q = checkedState(*data_->checker, label, state);
+  data_->require(Kind::States);
+  data_->content.states.push_back({.label = label, .q = std::move(q)});
+}
+
+void Page::addMotion(const std::string& label, std::span<const double> from,
+                     std::span<const double> to) {
+  const std::vector<double> start = checkedState(*data_->checker, label, from);
+  const std::vector<double> end = checkedState(*data_->checker, label, to);
+  data_->require(Kind::Motions);
+  data_->findings.push_back(data_->addMotion(label, start, end));
+}
+
+void Page::addPath(const std::string& label, std::span<const std::vector<double>> states) {
+  if (states.empty()) throw std::invalid_argument("path '" + label + "' has no state");
+  for (const std::vector<double>& state : states)
+    static_cast<void>(checkedState(*data_->checker, label, state));
+  data_->require(Kind::Paths);
+  std::vector<Finding> segments;
+  const std::size_t count = std::max<std::size_t>(1, states.size() - 1);
+  for (std::size_t i = 0; i < count; ++i)
+    segments.push_back(data_->addMotion("segment " + std::to_string(i + 1), states[i],
+                                        states[std::min(i + 1, states.size() - 1)]));
+  data_->findings.push_back(worst(segments));
+  data_->content.paths.push_back({.label = label, .tone = toneOf(data_->findings.back().verdict)});
+}
+
+std::string Page::html() const {
+  if (detail::inForeignEnvironment()) return inDefaultEnvironment([&] { return html(); });
+  const Checker& checker = *data_->checker;
+  return htmlOf(pageJson(checker.robot(), checker.world(), &checker, data_->judged(),
+                         data_->options.visuals));
+}
+
+void Page::write(const std::filesystem::path& file) const {
+  const std::string name = file.string();
+  if (file.extension() != ".html" && file.extension() != ".htm")
+    throw UsageError("'" + name + "': a page ends in .html or .htm");
+  requireWritable(file);
+  writeWholeFile(name, html());
+}
+
+}  // namespace swept
