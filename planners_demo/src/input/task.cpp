@@ -44,10 +44,8 @@ std::vector<PackageFolder> packageFolders(const Arguments& args) {
   return folders;
 }
 
-std::shared_ptr<const Robot> loadRobot(const Arguments& args, const Model& model,
-                                       const LoadOptions& options) {
+std::shared_ptr<const Robot> loadRobot(const Model& model, const LoadOptions& options) {
   const std::string& srdf = model.srdf.file;
-  if (!model.urdf) return Robot::load(args.robot, srdf, options);
   const std::string srdfText = srdf.empty() ? "" : readTextFile(srdf);
   if (!srdf.empty() && srdfText.empty())
     throw InputError(srdf, 1, "malformed XML: the document is empty");
@@ -129,13 +127,11 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
       .everyWarning = args.verbose,
       .warnOfUnchecked = [&](const std::string& line) { warnings.ofUnchecked(line); }};
   Model model;
-  std::error_code unknown;
   model.srdf = chooseSrdf(args);
-  if (args.xacro)
-    model.urdf = expandedText(args);
-  else if (!std::filesystem::is_regular_file(args.robot, unknown))  // a pipe is read once
-    model.urdf = ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
-  model.robot = withAskedGroup(loadRobot(args, model, options), args);
+  // Kept for who asks what the robot looks like: a pipe cannot be read again.
+  model.urdf = args.xacro ? expandedText(args)
+                          : ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
+  model.robot = withAskedGroup(loadRobot(model, options), args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
