@@ -46,8 +46,7 @@ std::filesystem::path cacheFolder() {
   return folder == nullptr ? "" : folder;
 }
 
-std::shared_ptr<const Robot> loadRobot(const Arguments& args,
-                                       const std::optional<ExpandedText>& text,
+std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText& urdf,
                                        const std::filesystem::path& srdf,
                                        const LoadOptions& options) {
   HeldRemarks remarks(options);
@@ -58,8 +57,7 @@ std::shared_ptr<const Robot> loadRobot(const Arguments& args,
     progress.setLabel(label + ": " + std::to_string(done) + " of " + std::to_string(total) +
                       " meshes");
   };
-  if (!text) return Robot::load(args.robot, srdf, holding);
-  return Robot::parse(text->text, text->name, srdf.empty() ? std::string() : readTextFile(srdf),
+  return Robot::parse(urdf.text, urdf.name, srdf.empty() ? std::string() : readTextFile(srdf),
                       srdf.string(), holding);
 }
 

@@ -45,16 +45,6 @@ std::vector<PackageFolder> packageFolders(const Arguments& args) {
   return folders;
 }
 
-std::shared_ptr<const Robot> loadRobot(const Arguments& args, const Model& model,
-                                       const LoadOptions& options) {
-  const std::string& srdf = model.srdf.file;
-  if (!model.urdf) return Robot::load(args.robot, srdf, options);
-  const std::string srdfText = srdf.empty() ? "" : readTextFile(srdf);
-  if (!srdf.empty() && srdfText.empty())
-    throw InputError(srdf, 1, "malformed XML: the document is empty");
-  return Robot::parse(model.urdf->text, model.urdf->name, srdfText, srdf, options);
-}
-
 std::string standingContactText(const Checker& checker) {
   std::vector<std::string> pairs;
   for (const Checker::Pair& pair : checker.standingContacts())
@@ -132,13 +122,11 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
       .progress = {},
       .cache = cacheFolder()};
   Model model;
-  std::error_code unknown;
   model.srdf = chooseSrdf(args);
-  if (args.xacro)
-    model.urdf = expandedText(args);
-  else if (!std::filesystem::is_regular_file(args.robot, unknown))  // a pipe is read once
-    model.urdf = ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
-  model.robot = withAskedGroup(loadRobot(args, model.urdf, model.srdf.file, options), args);
+  // Kept for who asks what the robot looks like: a pipe cannot be read again.
+  model.urdf = args.xacro ? expandedText(args)
+                          : ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
+  model.robot = withAskedGroup(loadRobot(args, *model.urdf, model.srdf.file, options), args);
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);

@@ -62,7 +62,7 @@ bool leavesOutDefaultContacts(const Arguments& args);
 struct Model {
   std::shared_ptr<const Robot> robot;
   std::shared_ptr<const World> world;  ///< of --scene; empty without
-  std::optional<ExpandedText> urdf;    ///< of the robot, where it cannot be read again
+  std::optional<ExpandedText> urdf;    ///< of the robot; none: it is no file's
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
   std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none

@@ -7,7 +7,7 @@
 
 namespace swept {
 
-/// A URDF that a program wrote, or a pipe had.
+/// A URDF as it was read, or written by a program.
 struct ExpandedText {
   std::string text;
   std::string name;  ///< what messages call it, with the lines of what was written

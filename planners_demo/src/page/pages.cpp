@@ -30,9 +30,9 @@ PageContent::State defaultState(const Robot& robot, const Group& group) {
   return state;
 }
 
-VisualModel visualsOf(const Arguments& args, const Model& model) {
-  if (model.urdf) return VisualModel::parse(model.urdf->text, model.urdf->name, model.options);
-  return VisualModel::load(args.robot, model.options);
+VisualModel visualsOf(const Model& model) {
+  if (!model.urdf) return {};
+  return VisualModel::parse(model.urdf->text, model.urdf->name, model.options);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void writePage(const Arguments& args, const Model& model, const Checker* checker
   {
     Progress progress("making the page", args.quiet);
     const World& world = checker == nullptr ? *model.world : checker->world();
-    const VisualModel visuals = visualsOf(args, model);
+    const VisualModel visuals = visualsOf(model);
     writeWholeFile(args.page.file,
                    htmlOf(pageJson(*model.robot, world, checker, content, visuals)));
   }
