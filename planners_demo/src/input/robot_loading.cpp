@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output/progress.hpp"
+#include "swept/robot_model/input.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
@@ -57,8 +58,10 @@ std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText
     progress.setLabel(label + ": " + std::to_string(done) + " of " + std::to_string(total) +
                       " meshes");
   };
-  return Robot::parse(urdf.text, urdf.name, srdf.empty() ? std::string() : readTextFile(srdf),
-                      srdf.string(), holding);
+  const std::string srdfText = srdf.empty() ? std::string() : readTextFile(srdf);
+  if (!srdf.empty() && srdfText.empty())
+    throw InputError(srdf.string(), 1, "malformed XML: the document is empty");
+  return Robot::parse(urdf.text, urdf.name, srdfText, srdf.string(), holding);
 }
 
 }  // namespace swept
