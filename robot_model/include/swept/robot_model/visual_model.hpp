@@ -23,6 +23,7 @@ struct Colour {
   double green = 0.0;  ///< 0 to 1
   double blue = 0.0;   ///< 0 to 1
   double alpha = 1.0;  ///< 0: is not seen
+  /// Exactly the same numbers.
   bool operator==(const Colour&) const = default;
 };
 
@@ -35,7 +36,9 @@ struct VisualMesh {
 
 /// A piece of what a link looks like, of one colour.
 struct Visual {
+  /// In its own frame, m.
   std::variant<Sphere, Box, Cylinder, Capsule, std::shared_ptr<const VisualMesh>> shape;
+  /// Pose of the shape in the link's frame.
   Eigen::Isometry3d link_from_shape = Eigen::Isometry3d::Identity();
   std::optional<Colour> colour;  ///< of the mesh file, else of the URDF's material; none: neither
   std::string source;            ///< mesh file as the URDF has it, or the primitive's name
