@@ -47,7 +47,6 @@
 
 #include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
-#include "output/text_output.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 
 namespace swept {
@@ -132,7 +131,9 @@ std::string plannerName(std::string_view anyCase) {
   for (const Entry& entry : kPlanners)
     if (lower(entry.name) == lower(anyCase)) return std::string(entry.name);
   const std::vector<std::string> names = plannerNames();
-  throw UsageError("no planner '" + std::string(anyCase) + "'; there are " + joined(names) +
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw UsageError("no planner '" + std::string(anyCase) + "'; there are " + list +
                    didYouMean(std::string(anyCase), names));
 }
 
