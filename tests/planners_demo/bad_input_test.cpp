@@ -88,11 +88,14 @@ const Case kOptions[] = {
     {"NoSubcommand",
      {},
      kError +
-         "a subcommand is required; there are info, check, motion, plan, verify, acm, replay, " +
+         "a subcommand is required; there are info, check, motion, certify, plan, verify, acm, "
+         "replay, " +
          (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
-     kError + "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, acm, replay, " +
+     kError +
+         "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, acm, "
+         "replay, " +
          (programHasPages() ? "view, " : "") +
          "bench, report, completion; did you mean 'verify'? (try --help)"},
     {"NoRobot", {"check"}, kError + "robot is required (try --help)"},

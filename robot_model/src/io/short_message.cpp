@@ -25,8 +25,9 @@ std::string withoutMiddle(std::string_view text, std::size_t first, std::size_t 
 }  // namespace
 
 std::string shortMessage(std::string_view message) {
-  // With the marks around a foreignText().
-  constexpr std::size_t kMostOfWord = kMaxForeignBytes + 20;
+  // Longer than a foreignText(), and than the paths of files that there are.
+  constexpr std::size_t kMostOfWord = 512;
+  static_assert(kMostOfWord > kMaxForeignBytes);
   constexpr std::size_t kFirstOfWord = 200, kLastOfWord = 60;
   constexpr std::size_t kMost = 4000, kFirst = 2500, kLast = 1000;
   std::string text;

@@ -11,7 +11,7 @@
 namespace swept {
 
 /// A file, or a user's value, that cannot be used. what() is `file:line: error: message`, which has
-/// the element, the value seen and what is allowed. The middle is left out of a word of more than 320
+/// the element, the value seen and what is allowed. The middle is left out of a word of more than 512
 /// bytes, and of a message of more than 4000.
 class InputError : public std::runtime_error {
  public:
