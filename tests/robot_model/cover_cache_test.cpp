@@ -125,6 +125,21 @@ TEST_F(CoverCacheTest, AnotherMeshIsAnotherFile) {
   EXPECT_EQ(files().size(), 3);
 }
 
+TEST_F(CoverCacheTest, OtherTrianglesOfTheSameCornersAreAnotherFile) {
+  const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
+  const std::vector<Eigen::Vector3i> first{{0, 1, 2}, {0, 2, 3}}, second{{0, 1, 2}, {1, 2, 3}};
+  const auto one = TriangleMesh::build(corners, first, MeshInterior::Solid, 0.0);
+  const auto other = TriangleMesh::build(corners, second, MeshInterior::Solid, 0.0);
+  ASSERT_EQ(one.vertices().size(), other.vertices().size());
+  for (std::size_t i = 0; i < one.vertices().size(); ++i)
+    ASSERT_EQ(one.vertices()[i], other.vertices()[i]);
+  detail::CoverCache kept(folder_), none({});
+  const std::string cover = detail::toBytes(*none.coverOf(other));
+  ASSERT_NE(detail::toBytes(*kept.coverOf(one)), cover);
+  EXPECT_EQ(detail::toBytes(*kept.coverOf(other)), cover);
+  EXPECT_EQ(files().size(), 2);
+}
+
 /// Whatever is done to a file, the cover is the same, and the file is whole again.
 TEST_F(CoverCacheTest, BelievesNoFileThatWasChanged) {
   const auto robot = load(folder_);
