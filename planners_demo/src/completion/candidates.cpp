@@ -55,7 +55,8 @@ Words listOf(const std::string& typed, Words names, std::size_t most, bool all) 
 }
 
 Words setsOf(const std::string& problems) {
-  constexpr std::uintmax_t kMostBytes = 8 * 1024 * 1024;  // which take a tenth of a second
+  // They take a tenth of a second.
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{8} * 1024 * 1024;
   if (!std::filesystem::is_regular_file(problems) ||
       std::filesystem::file_size(problems) > kMostBytes)
     return {};

@@ -16,7 +16,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// Larger ones take longer than someone waits who has pressed a key.
-constexpr std::uintmax_t kMostBytes = 32 * 1024 * 1024;
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{32} * 1024 * 1024;
 
 /// Empty where there is nothing to read; a pipe would wait for its writer.
 std::string textOf(const std::string& file) {

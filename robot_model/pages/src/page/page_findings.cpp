@@ -31,9 +31,10 @@ std::string countsText(const std::string& what, const std::vector<Finding>& find
        {{Verdict::Collision, true}, "closer than the margin"},
        {{Verdict::Undecided, false}, "undecided"}}};
   std::vector<std::string> counts;
-  for (const auto& [finding, word] : kWords) {
+  for (const auto& [kind, word] : kWords) {
+    const Finding& wanted = kind;  // clang 14 captures no structured binding
     const auto count = std::ranges::count_if(findings, [&](const Finding& other) {
-      return other.verdict == finding.verdict && other.apart == finding.apart;
+      return other.verdict == wanted.verdict && other.apart == wanted.apart;
     });
     if (count == 0) continue;
     const bool all = count == std::ssize(findings);
