@@ -7,7 +7,9 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "slide_robot.hpp"
 #include "swept/ompl_bridge/setup.hpp"
 
 namespace swept {
@@ -17,22 +19,11 @@ namespace ob = ompl::base;
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 
-constexpr double kSelf = 0.0136;  // m, between the two balls of the robot
-constexpr double kRadius = 0.05;  // m, of all balls
+constexpr double kSelf = test::kSlideGap;       // m
+constexpr double kRadius = test::kSlideRadius;  // m, of all balls
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr const char* kUrdf = R"(<robot name='slide'>
-  <link name='base'/>
-  <link name='carriage'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <link name='wrist'/>
-  <link name='hand'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <joint name='y' type='prismatic'><parent link='base'/><child link='carriage'/>
-    <axis xyz='0 1 0'/><limit lower='-2' upper='2' effort='1' velocity='1'/></joint>
-  <joint name='turn' type='revolute'><parent link='carriage'/><child link='wrist'/>
-    <origin xyz='0.1136 0 0'/><axis xyz='0 0 1'/>
-    <limit lower='-3' upper='3' effort='1' velocity='1'/></joint>
-  <joint name='grip' type='fixed'><parent link='wrist'/><child link='hand'/></joint>
-</robot>)";
+const std::string kUrdf = test::slideUrdf("0 1 0");
 
 class ClearanceObjective : public testing::Test {
  protected:

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "program.hpp"
+#include "slide_robot.hpp"
 
 namespace swept::test {
 namespace {
@@ -12,18 +15,7 @@ namespace {
 using Json = nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* kUrdf = R"(<robot name='slide'>
-  <link name='base'/>
-  <link name='carriage'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <link name='wrist'/>
-  <link name='hand'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <joint name='x' type='prismatic'><parent link='base'/><child link='carriage'/>
-    <axis xyz='1 0 0'/><limit lower='-2' upper='2' effort='1' velocity='1'/></joint>
-  <joint name='turn' type='revolute'><parent link='carriage'/><child link='wrist'/>
-    <origin xyz='0.1136 0 0'/><axis xyz='0 0 1'/>
-    <limit lower='-3' upper='3' effort='1' velocity='1'/></joint>
-  <joint name='grip' type='fixed'><parent link='wrist'/><child link='hand'/></joint>
-</robot>)";
+const std::string kUrdf = slideUrdf("1 0 0");
 
 constexpr const char* kScene = R"(name: post
 world:

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "slide_robot.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept {
@@ -21,23 +22,12 @@ using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using testing::HasSubstr;
 
-constexpr double kRadius = 0.05;  // m, of all balls
-constexpr double kSelf = 0.0136;  // m, between the two balls of the robot
-constexpr double kAway = 0.2;     // m, of the post beside the way
+constexpr double kRadius = test::kSlideRadius;  // m, of all balls
+constexpr double kSelf = test::kSlideGap;       // m
+constexpr double kAway = 0.2;                   // m, of the post beside the way
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr const char* kUrdf = R"(<robot name='slide'>
-  <link name='base'/>
-  <link name='carriage'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <link name='wrist'/>
-  <link name='hand'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <joint name='x' type='prismatic'><parent link='base'/><child link='carriage'/>
-    <axis xyz='1 0 0'/><limit lower='-2' upper='2' effort='1' velocity='1'/></joint>
-  <joint name='turn' type='revolute'><parent link='carriage'/><child link='wrist'/>
-    <origin xyz='0.1136 0 0'/><axis xyz='0 0 1'/>
-    <limit lower='-3' upper='3' effort='1' velocity='1'/></joint>
-  <joint name='grip' type='fixed'><parent link='wrist'/><child link='hand'/></joint>
-</robot>)";
+const std::string kUrdf = test::slideUrdf("1 0 0");
 
 class WorldAndSelf : public testing::Test {
  protected:

@@ -82,7 +82,7 @@ concept NotPacked =
 }  // namespace detail
 
 // A view that is made of another one is a copy of it, by whichever constructor.
-// NOLINTBEGIN(bugprone-forwarding-reference-overload)
+// NOLINTBEGIN(bugprone-forwarding-reference-overload): a copy that they make is the same span
 
 /// A configuration of a group: how functions take it, and a span of it.
 template <typename Number>
