@@ -46,4 +46,19 @@ JudgedState judgeState(const Robot& robot, const Group& group, std::span<double>
   return judged;
 }
 
+std::string whyElsewhere(const Robot& robot, const Joint& joint, double value,
+                         const std::function<double(int variable)>& valueOf) {
+  constexpr double kPlay = 1e-3;  // rad or m. A gear's play, a rounded multiplier
+  double wanted = 0.0;
+  std::string why = "does not move";
+  if (joint.mimic) {
+    const Joint& master = robot.joints()[static_cast<std::size_t>(joint.mimic->master)];
+    wanted = joint.mimic->multiplier * valueOf(master.firstVariable) + joint.mimic->offset;
+    why = "follows '" + master.name + "' to " + formatNumber(wanted);
+  }
+  double off = value - wanted;
+  if (joint.type == JointType::Continuous) off = std::remainder(off, 2.0 * std::numbers::pi);
+  return std::abs(off) <= kPlay ? std::string() : why;
+}
+
 }  // namespace swept::detail

@@ -15,9 +15,6 @@ namespace swept::detail {
 
 namespace {
 
-/// rad or m. What a joint that mimics may be off by: a gear's play, a rounded multiplier.
-constexpr double kPlay = 1e-3;
-
 /// Between two values, of which angles may be turns apart.
 double off(double value, double other, bool turns) {
   const double apart = value - other;
@@ -105,19 +102,13 @@ void PathRows::requireStill(std::span<const double> values, std::span<const doub
       continue;
     }
     const Joint& joint = robot_.joints()[column.joint];
-    double value = 0.0;
-    std::string why = "does not move";
-    if (joint.mimic) {
-      const Joint& master = robot_.joints()[joint.mimic->master];
-      const auto place = std::ranges::find(group_.variables, master.firstVariable);
-      const double driven = place == group_.variables.end()
-                                ? reference_[master.firstVariable]
-                                : q[static_cast<std::size_t>(place - group_.variables.begin())];
-      value = joint.mimic->multiplier * driven + joint.mimic->offset;
-      why = "follows '" + master.name + "' to " + exactNumber(value);
-    }
-    if (!(off(values[i], value, joint.type == JointType::Continuous) <= kPlay))
-      fail(joint.name + " is " + exactNumber(values[i]) + ", but the joint " + why);
+    const std::string why = whyElsewhere(robot_, joint, values[i], [&](int variable) {
+      const auto place = std::ranges::find(group_.variables, variable);
+      return place == group_.variables.end()
+                 ? reference_[variable]
+                 : q[static_cast<std::size_t>(place - group_.variables.begin())];
+    });
+    if (!why.empty()) fail(joint.name + " is " + exactNumber(values[i]) + ", but the joint " + why);
   }
 }
 

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/robot_state_yaml.hpp"
 
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
-#include "io/numbers.hpp"
+#include "io/judged_state.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "swept/robot_model/planning_request.hpp"
 
 namespace swept::detail {
 
 namespace {
-
-/// rad or m. What a joint that mimics may be off by: a gear's play, a rounded multiplier.
-constexpr double kPlay = 1e-3;
 
 class StateReader {
  public:
@@ -94,19 +89,11 @@ class StateReader {
 
   /// It goes where its master takes it, and one that is fixed stays at 0.
   void requireFollows(const Follower& follower) const {
-    const Joint& joint = follower.joint;
-    double value = 0.0;
-    std::string why = "does not move";
-    if (joint.mimic) {
-      const Joint& master = robot_.joints()[static_cast<std::size_t>(joint.mimic->master)];
-      value = joint.mimic->multiplier * state_[master.firstVariable] + joint.mimic->offset;
-      why = "follows '" + master.name + "' to " + formatNumber(value);
-    }
-    double off = follower.value.number() - value;
-    if (joint.type == JointType::Continuous) off = std::remainder(off, 2.0 * std::numbers::pi);
-    if (std::abs(off) <= kPlay) return;
-    follower.value.fail("of '" + joint.name + "' is " + follower.value.text() + ", but the joint " +
-                        why);
+    const std::string why = whyElsewhere(robot_, follower.joint, follower.value.number(),
+                                         [this](int variable) { return state_[variable]; });
+    if (why.empty()) return;
+    follower.value.fail("of '" + follower.joint.name + "' is " + follower.value.text() +
+                        ", but the joint " + why);
   }
 
   const Robot& robot_;

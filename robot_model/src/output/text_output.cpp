@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
+#include "io/numbers.hpp"
 #include "output/escaped_text.hpp"
 #include "swept/robot_model/usage_error.hpp"
 
@@ -35,9 +35,7 @@ std::string secondsText(double seconds) {
 }
 
 std::string exactNumber(double value) {
-  std::array<char, 40> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  return detail::formatNumber(value);
 }
 
 std::string countedText(std::size_t count, const std::string& what, const std::string& several) {
