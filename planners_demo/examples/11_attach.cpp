@@ -45,7 +45,7 @@ int main(int argc, char** argv) try {
   // Let go half-way: where the can is becomes a body of the world. Then the fingers open.
   std::vector<double> there = grasp;
   there[0] = 0.3;
-  const swept::WorldBody put = carry.placed("can", there);
+  const swept::WorldBody put = carry.detachedBody("can", there);
   const swept::Checker leave = carry.withoutAttached("can").withBody(put);
   right &= put.parts[0].world_from_shape.isApprox(
       Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * world_from_can, 1e-12);

@@ -184,7 +184,7 @@ TEST(EnvironmentOfMeshes, IsTheDefaultForSolids) {
                          const auto mesh = TriangleMesh::build(box.vertices, box.triangles);
                          const TriangleMesh moved = mesh.moved(later);
                          for (const TriangleMesh& m : {mesh, moved}) {
-                           t.add(m.vertices(), m.dent(), m.hull().error(), m.hull().vertices(),
+                           t.add(m.vertices(), m.concavity(), m.hull().error(), m.hull().vertices(),
                                  m.convexParts().size(), m.encloses(inner));
                          }
                        }});

@@ -183,7 +183,7 @@ TEST(EnvironmentOfShapes, IsTheDefaultWhereTheyAreMade) {
        {"height field",
         [=](Transcript& t) {
           const TriangleMesh mesh = heightField(1.1, 0.7, heights, 0.0);
-          t.add(mesh.vertices(), mesh.dent());
+          t.add(mesh.vertices(), mesh.concavity());
           tell(t, mesh.hull());
         }},
        {"occluded", [=](Transcript& t) {

@@ -173,7 +173,7 @@ TEST_F(MigrationOfARobot, SceneRulesAndQueries) {
       "held", "hand", swept::makeBox({0.04, 0.04, 0.1}), at(0.0, 0.0, 0.1),
       {"finger_left", "finger_right"});
   const swept::Checker released =
-      holding.withoutAttached("held").withBody(holding.placed("held", ready));
+      holding.withoutAttached("held").withBody(holding.detachedBody("held", ready));
 
   EXPECT_EQ(holding.world().find("parcel"), nullptr);
   EXPECT_NE(released.world().find("held"), nullptr);

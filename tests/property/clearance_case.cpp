@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "certify/checker_model.hpp"
+#include "certify/workspace_data.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 

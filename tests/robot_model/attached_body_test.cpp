@@ -111,7 +111,7 @@ TEST(AttachedBody, WhatALetGoBodyLeavesIsWhereItWas) {
   const auto world = shared(test::clutter(13));
   const Checker holding = Checker(plain, "all", world).withAttached(tool());
   const std::vector<double> q{0.4, -0.9};
-  const WorldBody left = holding.placed("tool", q);
+  const WorldBody left = holding.detachedBody("tool", q);
   EXPECT_EQ(left.name, "tool");
   ASSERT_EQ(left.parts.size(), 2U);
   const Checker released = holding.withoutAttached("tool").withBody(left);
@@ -122,13 +122,13 @@ TEST(AttachedBody, WhatALetGoBodyLeavesIsWhereItWas) {
   ASSERT_FALSE(report.contacts.empty());
   const auto* same = again.world().find("tool");
   ASSERT_NE(same, nullptr);
-  const WorldBody second = again.placed("second", q);
+  const WorldBody second = again.detachedBody("second", q);
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_TRUE(second.parts[i].world_from_shape.isApprox(same->parts[i].world_from_shape, 1e-14));
-  EXPECT_EQ(messageOf([&] { (void)released.placed("tool", q); }),
+  EXPECT_EQ(messageOf([&] { (void)released.detachedBody("tool", q); }),
             "Checker: there is no attached body 'tool'");
   EXPECT_EQ(messageOf([&] {
-              (void)holding.placed("tool", std::vector<double>{NAN, 0.0});
+              (void)holding.detachedBody("tool", std::vector<double>{NAN, 0.0});
             }),
             "Checker: no pose of 'tool' is known in a configuration that is not finite");
 }

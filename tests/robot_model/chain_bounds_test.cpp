@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the lemma of chain_bounds says about points of two links, against sampled joint values.
-#include "matrix/chain_bounds.hpp"
+#include "acm/chain_bounds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -260,7 +260,7 @@ TEST(Checker, SaysWhatItChecksAndWhatItLeavesOut) {
                                             pair("base", "near", "not moved by the group"),
                                             pair("base", "far", "not moved by the group"),
                                             pair("base", "floor", "not moved by the group")));
-  EXPECT_THAT(checker.standingContacts(),
+  EXPECT_THAT(checker.staticContacts(),
               testing::ElementsAre(pair("base", "floor", "not moved by the group")));
 }
 

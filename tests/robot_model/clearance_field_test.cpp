@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lanes/lane_field.hpp"
+#include "simd/compile/simd_field.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 
 #include "../core/mesh_samples.hpp"
-#include "certify/checker_model.hpp"
-#include "lanes/obstacle_kernels.hpp"
+#include "certify/workspace_data.hpp"
+#include "simd/kernels/obstacle_kernels.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {
@@ -123,7 +123,7 @@ WorldGeometry worldGeometry(const Shape& shape, const Isometry3d& world_from_sha
   return geometry;
 }
 
-LaneObstacles compiled(const Shape& shape, const Isometry3d& pose, double reach) {
+SimdObstacles compiled(const Shape& shape, const Isometry3d& pose, double reach) {
   return compileObstacles({worldGeometry(shape, pose)}, reach, true);
 }
 
@@ -133,7 +133,7 @@ DistanceResult exactly(const Shape& shape, const Isometry3d& world_from_shape, c
 }
 
 /// Points all around, near the surface, inside, at corners and faces of cells, and beyond the grid.
-Vector3d samplePoint(const Scene& scene, const LaneField& field, std::mt19937& random) {
+Vector3d samplePoint(const Scene& scene, const SimdField& field, std::mt19937& random) {
   const Isometry3d world_from_grid =
       scene.world_from_shape * Eigen::Translation3d(field.field->origin);
   const double side = static_cast<double>(field.field->voxel);
@@ -177,9 +177,9 @@ Vector3d rounded(const Vector3d& p) {
 TEST(ClearanceField, NeverSaysMoreThanTheDistance) {
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.name);
-    const LaneObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
+    const SimdObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
     ASSERT_EQ(lanes.obstacles.at(0).kind, ObstacleKind::Field);
-    const LaneField& field = lanes.fields.at(0);
+    const SimdField& field = lanes.fields.at(0);
     std::mt19937 random(1);
     int positive = 0;
     int contained = 0;
@@ -214,8 +214,8 @@ TEST(ClearanceField, SaysNotMuchLess) {
     if (name == "cut" || name == "sheets") continue;  // what is beyond the grid counts
     SCOPED_TRACE(name);
     const double most = 2.0 * std::numbers::sqrt3 + (name == "slivers" ? 1.1 : 0.1);  // cells
-    const LaneObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
-    const LaneField& field = lanes.fields.at(0);
+    const SimdObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
+    const SimdField& field = lanes.fields.at(0);
     const auto cell = static_cast<double>(field.cell);
     const auto slack = static_cast<double>(field.slack);
     std::mt19937 random(2);
@@ -249,8 +249,8 @@ TEST(ClearanceField, ProvesOnlySegmentsThatAreApart) {
   int queried = 0;
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.name);
-    const LaneObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
-    const LaneField& field = lanes.fields.at(0);
+    const SimdObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
+    const SimdField& field = lanes.fields.at(0);
     std::mt19937 random(3);
     for (int i = 0; i < 1500; ++i) {
       const Vector3d p = rounded(samplePoint(scene, field, random));
@@ -299,8 +299,8 @@ TEST(ClearanceField, IsSharedAndRepeatable) {
       worldGeometry(shape, placed({0.5, 0.0, 0.0})),
       worldGeometry(shape, placed({0.0, 0.5, 0.1}, 2.0)),
   };
-  const LaneObstacles lanes = compileObstacles(world, 5.0, true);
-  const LaneObstacles again = compileObstacles(world, 5.0, true);
+  const SimdObstacles lanes = compileObstacles(world, 5.0, true);
+  const SimdObstacles again = compileObstacles(world, 5.0, true);
   ASSERT_EQ(lanes.fields.size(), 2u);
   EXPECT_EQ(lanes.fields[0].field, lanes.fields[1].field);
   EXPECT_NE(lanes.fields[0].field, again.fields[0].field);
@@ -316,14 +316,14 @@ TEST(ClearanceField, ManyBodiesStayWithinABudget) {
     world.push_back(worldGeometry(meshOf(test::blobSoup(random, 6, 8)),
                                   placed(2.0 * test::uniformPoint(random, 1.0), i)));
   std::size_t bytes = 0;
-  for (const LaneField& field : compileObstacles(world, 4.0, true).fields)
+  for (const SimdField& field : compileObstacles(world, 4.0, true).fields)
     bytes += field.field->bytes();
   EXPECT_LT(bytes, std::size_t{40} << 20);
 }
 
 TEST(ClearanceField, NoNumberIsNeverApart) {
   const Scene scene = scenes().front();
-  const LaneObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
+  const SimdObstacles lanes = compiled(scene.shape, scene.world_from_shape, scene.reach);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     for (int i = 0; i < 6; ++i) {
       Vector3d x(1.2, 1.2, 1.2);
@@ -338,7 +338,7 @@ TEST(ClearanceField, NoNumberIsNeverApart) {
   }
 }
 
-TEST(LaneObstacles, EllipsoidsAndTrianglesAreNoNearerThanTheyAre) {
+TEST(SimdObstacles, EllipsoidsAndTrianglesAreNoNearerThanTheyAre) {
   std::mt19937 random(11);
   double worst = 0.0;
   int all = 0;
@@ -350,7 +350,7 @@ TEST(LaneObstacles, EllipsoidsAndTrianglesAreNoNearerThanTheyAre) {
       shape = Triangle{{test::uniformPoint(random, 0.4), test::uniformPoint(random, 0.4),
                         test::uniformPoint(random, i % 10 == 1 ? 1e-9 : 0.4)}};
     const Isometry3d pose = test::randomPose(random, 0.5);
-    const LaneObstacles lanes = compiled(shape, pose, 2.0);
+    const SimdObstacles lanes = compiled(shape, pose, 2.0);
     ASSERT_NE(lanes.obstacles.at(0).near, NearProof::Distance);
     const Vector3d p = rounded(test::uniformPoint(random, 1.0));
     const Vector3d g = i % 3 == 0 ? Vector3d::Zero()

@@ -16,9 +16,9 @@
 
 #include "models_dir.hpp"
 #include "swept/core/continuous/motion.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/cloud_file.hpp"
-#include "swept/robot_model/collision_matrix.hpp"
 #include "swept/robot_model/inverse_kinematics.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/named_states.hpp"
@@ -258,7 +258,7 @@ TEST(EnvironmentOfRobots, IsTheDefaultForVersions) {
           const Checker held =
               first.withAttached({"rod", "hand", {{makeCapsule(0.02, 0.1), pose}}, {"finger*"}});
           ask(held, t);
-          const WorldBody placed = held.placed("rod", states.front());
+          const WorldBody placed = held.detachedBody("rod", states.front());
           t.add(placed.parts.front().world_from_shape, held.explain("rod", "mote"));
           ask(held.withoutAttached("rod"), t);
         }},
@@ -342,10 +342,11 @@ TEST(EnvironmentOfRobots, IsTheDefaultForWhatASensorSees) {
 TEST(EnvironmentOfRobots, IsTheDefaultForPairsThatNeverMeet) {
   const std::shared_ptr<const Robot> robot = load("rook6");
   test::expectSameInEveryEnvironment({{"matrix", [&](Transcript& t) {
-                                         CollisionMatrixOptions options;
+                                         AllowedCollisionMatrixOptions options;
                                          options.budget = 20'000;
                                          options.samples = 50;
-                                         const auto pairs = collisionMatrix(*robot, options);
+                                         const auto pairs =
+                                             computeAllowedCollisionMatrix(*robot, options);
                                          for (const LinkPairReport& pair : pairs) {
                                            t.add(pair.status, pair.proven, pair.nearest);
                                            if (pair.witness) t.add(*pair.witness);

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lane_robots.hpp"
+#include "simd_robots.hpp"
 #include "swept/robot_model/checker.hpp"
 
 namespace swept {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../urdf_text.hpp"
-#include "lane_robots.hpp"
+#include "simd_robots.hpp"
 #include "swept/robot_model/checker.hpp"
 
 /// Judges what is said of a ball on joints at large values, beside another one; truths are in 50

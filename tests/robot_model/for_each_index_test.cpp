@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kinematics/for_each_index.hpp"
+#include "threads/for_each_index.hpp"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

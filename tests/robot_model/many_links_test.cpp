@@ -9,12 +9,12 @@
 #include <random>
 #include <set>
 
-#include "certify/checker_model.hpp"
+#include "acm/never_pairs.hpp"
+#include "acm/never_proof.hpp"
 #include "kinematics/common_ancestors.hpp"
-#include "lanes/table_candidates.hpp"
 #include "long_robots.hpp"
-#include "matrix/never_pairs.hpp"
-#include "matrix/never_proof.hpp"
+#include "certify/workspace_data.hpp"
+#include "simd/tables/table_candidates.hpp"
 
 namespace swept {
 namespace {
@@ -136,15 +136,15 @@ std::shared_ptr<const detail::CheckerModel> compiled(const std::shared_ptr<const
 }
 
 /// Numbers of all references and hulls, and of what they share.
-std::size_t armsOf(const detail::LaneModel& lanes) {
+std::size_t armsOf(const detail::SimdModel& lanes) {
   std::size_t numbers = lanes.hulls->arms.size() + lanes.hulls->growths.size();
-  for (const detail::LaneReference& reference : lanes.references) {
+  for (const detail::SimdReference& reference : lanes.references) {
     numbers +=
         detail::kLanes * (reference.arms.size() + reference.carried.size()) + reference.slot.size();
-    for (const detail::LaneReference::Growth& growth : reference.growths)
+    for (const detail::SimdReference::Growth& growth : reference.growths)
       numbers += detail::kLanes * growth.shares.size();
   }
-  for (const detail::LaneCarried& joint : lanes.carried)
+  for (const detail::SimdCarried& joint : lanes.carried)
     numbers += joint.arms.size() + joint.bodies.size();
   return numbers;
 }
@@ -171,7 +171,7 @@ struct Tables {
 
 Tables tablesOf(const detail::CheckerModel& model) {
   Tables tables;
-  for (const detail::LaneBodyPair& bodies : model.lanes.bodyPairs) {
+  for (const detail::SimdBodyPair& bodies : model.simd.bodyPairs) {
     if (bodies.table == nullptr || bodies.table->joints == 0) continue;
     ++tables.number;
     tables.cells += bodies.table->cells.size();

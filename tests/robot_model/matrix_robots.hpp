@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "swept/core/distance.hpp"
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 
 /// Robots whose link pairs are looked at, and an oracle for single configurations that shares
 /// nothing with what looks at them but the shapes' distance.

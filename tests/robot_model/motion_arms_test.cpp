@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinematics/lever_arms.hpp"
-#include "lane_robots.hpp"
+#include "simd_robots.hpp"
 
 namespace swept::lane_test {
 namespace {

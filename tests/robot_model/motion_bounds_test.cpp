@@ -156,7 +156,7 @@ TEST(MotionBounds, HoldAgainstFiniteDifferences) {
       }
       const Vector3d velocity = (seen[2] - seen[0]) / (2 * step);
       const Vector3d acceleration = (seen[2] - 2 * seen[1] + seen[0]) / (step * step);
-      const auto bound = swept::detail::travelBound(model, levers.path, arms, first, motion);
+      const auto bound = swept::detail::pointMotionBound(model, levers.path, arms, first, motion);
       EXPECT_LE(velocity.norm(), bound.speed + 1e-5);
       EXPECT_LE(acceleration.norm(), bound.acceleration + 1e-4);
       if (bound.acceleration > 0.1) {
@@ -204,7 +204,7 @@ TEST(MotionBounds, AreReachedByAPlanarArm) {
   ASSERT_TRUE(swept::detail::compileMotion(model, from, to, motion));
   const int last = static_cast<int>(rates.size());
   const LeverArms levers = swept::detail::leverArms(model, last, Vector3d(length, 0.0, 0.0), 0.0);
-  const auto bound = swept::detail::travelBound(model, levers.path, levers.arms, 0, motion);
+  const auto bound = swept::detail::pointMotionBound(model, levers.path, levers.arms, 0, motion);
   EXPECT_GE(bound.acceleration, truth);
   EXPECT_LE(bound.acceleration, 1.001 * truth);
 }
@@ -230,7 +230,7 @@ TEST(MotionBounds, CountWhatABaseMovesAbout) {
   const std::vector<double> from{0.0, 3.0, 0.0, 0.0}, to{1.0, 5.0, 0.0, 0.0};
   ASSERT_TRUE(swept::detail::compileMotion(model, from, to, motion));
   const LeverArms levers = swept::detail::leverArms(model, 2, Vector3d::Zero(), 0.0);
-  const auto bound = swept::detail::travelBound(model, levers.path, levers.arms, 0, motion);
+  const auto bound = swept::detail::pointMotionBound(model, levers.path, levers.arms, 0, motion);
   EXPECT_GE(bound.speed, std::hypot(2.0, 5.0 * 1.0));               // at the end
   EXPECT_GE(bound.acceleration, std::hypot(5.0 * 1.0, 2.0 * 2.0));  // and Coriolis'
 }

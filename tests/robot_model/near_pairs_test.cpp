@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "certify/checker_model.hpp"
 #include "certify/near_pairs.hpp"
+#include "certify/workspace_data.hpp"
 #include "version_arms.hpp"
 
 namespace swept {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "certify/checker_model.hpp"
+#include "certify/workspace_data.hpp"
 #include "version_arms.hpp"
 
 namespace swept {

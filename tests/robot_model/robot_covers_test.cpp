@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/robot_covers.hpp"
-#include "kinematics/shape_cover.hpp"
+#include "robot/shape_cover.hpp"
 
 #include <gtest/gtest.h>
 

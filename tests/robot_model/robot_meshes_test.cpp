@@ -12,7 +12,7 @@
 #include "input_files.hpp"
 #include "io/cover_bytes.hpp"
 #include "io/mesh_file.hpp"
-#include "kinematics/shape_cover.hpp"
+#include "robot/shape_cover.hpp"
 #include "swept/core/triangle_mesh.hpp"
 #include "swept/robot_model/robot.hpp"
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 #include "version_arms.hpp"
 
 namespace swept {
@@ -96,7 +96,7 @@ TEST(RuleOrder, EachIsAboveTheNextAndExplainNamesIt) {
 TEST(RuleOrder, LinksThatCannotMoveAreStandingContactsWhenTheyAreEnabled) {
   const auto standing = [](const Checker& checker) {
     std::vector<std::string> pairs;
-    for (const Checker::Pair& pair : checker.standingContacts())
+    for (const Checker::Pair& pair : checker.staticContacts())
       pairs.push_back(pair.bodyA + " " + pair.bodyB);
     return pairs;
   };
@@ -157,7 +157,7 @@ TEST(RuleOrder, ContactsThatAreAlwaysThereAreAllowedForWhoeverAsks) {
   EXPECT_EQ(less.explain("base", "arm"),
             "base - arm: not checked, allowed: in contact at the "
             "default state and at all others that were looked at");
-  EXPECT_EQ(less.standingContacts().size(), 1U);
+  EXPECT_EQ(less.staticContacts().size(), 1U);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Names and values of a file may be as long as the file. Messages about them are for people.
-#include "io/short_message.hpp"
+#include "text/short_message.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

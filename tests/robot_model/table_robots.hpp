@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "lane_robots.hpp"
-#include "lanes/joint_table.hpp"
 #include "model_robots.hpp"
+#include "simd/tables/pair_separation_table.hpp"
+#include "simd_robots.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
@@ -17,7 +17,7 @@
 namespace swept::lane_test {
 
 using detail::CheckerModel;
-using detail::JointTable;
+using detail::PairSeparationTable;
 
 inline std::string triple(Random& random, double size) {
   const Eigen::Vector3d v = random.vector(size);
@@ -131,7 +131,7 @@ inline std::vector<Named> buildRobotsWithTables() {
     // Tables of bodies that never meet, too.
     const auto all = std::make_shared<CheckerModel>(*model);
     for (detail::BodyPair& pair : all->bodyPairs) pair.never = false;
-    all->lanes = detail::compileLanes(*all);
+    all->lanes = detail::compileSimdModel(*all);
     return std::shared_ptr<const CheckerModel>(all);
   };
   Random random(40);
@@ -159,7 +159,7 @@ inline const std::vector<Named>& robotsWithTables() {
 /// Poses of both bodies at these values of the table's joints, all others at rest.
 class Poses {
  public:
-  using Axes = std::array<JointTable::Axis, JointTable::kMostJoints>;
+  using Axes = std::array<PairSeparationTable::Axis, PairSeparationTable::kMostJoints>;
   Poses(const CheckerModel& model, const Axes& axes, int joints)
       : model_(model), axes_(axes), joints_(joints) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kinematics/work_crew.hpp"
+#include "threads/work_crew.hpp"
 
 #include <gtest/gtest.h>
 

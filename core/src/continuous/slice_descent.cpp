@@ -105,7 +105,8 @@ bool SliceDescent::isTooFast(const Part& a, const Part& b, const PartApproach& a
   return moved > std::max(kFast * diameter, goal_.divideBelow);
 }
 
-void SliceDescent::leaveOpen(const Part& a, const Part& b, const Known& known, double approach) {
+void SliceDescent::markUnresolved(const Part& a, const Part& b, const Known& known,
+                                  double approach) {
   open_.push_back({a.piece.place, b.piece.place, known.direction.cast<float>()});
   approach_ = std::max(approach_, approach);
   proven_.before = std::min(proven_.before, known.proven.before);
@@ -119,7 +120,7 @@ void SliceDescent::descend(const Part& a, const Part& b, const Known& known) {
   const PartApproach approach(slice_.approach, a.motion, b.motion);
   const bool whole = a.piece.isWhole() && b.piece.isWhole();
   if (!whole && isTooFast(a, b, approach)) {
-    leaveOpen(a, b, known, approach.most() - slice_.approach.required);
+    markUnresolved(a, b, known, approach.most() - slice_.approach.required);
   } else if (a.piece.isLeaf() && b.piece.isLeaf()) {
     testLeaves(a, b, approach, known.direction);
   } else {
@@ -179,8 +180,8 @@ void SliceDescent::testLeaves(const Part& a, const Part& b, const PartApproach& 
       convexPair(leaves.a, leaves.b, leaves.a_from_b, guess, detail::Goal(approach), goal_.margin,
                  goal_.accuracy, GjkMode::Exact);
   if (found.satisfied) return;
-  leaveOpen(a, b, {found.normal, provenBy(found.lower, found.normal, approach)},
-            approach.most() - slice_.approach.required);
+  markUnresolved(a, b, {found.normal, provenBy(found.lower, found.normal, approach)},
+                 approach.most() - slice_.approach.required);
   if (!(found.upper <= goal_.margin)) return;
   contact_ = Contact{found.pointA + leaves.centerA, found.pointB + leaves.centerA};
   std::swap(open_[begin_], open_.back());

@@ -83,7 +83,7 @@ class SliceDescent {
   bool isApart(const BoxGap& gap, const PartApproach& approach, Known& known) const;
   void testLeaves(const Part& a, const Part& b, const PartApproach& approach,
                   const Eigen::Vector3d& guess);
-  void leaveOpen(const Part& a, const Part& b, const Known& known, double approach);
+  void markUnresolved(const Part& a, const Part& b, const Known& known, double approach);
 
   const Side& a_;
   const Side& b_;

@@ -20,21 +20,21 @@ namespace swept {
 namespace {
 
 /// Largest distance from the middle of a hull face to the mesh, over a sample of the faces.
-double estimateDent(const TriangleMesh& mesh) {
+double estimateConcavity(const TriangleMesh& mesh) {
   constexpr std::size_t kSamples = 256;
   const ConvexHull& hull = mesh.hull();
   const std::size_t stride = hull.faces().size() / kSamples + 1;
   DistanceOptions options;
   options.tolerance = 1e-3 * hull.extent();
-  double dent = 0.0;
+  double concavity = 0.0;
   for (std::size_t i = 0; i < hull.faces().size(); i += stride) {
     const Eigen::Vector3i& face = hull.faces()[i];
     Eigen::Isometry3d mesh_from_point = Eigen::Isometry3d::Identity();
     mesh_from_point.translation() =
         (hull.vertices()[face[0]] + hull.vertices()[face[1]] + hull.vertices()[face[2]]) / 3.0;
-    dent = std::max(dent, distance(mesh, Sphere{0.0}, mesh_from_point, options).lower);
+    concavity = std::max(concavity, distance(mesh, Sphere{0.0}, mesh_from_point, options).lower);
   }
-  return dent;
+  return concavity;
 }
 
 /// Of what WideBvh::spread() was when the order of the hierarchy was chosen.
@@ -234,7 +234,7 @@ TriangleMesh TriangleMesh::finished(Surface surface) {
   auto data = std::make_shared<Data>(Data{std::move(surface), std::move(points), std::move(hull),
                                           std::move(coarseHull), std::move(solids), 0.0});
   TriangleMesh mesh(data);
-  data->dent = estimateDent(mesh);
+  data->concavity = estimateConcavity(mesh);
   return mesh;
 }
 

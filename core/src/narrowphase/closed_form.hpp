@@ -11,31 +11,33 @@
 
 namespace swept::detail {
 
-/// A core that has a foot for any point makes a closed form with the point, whichever comes first.
+/// A core that has a closest for any point makes a closed form with the point, whichever comes
+/// first.
 template <Convex::Core kind>
-concept HasFoot = requires(const Convex& body, const Eigen::Vector3d& p, Foot& foot) {
-  footOn(CoreTag<kind>{}, body, p, foot);
+concept HasClosestPoint = requires(const Convex& body, const Eigen::Vector3d& p,
+                                   ClosestPoint& closest) {
+  closestPointOn(CoreTag<kind>{}, body, p, closest);
 };
 
 template <Convex::Core kind>
-requires HasFoot<kind>
+requires HasClosestPoint<kind>
 [[gnu::always_inline]] inline bool closedForm(PointCore, CoreTag<kind> tag, const Convex& a,
                                               const Convex& b, const Eigen::Isometry3d& a_from_b,
                                               CoreGap& gap) {
-  Foot foot;
-  if (!footOn(tag, b, originOfAInB(a_from_b), foot)) return false;
-  gap = gapFromPoint(foot, a_from_b, pairRounding(a, b, a_from_b));
+  ClosestPoint closest;
+  if (!closestPointOn(tag, b, originOfAInB(a_from_b), closest)) return false;
+  gap = gapFromPoint(closest, a_from_b, pairRounding(a, b, a_from_b));
   return true;
 }
 
 template <Convex::Core kind>
-requires HasFoot<kind>
+requires HasClosestPoint<kind>
 [[gnu::always_inline]] inline bool closedForm(CoreTag<kind> tag, PointCore, const Convex& a,
                                               const Convex& b, const Eigen::Isometry3d& a_from_b,
                                               CoreGap& gap) {
-  Foot foot;
-  if (!footOn(tag, a, a_from_b.translation(), foot)) return false;
-  gap = gapToPoint(foot, a_from_b, pairRounding(a, b, a_from_b));
+  ClosestPoint closest;
+  if (!closestPointOn(tag, a, a_from_b.translation(), closest)) return false;
+  gap = gapToPoint(closest, a_from_b, pairRounding(a, b, a_from_b));
   return true;
 }
 

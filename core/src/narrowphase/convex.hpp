@@ -33,7 +33,7 @@ struct Convex {
   double offset = 0.0;  ///< m, of planes and half-spaces
   double radius = 0.0;  ///< m, of the ball that grows the core
   double extent = 0.0;  ///< m, no point of the core is farther from the local origin
-  double shave = 0.0;   ///< m, of an ellipsoid: its core's distance inside the surface `size` gives
+  double inset = 0.0;   ///< m, of an ellipsoid: its core's distance inside the surface `size` gives
   double error = 0.0;   ///< m, the shape may reach this far beyond the core grown by `radius`
   double omitted = 0.0;  ///< m, the part of `error` that vertices make which a hull leaves out
   std::span<const Eigen::Vector3d> points;
@@ -105,20 +105,20 @@ inline Eigen::Vector3d cone(const Eigen::Vector3d& size, const Eigen::Vector3d& 
   return {scale * d.x(), scale * d.y(), -size.z()};
 }
 
-/// The gradient of the support function |S d| - shave |d|, S = diag(semiAxes).
-inline Eigen::Vector3d ellipsoid(const Eigen::Vector3d& semiAxes, double shave,
+/// The gradient of the support function |S d| - inset |d|, S = diag(semiAxes).
+inline Eigen::Vector3d ellipsoid(const Eigen::Vector3d& semiAxes, double inset,
                                  const Eigen::Vector3d& d) {
   const Eigen::Vector3d stretched = semiAxes.cwiseProduct(d);
   const double squared = stretched.squaredNorm();
   if (squared > 1e-280) {
     Eigen::Vector3d onSurface = semiAxes.cwiseProduct(stretched) * (1.0 / std::sqrt(squared));
-    if (!(shave > 0.0)) return onSurface;
-    return onSurface - (shave / std::sqrt(d.squaredNorm())) * d;
+    if (!(inset > 0.0)) return onSurface;
+    return onSurface - (inset / std::sqrt(d.squaredNorm())) * d;
   }
   // Scaled by the largest component, so that no square leaves the range of doubles.
   const double most = stretched.cwiseAbs().maxCoeff();
   if (!(most > 0.0)) return Eigen::Vector3d::Zero();
-  return semiAxes.cwiseProduct((stretched / most).normalized()) - shave * d.stableNormalized();
+  return semiAxes.cwiseProduct((stretched / most).normalized()) - inset * d.stableNormalized();
 }
 
 Eigen::Vector3d ofPoints(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& d);
@@ -138,7 +138,7 @@ inline Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
     case Core::Cone:
       return support::cone(size, direction);
     case Core::Ellipsoid:
-      return support::ellipsoid(size, shave, direction);
+      return support::ellipsoid(size, inset, direction);
     case Core::Points:
       return vertices != nullptr ? vertices->farthest(direction)
                                  : support::ofPoints(points, direction);

@@ -51,30 +51,31 @@ using PointsCore = CoreTag<Convex::Core::Points>;
 }
 
 /// The boundary point of a core nearest to a given point, in the core's frame.
-struct Foot {
+struct ClosestPoint {
   double distance;         ///< m, negative inside
   Eigen::Vector3d normal;  ///< unit, outward
   Eigen::Vector3d point;   ///< m
 };
 
-/// A point against a core, from the core's foot in its own frame.
-[[gnu::always_inline]] inline CoreGap gapFromPoint(const Foot& footOnB,
+/// A point against a core, from the core's closest in its own frame.
+[[gnu::always_inline]] inline CoreGap gapFromPoint(const ClosestPoint& closestPointOnB,
                                                    const Eigen::Isometry3d& a_from_b,
                                                    double rounding) {
-  return {footOnB.distance,
+  return {closestPointOnB.distance,
           rounding,
-          -turned(a_from_b.linear(), footOnB.normal),
+          -turned(a_from_b.linear(), closestPointOnB.normal),
           Eigen::Vector3d::Zero(),
-          moved(a_from_b.translation(), 1.0, turned(a_from_b.linear(), footOnB.point)),
+          moved(a_from_b.translation(), 1.0, turned(a_from_b.linear(), closestPointOnB.point)),
           Eigen::Vector3d::Zero()};
 }
 
-/// A core against a point, from the core's foot.
-[[gnu::always_inline]] inline CoreGap gapToPoint(const Foot& footOnA,
+/// A core against a point, from the core's closest.
+[[gnu::always_inline]] inline CoreGap gapToPoint(const ClosestPoint& closestPointOnA,
                                                  const Eigen::Isometry3d& a_from_b,
                                                  double rounding) {
-  return {footOnA.distance,      rounding, footOnA.normal, footOnA.point, a_from_b.translation(),
-          a_from_b.translation()};
+  return {closestPointOnA.distance, rounding,
+          closestPointOnA.normal,   closestPointOnA.point,
+          a_from_b.translation(),   a_from_b.translation()};
 }
 
 /// The origin of a in the frame of b.

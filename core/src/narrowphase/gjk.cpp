@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "narrowphase/descent.hpp"
+#include "narrowphase/gjk_simplex.hpp"
 #include "narrowphase/newton.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -199,7 +199,7 @@ class Search {
   /// progress, or progress enough.
   bool reduce(Vector3d& d) {
     if (!carefully_) {
-      const Descent::Step step = simplex_.step<true>();
+      const GjkSimplex::Step step = simplex_.step<true>();
       // Nearer than proven is noise.
       if (step.size < 4 && step.squared < squared_ &&
           !(proven_ > 0.0 && step.squared < kNearer * proven_ * proven_)) {
@@ -228,8 +228,8 @@ class Search {
   }
 
   /// Whether four points hold the origin by their weights too.
-  bool enclosed(const Descent::Step& step) {
-    Descent whole = simplex_;
+  bool enclosed(const GjkSimplex::Step& step) {
+    GjkSimplex whole = simplex_;
     whole.take(step);
     const Simplex weighted = whole.weighted();
     if (!(weighted.nearest().norm() <= pair_.coincident)) return false;
@@ -267,7 +267,7 @@ class Search {
   bool bySlab_ = false;
   bool ended_ = false;  ///< by the mode
   int tryNewton_ = 4;
-  Descent simplex_;
+  GjkSimplex simplex_;
   Simplex nearest_;                                            ///< empty until measured
   double squared_ = std::numeric_limits<double>::infinity();   ///< m^2
   double distance_ = std::numeric_limits<double>::infinity();  ///< m, between the cores so far
@@ -295,7 +295,7 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
 Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
   constexpr int kIterations = 32;  // what takes more is left to gjk()
   const Pair pair(a, b, a_from_b);
-  Descent simplex;
+  GjkSimplex simplex;
   Vector3d d = firstDirection(Vector3d::Zero(), pair.offset);
   for (int i = 0; i < kIterations; ++i) {
     Vector3d w;
@@ -305,7 +305,7 @@ Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b
     if (separation > 0.0 && separation > pair.rounding * d.norm()) return Contact::Separate;
     if (simplex.contains(w)) break;
     simplex.propose(w, onA);
-    const Descent::Step step = simplex.step<false>();
+    const GjkSimplex::Step step = simplex.step<false>();
     simplex.take(step);
     if (step.size == 4) {
       return simplex.enclosesOrigin(pair.magnitude) ? Contact::Touching : Contact::Unknown;

@@ -21,7 +21,7 @@ Vector3d ellipsoidBend(const Convex& body, const Vector3d& n, const Vector3d& t)
   const double value = std::sqrt(gradient.dot(n));
   if (!(value > 0.0)) return Vector3d::Zero();
   return (squares.cwiseProduct(t) - gradient * (gradient.dot(t) / (value * value))) / value -
-         body.shave * t;
+         body.inset * t;
 }
 
 /// On the rim of a cylinder or of a cone's base.

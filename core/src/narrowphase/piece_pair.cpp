@@ -90,7 +90,7 @@ Side Side::of(const Shape& shape) {
       [](const auto& body) -> Side {
         if constexpr (std::is_same_v<decltype(body), const TriangleMesh&>) {
           const Convex shell = grownAround(body.coarseHull());
-          const double reach = body.dent() + shell.radius;
+          const double reach = body.concavity() + shell.radius;
           return {&body, nullptr, &body.bvh(), Convex::of(body.hull()), shell, reach};
         } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
           Convex hull = Convex::of(body.hull());

@@ -22,7 +22,7 @@ struct Side {
   const WideBvh* bvh = nullptr;  ///< of the mesh or cloud; null: `convex` is the whole body
   Convex convex;                 ///< of a mesh or cloud: its hull
   Convex outer;                  ///< of a mesh or cloud: around its hull, of few points
-  double dent = 0.0;             ///< m, estimate of how far `outer` reaches beyond the body
+  double concavity = 0.0;        ///< m, estimate of how far `outer` reaches beyond the body
 
   bool isConvex() const { return bvh == nullptr; }
   /// A convex body around the side that is quick to ask: itself if it is convex.

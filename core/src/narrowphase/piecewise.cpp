@@ -75,7 +75,8 @@ class Search {
   /// them: the pieces will not do better, and there is no contact.
   bool outOfReach(const GjkResult& hulls) {
     if (goal_.approach == nullptr || goal_.thorough || !(hulls.lower > goal_.contact)) return false;
-    if (hulls.upper + a_.dent + b_.dent > goal_.approach->along(hulls.normal)) return false;
+    if (hulls.upper + a_.concavity + b_.concavity > goal_.approach->along(hulls.normal))
+      return false;
     found_.failed = true;
     found_.result.lower = hulls.lower;
     return true;

@@ -13,8 +13,8 @@ namespace swept::detail {
 /// Beyond the rim and the apex the offset is taken in the slope's own directions, whose signs have
 /// just been tested: the normal then lies in the corner's normal cone however close the point is,
 /// and separates by the whole distance.
-[[gnu::always_inline]] inline bool footOn(ConeCore, const Convex& cone, const Eigen::Vector3d& p,
-                                          Foot& foot) {
+[[gnu::always_inline]] inline bool closestPointOn(ConeCore, const Convex& cone,
+                                                  const Eigen::Vector3d& p, ClosestPoint& closest) {
   const double across = p.x() * p.x() + p.y() * p.y();
   if (!(across < 1e280) || (across > 0.0 && across < 1e-280)) return false;
   const double rho = std::sqrt(across);
@@ -31,11 +31,11 @@ namespace swept::detail {
   const double side = out * cosine + up * sine;
   const double along = up * cosine - out * sine;  // from the rim
   const auto corner = [&](double offsetRho, double offsetZ, double cornerRho, double cornerZ) {
-    foot.distance = std::sqrt(offsetRho * offsetRho + offsetZ * offsetZ);
-    if (!(foot.distance > 1e-140)) return false;
-    const double share = offsetRho / foot.distance;
-    foot.normal = {share * x, share * y, offsetZ / foot.distance};
-    foot.point = {cornerRho * x, cornerRho * y, cornerZ};
+    closest.distance = std::sqrt(offsetRho * offsetRho + offsetZ * offsetZ);
+    if (!(closest.distance > 1e-140)) return false;
+    const double share = offsetRho / closest.distance;
+    closest.normal = {share * x, share * y, offsetZ / closest.distance};
+    closest.point = {cornerRho * x, cornerRho * y, cornerZ};
     return true;
   };
   if (up < 0.0 && out > 0.0) return corner(out, up, radius, -cone.size.z());
@@ -51,13 +51,13 @@ namespace swept::detail {
     }
   }
   if (side > -up) {
-    foot.distance = side;
-    foot.normal = {cosine * x, cosine * y, sine};
-    foot.point = p - side * foot.normal;
+    closest.distance = side;
+    closest.normal = {cosine * x, cosine * y, sine};
+    closest.point = p - side * closest.normal;
   } else {
-    foot.distance = -up;
-    foot.normal = {0.0, 0.0, -1.0};
-    foot.point = {p.x(), p.y(), -cone.size.z()};
+    closest.distance = -up;
+    closest.normal = {0.0, 0.0, -1.0};
+    closest.point = {p.x(), p.y(), -cone.size.z()};
   }
   return true;
 }

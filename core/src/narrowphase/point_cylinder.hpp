@@ -8,8 +8,8 @@
 namespace swept::detail {
 
 /// On a cylinder, in the half-plane of the axis and the point.
-[[gnu::always_inline]] inline bool footOn(CylinderCore, const Convex& cylinder,
-                                          const Eigen::Vector3d& p, Foot& foot) {
+[[gnu::always_inline]] inline bool closestPointOn(CylinderCore, const Convex& cylinder,
+                                                  const Eigen::Vector3d& p, ClosestPoint& closest) {
   const double across = p.x() * p.x() + p.y() * p.y();
   if (!(across < 1e280) || (across > 0.0 && across < 1e-280)) return false;
   const double rho = std::sqrt(across);
@@ -20,19 +20,19 @@ namespace swept::detail {
   const double out = rho - radius;
   const double beyond = std::abs(p.z()) - cylinder.size.z();
   if (out > 0.0 && beyond > 0.0) {
-    foot.distance = std::sqrt(out * out + beyond * beyond);
-    if (!(foot.distance > 1e-140)) return false;
-    const double share = out / foot.distance;
-    foot.normal = {share * x, share * y, side * (beyond / foot.distance)};
-    foot.point = {radius * x, radius * y, side * cylinder.size.z()};
+    closest.distance = std::sqrt(out * out + beyond * beyond);
+    if (!(closest.distance > 1e-140)) return false;
+    const double share = out / closest.distance;
+    closest.normal = {share * x, share * y, side * (beyond / closest.distance)};
+    closest.point = {radius * x, radius * y, side * cylinder.size.z()};
   } else if (out > beyond) {
-    foot.distance = out;
-    foot.normal = {x, y, 0.0};
-    foot.point = {radius * x, radius * y, p.z()};
+    closest.distance = out;
+    closest.normal = {x, y, 0.0};
+    closest.point = {radius * x, radius * y, p.z()};
   } else {
-    foot.distance = beyond;
-    foot.normal = {0.0, 0.0, side};
-    foot.point = {p.x(), p.y(), side * cylinder.size.z()};
+    closest.distance = beyond;
+    closest.normal = {0.0, 0.0, side};
+    closest.point = {p.x(), p.y(), side * cylinder.size.z()};
   }
   return true;
 }

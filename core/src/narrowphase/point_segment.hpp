@@ -9,14 +9,14 @@
 namespace swept::detail {
 
 /// On a segment of the z axis. False next to the segment, where the normal has no digits.
-[[gnu::always_inline]] inline bool footOn(SegmentCore, const Convex& segment,
-                                          const Eigen::Vector3d& p, Foot& foot) {
-  foot.point = {0.0, 0.0, std::clamp(p.z(), -segment.size.z(), segment.size.z())};
-  const Eigen::Vector3d away = p - foot.point;
+[[gnu::always_inline]] inline bool closestPointOn(SegmentCore, const Convex& segment,
+                                                  const Eigen::Vector3d& p, ClosestPoint& closest) {
+  closest.point = {0.0, 0.0, std::clamp(p.z(), -segment.size.z(), segment.size.z())};
+  const Eigen::Vector3d away = p - closest.point;
   const double squared = away.squaredNorm();
   if (!(squared > 1e-280 && squared < 1e280)) return false;
-  foot.distance = std::sqrt(squared);
-  foot.normal = moved(Eigen::Vector3d::Zero(), 1.0 / foot.distance, away);
+  closest.distance = std::sqrt(squared);
+  closest.normal = moved(Eigen::Vector3d::Zero(), 1.0 / closest.distance, away);
   return true;
 }
 

@@ -17,8 +17,8 @@ inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eige
 /// On a triangle, by the regions of its corners, edges and face (Ericson 2005, section 5.1.5).
 /// False for other sets of points, on the triangle, where the normal has no digits, and where the
 /// triangle is so thin that the slab along the normal is not as wide as the distance.
-[[gnu::always_inline]] inline bool footOn(PointsCore, const Convex& triangle,
-                                          const Eigen::Vector3d& p, Foot& foot) {
+[[gnu::always_inline]] inline bool closestPointOn(PointsCore, const Convex& triangle,
+                                                  const Eigen::Vector3d& p, ClosestPoint& closest) {
   if (triangle.points.size() != 3) return false;
   const Eigen::Vector3d& a = triangle.points[0];
   const Eigen::Vector3d& b = triangle.points[1];
@@ -54,7 +54,7 @@ inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eige
     away = (p - b) - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
   } else {
     // Lemma: each d errs by a few ulps of the squares' sum and is at most that, so that an area
-    // errs by less than 150 ulps of the sum's square. A foot that may be beside the triangle is
+    // errs by less than 150 ulps of the sum's square. A closest that may be beside the triangle is
     // looked for on the edge that it is near.
     constexpr double kAreaRounding = 4e-14;
     const double squares = ee + ff + toA.squaredNorm();
@@ -74,18 +74,19 @@ inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eige
   }
   const double squared = away.squaredNorm();
   if (!(squared > 1e-280 && squared < 1e280)) return false;
-  foot.distance = std::sqrt(squared);
-  foot.normal = away * (1.0 / foot.distance);
-  foot.point = p - away;
-  const double alongA = foot.normal.dot(toA);
-  const double alongB = foot.normal.dot(p - b);
-  const double alongC = foot.normal.dot(p - c);
+  closest.distance = std::sqrt(squared);
+  closest.normal = away * (1.0 / closest.distance);
+  closest.point = p - away;
+  const double alongA = closest.normal.dot(toA);
+  const double alongB = closest.normal.dot(p - b);
+  const double alongC = closest.normal.dot(p - c);
   const double allowed =
       kSlab * (triangle.extent + std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()));
-  // The normal of a thin triangle has few digits: the foot is on the triangle only if all corners
-  // are in the foot's plane.
-  const bool flat = std::max(alongA, std::max(alongB, alongC)) - foot.distance <= allowed;
-  return foot.distance - std::min(alongA, std::min(alongB, alongC)) <= allowed && (flat || !onFace);
+  // The normal of a thin triangle has few digits: the closest is on the triangle only if all
+  // corners are in the closest's plane.
+  const bool flat = std::max(alongA, std::max(alongB, alongC)) - closest.distance <= allowed;
+  return closest.distance - std::min(alongA, std::min(alongB, alongC)) <= allowed &&
+         (flat || !onFace);
 }
 
 }  // namespace swept::detail

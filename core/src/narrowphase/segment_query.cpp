@@ -29,10 +29,10 @@ Vector3d nearestOnEdge(const Vector3d& p, const Vector3d& from, const Vector3d& 
 
 using Corners = std::array<Vector3d, 3>;
 
-/// By the regions of corners, edges and face (Ericson 2005, section 5.1.5). Unlike that of footOn()
-/// in point_triangle.hpp, which proves its distance or gives up, the point need not be the nearest,
-/// as with a triangle without an area: it is one of the triangle in any case, and the first region
-/// that holds it ends the look.
+/// By the regions of corners, edges and face (Ericson 2005, section 5.1.5). Unlike that of
+/// closestPointOn() in point_triangle.hpp, which proves its distance or gives up, the point need
+/// not be the nearest, as with a triangle without an area: it is one of the triangle in any case,
+/// and the first region that holds it ends the look.
 Vector3d nearestOn(const Corners& corners, const Vector3d& p) {
   const auto& [a, b, c] = corners;
   const Vector3d e = b - a;

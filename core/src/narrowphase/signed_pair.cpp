@@ -17,15 +17,15 @@ namespace {
 /// An ellipsoid as a smaller core and a ball. Lemma (Blaschke's rolling theorem): a ball of the
 /// least radius of curvature, (least semi-axis)^2 / greatest, is a summand of the ellipsoid.
 /// Overlaps shallower than that are gaps of the cores, and need no EPA.
-Convex shaved(const Convex& body) {
+Convex insetCore(const Convex& body) {
   constexpr double kWithin = 0.999;  // of that radius: the core stays round
   Convex core = body;
   if (body.core != Convex::Core::Ellipsoid) return core;
   const double least = body.size.minCoeff();
   const double most = body.size.maxCoeff();
   if (!(least > 0.0)) return core;
-  core.shave = kWithin * least * (least / most);
-  core.radius += core.shave;
+  core.inset = kWithin * least * (least / most);
+  core.radius += core.inset;
   return core;
 }
 
@@ -35,8 +35,8 @@ Convex shaved(const Convex& body) {
 /// not.
 SignedDistanceResult signedByEpa(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
                                  const Vector3d& guess, double tolerance) {
-  Convex coreA = shaved(a);
-  Convex coreB = shaved(b);
+  Convex coreA = insetCore(a);
+  Convex coreB = insetCore(b);
   const double radii = coreA.radius + coreB.radius;
   const double radiusA = std::exchange(coreA.radius, 0.0);
   const double radiusB = std::exchange(coreB.radius, 0.0);

@@ -55,8 +55,8 @@ bool insideEdges(const Vector3d& start, const Vector3d& edge, const Vector3d& ot
   return true;
 }
 
-/// Foot of the perpendicular from a point to a triangle, if it falls inside. Built on the longest
-/// edge and the height over it, for the same reason as insideEdges().
+/// ClosestPoint of the perpendicular from a point to a triangle, if it falls inside. Built on the
+/// longest edge and the height over it, for the same reason as insideEdges().
 bool insideFace(const Vector3d& point, const std::array<Vector3d, 3>& corners,
                 const std::array<Vector3d, 3>& edges, Vector3d& foot) {
   int k = 0;

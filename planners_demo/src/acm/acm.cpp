@@ -55,7 +55,7 @@ ExitCode runAcm(const Arguments& args) {
   if (!srdfFile.empty()) requireReadAgain(srdfFile);
   const Model model = loadModel(args, warnings);
   const std::string srdf = model.srdf.file.empty() ? "" : readTextFile(model.srdf.file);
-  CollisionMatrixOptions options;
+  AllowedCollisionMatrixOptions options;
   options.margin = args.margin;
   options.budget = args.budget;
   options.samples = args.samples;
@@ -69,7 +69,7 @@ ExitCode runAcm(const Arguments& args) {
                         std::to_string(all));
     };
     const auto start = std::chrono::steady_clock::now();
-    result.pairs = collisionMatrix(*model.robot, options);
+    result.pairs = computeAllowedCollisionMatrix(*model.robot, options);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }

@@ -6,7 +6,7 @@
 
 #include "input/task.hpp"
 #include "output/text_output.hpp"
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 
 /// What `swept acm` found out about a robot, and how that compares with its SRDF.
 namespace swept {

@@ -135,7 +135,7 @@ Json infoJson(const Arguments& args, const Model& model, const Checker* checker)
     json["group"] = {{"name", checker->group().name},
                      {"checked_pairs", pairsJson(checker->checkedPairs())},
                      {"skipped_pairs", pairsJson(checker->skippedPairs())},
-                     {"standing_contacts", pairsJson(checker->standingContacts())},
+                     {"standing_contacts", pairsJson(checker->staticContacts())},
                      {"explained", explanations(args, *checker)}};
   return json;
 }

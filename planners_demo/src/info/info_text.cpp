@@ -147,7 +147,7 @@ std::string pairText(const Checker& checker, bool all) {
     byReason[shortReason(pair.reason)].push_back(escapedLine(pair.bodyA + " - " + pair.bodyB));
   for (const auto& [reason, pairs] : byReason)
     text += "not checked, " + reason + " " + listText(pairs, all) + "\n";
-  for (const Checker::Pair& pair : checker.standingContacts())
+  for (const Checker::Pair& pair : checker.staticContacts())
     text += "standing contact: " + escapedLine(pair.bodyA + " - " + pair.bodyB) + "\n";
   return text;
 }

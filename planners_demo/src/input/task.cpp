@@ -20,7 +20,7 @@
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 #include "swept/robot_model/did_you_mean.hpp"
 #include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/planning_scene.hpp"
@@ -47,7 +47,7 @@ std::vector<PackageFolder> packageFolders(const Arguments& args) {
 
 std::string standingContactText(const Checker& checker) {
   std::vector<std::string> pairs;
-  for (const Checker::Pair& pair : checker.standingContacts())
+  for (const Checker::Pair& pair : checker.staticContacts())
     pairs.push_back(pair.bodyA + " - " + pair.bodyB);
   return "swept: warning: in contact whatever group '" + checker.group().name +
          "' does, and left out of the verdicts: " + joined(pairs);
@@ -226,7 +226,7 @@ std::shared_ptr<const Checker> makeCheckerWith(
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what() + nearNameInRules(rules, model, *in));
   }
-  if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
+  if (!checker->staticContacts().empty()) warnings(standingContactText(*checker));
   warnOfDefaultContacts(*checker, model, warnings);
   return checker;
 }
@@ -260,7 +260,7 @@ std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Mode
   // What it has kept of its own rules are some of these.
   if (checker->options().rules.rules().size() != rules.rules().size())
     checker = std::make_shared<const Checker>(checker->withRules(std::move(rules)));
-  if (!checker->standingContacts().empty()) warnings(standingContactText(*checker));
+  if (!checker->staticContacts().empty()) warnings(standingContactText(*checker));
   return checker;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "output/escaped_text.hpp"
 #include "swept/core/verdict.hpp"
+#include "text/escaped_text.hpp"
 
 /// What is printed to a terminal.
 namespace swept {

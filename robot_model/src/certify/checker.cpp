@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "certify/checker_model.hpp"
 #include "certify/motion_check.hpp"
-#include "certify/pair_reasons.hpp"
 #include "certify/signed_clearance.hpp"
 #include "certify/state_check.hpp"
-#include "io/numbers.hpp"
-#include "kinematics/whole_state.hpp"
+#include "certify/workspace_data.hpp"
+#include "kinematics/full_state.hpp"
+#include "model/pair_reasons.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/limits.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 
@@ -39,7 +39,7 @@ void validate(const Robot& robot, const CheckerOptions& options) {
                                 " must be at least 1");
   }
   if (options.reference)
-    detail::requireWholeState(robot, *options.reference, "Checker", "the reference");
+    detail::requireFullState(robot, *options.reference, "Checker", "the reference");
 }
 
 const Group& findGroup(const Robot& robot, std::string_view name) {
@@ -121,7 +121,7 @@ bool Checker::checksNothing() const {
            pair.reason == detail::PairReason::OutOfReach;
   });
 }
-const std::vector<Checker::Pair>& Checker::standingContacts() const {
+const std::vector<Checker::Pair>& Checker::staticContacts() const {
   return *inDefaultEnvironment([this] { return &detail::pairLists(*model_).standing; });
 }
 

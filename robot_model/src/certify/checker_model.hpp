@@ -1,170 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
 
-#include "kinematics/lever_arms.hpp"
-#include "kinematics/motion_model.hpp"
-#include "kinematics/shared_array.hpp"
-#include "lanes/lane_model.hpp"
-#include "lanes/lane_scratch.hpp"
+#include "model/pair_model.hpp"
+#include "simd/compile/simd_model.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
-#include "swept/core/separation.hpp"
-#include "swept/core/sphere_cover.hpp"
-#include "swept/robot_model/checker.hpp"
 
 namespace swept::detail {
 
-/// m. Far below where squares overflow: an infinite distance would prove bodies apart that are not.
-/// Of coordinates that may be larger nothing is proven.
-inline constexpr double kLargestNorm = 1e150;
-
-/// What pairs are made of, but for bodies of the world that stand still.
-struct Carrier {
-  enum class Kind : std::uint8_t { Link, Attached, Obstacle };
-  Kind kind = Kind::Link;
-  std::string name;
-  int link = -1;  ///< into Robot::links(): itself, or the one it is attached to; -1: an obstacle
-  int body = 0;   ///< into KinematicModel::bodies
-  Eigen::Isometry3d body_from_frame = Eigen::Isometry3d::Identity();
-};
-
-/// A piece of collision geometry of a carrier.
-struct RobotGeometry {
-  int carrier = -1;
-  int piece = 0;       ///< of the carrier
-  double scale = 1.0;  ///< that the shape has been changed by
-  int body = 0;        ///< the carrier's
-  Shape shape;
-  Eigen::Isometry3d body_from_shape;
-  Eigen::Vector3d center;  ///< m, of a ball that contains it, body frame
-  double radius = 0.0;     ///< m
-  /// m, of its coordinates in the shape's frame and of what places that in the body's.
-  double magnitude = 0.0;
-  double transforms = 0.0;  ///< multiplied to place it in the model frame
-  LeverArms levers;
-  std::shared_ptr<const SphereCover> cover;
-};
-
-/// A piece of the world, with the box that contains it.
-struct WorldGeometry {
-  int body = -1;       ///< index into World::bodies()
-  int part = 0;        ///< of the body
-  double scale = 1.0;  ///< that the shape has been changed by
-  Shape shape;
-  Eigen::Isometry3d world_from_shape;
-  Eigen::Isometry3d box_from_world;  ///< frame centred in the box, along its axes
-  Eigen::Vector3d halfExtents;       ///< m
-  /// m, of its coordinates in the shape's frame and of what places that: no point is farther from
-  /// the model frame's origin.
-  double magnitude = 0.0;
-};
-
-/// Geometry `a` of the robot against geometry `b` of the world or of the robot.
-struct GeometryPair {
-  int a = 0;
-  int b = 0;
-  bool self = false;
-  int reference =
-      0;  ///< body whose frame the relative motion is bounded in: the last common ancestor
-  int travelA = 0;   ///< index into CheckerModel::travels
-  int travelB = -1;  ///< likewise; -1 when b does not move relative to the reference
-  /// m, bound on the error of the computed relative pose, for any point, while all translations are
-  /// zero and angles small; see CarriedRounding for the rest.
-  double rounding = 0.0;
-  double margin = 0.0;  ///< m, what the two have to keep
-};
-
-/// Why a pair of bodies is checked or not.
-enum class PairReason : std::uint8_t {
-  Checked,
-  Allowed,     ///< by a rule
-  Disabled,    ///< by the SRDF, a joint between the two, or as touch links
-  Unmoved,     ///< a link that the group does not move, and the world
-  Rigid,       ///< the group does not change their relative pose
-  OutOfReach,  ///< of the link, whatever the group does
-};
-
-/// A carrier and a body of the world, or two carriers.
-struct BodyPair {
-  int a = 0;              ///< index into CheckerModel::carriers
-  int b = 0;              ///< index into World::bodies(), or of the second carrier
-  bool carriers = false;  ///< two carriers
-  bool touching = false;  ///< of those that do not move: in contact
-  /// Of checked links: proven apart within the limits of the joints, so that they are looked at
-  /// outside of these alone.
-  bool never = false;
-  PairReason reason = PairReason::Checked;
-  double margin = 0.0;  ///< m
-};
-
-/// m, per pair of links (the smaller index first): that they are proven to keep.
-using NeverMargins = std::map<std::pair<int, int>, double>;
-
-/// For people to read; made when it is first asked for.
-struct PairLists {
-  std::once_flag made;
-  std::vector<Checker::Pair> checked, skipped, standing;
-};
-
-/// A ball whose motion relative to an ancestor is bounded once per motion.
-struct TravelSlot {
-  int geometry = 0;
-  std::size_t firstJoint = 0;  ///< index into the geometry's path
-};
-
-/// Robot x group x world, compiled: only what can move, only the pairs that can meet.
-struct CheckerModel {
-  std::uint64_t version = 0;  ///< no two have the same
-  std::shared_ptr<const Robot> robot;
-  std::shared_ptr<const World> world;
-  Group group;
-  CheckerOptions options;
-  KinematicModel kinematics;
-  std::vector<Carrier> carriers;  ///< links, as in Robot::links(), attached bodies, obstacles
-  SharedArray<RobotGeometry> robotGeometry;
-  std::vector<WorldGeometry> worldGeometry;
-  std::vector<TravelSlot> travels;
-  std::vector<GeometryPair> pairs;  ///< with the world first, by robot geometry, ascending
-  /// Per robot geometry, and one more: of its pairs with the world, the first.
-  std::vector<std::uint32_t> firstWorldPair;
-  std::uint32_t firstSelfPair = 0;
-  ///@{
-  /// Distances are measured between all pieces of the bodies that are checked against each other.
-  /// Those out of reach of each other are in none of the pairs, and are not listed anywhere: they
-  /// may be many.
-  /// Per carrier: its pair with the world's first body, into bodyPairs; -1: it is checked against
-  /// none.
-  std::vector<int> firstBodyPair;
-  /// Per robot geometry of the other carriers: what its pairs with the world have in common, with
-  /// the largest rounding of them.
-  std::vector<GeometryPair> likeWorldPairs;
-  std::int64_t measuredPairs = 0;  ///< how many pairs of pieces that is, two carriers' among them
-  ///@}
-  double largestMargin = 0.0;      ///< m, of the pairs
-  double largestRounding = 0.0;    ///< m, likewise
-  double largestSpan = 0.0;        ///< m, likewise, see spanOf
-  double largestTransforms = 0.0;  ///< likewise, see transformsOf
+/// What a Checker asks: the pairs in double precision, and what either tier made of them.
+struct CheckerModel : PairModel {
   /// The world's boxes, for the exact tier; null for a world with few. Handles are indices into
   /// worldGeometry.
   std::shared_ptr<const SweepAndPrune> boxes;
-  LaneModel lanes;
-  std::vector<BodyPair> bodyPairs;                   ///< of the world first
-  std::shared_ptr<const NeverMargins> neverMargins;  ///< what the first version has proven
-  std::shared_ptr<PairLists> lists = std::make_shared<PairLists>();
-
-  std::string nameOfA(const GeometryPair& pair) const;
-  std::string nameOfB(const GeometryPair& pair) const;
-  bool isSelfPair(
-      const GeometryPair& pair) const;  ///< as Witness has it: moving obstacles are none
-  /// Whether the pair of bodies is checked that these two pieces are of.
-  bool checksWorld(int ofRobot, int ofWorld) const;
+  SimdModel simd;
 };
 
 /// `like`: null, or an earlier version for the same robot, group and reference.
@@ -173,89 +23,5 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
                                                    std::shared_ptr<const World> world,
                                                    CheckerOptions options,
                                                    const CheckerModel* like = nullptr);
-
-/// A part of a motion with the pairs not yet proven apart on it (a range of an arena of pair
-/// indices).
-struct PendingInterval {
-  double begin = 0.0;
-  double end = 1.0;
-  std::size_t first = 0;
-  std::size_t count = 0;
-};
-
-/// One pair of it.
-struct PendingPart {
-  std::uint32_t pair = 0;
-  double begin = 0.0;
-  double end = 1.0;
-};
-
-/// A pair among which the least clearance of a motion is looked for.
-struct MeasuredPair {
-  GeometryPair pair;
-  double bound = 0.0;  ///< m, lower bound of its distance over the whole motion
-};
-
-/// m. No point of the pair's geometry of the robot is farther from a joint that carries it, of both
-/// together, but for translations.
-inline double spanOf(const CheckerModel& model, const GeometryPair& pair) {
-  const double span = model.robotGeometry[pair.a].levers.spanAtRest;
-  return pair.self ? span + model.robotGeometry[pair.b].levers.spanAtRest : span;
-}
-/// Multiplied to place both.
-inline double transformsOf(const CheckerModel& model, const GeometryPair& pair) {
-  const double transforms = model.robotGeometry[pair.a].transforms;
-  return pair.self ? transforms + model.robotGeometry[pair.b].transforms : transforms;
-}
-
-/// An obstacle changes its way.
-struct Passage {
-  double t = 0.0;     ///< in [0, 1]
-  double time = 0.0;  ///< s
-};
-
-struct WorkspaceData {
-  explicit WorkspaceData(const CheckerModel& model);
-
-  std::uint64_t version = 0;  ///< of the model that it fits
-  std::vector<JointMotion> motion;
-  /// At the current t; computed when first asked for.
-  std::vector<BodyState> states;
-  std::vector<std::int64_t> stateStamps;
-  /// Per robot geometry at the current t; computed when first asked for.
-  struct Placed {
-    std::int64_t stamp = -1;
-    Eigen::Vector3d center;  ///< m, model frame
-    Eigen::Isometry3d world_from_shape;
-    bool posed = false;
-  };
-  std::vector<Placed> placed;
-  std::int64_t stamp = 0;
-  /// Of the current motion; computed when first asked for. Of a long chain of joints (see
-  /// nestedTravels) all of a geometry together, per geometry, in place of CheckerModel::travels.
-  std::vector<TravelBound> travels;
-  std::vector<std::int64_t> travelStamps;
-  std::vector<std::vector<TravelBound>> nestedTravels;
-  std::int64_t motionStamp = 0;
-  double t = 0.0;
-  std::vector<CarriedRounding> carried;  ///< per body, of the current motion
-  CarriedRounding mostCarried;           ///< no body has more of anything
-  std::vector<double> arms;              ///< m, of one travel
-  std::vector<Eigen::Vector3d> hints;    ///< per pair, within one motion: last direction found
-  std::vector<std::int64_t> hintStamps;
-  std::vector<std::uint32_t> arena, nextArena, failed;
-  std::vector<PendingInterval> generation, nextGeneration;
-  LaneScratch lanes;
-  /// What the lane tier left open, in order of time.
-  std::vector<PendingInterval> pending;
-  std::vector<std::uint32_t> pendingArena;
-  std::vector<PendingPart> parts;
-  std::vector<MeasuredPair> measured;
-  BroadphaseScratch boxes;
-  /// Whole configurations: see KinematicModel. Empty without moving obstacles.
-  std::vector<double> from, to;
-  std::vector<double> probe;      ///< a configuration
-  std::vector<Passage> passages;  ///< of the current motion, in order
-};
 
 }  // namespace swept::detail

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "certify/checker_model.hpp"
-#include "certify/obstacle_clock.hpp"
+#include "certify/waypoint_segments.hpp"
+#include "certify/workspace_data.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/checker.hpp"
 
@@ -19,16 +19,17 @@ namespace {
 
 /// Empty where no pose is known.
 std::optional<Eigen::Isometry3d> poseOf(const detail::CheckerModel& model,
-                                        const detail::Carrier& carrier, std::span<const double> q) {
+                                        const detail::CollisionBody& collisionBody,
+                                        std::span<const double> q) {
   const detail::KinematicModel& kinematics = model.kinematics;
-  std::vector<double> whole(model.world->obstacles().empty() ? 0 : kinematics.wholeDimension);
-  const std::span<const double> at = detail::wholeConfiguration(model, q, whole);
+  std::vector<double> whole(model.world->obstacles().empty() ? 0 : kinematics.fullDimension);
+  const std::span<const double> at = detail::fullConfiguration(model, q, whole);
   std::vector<detail::JointMotion> motion(kinematics.bodies.size());
   std::vector<detail::BodyState> states(kinematics.bodies.size());
   if (!detail::compileMotion(kinematics, at, at, motion)) return std::nullopt;
   for (std::size_t i = 1; i < states.size(); ++i)
     detail::evaluateBody(kinematics, motion, 0.0, static_cast<int>(i), states);
-  return states[carrier.body].world_from_body * carrier.body_from_frame;
+  return states[collisionBody.body].world_from_body * collisionBody.body_from_frame;
 }
 
 }  // namespace
@@ -147,15 +148,16 @@ Checker Checker::withRules(CollisionRules rules) const {
   return version(model_->world, std::move(changed));
 }
 
-WorldBody Checker::placed(std::string_view attached, ConfigurationView q) const {
+WorldBody Checker::detachedBody(std::string_view attached, ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&, attached, q] { return placed(attached, q); });
+    return inDefaultEnvironment([&, attached, q] { return detachedBody(attached, q); });
   }
   requireSize(q);
   const auto body = std::ranges::find(options().attached, attached, &AttachedBody::name);
   if (body == options().attached.end()) failUnknown("attached body", attached);
-  const auto carrier = std::ranges::find(model_->carriers, attached, &detail::Carrier::name);
-  const std::optional<Eigen::Isometry3d> world_from_frame = poseOf(*model_, *carrier, q);
+  const auto collisionBody =
+      std::ranges::find(model_->collisionBodies, attached, &detail::CollisionBody::name);
+  const std::optional<Eigen::Isometry3d> world_from_frame = poseOf(*model_, *collisionBody, q);
   if (!world_from_frame) {
     throw std::invalid_argument("Checker: no pose of '" + std::string(attached) +
                                 "' is known in a configuration that is not finite");

@@ -4,13 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "certify/exact_judge.hpp"
 #include "certify/nearest_points.hpp"
-#include "certify/obstacle_clock.hpp"
+#include "certify/pair_oracle.hpp"
 #include "certify/pending_intervals.hpp"
+#include "certify/waypoint_segments.hpp"
 #include "certify/work_limits.hpp"
-#include "lanes/lane_motion.hpp"
-#include "lanes/lane_search.hpp"
+#include "simd/kernels/simd_motion.hpp"
+#include "simd/search/simd_search.hpp"
 
 namespace swept::detail {
 
@@ -48,7 +48,7 @@ class MotionProver {
 
  private:
   void search(std::span<const double> from, std::span<const double> to) {
-    if (settleInLanes(from, to) || !judge_.start()) return;
+    if (settleInSimd(from, to) || !judge_.start()) return;
     if (!certificate_.witness) searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
     // second attempt in another order settles some of what the first left open.
@@ -72,32 +72,31 @@ class MotionProver {
 
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
-  bool settleInLanes(std::span<const double> from, std::span<const double> to) {
-    const int lanes = lanesLeft(model_, certificate_.effort);
-    const bool fits =
-        model_.lanes.usable && model_.options.maxIntervals >= kLanes && lanes > 0 &&
-        compileLaneMotion(model_.lanes, model_.kinematics, from, to, workspace_.lanes);
+  bool settleInSimd(std::span<const double> from, std::span<const double> to) {
+    const int lanes = subIntervalsLeft(model_, certificate_.effort);
+    const bool fits = model_.simd.usable && model_.options.maxIntervals >= kLanes && lanes > 0 &&
+                      compileSimdMotion(model_.simd, model_.kinematics, from, to, workspace_.simd);
     if (!fits) {
       if (judge_.start()) takeAll(model_, query_, workspace_);
       return false;
     }
-    workspace_.lanes.mostIntervals = lanes;
-    workspace_.lanes.mostWaiting = kMostWaiting;
-    const LaneGoal goal =
-        wanted_ == MotionQuery::VerdictOnly ? LaneGoal::Verdict : LaneGoal::Prefix;
-    const LaneAnswer answer = searchMotion(model_.lanes, judge_, goal, workspace_.lanes);
+    workspace_.simd.mostIntervals = lanes;
+    workspace_.simd.mostWaiting = kMostWaiting;
+    const SimdGoal goal =
+        wanted_ == MotionQuery::VerdictOnly ? SimdGoal::Verdict : SimdGoal::Prefix;
+    const SimdAnswer answer = searchMotion(model_.simd, judge_, goal, workspace_.simd);
     certificate_.effort.lanes += answer.intervals;
-    if (answer.kind == LaneAnswer::Kind::Contact) {
+    if (answer.kind == SimdAnswer::Kind::Contact) {
       certificate_.verdict = Verdict::Collision;
-      if (goal == LaneGoal::Prefix) certificate_.freeUntil = certificate_.witness->t;
+      if (goal == SimdGoal::Prefix) certificate_.freeUntil = certificate_.witness->t;
       return true;
     }
-    if (answer.kind == LaneAnswer::Kind::Free) {
+    if (answer.kind == SimdAnswer::Kind::Free) {
       certificate_.verdict = Verdict::Free;
       certificate_.freeUntil = 1.0;
       return true;
     }
-    if (answer.kind == LaneAnswer::Kind::Open) {
+    if (answer.kind == SimdAnswer::Kind::Open) {
       takeRest(workspace_);
     } else if (judge_.start()) {
       takeAll(model_, query_, workspace_);
@@ -260,14 +259,14 @@ class MotionProver {
   const MotionQuery wanted_;
   PairQuery query_;
   MotionCertificate& certificate_;
-  ExactJudge judge_;
+  PairOracle judge_;
   std::optional<double> undecidedAt_;
   std::optional<double> prefixEnd_;  ///< of what is proven; what follows may be searched further
 };
 
 /// Takes over what a part says; what lies before it, its effort too, is part of the certificate
 /// already.
-void addPart(const EvenPart& part, MotionCertificate&& own, MotionCertificate& all) {
+void addPart(const WaypointSegment& part, MotionCertificate&& own, MotionCertificate& all) {
   all.effort = own.effort;
   const bool open = all.verdict != Verdict::Free;  // an earlier part was left undecided
   if (!open) all.freeUntil = part.timeOf(own.freeUntil);
@@ -293,7 +292,7 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
     return certificate;
   }
   certificate.verdict = Verdict::Free;
-  EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
+  WaypointSegments(model, from, to, workspace).forEach([&](const WaypointSegment& part) {
     MotionCertificate own;
     own.effort = certificate.effort;  // the cap on intervals is for all parts together
     MotionProver(model, part.from, part.to, wanted, workspace, own).run(part.from, part.to);

@@ -8,7 +8,7 @@
 
 #include "certify/motion_check.hpp"
 #include "certify/near_pairs.hpp"
-#include "certify/obstacle_clock.hpp"
+#include "certify/waypoint_segments.hpp"
 #include "certify/work_limits.hpp"
 
 namespace swept::detail {
@@ -198,7 +198,7 @@ class ClearanceSearch {
 };
 
 /// Takes over what is known of a part of the motion.
-void addPart(const CheckerModel& model, const EvenPart& part, const KindClearance& own,
+void addPart(const CheckerModel& model, const WaypointSegment& part, const KindClearance& own,
              ClearanceInterval& all) {
   all.lower = std::min(all.lower, own.lower);
   if (!own.nearest || !(own.upper < all.upper)) return;
@@ -240,7 +240,7 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
   all.lower = std::numeric_limits<double>::infinity();
   if (byKind) all.world.lower = all.self.lower = all.lower;
   std::int64_t queries = mostMeasures(model);
-  EvenParts(model, from, to, workspace).forEach([&](const EvenPart& part) {
+  WaypointSegments(model, from, to, workspace).forEach([&](const WaypointSegment& part) {
     const int budget = model.options.maxIntervals - all.intervals;
     if (budget == 0 || queries <= 0) {  // nothing is known of what is left
       all.lower = all.world.lower = all.self.lower = 0.0;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "certify/pair_compile.hpp"
 #include "certify/pair_query.hpp"
+#include "model/compile.hpp"
 
 namespace swept::detail {
 
@@ -66,7 +66,7 @@ class NearGeometries {
   template <typename Visitor>
   void forNearestOfWorld(double half, double& least, const Visitor& visit) {
     for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
-      if (model_.firstBodyPair[model_.robotGeometry[i].carrier] < 0) continue;
+      if (model_.firstBodyPair[model_.robotGeometry[i].collisionBody] < 0) continue;
       const GeometryPair& like = model_.likeWorldPairs[i];
       const auto oneOfWorld = [&](std::size_t other) {
         const auto b = static_cast<int>(other);

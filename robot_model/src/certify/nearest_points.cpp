@@ -8,9 +8,11 @@ namespace swept::detail {
 namespace {
 
 /// Moving obstacles come last: no name of a link or attached body is one of theirs.
-int carrierNamed(const CheckerModel& model, const std::string& name) {
-  const auto found = std::ranges::find(model.carriers, name, &Carrier::name);
-  return found == model.carriers.end() ? -1 : static_cast<int>(found - model.carriers.begin());
+int collisionBodyNamed(const CheckerModel& model, const std::string& name) {
+  const auto found = std::ranges::find(model.collisionBodies, name, &CollisionBody::name);
+  return found == model.collisionBodies.end()
+             ? -1
+             : static_cast<int>(found - model.collisionBodies.begin());
 }
 
 int bodyNamed(const CheckerModel& model, const std::string& name) {
@@ -23,12 +25,12 @@ int bodyNamed(const CheckerModel& model, const std::string& name) {
 
 void takeNearestPoints(const CheckerModel& model, PairQuery& query, Witness& witness) {
   if (!(witness.distance > 0.0)) return;
-  const int a = carrierNamed(model, witness.bodyA);
+  const int a = collisionBodyNamed(model, witness.bodyA);
   const int body = witness.selfPair ? -1 : bodyNamed(model, witness.bodyB);
-  const int carrier = body < 0 ? carrierNamed(model, witness.bodyB) : -1;
+  const int collisionBody = body < 0 ? collisionBodyNamed(model, witness.bodyB) : -1;
   for (const GeometryPair& pair : model.pairs) {
-    if (model.robotGeometry[pair.a].carrier != a) continue;
-    const bool same = pair.self ? model.robotGeometry[pair.b].carrier == carrier
+    if (model.robotGeometry[pair.a].collisionBody != a) continue;
+    const bool same = pair.self ? model.robotGeometry[pair.b].collisionBody == collisionBody
                                 : model.worldGeometry[pair.b].body == body;
     if (!same) continue;
     const PairDistance found = query.measure(pair, witness.distance, tolerance::kDistance);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/nested_travels.hpp"
+#include "kinematics/nested_motion_bounds.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 
@@ -65,25 +65,26 @@ std::span<const double> PairQuery::arms(const RobotGeometry& geometry) {
   return own;
 }
 
-const TravelBound& PairQuery::bound(int travel) {
-  if (!workspace_.nestedTravels.empty()) return nestedBound(model_.travels[travel]);
-  if (workspace_.travelStamps[travel] != workspace_.motionStamp) {
-    const TravelSlot& slot = model_.travels[travel];
+const PointMotionBound& PairQuery::bound(int travel) {
+  if (!workspace_.nestedMotionBounds.empty()) return nestedBound(model_.motionBounds[travel]);
+  if (workspace_.motionBoundStamps[travel] != workspace_.motionStamp) {
+    const MotionBoundSlot& slot = model_.motionBounds[travel];
     const RobotGeometry& geometry = model_.robotGeometry[slot.geometry];
-    workspace_.travels[travel] = travelBound(model_.kinematics, geometry.levers.path,
-                                             arms(geometry), slot.firstJoint, workspace_.motion);
-    workspace_.travelStamps[travel] = workspace_.motionStamp;
+    workspace_.motionBounds[travel] =
+        pointMotionBound(model_.kinematics, geometry.levers.path, arms(geometry), slot.firstJoint,
+                         workspace_.motion);
+    workspace_.motionBoundStamps[travel] = workspace_.motionStamp;
   }
-  return workspace_.travels[travel];
+  return workspace_.motionBounds[travel];
 }
 
-const TravelBound& PairQuery::nestedBound(const TravelSlot& slot) {
-  std::vector<TravelBound>& bounds = workspace_.nestedTravels[slot.geometry];
-  if (workspace_.travelStamps[slot.geometry] != workspace_.motionStamp) {
+const PointMotionBound& PairQuery::nestedBound(const MotionBoundSlot& slot) {
+  std::vector<PointMotionBound>& bounds = workspace_.nestedMotionBounds[slot.geometry];
+  if (workspace_.motionBoundStamps[slot.geometry] != workspace_.motionStamp) {
     const RobotGeometry& geometry = model_.robotGeometry[slot.geometry];
-    nestedTravels(model_.kinematics, geometry.levers.path, arms(geometry), workspace_.motion,
-                  bounds);
-    workspace_.travelStamps[slot.geometry] = workspace_.motionStamp;
+    nestedMotionBounds(model_.kinematics, geometry.levers.path, arms(geometry), workspace_.motion,
+                       bounds);
+    workspace_.motionBoundStamps[slot.geometry] = workspace_.motionStamp;
   }
   return bounds[slot.firstJoint];
 }
@@ -139,8 +140,8 @@ double PairQuery::largestRounding() const {
 }
 
 double PairQuery::travel(const GeometryPair& pair, double half) {
-  double speed = bound(pair.travelA).speed;
-  if (pair.travelB >= 0) speed += bound(pair.travelB).speed;
+  double speed = bound(pair.motionBoundA).speed;
+  if (pair.motionBoundB >= 0) speed += bound(pair.motionBoundB).speed;
   return half * speed * (1.0 + kVelocityRounding);
 }
 
@@ -250,8 +251,8 @@ void PairQuery::relativeMotion(const GeometryPair& pair, double half,
 ApproachBound PairQuery::approach(const GeometryPair& pair, double half, double separation) {
   ApproachBound bound;
   bound.travel = travel(pair, half);
-  double acceleration = this->bound(pair.travelA).acceleration;
-  if (pair.travelB >= 0) acceleration += this->bound(pair.travelB).acceleration;
+  double acceleration = this->bound(pair.motionBoundA).acceleration;
+  if (pair.motionBoundB >= 0) acceleration += this->bound(pair.motionBoundB).acceleration;
   bound.curvature = 0.5 * half * half * acceleration * (1.0 + kVelocityRounding);
   bound.required = separation + rounding(pair) + kVelocityRounding * bound.travel;
   return bound;

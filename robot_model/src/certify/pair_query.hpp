@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "certify/checker_model.hpp"
+#include "certify/workspace_data.hpp"
 
 namespace swept::detail {
 
@@ -83,8 +83,8 @@ class PairQuery {
   const BodyState& state(int body);
   /// m, over the current motion; valid until asked for another geometry.
   std::span<const double> arms(const RobotGeometry& geometry);
-  const TravelBound& bound(int travel);
-  const TravelBound& nestedBound(const TravelSlot& slot);
+  const PointMotionBound& bound(int travel);
+  const PointMotionBound& nestedBound(const MotionBoundSlot& slot);
   Eigen::Vector3d& hint(std::uint32_t pair);
   const Eigen::Vector3d& center(int geometry);
   const Eigen::Isometry3d& pose(int geometry);

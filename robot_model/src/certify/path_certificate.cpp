@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "kinematics/for_each_index.hpp"
 #include "swept/core/floating_point_environment.hpp"
+#include "threads/for_each_index.hpp"
 
 namespace swept {
 

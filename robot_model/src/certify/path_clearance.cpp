@@ -5,10 +5,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "certify/checker_model.hpp"
 #include "certify/motion_check.hpp"
-#include "io/numbers.hpp"
+#include "certify/workspace_data.hpp"
 #include "swept/core/floating_point_environment.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 

@@ -30,8 +30,8 @@ void takeAll(const CheckerModel& model, PairQuery& query, WorkspaceData& workspa
 
 void takeRest(WorkspaceData& workspace) {
   workspace.pending.clear();
-  std::swap(workspace.pendingArena, workspace.lanes.restArena);
-  for (const LaneScratch::Item& item : workspace.lanes.rest) {
+  std::swap(workspace.pendingArena, workspace.simd.restArena);
+  for (const SimdScratch::Item& item : workspace.simd.rest) {
     const double time = static_cast<double>(item.time);  // dyadic: exact in either precision
     const double half = static_cast<double>(item.half);
     workspace.pending.push_back({time - half, time + half, item.first, item.count});

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "certify/near_pairs.hpp"
-#include "certify/obstacle_clock.hpp"
+#include "certify/waypoint_segments.hpp"
 
 namespace swept::detail {
 
@@ -89,12 +89,12 @@ void differentiate(const CheckerModel& model, PairQuery& query, std::span<const 
                    const Nearest& nearest, std::span<double> gradient, WorkspaceData& workspace) {
   const SignedClearance& found = nearest.clearance;
   std::ranges::copy(q, workspace.probe.begin());
-  const std::span<const double> from = wholeConfiguration(model, q, workspace.from);
+  const std::span<const double> from = fullConfiguration(model, q, workspace.from);
   for (std::size_t i = 0; i < gradient.size(); ++i) {
     gradient[i] = 0.0;
     workspace.probe[i] = stepFrom(model.kinematics, i, q[i]);
     const double step = workspace.probe[i] - q[i];  // rounding has changed it
-    const std::span<const double> to = wholeConfiguration(model, workspace.probe, workspace.to);
+    const std::span<const double> to = fullConfiguration(model, workspace.probe, workspace.to);
     if (step != 0.0 && query.start(from, to)) {
       query.moveTo(0.0);
       const Vector3d velocity = query.velocity(nearest.pair, found.pointA, found.pointB);
@@ -109,7 +109,7 @@ void differentiate(const CheckerModel& model, PairQuery& query, std::span<const 
 SignedClearance signedClearance(const CheckerModel& model, std::span<const double> configuration,
                                 std::span<double> gradient, WorkspaceData& workspace) {
   std::ranges::fill(gradient, 0.0);
-  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
+  const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!query.start(q, q)) return {};
   query.moveTo(0.0);

@@ -11,12 +11,12 @@
 #include <tuple>
 #include <utility>
 
-#include "certify/lane_witness.hpp"
 #include "certify/near_pairs.hpp"
 #include "certify/nearest_points.hpp"
-#include "certify/obstacle_clock.hpp"
-#include "lanes/lane_motion.hpp"
-#include "lanes/lane_search.hpp"
+#include "certify/simd_witness.hpp"
+#include "certify/waypoint_segments.hpp"
+#include "simd/kernels/simd_motion.hpp"
+#include "simd/search/simd_search.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept::detail {
@@ -57,30 +57,30 @@ Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
 /// What the lane tier found out in one lane, and exact geometry about the rest.
 Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane,
                   WorkspaceData& workspace) {
-  const LaneBlock& block = workspace.lanes.block;
+  const SimdBlock& block = workspace.simd.block;
   if ((block.contactLanes >> lane & 1U) != 0) {
     if (commonPoint(model, block.contacts[lane])) return Verdict::Collision;
     return checkAllPairs(model, q, workspace);
   }
-  takeOpen(lane, workspace.lanes);
-  auto& pairs = workspace.lanes.restArena;
+  takeOpen(lane, workspace.simd);
+  auto& pairs = workspace.simd.restArena;
   if (pairs.empty()) return Verdict::Free;
   // The one most likely to be in contact first.
-  const auto suspect = std::ranges::find(pairs, block.suspect.pair);
-  if (suspect != pairs.end()) std::iter_swap(pairs.begin(), suspect);
-  return checkPairs(model, q, workspace.lanes.restArena, workspace);
+  const auto likelyContact = std::ranges::find(pairs, block.likelyContact.pair);
+  if (likelyContact != pairs.end()) std::iter_swap(pairs.begin(), likelyContact);
+  return checkPairs(model, q, workspace.simd.restArena, workspace);
 }
 
 }  // namespace
 
 Verdict checkState(const CheckerModel& model, std::span<const double> configuration,
                    WorkspaceData& workspace) {
-  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
+  const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   const bool fits =
-      model.lanes.usable && compileLaneState(model.lanes, model.kinematics, q, workspace.lanes);
+      model.simd.usable && compileSimdState(model.simd, model.kinematics, q, workspace.simd);
   if (!fits) return checkAllPairs(model, q, workspace);
-  searchStates(model.lanes, LaneMode::State, LaneContacts::Sought, workspace.lanes);
-  const std::uint32_t contacts = workspace.lanes.block.contactLanes;
+  searchStates(model.simd, SimdMode::State, SimdContacts::Sought, workspace.simd);
+  const std::uint32_t contacts = workspace.simd.block.contactLanes;
   return verdictOf(model, q, contacts == 0 ? 0 : std::countr_zero(contacts), workspace);
 }
 
@@ -90,9 +90,9 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
   for (std::size_t first = 0; first < verdicts.size(); first += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, verdicts.size() - first);
     const std::span<const double> some = states.subspan(first * dimension, count * dimension);
-    const bool fits = count > 1 && dimension > 0 && model.lanes.usable &&
-                      compileLaneStates(model.lanes, model.kinematics, some, workspace.lanes);
-    if (fits) searchStates(model.lanes, LaneMode::States, LaneContacts::Sought, workspace.lanes);
+    const bool fits = count > 1 && dimension > 0 && model.simd.usable &&
+                      compileSimdStates(model.simd, model.kinematics, some, workspace.simd);
+    if (fits) searchStates(model.simd, SimdMode::States, SimdContacts::Sought, workspace.simd);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::span<const double> q = some.subspan(lane * dimension, dimension);
       verdicts[first + lane] = fits ? verdictOf(model, q, static_cast<int>(lane), workspace)
@@ -138,7 +138,7 @@ NearestPair named(const CheckerModel& model, const Nearest& nearest) {
 
 double stateClearance(const CheckerModel& model, std::span<const double> configuration,
                       WorkspaceData& workspace) {
-  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
+  const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!startAt(query, q)) return 0.0;
   const NearestOfKinds nearest = nearestPairs(model, query, workspace);
@@ -147,7 +147,7 @@ double stateClearance(const CheckerModel& model, std::span<const double> configu
 
 StateReport reportState(const CheckerModel& model, std::span<const double> configuration,
                         WorkspaceData& workspace) {
-  const std::span<const double> q = wholeConfiguration(model, configuration, workspace.from);
+  const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   StateReport report;
   report.finite = std::all_of(q.begin(), q.end(), [](double v) { return std::isfinite(v); });
   for (std::size_t i = 0; i < model.group.variables.size(); ++i) {

@@ -29,7 +29,7 @@ inline std::int64_t mostMeasures(const CheckerModel& model) {
 }
 
 /// Sub-intervals of the lane tier that are left of those of one motion.
-inline int lanesLeft(const CheckerModel& model, const Effort& effort) {
+inline int subIntervalsLeft(const CheckerModel& model, const Effort& effort) {
   const std::int64_t left = kWorkPerInterval * model.options.maxIntervals - effort.lanes;
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, kMost));

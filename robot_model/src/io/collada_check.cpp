@@ -13,7 +13,7 @@
 #include "io/collada_xml.hpp"
 #include "io/mesh_claim.hpp"
 #include "io/mesh_file.hpp"
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

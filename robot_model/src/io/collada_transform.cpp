@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/mesh_claim.hpp"
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

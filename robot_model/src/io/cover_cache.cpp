@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "io/cover_bytes.hpp"
-#include "kinematics/shape_cover.hpp"
+#include "robot/shape_cover.hpp"
 
 namespace swept::detail {
 

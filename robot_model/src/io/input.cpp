@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/robot_model/input.hpp"
 
-#include "io/short_message.hpp"
+#include "text/short_message.hpp"
 
 namespace swept {
 

@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/short_message.hpp"
+#include "text/short_message.hpp"
 
 namespace swept::detail {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
-#include "io/numbers.hpp"
 #include "output/text_output.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -5,9 +5,9 @@
 
 #include "io/input_source.hpp"
 #include "io/mesh_store.hpp"
-#include "io/numbers.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/mesh_file.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 

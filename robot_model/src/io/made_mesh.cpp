@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/numbers.hpp"
 #include "io/point_faces.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

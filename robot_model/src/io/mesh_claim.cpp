@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -16,8 +16,8 @@
 #include "io/collada_convex.hpp"
 #include "io/mesh_claim.hpp"
 #include "io/mesh_import.hpp"
-#include "io/numbers.hpp"
 #include "io/point_file.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -13,11 +13,11 @@
 
 #include "io/content_hash.hpp"
 #include "io/cover_cache.hpp"
-#include "io/numbers.hpp"
 #include "io/package_paths.hpp"
 #include "io/point_file.hpp"
 #include "io/regular_file.hpp"
-#include "kinematics/work_crew.hpp"
+#include "text/numbers.hpp"
+#include "threads/work_crew.hpp"
 
 namespace swept::detail {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/mesh_claim.hpp"
-#include "io/numbers.hpp"
 #include "io/point_file.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

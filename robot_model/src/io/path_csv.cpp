@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/numbers.hpp"
 #include "io/path_formats.hpp"
 #include "swept/robot_model/foreign_text.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

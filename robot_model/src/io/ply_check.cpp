@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/mesh_claim.hpp"
-#include "io/numbers.hpp"
 #include "io/ply_header.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "io/mesh_file.hpp"
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

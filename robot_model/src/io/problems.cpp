@@ -8,10 +8,10 @@
 #include <type_traits>
 
 #include "io/json_place.hpp"
-#include "io/numbers.hpp"
 #include "io/zero_sizes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 

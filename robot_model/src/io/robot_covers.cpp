@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "kinematics/for_each_index.hpp"
-#include "kinematics/shape_cover.hpp"
+#include "robot/shape_cover.hpp"
+#include "threads/for_each_index.hpp"
 
 namespace swept::detail {
 namespace {

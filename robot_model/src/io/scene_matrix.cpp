@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "kinematics/name_pattern.hpp"
+#include "rules/name_pattern.hpp"
 
 namespace swept::detail {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "io/mesh_store.hpp"
-#include "io/numbers.hpp"
 #include "io/scene.hpp"
 #include "io/zero_sizes.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

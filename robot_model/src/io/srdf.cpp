@@ -8,8 +8,8 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "io/numbers.hpp"
 #include "io/xml.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

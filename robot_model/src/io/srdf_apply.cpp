@@ -3,10 +3,10 @@
 #include <cmath>
 #include <optional>
 
-#include "io/numbers.hpp"
 #include "io/srdf.hpp"
 #include "io/warning_kinds.hpp"
 #include "swept/robot_model/limits.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/srdf.hpp"
-#include "kinematics/group_joints.hpp"
+#include "robot/group_joints.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept::detail {

@@ -6,7 +6,7 @@
 #include "io/srdf.hpp"
 #include "io/xml_places.hpp"
 #include "swept/core/floating_point_environment.hpp"
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 
 namespace swept {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

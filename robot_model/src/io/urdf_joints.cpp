@@ -2,8 +2,8 @@
 #include <array>
 #include <utility>
 
-#include "io/numbers.hpp"
 #include "io/urdf_elements.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

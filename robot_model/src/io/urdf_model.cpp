@@ -9,9 +9,9 @@
 #include <set>
 
 #include "io/mesh_store.hpp"
-#include "io/numbers.hpp"
 #include "io/urdfdom_parse.hpp"
 #include "swept/robot_model/limits.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "io/mesh_store.hpp"
-#include "io/numbers.hpp"
 #include "io/visual_materials.hpp"
 #include "io/visual_mesh.hpp"
 #include "io/warning_kinds.hpp"
 #include "io/xml.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 

@@ -3,7 +3,7 @@
 
 #include <tinyxml2.h>
 
-#include "io/numbers.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "io/numbers.hpp"
 #include "io/yaml_documents.hpp"
 #include "swept/robot_model/foreign_text.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
-#include "io/numbers.hpp"
+#include "kinematics/full_state.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
 #include "kinematics/rigid_transform.hpp"
-#include "kinematics/whole_state.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/limits.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 
@@ -224,7 +224,7 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, std::st
   const std::optional<int> index = robot->findLink(link);
   if (!index) refuse(of + " has no link '" + std::string(link) + "'");
   const Eigen::VectorXd held = reference.value_or(robot->defaultState());
-  detail::requireWholeState(*robot, held, "InverseKinematics", "the reference");
+  detail::requireFullState(*robot, held, "InverseKinematics", "the reference");
   requireRigid(link_from_tool, "the tool");
 
   chain->robot = std::move(robot);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinematics/nested_travels.hpp"
+#include "kinematics/nested_motion_bounds.hpp"
 
 namespace swept::detail {
 
@@ -110,7 +110,7 @@ double spanOf(const KinematicModel& model, int body, ReachableSet set, const Ran
     span = std::max(span, set.ball);
     set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
     span = std::max(span, set.ball);
-    detours += current.fold.detour(current.parent_from_joint);
+    detours += current.fixedChain.detour(current.parent_from_joint);
   }
   return (span + detours) * kOutward;
 }
@@ -170,7 +170,7 @@ LeverArms leverArms(const KinematicModel& model, int body, const Vector3d& cente
   visitArms(model, body, center, radius, withinLimits, [&](int i, double arm, double reach) {
     const MovingBody& current = model.bodies[i];
     result.path.push_back(i);
-    result.transforms += 1.0 + current.fold.transforms;
+    result.transforms += 1.0 + current.fixedChain.transforms;
     result.arms.push_back(arm);
     result.reachFromBase = reach;
     result.vary = result.vary || (slides && (turns(current.type) || slidesFreely(current.type)));
@@ -209,18 +209,19 @@ RestArms restArms(const KinematicModel& model, int body, const Vector3d& center,
   return result;
 }
 
-TravelBound travelBound(const KinematicModel& model, std::span<const int> path,
-                        std::span<const double> arms, std::size_t first,
-                        std::span<const JointMotion> motion) {
+PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const int> path,
+                                  std::span<const double> arms, std::size_t first,
+                                  std::span<const JointMotion> motion) {
   // Lemma (DESIGN of a motion certificate): with joint rates r_k constant and W_k a bound on the
   // angular velocity of body k relative to the reference,
   //   p'' = sum_k r_k [ 2 w_{k-1} x dp/dq_k + r_k d2p/dq_k2 ],
   // hence |p''| <= sum_k |r_k| rho_k (2 W_{k-1} + |r_k|) for rotations and 2 |r_k| W_{k-1} for
   // translations. A joint with both translates first, then rotates about its moved origin.
-  double wander = 0.0;
-  for (std::size_t i = first; i < path.size(); ++i) wander += motion[path[i]].wander;
+  double maxTranslation = 0.0;
+  for (std::size_t i = first; i < path.size(); ++i)
+    maxTranslation += motion[path[i]].maxTranslation;
 
-  TravelBound bound;
+  PointMotionBound bound;
   double turning = 0.0;        // W_k
   double turningBefore = 0.0;  // W_{k-1}
   double previousRate = 0.0;
@@ -229,8 +230,8 @@ TravelBound travelBound(const KinematicModel& model, std::span<const int> path,
     const MovingBody& body = model.bodies[path[i]];
     const JointMotion& joint = motion[path[i]];
     // Planar and floating joints farther out carry the ball away from this axis.
-    wander -= joint.wander;
-    const double arm = arms[i] + std::max(0.0, wander) * kOutward;
+    maxTranslation -= joint.maxTranslation;
+    const double arm = arms[i] + std::max(0.0, maxTranslation) * kOutward;
     bound.speed += joint.speed + joint.spinSpeed * arm;
     bound.acceleration += 2.0 * joint.speed * turning;
     bound.acceleration += joint.spinSpeed * arm * (2.0 * turning + joint.spinSpeed);

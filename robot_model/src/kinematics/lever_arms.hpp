@@ -30,7 +30,7 @@ struct LeverArms {
   /// m. The same with prismatic joints at zero: all translations come on top. Rounding is as large
   /// as this and what the motion uses of these, however near what comes of it.
   double spanAtRest = 0.0;
-  double transforms = 0.0;  ///< multiplied on the way, see Fold
+  double transforms = 0.0;  ///< multiplied on the way, see FixedJointChain
 };
 
 LeverArms leverArms(const KinematicModel& model, int body, const Eigen::Vector3d& center,
@@ -65,13 +65,13 @@ RestArms restArms(const KinematicModel& model, int body, const Eigen::Vector3d& 
 
 /// Bounds over a whole motion, for every point of the ball, relative to an ancestor body (path
 /// index `first` is the first joint that counts).
-struct TravelBound {
+struct PointMotionBound {
   double speed = 0.0;         ///< m per unit t
   double acceleration = 0.0;  ///< m per unit t squared
 };
 
 /// `arms`: over the motion, of the joints of `path`.
-TravelBound travelBound(const KinematicModel& model, std::span<const int> path,
-                        std::span<const double> arms, std::size_t first,
-                        std::span<const JointMotion> motion);
+PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const int> path,
+                                  std::span<const double> arms, std::size_t first,
+                                  std::span<const JointMotion> motion);
 }  // namespace swept::detail

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "kinematics/full_state.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
-#include "kinematics/whole_state.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -64,7 +64,8 @@ MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& l
                     const Vector3d& center, const std::vector<JointMotion>& motion) {
   std::vector<double> arms = levers.arms;
   if (levers.vary) detail::motionArms(kinematics, levers.path.back(), center, 0.0, motion, arms);
-  const detail::TravelBound travel = detail::travelBound(kinematics, levers.path, arms, 0, motion);
+  const detail::PointMotionBound travel =
+      detail::pointMotionBound(kinematics, levers.path, arms, 0, motion);
   MotionRates rates;
   rates.speed = travel.speed;
   rates.acceleration = travel.acceleration;
@@ -99,7 +100,7 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   requireSize(from.size(), moved->variables.size(), "the first configuration");
   requireSize(to.size(), moved->variables.size(), "the last configuration");
   const Eigen::VectorXd held = reference.value_or(robot.defaultState());
-  detail::requireWholeState(robot, held, "LinkMotion", "the reference");
+  detail::requireFullState(robot, held, "LinkMotion", "the reference");
 
   const KinematicModel kinematics = detail::compileKinematics(robot, *moved, held);
   std::vector<JointMotion> motion(kinematics.bodies.size());
@@ -113,10 +114,10 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   path->body_from_link = kinematics.body_from_link[linkIndex];
   const detail::LeverArms levers = detail::leverArms(kinematics, kinematics.bodyOfLink[linkIndex],
                                                      path->body_from_link.translation(), 0.0);
-  const detail::Fold& fold = kinematics.foldOfLink[linkIndex];
-  path->span = levers.spanAtRest + fold.detour(path->body_from_link);
+  const detail::FixedJointChain& fixedChain = kinematics.fixedChainOfLink[linkIndex];
+  path->span = levers.spanAtRest + fixedChain.detour(path->body_from_link);
   path->perUnit = 1.0;
-  path->transforms = levers.transforms + fold.transforms;
+  path->transforms = levers.transforms + fixedChain.transforms;
   detail::BodyState still;  // since the last joint that moves
   for (const int member : levers.path) {
     MovingBody body = kinematics.bodies[static_cast<std::size_t>(member)];

@@ -93,18 +93,20 @@ Isometry3d heldTransform(const Robot& robot, const Joint& joint, const Eigen::Ve
 constexpr double kAngleOfTransform = 10.0;
 
 /// With one joint more, which is held; its frame and its child's are `joint` and `child`.
-Fold folded(Fold fold, const Robot& robot, const Joint& held, const Eigen::VectorXd& reference,
-            const Isometry3d& joint, const Isometry3d& child) {
-  fold.transforms += 1.0;
-  fold.farthest = std::max({fold.farthest, joint.translation().norm(), child.translation().norm()});
+FixedJointChain withHeldJoint(FixedJointChain fixedChain, const Robot& robot, const Joint& held,
+                              const Eigen::VectorXd& reference, const Isometry3d& joint,
+                              const Isometry3d& child) {
+  fixedChain.transforms += 1.0;
+  fixedChain.farthest =
+      std::max({fixedChain.farthest, joint.translation().norm(), child.translation().norm()});
   const Joint& source = held.mimic ? robot.joints()[held.mimic->master] : held;
-  if (held.type == JointType::Fixed || source.firstVariable < 0) return fold;
+  if (held.type == JointType::Fixed || source.firstVariable < 0) return fixedChain;
   const bool planar = held.type == JointType::Planar;
   double value = std::abs(reference[source.firstVariable + (planar ? 2 : 0)]);
   if (held.mimic) value = std::abs(held.mimic->multiplier) * value + std::abs(held.mimic->offset);
-  if (held.type == JointType::Prismatic) fold.farthest = std::max(fold.farthest, value);
-  if (turns(held.type) || planar) fold.transforms += value / kAngleOfTransform;
-  return fold;
+  if (held.type == JointType::Prismatic) fixedChain.farthest = std::max(fixedChain.farthest, value);
+  if (turns(held.type) || planar) fixedChain.transforms += value / kAngleOfTransform;
+  return fixedChain;
 }
 
 MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group) {
@@ -160,7 +162,7 @@ KinematicModel compileKinematics(const Robot& robot, const Group& group,
   KinematicModel model;
   model.bodies.emplace_back();
   model.dimension = static_cast<int>(group.variables.size());
-  model.wholeDimension = model.dimension;
+  model.fullDimension = model.dimension;
   for (const int index : group.variables) {
     const Variable& variable = robot.variables()[index];
     model.cyclic.push_back(variable.cyclic);
@@ -170,26 +172,27 @@ KinematicModel compileKinematics(const Robot& robot, const Group& group,
   const std::size_t links = robot.links().size();
   model.bodyOfLink.assign(links, 0);
   model.body_from_link.assign(links, Isometry3d::Identity());
-  model.foldOfLink.assign(links, Fold{});
+  model.fixedChainOfLink.assign(links, FixedJointChain{});
   for (const Joint& joint : robot.joints()) {
     const int parentBody = joint.parentLink < 0 ? 0 : model.bodyOfLink[joint.parentLink];
     const Isometry3d parentPose =
         joint.parentLink < 0 ? Isometry3d::Identity() : model.body_from_link[joint.parentLink];
     const Isometry3d body_from_joint = parentPose * joint.parent_from_joint;
-    const Fold before = joint.parentLink < 0 ? Fold{} : model.foldOfLink[joint.parentLink];
+    const FixedJointChain before =
+        joint.parentLink < 0 ? FixedJointChain{} : model.fixedChainOfLink[joint.parentLink];
     if (moves(robot, joint, group)) {
       MovingBody body = moveJoint(robot, joint, group);
       body.parent = parentBody;
       body.parent_from_joint = body_from_joint;
-      body.fold = before;
+      body.fixedChain = before;
       model.bodyOfLink[joint.childLink] = static_cast<int>(model.bodies.size());
       model.bodies.push_back(body);
     } else {
       model.bodyOfLink[joint.childLink] = parentBody;
       model.body_from_link[joint.childLink] =
           body_from_joint * heldTransform(robot, joint, reference);
-      model.foldOfLink[joint.childLink] = folded(before, robot, joint, reference, body_from_joint,
-                                                 model.body_from_link[joint.childLink]);
+      model.fixedChainOfLink[joint.childLink] = withHeldJoint(
+          before, robot, joint, reference, body_from_joint, model.body_from_link[joint.childLink]);
     }
   }
   return model;
@@ -215,14 +218,14 @@ int addObstacleFrames(KinematicModel& model, std::size_t count) {
   model.lower.push_back(-kUnlimited);
   model.upper.push_back(kUnlimited);
   ++model.dimension;
-  model.wholeDimension = model.dimension;
+  model.fullDimension = model.dimension;
   for (std::size_t i = 0; i < count; ++i) {
     MovingBody frame;
     frame.parent = 0;
     frame.type = JointType::Floating;
-    frame.variable = model.wholeDimension;
+    frame.variable = model.fullDimension;
     model.bodies.push_back(frame);
-    model.wholeDimension += kPose;
+    model.fullDimension += kPose;
   }
   return first;
 }
@@ -244,7 +247,7 @@ bool compileFloating(const double* from, const double* to, JointMotion& motion) 
   motion.rate = end - start;
   motion.rotation = first;
   motion.spin = rotationVector(first, second, dot(from + 3, to + 3) < 0.0);
-  motion.wander = std::max(start.norm(), end.norm());
+  motion.maxTranslation = std::max(start.norm(), end.norm());
   return true;
 }
 
@@ -292,7 +295,7 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       motion.angleRate = cyclicDifference(q0[2], q1[2]);
       motion.largestAngle = std::max(std::abs(q0[2]), std::abs(q1[2])) + std::abs(motion.angleRate);
       motion.spin = motion.angleRate * body.planarBasis.col(2);
-      motion.wander = std::max(std::hypot(q0[0], q0[1]), std::hypot(q1[0], q1[1]));
+      motion.maxTranslation = std::max(std::hypot(q0[0], q0[1]), std::hypot(q1[0], q1[1]));
       break;
     case JointType::Floating:
       if (!compileFloating(q0, q1, motion)) return false;
@@ -300,7 +303,8 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       // of three coordinates that, the share and its product round by less than 14 parts in 2^53.
       if (body.variable >= model.dimension) {
         const double largest = 4.0 * std::max(q0[7], q1[7]);
-        motion.slideError = kValueRounding * std::max(0.0, largest - kOrdinary * motion.wander);
+        motion.slideError =
+            kValueRounding * std::max(0.0, largest - kOrdinary * motion.maxTranslation);
       }
       break;
     case JointType::Fixed:

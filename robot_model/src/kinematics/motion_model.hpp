@@ -11,7 +11,7 @@
 namespace swept::detail {
 
 /// Joints that stand still, multiplied into one frame.
-struct Fold {
+struct FixedJointChain {
   /// So many. A joint held at a large angle rounds as several.
   double transforms = 0.0;
   double farthest = 0.0;  ///< m, of the frames between, and of what they are made of
@@ -27,7 +27,7 @@ struct MovingBody {
   int parent = -1;  ///< index into KinematicModel::bodies; 0 is the model frame
   JointType type = JointType::Fixed;
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  ///< fixed joints folded in
-  Fold fold;                                                            ///< of these
+  FixedJointChain fixedChain;                                           ///< of these
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();                      ///< unit, joint frame
   Eigen::Matrix3d planarBasis =
       Eigen::Matrix3d::Identity();  ///< columns x, y of a planar joint, normal
@@ -53,11 +53,11 @@ struct KinematicModel {
   std::vector<MovingBody> bodies;  ///< parents first; [0] is the model frame itself
   std::vector<int> bodyOfLink;
   std::vector<Eigen::Isometry3d> body_from_link;
-  std::vector<Fold> foldOfLink;      ///< of what is folded into these
-  std::vector<char> cyclic;          ///< per value of a configuration
-  std::vector<double> lower, upper;  ///< likewise: rad, m or s
-  int dimension = 0;                 ///< of a configuration
-  int wholeDimension = 0;            ///< of a whole configuration
+  std::vector<FixedJointChain> fixedChainOfLink;  ///< of what is folded into these
+  std::vector<char> cyclic;                       ///< per value of a configuration
+  std::vector<double> lower, upper;               ///< likewise: rad, m or s
+  int dimension = 0;                              ///< of a configuration
+  int fullDimension = 0;                          ///< of a whole configuration
 };
 
 /// `reference` has a value for every variable of the robot.
@@ -76,18 +76,18 @@ struct JointMotion {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< m per unit t
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< at t = 0
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();                ///< rad per unit t
-  double angle = 0.0;         ///< rad: a revolute joint's value at t = 0, about its axis
-  double angleRate = 0.0;     ///< rad per unit t
-  double speed = 0.0;         ///< m per unit t, |rate|
-  double spinSpeed = 0.0;     ///< rad per unit t, |spin|
-  double wander = 0.0;        ///< m, planar and floating: largest |translation| over the motion
-  double low = 0.0;           ///< m, prismatic: range of its value over the motion
-  double high = 0.0;          ///< m
-  double largestAngle = 0.0;  ///< rad, of what the joint's angle is made of, for its rounding
-  double slideError = 0.0;    ///< m, what a translation rounds by beyond what its own size tells
+  double angle = 0.0;           ///< rad: a revolute joint's value at t = 0, about its axis
+  double angleRate = 0.0;       ///< rad per unit t
+  double speed = 0.0;           ///< m per unit t, |rate|
+  double spinSpeed = 0.0;       ///< rad per unit t, |spin|
+  double maxTranslation = 0.0;  ///< m, planar and floating: largest |translation| over the motion
+  double low = 0.0;             ///< m, prismatic: range of its value over the motion
+  double high = 0.0;            ///< m
+  double largestAngle = 0.0;    ///< rad, of what the joint's angle is made of, for its rounding
+  double slideError = 0.0;      ///< m, what a translation rounds by beyond what its own size tells
 
   /// m. Largest |translation| over the motion, whatever the type.
-  double slid() const { return std::max({wander, -low, high}); }
+  double slid() const { return std::max({maxTranslation, -low, high}); }
 };
 
 /// What the joints that carry a body add to the rounding of its place in one motion, beyond what

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "output/escaped_text.hpp"
+#include "text/escaped_text.hpp"
 
 namespace swept {
 namespace {

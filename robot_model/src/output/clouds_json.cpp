@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/clouds_json.hpp"
 
-#include "output/escaped_text.hpp"
+#include "text/escaped_text.hpp"
 
 namespace swept {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "io/numbers.hpp"
-#include "output/escaped_text.hpp"
 #include "swept/robot_model/usage_error.hpp"
+#include "text/escaped_text.hpp"
+#include "text/numbers.hpp"
 
 namespace swept {
 namespace {

@@ -109,7 +109,7 @@ class TriangleMesh {
   bool encloses(const Eigen::Vector3d& point) const;
 
   /// m. Estimate of how far the hull reaches beyond the mesh; guides searches, proves nothing.
-  double dent() const { return data_->dent; }
+  double concavity() const { return data_->concavity; }
   /// Hull of the vertices: an outer bound of the solid.
   const ConvexHull& hull() const { return data_->hull; }
   /// The same, but of few points and with an error() to match: quick to ask.
@@ -147,7 +147,7 @@ class TriangleMesh {
     ConvexHull hull;
     ConvexHull coarseHull;
     std::vector<ConvexHull> convexParts;
-    double dent = 0.0;
+    double concavity = 0.0;
   };
   static void arrange(Surface& surface);
   static TriangleMesh finished(Surface surface);

@@ -145,7 +145,7 @@ class Checker {
   /// An attached body where it is at a configuration, as a body of the world: what a gripper lets
   /// go of. Throws std::invalid_argument for a name that is not there, and a configuration in which
   /// no pose is known (see checkState).
-  WorldBody placed(std::string_view attached, ConfigurationView q) const;
+  WorldBody detachedBody(std::string_view attached, ConfigurationView q) const;
 
   ///@{
   /// What this version checks. The references live as long as it does.
@@ -233,7 +233,7 @@ class Checker {
   bool checksNothing() const;
   /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
   /// once, here; they do not enter the verdicts.
-  const std::vector<Pair>& standingContacts() const;
+  const std::vector<Pair>& staticContacts() const;
   /// Why a pair is checked or not, who says so, and what it has to keep: one sentence. The names
   /// may come in either order. Throws std::invalid_argument for a name that is neither a link's nor
   /// a body's.

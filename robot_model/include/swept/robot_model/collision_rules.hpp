@@ -44,7 +44,7 @@ class CollisionRules {
   /// The two may collide: they are not checked against each other.
   CollisionRules& allow(std::string bodyA, std::string bodyB, std::string reason = {});
   /// The two are checked, whatever the SRDF, joints and touch links say. Two that the group cannot
-  /// move against each other are looked at once: see Checker::standingContacts.
+  /// move against each other are looked at once: see Checker::staticContacts.
   CollisionRules& check(std::string bodyA, std::string bodyB, std::string reason = {});
   /// m. The two have to keep more than this; the checker's margin and paddings do not count.
   CollisionRules& margin(std::string bodyA, std::string bodyB, double metres,

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certify/pair_oracle.hpp"
+
+#include <utility>
+
+#include "certify/simd_witness.hpp"
+
+namespace swept::detail {
+
+bool PairOracle::start() {
+  if (!started_) started_ = query_.start(from_, to_);
+  return started_;
+}
+
+bool PairOracle::keep(std::optional<Witness> witness) {
+  if (!witness) return false;
+  const bool earliest = !certificate_.witness || witness->t < certificate_.witness->t;
+  if (earliest) certificate_.witness = std::move(witness);
+  return true;
+}
+
+bool PairOracle::isContact(const SimdContact& contact, double t) {
+  return keep(simdWitness(model_, contact, t));
+}
+
+bool PairOracle::isInside(std::uint32_t pair, std::int32_t point, double t) {
+  if (!start()) return false;
+  query_.moveTo(t);
+  const Eigen::Vector3d at =
+      query_.placed(pair, model_.simd.hulls->inBody[static_cast<std::size_t>(point)]);
+  return keep(pointWitness(model_, pair, at, t));
+}
+
+ExactAnswer PairOracle::look(std::uint32_t pair, double t, double half) {
+  ExactAnswer look;
+  Effort& effort = certificate_.effort;
+  if (effort.intervals >= model_.options.maxIntervals || !start()) return look;
+  query_.moveTo(t);
+  const PairAnswer answer = query_.prove(pair, half);
+  ++effort.intervals;
+  ++(answer.culled ? effort.culled : effort.distances);
+  if (answer.status == Separation::Contact) {
+    look.kind = ExactAnswer::Kind::Contact;
+    keep(query_.witness(pair, t, answer));
+    return look;
+  }
+  if (answer.status == Separation::Separated) look.kind = ExactAnswer::Kind::Apart;
+  look.directed = !answer.normal.isZero();
+  for (int i = 0; i < 3; ++i) look.towards[i] = static_cast<float>(answer.normal[i]);
+  return look;
+}
+
+}  // namespace swept::detail

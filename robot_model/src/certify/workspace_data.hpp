@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "certify/checker_model.hpp"
+#include "simd/kernels/simd_scratch.hpp"
+#include "swept/core/broadphase/sweep_and_prune.hpp"
+
+namespace swept::detail {
+
+/// A part of a motion with the pairs not yet proven apart on it (a range of an arena of pair
+/// indices).
+struct PendingInterval {
+  double begin = 0.0;
+  double end = 1.0;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// One pair of it.
+struct PendingPart {
+  std::uint32_t pair = 0;
+  double begin = 0.0;
+  double end = 1.0;
+};
+
+/// A pair among which the least clearance of a motion is looked for.
+struct MeasuredPair {
+  GeometryPair pair;
+  double bound = 0.0;  ///< m, lower bound of its distance over the whole motion
+};
+
+/// An obstacle changes its way.
+struct WaypointCrossing {
+  double t = 0.0;     ///< in [0, 1]
+  double time = 0.0;  ///< s
+};
+
+struct WorkspaceData {
+  explicit WorkspaceData(const CheckerModel& model);
+
+  std::uint64_t version = 0;  ///< of the model that it fits
+  std::vector<JointMotion> motion;
+  /// At the current t; computed when first asked for.
+  std::vector<BodyState> states;
+  std::vector<std::int64_t> stateStamps;
+  /// Per robot geometry at the current t; computed when first asked for.
+  struct Placed {
+    std::int64_t stamp = -1;
+    Eigen::Vector3d center;  ///< m, model frame
+    Eigen::Isometry3d world_from_shape;
+    bool posed = false;
+  };
+  std::vector<Placed> placed;
+  std::int64_t stamp = 0;
+  /// Of the current motion; computed when first asked for. Of a long chain of joints (see
+  /// nestedMotionBounds) all of a geometry together, per geometry, in place of
+  /// CheckerModel::motionBounds.
+  std::vector<PointMotionBound> motionBounds;
+  std::vector<std::int64_t> motionBoundStamps;
+  std::vector<std::vector<PointMotionBound>> nestedMotionBounds;
+  std::int64_t motionStamp = 0;
+  double t = 0.0;
+  std::vector<CarriedRounding> carried;  ///< per body, of the current motion
+  CarriedRounding mostCarried;           ///< no body has more of anything
+  std::vector<double> arms;              ///< m, of one travel
+  std::vector<Eigen::Vector3d> hints;    ///< per pair, within one motion: last direction found
+  std::vector<std::int64_t> hintStamps;
+  std::vector<std::uint32_t> arena, nextArena, failed;
+  std::vector<PendingInterval> generation, nextGeneration;
+  SimdScratch simd;
+  /// What the lane tier left open, in order of time.
+  std::vector<PendingInterval> pending;
+  std::vector<std::uint32_t> pendingArena;
+  std::vector<PendingPart> parts;
+  std::vector<MeasuredPair> measured;
+  BroadphaseScratch boxes;
+  /// Whole configurations: see KinematicModel. Empty without moving obstacles.
+  std::vector<double> from, to;
+  std::vector<double> probe;                ///< a configuration
+  std::vector<WaypointCrossing> crossings;  ///< of the current motion, in order
+};
+
+}  // namespace swept::detail

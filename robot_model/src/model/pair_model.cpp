@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/pair_model.hpp"
+
+#include "model/compile.hpp"
+
+namespace swept::detail {
+
+std::string PairModel::nameOfA(const GeometryPair& pair) const {
+  return collisionBodies[robotGeometry[pair.a].collisionBody].name;
+}
+
+std::string PairModel::nameOfB(const GeometryPair& pair) const {
+  return pair.self ? collisionBodies[robotGeometry[pair.b].collisionBody].name
+                   : world->bodies()[worldGeometry[pair.b].body].name;
+}
+
+bool PairModel::isSelfPair(const GeometryPair& pair) const {
+  return pair.self &&
+         collisionBodies[robotGeometry[pair.b].collisionBody].kind != CollisionBody::Kind::Obstacle;
+}
+
+bool PairModel::checksWorld(int ofRobot, int ofWorld) const {
+  const int first = firstBodyPair[robotGeometry[ofRobot].collisionBody];
+  return first >= 0 && bodyPairs[first + worldGeometry[ofWorld].body].reason == PairReason::Checked;
+}
+
+void compilePairModel(const PairModel* like, PairModel& model) {
+  if (!model.options.reference) model.options.reference = model.robot->defaultState();
+  compileBodies(like, model);
+  compilePairs(model);
+  findNever(like, model);
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simd/compile/obstacles.hpp"
+
+namespace swept::detail {
+
+/// Over the boxes of all geometries; [0] is the root, empty without any. `reach` (m) and `extras`:
+/// as for compileObstacles.
+std::vector<SimdWorldNode> buildObstacleTree(const std::vector<WorldGeometry>& world, double reach,
+                                             std::span<const float> extras);
+
+}  // namespace swept::detail

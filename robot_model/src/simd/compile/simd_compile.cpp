@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "model/pair_model.hpp"
+#include "simd/compile/simd_bodies.hpp"
+#include "simd/compile/simd_model.hpp"
+#include "simd/compile/simd_references.hpp"
+#include "simd/compile/single.hpp"
+
+namespace swept::detail {
+
+namespace {
+
+/// The pairs of a model as the lanes see them, and the obstacles.
+class SimdCompiler {
+ public:
+  SimdCompiler(const PairModel& model, const PairModel* like, const SimdModel* likeSimd)
+      : model_(model), like_(like), likeSimd_(likeSimd) {}
+
+  SimdModel compile() {
+    const bool sameBodies =
+        like_ != nullptr && likeSimd_->usable && like_->robotGeometry.shares(model_.robotGeometry);
+    if (sameBodies) shareSimdBodies(*likeSimd_, simd_);
+    simd_.usable = sameBodies || compileSimdBodies(model_, simd_);
+    if (!simd_.usable) return std::move(simd_);
+    addPairs();
+    addReferences(sameBodies);
+    addMargins();
+    simd_.rootRows = compileRootRows(simd_);
+    simd_.obstacles =
+        compileObstacles(model_.worldGeometry, simd_.reach, reachIsBounded(), simd_.obstacleExtras,
+                         like_ != nullptr ? &likeSimd_->obstacles : nullptr, simd_.farther);
+    return std::move(simd_);
+  }
+
+ private:
+  /// Only of what is paired with the obstacles.
+  bool reachIsBounded() const {
+    return std::ranges::none_of(simd_.worldBodies, [this](int body) {
+      return std::ranges::any_of(simd_.ancestors[body], [this](int ancestor) {
+        return slidesFreely(model_.kinematics.bodies[ancestor].type);
+      });
+    });
+  }
+
+  void addPairs() {
+    const std::size_t obstacles = model_.worldGeometry.size();
+    const std::size_t geometries = model_.robotGeometry.size();
+    simd_.pairOf.assign(geometries * obstacles, -1);
+    simd_.pairOfGeometries.assign(geometries * geometries, -1);
+    simd_.sources.resize(model_.pairs.size());
+    references_.assign(simd_.bodies.size(), -1);
+    references_[0] = 0;
+    std::vector<char> meetsWorld(simd_.bodies.size(), 0);
+    // Of a first body and each second one, the index into bodyPairs; -1: none yet.
+    std::vector<std::vector<std::int32_t>> known(simd_.bodies.size());
+    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
+      const GeometryPair& pair = model_.pairs[i];
+      const int bodyA = model_.robotGeometry[pair.a].body;
+      if (!pair.self) {
+        simd_.pairOf[pair.a * obstacles + pair.b] = static_cast<std::int32_t>(i);
+        simd_.sources[i] = {pair.a, pair.b, 0, 0};
+        meetsWorld[bodyA] = 1;
+        continue;
+      }
+      simd_.pairOfGeometries[pair.a * geometries + pair.b] = static_cast<std::int32_t>(i);
+      const int bodyB = model_.robotGeometry[pair.b].body;
+      if (known[bodyA].empty()) known[bodyA].resize(simd_.bodies.size(), -1);
+      std::int32_t& at = known[bodyA][bodyB];
+      if (at < 0) {
+        at = static_cast<std::int32_t>(simd_.bodyPairs.size());
+        simd_.bodyPairs.push_back({.bodyA = bodyA,
+                                   .bodyB = bodyB,
+                                   .reference = referenceOf(pair.reference),
+                                   .table = {}});
+      }
+      simd_.sources[i] = {pair.a, -1, pair.b, at};
+    }
+    for (std::size_t body = simd_.bodies.size(); body-- > 1;)
+      if (meetsWorld[body]) simd_.worldBodies.push_back(static_cast<int>(body));
+  }
+
+  int referenceOf(int body) {
+    int& reference = references_[body];
+    if (reference < 0) {
+      reference = static_cast<int>(referenceBodies_.size());
+      referenceBodies_.push_back(body);
+    }
+    return reference;
+  }
+
+  void addReferences(bool sameBodies) {
+    const auto same = [](const SimdReference& reference, int body) {
+      return reference.body == body;
+    };
+    if (sameBodies && std::ranges::equal(likeSimd_->references, referenceBodies_, same)) {
+      simd_.references = likeSimd_->references;
+      simd_.carried = likeSimd_->carried;
+    } else {
+      compileReferences(model_, referenceBodies_, simd_);
+    }
+  }
+
+  /// All rounded up, so that no margin is lost.
+  void addMargins() {
+    double least = model_.pairs.empty() ? model_.options.margin : model_.pairs.front().margin;
+    double most = least;
+    for (const GeometryPair& pair : model_.pairs) {
+      least = std::min(least, pair.margin);
+      most = std::max(most, pair.margin);
+    }
+    simd_.margin = std::nextafter(static_cast<float>(least), 1e30F);
+    if (!(most > least)) return;
+    simd_.extras.resize(model_.pairs.size());
+    simd_.obstacleExtras.assign(model_.worldGeometry.size(), 0.0F);
+    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
+      const GeometryPair& pair = model_.pairs[i];
+      const float extra = std::nextafter(singleAbove(pair.margin - least), 1e30F);
+      simd_.extras[i] = extra;
+      float& all = pair.self ? simd_.bodyPairs[simd_.sources[i].bodyPair].extra
+                             : simd_.obstacleExtras[pair.b];
+      all = std::max(all, extra);
+    }
+  }
+
+  const PairModel& model_;
+  const PairModel* like_;
+  const SimdModel* likeSimd_;
+  SimdModel simd_;
+  std::vector<int> referenceBodies_{0};
+  std::vector<int> references_;  ///< per body: of referenceBodies_; -1: none
+};
+
+}  // namespace
+
+std::vector<SimdRootRow> compileRootRows(const SimdModel& simd) {
+  const auto radiusOf = [&](int body) { return simd.nodes[simd.rootOfBody[body]].radius; };
+  const std::size_t eights = (simd.bodies.size() + kLanes - 1) / kLanes;
+  // Of a first body and each eight others, the index into rows; -1: none yet.
+  std::vector<std::vector<std::int32_t>> known(simd.bodies.size());
+  std::vector<SimdRootRow> rows;
+  for (std::size_t i = 0; i < simd.bodyPairs.size(); ++i) {
+    const SimdBodyPair& pair = simd.bodyPairs[i];
+    const int eight = pair.bodyB / kLanes;
+    const int lane = pair.bodyB % kLanes;
+    if (known[pair.bodyA].empty()) known[pair.bodyA].resize(eights, -1);
+    std::int32_t& at = known[pair.bodyA][eight];
+    if (at < 0) {
+      at = static_cast<std::int32_t>(rows.size());
+      SimdRootRow& added = rows.emplace_back();
+      added.radii = added.keep = Row{};
+      added.body = pair.bodyA;
+      added.eight = eight;
+    }
+    SimdRootRow& row = rows[at];
+    row.radii.lane[lane] = radiusOf(pair.bodyA) + radiusOf(pair.bodyB);
+    row.keep.lane[lane] = (simd.margin + pair.extra) * (1.0F + 1e-6F);
+    row.pairs[lane] = static_cast<std::int32_t>(i);
+    row.checked |= 1U << lane;
+  }
+  return rows;
+}
+
+SimdModel compileSimdModel(const PairModel& model, const PairModel* like,
+                           const SimdModel* likeSimd) {
+  return SimdCompiler(model, like, likeSimd).compile();
+}
+
+}  // namespace swept::detail

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "simd/compile/simd_model.hpp"
+
+namespace swept::detail {
+
+/// Of all references together, 4 bytes each, and as many that are 0 or 1: what a chain of 140
+/// bodies has.
+inline constexpr std::size_t kMostArms = std::size_t{1} << 20;
+
+/// SimdModel::references for these bodies; the first one is 0, the model frame. With more than
+/// `mostArms`, SimdModel::carried in place of their arms. Needs the bodies and covers of the lanes.
+void compileReferences(const PairModel& model, const std::vector<int>& bodies, SimdModel& simd,
+                       std::size_t mostArms = kMostArms);
+
+}  // namespace swept::detail

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Balls of covers against clearance fields. Included once per instruction set.
+#if defined(SWEPT_SIMD_FIELD_WALK) == defined(HWY_TARGET_TOGGLE)
+#ifdef SWEPT_SIMD_FIELD_WALK
+#undef SWEPT_SIMD_FIELD_WALK
+#else
+#define SWEPT_SIMD_FIELD_WALK
+#endif
+
+#include <bit>
+#include <cstdint>
+
+#include "simd/kernels/f8.hpp"
+#include "simd/kernels/obstacle_kernels.hpp"
+#include "simd/kernels/placed_ball.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+
+class FieldWalk {
+ public:
+  FieldWalk(const SimdModel& model, SimdScratch& scratch)
+      : model_(model), scratch_(scratch), block_(scratch.block) {}
+
+  void clear() { scratch_.queries.clear(); }
+
+  /// Of a ball and the lanes in which it is not apart yet. Leaves that only a query can settle are
+  /// put off: where something else is in contact, nobody needs to know. Adds to the hits what the
+  /// children of a node that `divides` have to look at; `final`: else shorter intervals would not
+  /// help. True: the walk is over.
+  bool visit(const SimdNode& node, const Segment& segment, const F8& radius, SimdHit hit,
+             std::uint32_t pair, bool divides, bool final) {
+    const std::int32_t index = model_.obstacles.obstacles[hit.index].first;
+    const SimdField& field = model_.obstacles.fields[index];
+    const FieldAnswer answer = askField(field, segment, radius, hit.lanes);
+    hit.lanes &= ~answer.apart;
+    if (hit.lanes == 0) return false;
+    if (node.inside > 0.0F && touches(node, segment, field, answer.middle, hit.lanes, pair))
+      return true;
+    hit.lanes &= ~block_.contactLanes;
+    if (hit.lanes == 0) return false;
+    if (divides) {
+      scratch_.hits.push_back(hit);
+      return false;
+    }
+    // A field tells up to about a cell less than there is.
+    const F8 depths = set(node.radius - 0.5F * node.beyond - field.cell) - answer.middle;
+    if (scratch_.queries.size() < kMostQueries && (hit.lanes & ~answer.worthQuery) != hit.lanes) {
+      SimdQuery& query = scratch_.queries.emplace_back();
+      query.field = index;
+      query.pair = pair;
+      query.lanes = hit.lanes & answer.worthQuery;
+      query.outside = above(answer.middle, set(0.0F));
+      query.final = final;
+      store3(segment.x, query.x);
+      store3(segment.g, query.g);
+      store(radius, query.radius);
+      store(depths, query.depth);
+      hit.lanes &= ~query.lanes;
+    }
+    if (hit.lanes != 0) markUnresolved(block_, pair, hit.lanes, final, depths);
+    return false;
+  }
+
+  void settle() {
+    for (const SimdQuery& query : scratch_.queries) {
+      Lanes left = query.lanes & ~block_.contactLanes;
+      left &= ~static_cast<Lanes>(block_.openLanes[query.pair]);
+      const SimdField& field = model_.obstacles.fields[query.field];
+      // One that stays open leaves the pair open: the others are not worth the time.
+      for (; left != 0; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        const bool outside = (query.outside >> lane & 1U) != 0;
+        if (!isApart(field, pointOf(query.x, query.g, lane), query.radius.lane[lane], outside))
+          break;
+      }
+      if (left != 0) markUnresolved(block_, query.pair, left, query.final, load(query.depth));
+    }
+  }
+
+ private:
+  /// A ball inside the link in the field's shape: the first lane that a query confirms. `bounds`:
+  /// m, on the distance.
+  bool touches(const SimdNode& node, const Segment& segment, const SimdField& field,
+               const F8& bounds, Lanes lanes, std::uint32_t pair) {
+    if (!block_.stopAtContact) return false;
+    const float within = node.inside - scratch_.rounding;
+    if (!(within > 0.0F)) return false;
+    const Lanes outside = above(bounds, set(0.0F));
+    // Not sure, but a query costs less than what is left open.
+    Lanes left = lanes & below(bounds, set(within - 0.25F * field.cell));
+    if (left == 0) return false;
+    Row x[3];
+    store3(segment.x, x);
+    const Row still[3] = {};
+    for (; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      if (reaches(field, pointOf(x, still, lane), within, (outside >> lane & 1U) != 0))
+        return claim(block_, pair, 1U << lane, segment.x, within);
+    }
+    return false;
+  }
+
+  static MovingPoint pointOf(const Row (&x)[3], const Row (&g)[3], int lane) {
+    MovingPoint point;
+    for (int i = 0; i < 3; ++i) {
+      point.x[i] = x[i].lane[lane];
+      point.g[i] = g[i].lane[lane];
+    }
+    return point;
+  }
+
+  /// Put off at most: the time of a query is that of several nodes.
+  static constexpr std::size_t kMostQueries = 256;
+
+  const SimdModel& model_;
+  SimdScratch& scratch_;
+  SimdBlock& block_;
+};
+
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

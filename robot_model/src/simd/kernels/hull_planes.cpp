@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simd/kernels/hull_planes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/kernels/hull_planes.cpp"  // compiled once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/kernels/f8.hpp"
+#include "simd/kernels/placed_ball.hpp"
+#include "simd/kernels/simd_bounds.hpp"
+#include "swept/core/simd_dispatch.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+namespace {
+
+/// Velocity field linear + angular x p, relative to the reference, times half the interval.
+struct HalfMotion {
+  V3 linear;   ///< m
+  V3 angular;  ///< rad
+};
+
+/// How far a hull reaches along a direction at both ends of the interval, as if its points moved
+/// straight on.
+struct Reach {
+  F8 before;  ///< m
+  F8 after;
+};
+
+/// Lemma: n . (x_p + s g_p) is affine in the point p and in s, so that over a hull of points and
+/// |s| <= 1 it is largest at a point and at s = -1 or 1. Of a ball of radius r around each point it
+/// is larger by at most r |c|, c the coefficients of p.
+HWY_INLINE Reach reachOf(const SimdHulls& hulls, const SimdHull& hull, const V3& n,
+                         const SimdBodyState& state, const HalfMotion& motion) {
+  const V3 w = cross(n, motion.angular);
+  const V3 origin = load3(state.origin);
+  const V3 still = turnedBack(state.rotation, n);
+  const V3 swept = turnedBack(state.rotation, w);
+  const V3 first = still - swept;
+  const V3 last = still + swept;
+  F8 before = set(-1e30F);
+  F8 after = before;
+  for (int i = 0; i < hull.count; ++i) {
+    const SimdHulls::Points& eight = hulls.points[hull.first + i / kLanes];
+    const F8 x = set(eight.x.lane[i % kLanes]);
+    const F8 y = set(eight.y.lane[i % kLanes]);
+    const F8 z = set(eight.z.lane[i % kLanes]);
+    const F8 atFirst = multiplyAdd(first.x, x, multiplyAdd(first.y, y, first.z * z));
+    const F8 atLast = multiplyAdd(last.x, x, multiplyAdd(last.y, y, last.z * z));
+    before = larger(before, atFirst);
+    after = larger(after, atLast);
+  }
+  Reach reach;
+  const F8 offset = dot(n, origin);
+  const F8 shift = dot(n, motion.linear) + dot(w, origin);
+  reach.before = before + (offset - shift);
+  reach.after = after + (offset + shift);
+  if (hull.radius > 0.0F) {
+    const F8 grown = set(hull.radius * (1.0F + 1e-5F)) * (set(1.0F) + root(dot(swept, swept)));
+    reach.before = reach.before + grown;
+    reach.after = reach.after + grown;
+  }
+  return reach;
+}
+
+/// How far an obstacle reaches along n, at most: Lemma: its support function, of which single
+/// precision takes less than 1e-6 of the sizes in it.
+F8 reachOf(const SimdBox& box, const V3& n) {
+  F8 sum = set(0.0F);
+  for (int i = 0; i < 3; ++i) {
+    const F8 share = dot(n, set3(box.axes[i]));
+    const float sizes = std::abs(box.offset[i]) + box.half[i];
+    sum = subtractProduct(sum, share, set(box.offset[i]));
+    sum = multiplyAdd(absolute(share), set(box.half[i]), sum) + set(1e-6F * sizes);
+  }
+  return sum;
+}
+
+F8 reachOf(const SimdRound& round, ObstacleKind kind, const V3& n) {
+  const F8 along = absolute(dot(n, set3(round.axis)));
+  const float far = std::abs(round.center[0]) + std::abs(round.center[1]) +
+                    std::abs(round.center[2]) + round.halfLength + round.radius;
+  F8 reach = multiplyAdd(along, set(round.halfLength), dot(n, set3(round.center)));
+  F8 across = set(round.radius);
+  if (kind == ObstacleKind::Cylinder)
+    across = across * root(larger(set(1.0F) - along * along, set(0.0F)) + set(1e-6F));
+  return reach + across + set(2e-6F * far);
+}
+
+F8 reachOf(const SimdObstacles& obstacles, const SimdObstacle& obstacle, const V3& n) {
+  if (obstacle.kind == ObstacleKind::Box) return reachOf(obstacles.boxes[obstacle.first], n);
+  return reachOf(obstacles.rounds[obstacle.first], obstacle.kind, n);
+}
+
+/// A pair in the lanes of the block.
+class DividedPair {
+ public:
+  DividedPair(const SimdModel& model, std::uint32_t pair, SimdScratch& scratch)
+      : model_(model),
+        block_(scratch.block),
+        source_(model.sources[pair]),
+        self_(source_.obstacle < 0),
+        half_(load(block_.half)),
+        bodyA_(model.geometryBody[source_.geometry]) {
+    if (self_) bodyB_ = model.geometryBody[source_.other];
+    reference_ = self_ ? model.bodyPairs[source_.bodyPair].reference : 0;
+    float acceleration = accelerationOfPoints(model, reference_, source_.geometry, scratch);
+    if (self_) acceleration += accelerationOfPoints(model, reference_, source_.other, scratch);
+    // Two rounded positions, and as much for what is computed of them here.
+    const float margin = (model.margin + model.extraOf(pair)) * (1.0F + 1e-6F);
+    required_ = (set(4.0F * scratch.rounding + margin) + inflation(half_, acceleration)) *
+                set(1.0F + 4e-6F);
+  }
+
+  /// By planes across a direction that is fixed in the frame of the first body, then of the other.
+  Lanes divide(const float (&towards)[3], int lane, Lanes lanes) const {
+    const V3 n = set3(towards);
+    Lanes apart = lanes & above(gap(turnedWith(bodyA_, n, lane)), required_);
+    if (apart == lanes) return apart;
+    return apart | (lanes & above(gap(turnedWith(bodyB_, n, lane)), required_));
+  }
+
+ private:
+  /// What a direction in one lane becomes in the others as the body turns.
+  V3 turnedWith(int body, const V3& n, int lane) const {
+    if (body == 0) return n;
+    const SimdBodyState& state = block_.states[body];
+    Row local[3];
+    store3(turnedBack(state.rotation, n), local);
+    const float there[3] = {local[0].lane[lane], local[1].lane[lane], local[2].lane[lane]};
+    return addRotated(set3({0.0F, 0.0F, 0.0F}), state.rotation, set3(there));
+  }
+
+  HalfMotion motionOf(int body) const {
+    const SimdBodyState& own = block_.states[body];
+    const SimdBodyState& base = block_.states[model_.references[reference_].body];
+    return {half_ * (load3(own.linear) - load3(base.linear)),
+            half_ * (load3(own.angular) - load3(base.angular))};
+  }
+
+  /// m; along n divided by its length. Lemma: the bodies' points are at x + s g + w, |w| within
+  /// what `required_` counts, and n . (x + s g) of the one is below that of the other by the gap
+  /// for s = -1 and s = 1, so between them too: the largest over a body is convex in s.
+  F8 gap(const V3& direction) const {
+    const V3 n = (set(1.0F) / root(larger(dot(direction, direction), set(1e-20F)))) * direction;
+    const Reach ofA = reachOf(*model_.hulls, model_.hulls->of[source_.geometry], n,
+                              block_.states[bodyA_], motionOf(bodyA_));
+    const V3 back = {-n.x, -n.y, -n.z};
+    if (!self_) {
+      const SimdObstacle& obstacle = model_.obstacles.obstacles[source_.obstacle];
+      return -(larger(ofA.before, ofA.after) + reachOf(model_.obstacles, obstacle, back));
+    }
+    const Reach ofB = reachOf(*model_.hulls, model_.hulls->of[source_.other], back,
+                              block_.states[bodyB_], motionOf(bodyB_));
+    return -larger(ofA.before + ofB.before, ofA.after + ofB.after);
+  }
+
+  const SimdModel& model_;
+  const SimdBlock& block_;
+  const SimdPairSource& source_;
+  const bool self_;
+  const F8 half_;
+  int bodyA_;
+  int bodyB_ = 0;
+  int reference_ = 0;
+  F8 required_;
+};
+
+std::uint32_t Divide(const SimdModel& model, std::uint32_t pair, const SimdDirection& direction,
+                     std::uint32_t lanes, SimdScratch& scratch) {
+  return DividedPair(model, pair, scratch).divide(direction.towards, direction.lane, lanes);
+}
+
+}  // namespace
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swept::detail {
+
+SWEPT_DISPATCH_TABLE(Divide);
+
+bool canDivide(const SimdModel& model, std::uint32_t pair) {
+  const SimdPairSource& source = model.sources[pair];
+  if (model.hulls->of[source.geometry].count == 0) return false;
+  if (source.obstacle < 0) return model.hulls->of[source.other].count > 0;
+  const ObstacleKind kind = model.obstacles.obstacles[source.obstacle].kind;
+  return kind == ObstacleKind::Box || kind == ObstacleKind::Ball || kind == ObstacleKind::Capsule ||
+         kind == ObstacleKind::Cylinder;
+}
+
+std::uint32_t lanesDivided(const SimdModel& model, std::uint32_t pair,
+                           const SimdDirection& direction, std::uint32_t lanes,
+                           SimdScratch& scratch) {
+  return SWEPT_DISPATCH(Divide)(model, pair, direction, lanes, scratch);
+}
+
+}  // namespace swept::detail
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "simd/compile/simd_model.hpp"
+#include "simd/kernels/simd_scratch.hpp"
+
+namespace swept::detail {
+
+/// Unit vector in the model frame, from a pair's first body to its second, as it is at the middle
+/// of a lane.
+struct SimdDirection {
+  float towards[3] = {};
+  int lane = 0;
+};
+
+/// Whether planes can be found for a pair: both bodies have hulls, or the obstacle is a ball, a
+/// capsule, a cylinder or a box.
+bool canDivide(const SimdModel& model, std::uint32_t pair);
+
+/// Of the given lanes, those in which a plane across the direction is proven to lie between the two
+/// bodies of a pair that can be divided for the whole sub-interval; their frames have to be placed.
+std::uint32_t lanesDivided(const SimdModel& model, std::uint32_t pair,
+                           const SimdDirection& direction, std::uint32_t lanes,
+                           SimdScratch& scratch);
+
+}  // namespace swept::detail

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simd/kernels/simd_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace swept::detail {
+
+namespace {
+
+/// Of the sums, per joint: each takes a few roundings of doubles.
+constexpr double kRounding = 8.0 * 0x1p-53;
+
+/// V and d of the lemma, per body.
+void boundTurning(const SimdModel& model, SimdScratch& scratch) {
+  auto& [turning, excess, carried, driven, slid] = scratch.nested;
+  turning[0] = 0.0;
+  slid[0] = 0.0;
+  for (const int body : model.allBodies) {
+    const SimdBody& joint = model.bodies[body];
+    const auto spin = static_cast<double>(scratch.motion[body].spin);
+    slid[body] = slid[joint.parent] + static_cast<double>(scratch.motion[body].slid);
+    turning[body] = turning[joint.parent] + spin;
+    excess[body] = 0.0;
+    if (joint.cosine < 0.0F) continue;
+    const auto together = static_cast<double>(scratch.together[body]);
+    const auto previous = static_cast<double>(scratch.motion[joint.parent].spin);
+    const double past = turning[model.bodies[joint.parent].parent] + together;
+    turning[body] = std::min(turning[body], past);
+    excess[body] = std::max(0.0, previous + spin - together);
+  }
+}
+
+/// What boundSteps does, for the joints of a path from the index `first` on alone: `turned` and
+/// `slid` of the scratch, by their index.
+void boundPath(const SimdModel& model, const std::vector<int>& path, std::size_t first,
+               SimdScratch& scratch) {
+  float before = 0.0F;  // rad per unit t, of the body that the joint hangs on,
+  float start = 0.0F;   // and of the one before that
+  for (std::size_t i = first; i < path.size(); ++i) {
+    const SimdJointMotion& joint = scratch.motion[path[i]];
+    float next = before + joint.spin;
+    if (i > first && model.bodies[path[i]].cosine >= 0.0F)
+      next = std::min(next, start + scratch.together[path[i]]);
+    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
+    scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
+    start = before;
+    before = next * kOutward;
+  }
+}
+
+}  // namespace
+
+void boundCarried(const SimdModel& model, SimdScratch& scratch) {
+  boundTurning(model, scratch);
+  auto& [turning, excess, carried, driven, slid] = scratch.nested;
+  std::ranges::fill(carried, 0.0);
+  std::ranges::fill(driven, 0.0);
+  const double rounding = kRounding * static_cast<double>(model.bodies.size());
+  for (std::size_t at = model.bodies.size(); at-- > 1;) {
+    const SimdCarried& joint = model.carried[at];
+    const auto spin = static_cast<double>(scratch.motion[at].spin);
+    const auto speed = static_cast<double>(scratch.motion[at].speed);
+    const double around = turning[model.bodies[at].parent];
+    const double less = around - excess[at];
+    const double largest = around + excess[at];
+    for (std::size_t i = 0; i < joint.bodies.size(); ++i) {
+      const int body = joint.bodies[i];
+      // What slides beyond this joint takes the body away from its axis.
+      const double grown = slid[body] - slid[at] + rounding * slid[body];
+      const double arm = static_cast<double>(joint.arms[i]) + grown;
+      const double own = spin * spin * arm;
+      if (joint.around >= 0) {
+        const double sum = driven[body] + own - 2.0 * less * carried[body];
+        const double error = rounding * (driven[body] + own + 2.0 * largest * carried[body]);
+        const int slot = model.references[joint.around].slot[body];
+        scratch.bounds[joint.around].acceleration[slot / kLanes].lane[slot % kLanes] =
+            kOutward * static_cast<float>(std::max(0.0, sum) + error);
+      }
+      const double moved = spin * arm + speed;
+      carried[body] += moved;
+      driven[body] += 2.0 * around * moved + own;
+    }
+  }
+}
+
+float accelerationOfPoints(const SimdModel& model, int index, int geometry, SimdScratch& scratch) {
+  const int reference = model.references[index].body;
+  const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
+  const std::size_t first = model.ancestors[reference].size();
+  if (path.size() <= first || (first > 0 && path[first - 1] != reference)) return 0.0F;
+  const SimdHull& hull = model.hulls->of[geometry];
+  const float* arms = model.hulls->arms.data() + hull.firstArm;
+  boundPath(model, path, first, scratch);
+  float sum = 0.0F;
+  float beyond = 0.0F;  // m, of what slides
+  for (std::size_t i = path.size(); i-- > first;) {
+    sum += scratch.turned[i] * (arms[i] + beyond) + scratch.slid[i];
+    if (hull.growsByAll) beyond += scratch.motion[path[i]].slid;
+  }
+  for (std::int32_t i = 0; i < hull.growthCount; ++i) {
+    const SimdHulls::Growth& growth = model.hulls->growths[hull.firstGrowth + i];
+    if (static_cast<std::size_t>(growth.joint) >= first)
+      sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
+  }
+  // One rounding for each term, and what the last products round.
+  const auto terms = static_cast<float>(path.size() * (hull.growsByAll ? 2 : 1) + hull.growthCount);
+  return sum * (kOutward + 0x1p-22F * terms);
+}
+
+}  // namespace swept::detail

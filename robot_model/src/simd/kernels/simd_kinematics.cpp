@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simd/kernels/simd_kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE \
+  "simd/kernels/simd_kinematics.cpp"  // compiled once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/kernels/f8.hpp"
+#include "simd/kernels/simd_bounds.hpp"
+#include "swept/core/simd_dispatch.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+namespace {
+
+/// Lemma: for |angle| <= 128, both are within 2^-22 of the sine and cosine. The multiple k of pi/2
+/// is below 2^7; the parts of pi/2 have 8, 12 and 24 bits, so that k times the first two is exact,
+/// what is left is at most pi/4 (1 + 2^-10) and off by less than 2^-24; the series are cut where
+/// the next term is below 2^-27, and rounding in their evaluation adds less than 2^-23.
+HWY_INLINE void sineCosine(const F8& angle, F8& sine, F8& cosine) {
+  const F8 k = nearest(angle * set(0.636619772F));
+  F8 r = subtractProduct(angle, k, set(1.5703125F));
+  r = subtractProduct(r, k, set(4.83751296997e-4F));
+  r = subtractProduct(r, k, set(7.54978999e-8F));
+  const F8 z = r * r;
+  F8 s = multiplyAdd(z, set(2.7557319e-6F), set(-1.98412698e-4F));
+  s = multiplyAdd(z, s, set(8.3333333e-3F));
+  s = multiplyAdd(z, s, set(-1.6666667e-1F));
+  s = multiplyAdd(r * z, s, r);
+  F8 c = multiplyAdd(z, set(2.4801587e-5F), set(-1.3888889e-3F));
+  c = multiplyAdd(z, c, set(4.1666667e-2F));
+  c = multiplyAdd(z, c, set(-0.5F));
+  c = multiplyAdd(z, c, set(1.0F));
+  const hn::RebindToSigned<Part> integers;
+  for (int i = 0; i < kParts; ++i) {
+    // Quarter turns: odd ones swap the two, the second bit of k (of k + 1) is the sign.
+    const auto turns = hn::ConvertTo(integers, k.part[i]);
+    const auto swap =
+        hn::RebindMask(Part(), hn::Ne(hn::And(turns, hn::Set(integers, 1)), hn::Zero(integers)));
+    const auto signS = hn::BitCast(Part(), hn::ShiftLeft<30>(hn::And(turns, hn::Set(integers, 2))));
+    const auto signC = hn::BitCast(
+        Part(),
+        hn::ShiftLeft<30>(hn::And(hn::Add(turns, hn::Set(integers, 1)), hn::Set(integers, 2))));
+    sine.part[i] = hn::Xor(hn::IfThenElse(swap, c.part[i], s.part[i]), signS);
+    cosine.part[i] = hn::Xor(hn::IfThenElse(swap, s.part[i], c.part[i]), signC);
+  }
+}
+
+struct M3 {
+  F8 entry[9];  ///< row by row
+};
+
+HWY_INLINE M3 setMatrix(const float (&m)[9]) {
+  M3 r;
+  for (int i = 0; i < 9; ++i) r.entry[i] = set(m[i]);
+  return r;
+}
+
+/// A row of a product with a matrix on the right.
+HWY_INLINE V3 rowTimes(const Row* row, const M3& m) {
+  const F8 a = load(row[0]);
+  const F8 b = load(row[1]);
+  const F8 c = load(row[2]);
+  return {multiplyAdd(a, m.entry[0], multiplyAdd(b, m.entry[3], c * m.entry[6])),
+          multiplyAdd(a, m.entry[1], multiplyAdd(b, m.entry[4], c * m.entry[7])),
+          multiplyAdd(a, m.entry[2], multiplyAdd(b, m.entry[5], c * m.entry[8]))};
+}
+
+HWY_INLINE void turnAfter(const float (&after)[9], SimdBodyState& state) {
+  const M3 matrix = setMatrix(after);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V3 row = rowTimes(state.rotation + 3 * i, matrix);
+    store(row.x, state.rotation[3 * i]);
+    store(row.y, state.rotation[3 * i + 1]);
+    store(row.z, state.rotation[3 * i + 2]);
+  }
+}
+
+/// The joint's axis, which its own turn does not change, in the model frame.
+HWY_INLINE V3 placeFrame(const SimdBody& body, const SimdJointMotion& motion, const Row& angle,
+                         const Row* slide, const SimdBodyState& parent, SimdBodyState& state) {
+  V3 offset = set3(body.translation);
+  if (body.kind != SimdJointKind::Turn)
+    offset = offset + V3{load(slide[0]), load(slide[1]), load(slide[2])};
+  store3(addRotated(load3(parent.origin), parent.rotation, offset), state.origin);
+  F8 sine = set(0.0F);
+  F8 cosine = set(1.0F);
+  if (body.kind != SimdJointKind::Slide) sineCosine(load(angle), sine, cosine);
+  const M3 turned =
+      setMatrix(body.kind == SimdJointKind::Floating ? motion.rotation : body.rotation);
+  F8 axis[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const V3 row = rowTimes(parent.rotation + 3 * i, turned);
+    store(multiplyAdd(cosine, row.x, sine * row.y), state.rotation[3 * i]);
+    store(subtractProduct(cosine * row.y, sine, row.x), state.rotation[3 * i + 1]);
+    store(row.z, state.rotation[3 * i + 2]);
+    axis[i] = row.z;
+  }
+  return {axis[0], axis[1], axis[2]};
+}
+
+HWY_INLINE void placeVelocity(const SimdBody& body, const SimdJointMotion& motion, const V3& axis,
+                              const SimdBodyState& parent, SimdBodyState& state) {
+  V3 linear = load3(parent.linear);
+  V3 angular = load3(parent.angular);
+  if (body.kind != SimdJointKind::Turn)
+    linear = addRotated(linear, parent.rotation, set3(motion.slideRate));
+  if (body.kind != SimdJointKind::Slide) {
+    const V3 spin = set(motion.angleRate) * axis;
+    angular = angular + spin;
+    linear = addCross(linear, load3(state.origin), spin);  // - spin x origin
+  }
+  store3(angular, state.angular);
+  store3(linear, state.linear);
+}
+
+HWY_INLINE void placeRoot(const SimdNode& root, bool moving, const F8& half,
+                          const SimdBodyState& state, SimdRoot& ball) {
+  const V3 x = addRotated(load3(state.origin), state.rotation, set3(root.center));
+  store3(x, ball.at);
+  if (moving) store3(half * addCross(load3(state.linear), load3(state.angular), x), ball.by);
+}
+
+void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<const int> bodies,
+           SimdBlock& block) {
+  const F8 time = load(block.time);
+  const F8 half = load(block.half);
+  const bool moving = block.mode == SimdMode::Motion;
+  for (const int b : bodies) {
+    const SimdBody& body = model.bodies[b];
+    const SimdJointMotion& joint = motion[b];
+    Row* slide = &block.slide[3 * static_cast<std::size_t>(b)];
+    if (block.mode != SimdMode::States) {
+      store(multiplyAdd(time, set(joint.angleRate), set(joint.angle)), block.angle[b]);
+      if (body.kind != SimdJointKind::Turn)
+        for (int i = 0; i < 3; ++i)
+          store(multiplyAdd(time, set(joint.slideRate[i]), set(joint.slide[i])), slide[i]);
+    }
+    const SimdBodyState& parent = block.states[body.parent];
+    SimdBodyState& state = block.states[b];
+    const V3 axis = placeFrame(body, joint, block.angle[b], slide, parent, state);
+    if (moving) placeVelocity(body, joint, axis, parent, state);
+    if (body.kind == SimdJointKind::Floating) turnAfter(joint.after, state);
+    if (model.rootOfBody[b] >= 0)
+      placeRoot(model.nodes[model.rootOfBody[b]], moving, half, state, block.roots[b]);
+  }
+}
+
+void Bound(const SimdModel& model, SimdScratch& scratch) {
+  for (const int body : model.allBodies) {
+    const SimdBody& joint = model.bodies[body];
+    if (joint.cosine < 0.0F) continue;
+    const float spin = scratch.motion[body].spin;
+    const float previous = scratch.motion[joint.parent].spin;
+    scratch.together[body] = kOutward * std::sqrt(previous * previous + spin * spin +
+                                                  2.0F * previous * spin * joint.cosine);
+  }
+  if (!model.carried.empty()) return boundCarried(model, scratch);
+  for (std::size_t k = 0; k < model.references.size(); ++k) {
+    const SimdReference& reference = model.references[k];
+    boundSteps(reference, scratch);
+    const std::size_t steps = reference.steps.size();
+    const auto rows = static_cast<std::size_t>(reference.rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+      F8 sum = set(0.0F);
+      for (std::size_t i = 0; i < steps; ++i)
+        sum = multiplyAdd(set(scratch.turned[i]), load(reference.arms[i * rows + r]), sum);
+      if (model.slides)
+        for (std::size_t i = 0; i < steps; ++i)
+          sum = multiplyAdd(set(scratch.slid[i]), load(reference.carried[i * rows + r]), sum);
+      for (const SimdReference::Growth& growth : reference.growths) {
+        const F8 slid = set(scratch.motion[growth.slide].slid);
+        for (std::size_t i = 0; i < steps; ++i)
+          sum = multiplyAdd(set(scratch.turned[i]) * slid, load(growth.shares[i * rows + r]), sum);
+      }
+      // One rounding for each term, and what the last products round.
+      const float outward =
+          kOutward + 0x1p-22F * static_cast<float>(steps * (1 + reference.growths.size()));
+      store(sum * set(outward), scratch.bounds[k].acceleration[r]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swept::detail {
+
+SWEPT_DISPATCH_TABLE(Place);
+SWEPT_DISPATCH_TABLE(Bound);
+
+void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
+                 std::span<const int> bodies, SimdBlock& block) {
+  SWEPT_DISPATCH(Place)(model, motion.data(), bodies, block);
+}
+
+void boundMotion(const SimdModel& model, SimdScratch& scratch) {
+  SWEPT_DISPATCH(Bound)(model, scratch);
+}
+
+}  // namespace swept::detail
+#endif

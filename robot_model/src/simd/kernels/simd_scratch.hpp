@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "simd/compile/row.hpp"
+
+namespace swept::detail {
+
+struct SimdModel;
+
+/// One joint's share of a motion, t in [0, 1].
+struct SimdJointMotion {
+  float angle = 0.0F;       ///< rad, at t = 0
+  float angleRate = 0.0F;   ///< rad per unit t
+  float slide[3] = {};      ///< m, parent's frame, at t = 0
+  float slideRate[3] = {};  ///< m per unit t
+  float rotation[9] = {};   ///< Floating: in place of SimdBody::rotation
+  float after[9] = {};      ///< Floating: applied to the body before it turns
+  float spin = 0.0F;        ///< rad per unit t, not below |angleRate|
+  float speed = 0.0F;       ///< m per unit t, not below |slideRate|
+  float slid = 0.0F;        ///< m, not below what it is off zero during the motion; 0: only turns
+};
+
+/// Frame and velocity field of one body in all lanes: p has velocity linear + angular x p.
+struct SimdBodyState {
+  Row rotation[9];
+  Row origin[3];   ///< m
+  Row angular[3];  ///< rad per unit t
+  Row linear[3];   ///< m per unit t
+};
+
+/// The ball around all of a body's geometry: the points at + s by, |s| <= 1, of its centre.
+struct SimdRoot {
+  Row at[3];  ///< m
+  Row by[3];  ///< m, half the way in the sub-interval; zero at rest
+};
+
+/// An obstacle or a pair with the lanes in which it is open.
+struct SimdHit {
+  std::int32_t index = 0;
+  std::uint32_t lanes = 0;
+};
+
+/// Two balls that are proven to be inside two bodies meet, or a ball and an obstacle.
+struct SimdContact {
+  std::uint32_t pair = 0;
+  float point[3] = {};  ///< m, in the link's solid by more than rounding
+  float inside = 0.0F;  ///< m, by how much
+};
+
+/// The pair and the lane in which the two covers overlap most at the middle, of those left open.
+struct LikelyContact {
+  std::uint32_t pair = 0;
+  int lane = -1;
+  float depth = 0.0F;  ///< m, by more than half of what the covers reach beyond the links
+};
+
+enum class SimdMode : std::uint8_t {
+  Motion,  ///< eight sub-intervals
+  State,   ///< the motion's begin in all lanes, at rest
+  States,  ///< eight states, whose angles and slides are given
+};
+
+/// Eight sub-intervals of a motion, or states, and what is found out about them.
+struct SimdBlock {
+  Row time;                           ///< of the middles
+  Row half;                           ///< half widths, in units of t
+  std::vector<Row> angle;             ///< rad, per body
+  std::vector<Row> slide;             ///< m, 3 per body
+  std::vector<SimdBodyState> states;  ///< per body
+  std::vector<SimdRoot> roots;        ///< per body; of those that have geometry
+  /// Pairs that are open, with their lanes in openLanes.
+  std::vector<std::uint32_t> open;
+  std::vector<std::uint8_t> openLanes;  ///< per pair of the model
+  /// Those in which not the motion but the covers are too coarse.
+  std::vector<std::uint8_t> finalLanes;
+  SimdMode mode = SimdMode::Motion;
+  bool stopAtContact = true;
+  /// Those with a contact, or behind one; these are not looked at any more.
+  std::uint32_t contactLanes = 0;
+  SimdContact contacts[kLanes];
+  LikelyContact likelyContact;
+};
+
+/// Bounds on the motion of every ball centre relative to a reference.
+struct SimdBounds {
+  std::vector<Row> acceleration;  ///< m per unit t squared; lanes: bodies
+};
+
+/// A leaf that the field of an obstacle is too coarse for: exactly, is the obstacle farther than
+/// the radius from the segments x +- g?
+struct SimdQuery {
+  Row x[3];    ///< m
+  Row g[3];    ///< m
+  Row radius;  ///< m
+  Row depth;   ///< m; as for markUnresolved
+  std::int32_t field;
+  std::uint32_t pair;
+  std::uint32_t lanes;
+  std::uint32_t outside;  ///< lanes in which the obstacle does not contain x
+  bool final;             ///< shorter intervals would not help
+};
+
+struct SimdScratch {
+  explicit SimdScratch(const SimdModel& model);
+  void restBase(const SimdModel& model);
+  std::vector<SimdJointMotion> motion;
+  std::vector<SimdBounds> bounds;  ///< per reference
+  std::vector<float> together;     ///< rad per unit t, per body: it and its parent turning
+  std::vector<float> turning;      ///< rad per unit t, per step of a reference
+  std::vector<float> turned;       ///< its factor of the arms
+  std::vector<float> slid;
+  /// Of boundCarried, per body; empty but for many bodies.
+  struct Nested {
+    std::vector<double> turning;  ///< rad per unit t, relative to the model frame
+    std::vector<double> excess;   ///< rad per unit t, d of its lemma, where the joint is c
+    std::vector<double> carried;  ///< m per unit t, sum of w of the joints on the way to it so far
+    std::vector<double> driven;   ///< m per unit t squared, of 2 V w + s^2 arm
+    std::vector<double> slid;     ///< m, of SimdJointMotion::slid on the way to it
+  };
+  Nested nested;
+  SimdBlock block;
+  std::vector<SimdHit> hits;  ///< a stack
+  /// A cover that the walk is going to look at more closely, and the hits it is not apart from.
+  struct WorldVisit {
+    int body = 0;
+    std::int32_t node = 0;
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+  std::vector<WorldVisit> worldVisits;
+  struct SelfVisit {
+    int bodyPair = 0;
+    std::int32_t nodeA = 0;
+    std::int32_t nodeB = 0;
+    std::uint32_t lanes = 0;
+  };
+  std::vector<SelfVisit> selfVisits;
+  /// Two balls of one state that are not proven apart.
+  struct BallPair {
+    std::int32_t nodeA = 0;
+    std::int32_t nodeB = 0;
+    float atA[3] = {};     ///< m
+    float atB[3] = {};     ///< m
+    float squared = 0.0F;  ///< m^2, of the distance of their centres
+  };
+  /// Those that a state's walk is going to look at more closely.
+  struct StateVisit {
+    int bodyPair = 0;
+    std::uint32_t pair = 0;
+    float spread = 0.0F;  ///< square of the distance of the centres by the sum of the radii
+    BallPair balls;
+  };
+  std::vector<StateVisit> stateVisits;
+  /// Eight bodies in one state: the centres of the balls around all of their geometry.
+  struct Roots {
+    Row at[3];  ///< m
+  };
+  std::vector<Roots> rootsOfEight;
+  std::vector<SimdQuery> queries;
+  float rounding = 0.0F;      ///< m, of this motion
+  bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
+  /// Sub-intervals with the pairs still open on them: now, and of the next halving.
+  struct Item {
+    float time = 0.5F;
+    float half = 0.5F;
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+  std::vector<Item> now, next, rest;
+  int mostIntervals = std::numeric_limits<int>::max();  ///< to be examined
+  /// Pairs that may wait for shorter sub-intervals, or for the exact tier.
+  std::size_t mostWaiting = std::numeric_limits<std::size_t>::max();
+  /// One pair on one sub-interval.
+  struct Part {
+    std::uint32_t pair = 0;
+    float time = 0.5F;
+    float half = 0.5F;
+  };
+  std::vector<Part> parts, waiting;
+  std::vector<std::uint32_t> arena, nextArena, restArena;
+  std::vector<std::uint32_t> wanted;      ///< pairs of the block
+  std::vector<std::uint8_t> wantedLanes;  ///< per pair of the model
+  std::vector<SimdHit> asked;
+  std::vector<char> bodyWanted;
+  std::vector<int> bodies;
+};
+
+}  // namespace swept::detail

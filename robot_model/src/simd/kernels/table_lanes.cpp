@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simd/kernels/table_lanes.hpp"
+
+#include <algorithm>
+
+namespace swept::detail {
+
+std::uint32_t TableLanes::proven(const PairSeparationTable& table) const {
+  const SimdBlock& block = scratch_.block;
+  PairSeparationTable::Values lower;
+  PairSeparationTable::Values upper;
+  boxOf(table, 0, kLanes, lower, upper);
+  // A motion's first lanes are in order of time, and its angles do not turn back.
+  if (block.mode != SimdMode::States && table.free(lower, upper)) return kAllLanes;
+  std::uint32_t lanes = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    boxOf(table, lane, lane + 1, lower, upper);
+    if (table.free(lower, upper)) lanes |= 1U << lane;
+  }
+  return lanes;
+}
+
+void TableLanes::boxOf(const PairSeparationTable& table, int first, int last,
+                       PairSeparationTable::Values& lower,
+                       PairSeparationTable::Values& upper) const {
+  const SimdBlock& block = scratch_.block;
+  const bool moving = block.mode == SimdMode::Motion;
+  lower.fill(0.0F);
+  upper.fill(0.0F);
+  for (int k = 0; k < table.joints; ++k) {
+    const int body = table.axes[k].body;
+    const Row& angle = block.angle[body];
+    const float spin = moving ? scratch_.motion[body].spin : 0.0F;
+    lower[k] = std::min(angle.lane[first] - block.half.lane[first] * spin,
+                        angle.lane[last - 1] - block.half.lane[last - 1] * spin);
+    upper[k] = std::max(angle.lane[first] + block.half.lane[first] * spin,
+                        angle.lane[last - 1] + block.half.lane[last - 1] * spin);
+  }
+}
+
+const PairSeparationTable::Cell* TableLanes::cellOf(const PairSeparationTable& table,
+                                                    int lane) const {
+  PairSeparationTable::Values values{};
+  for (int k = 0; k < table.joints; ++k)
+    values[k] = scratch_.block.angle[table.axes[k].body].lane[lane];
+  return table.cellAt(values);
+}
+
+}  // namespace swept::detail

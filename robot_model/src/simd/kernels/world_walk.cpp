@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simd/kernels/world_walk.hpp"
+
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/kernels/world_walk.cpp"  // compiled once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/kernels/f8.hpp"
+#include "simd/kernels/field_walk.hpp"
+#include "simd/kernels/obstacle_kernels.hpp"
+#include "simd/kernels/placed_ball.hpp"
+#include "swept/core/simd_dispatch.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
+namespace {
+
+/// Of the radius around a link: obstacles farther from its centre hardly reach the balls inside.
+constexpr float kProbeShare = 0.6F;
+
+class WorldWalk {
+ public:
+  WorldWalk(const SimdModel& model, SimdScratch& scratch)
+      : model_(model),
+        scratch_(scratch),
+        block_(scratch.block),
+        fields_(model, scratch),
+        half_(load(scratch.block.half)),
+        moving_(scratch.block.mode == SimdMode::Motion),
+        padded_(!model.extras.empty()) {}
+
+  /// The first balls of all links, and balls inside these, before any more of their covers: most
+  /// contacts show there.
+  bool bodies() {
+    fields_.clear();
+    scratch_.hits.clear();
+    scratch_.worldVisits.clear();
+    for (const int body : model_.worldBodies)
+      if (first(body)) return true;
+    for (const SimdScratch::WorldVisit& visit : scratch_.worldVisits) {
+      start(visit.body);
+      if (descend(model_.nodes[visit.node], visit.first, visit.last)) return true;
+    }
+    fields_.settle();
+    return false;
+  }
+
+  bool pairs(int geometry, std::span<const SimdHit> obstacles) {
+    fields_.clear();
+    start(model_.geometryBody[geometry]);
+    const SimdNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
+    scratch_.hits.assign(obstacles.begin(), obstacles.end());
+    if (visit(root, placed(root), 0, scratch_.hits.size())) return true;
+    fields_.settle();
+    return false;
+  }
+
+ private:
+  bool first(int body) {
+    start(body);
+    const std::int32_t index = model_.rootOfBody[body];
+    const SimdNode& root = model_.nodes[index];
+    const Segment segment = segmentOf(block_.roots[body], moving_);
+    const std::size_t begin = scratch_.hits.size();
+    cull(segment, inflated(root));
+    const std::size_t culled = scratch_.hits.size();
+    if (culled == begin) return false;
+    if (sift(root, segment, begin, culled)) return true;
+    const std::size_t sifted = scratch_.hits.size();
+    if (root.geometry >= 0) {
+      later(body, index, culled);
+      return false;
+    }
+    for (int i = 0; i < root.childCount && sifted > culled; ++i) {
+      const SimdNode& child = model_.nodes[root.firstChild + i];
+      const std::size_t own = scratch_.hits.size();
+      if (sift(child, placed(child), culled, sifted)) return true;
+      later(body, root.firstChild + i, own);
+    }
+    return false;
+  }
+
+  void later(int body, std::int32_t node, std::size_t first) {
+    if (scratch_.hits.size() > first)
+      scratch_.worldVisits.push_back({body, node, first, scratch_.hits.size()});
+  }
+
+  void start(int body) {
+    state_ = &block_.states[body];
+    extra_ = set(scratch_.rounding + model_.margin);
+    if (moving_)
+      extra_ =
+          extra_ + inflation(half_, accelerationOf(model_.references[0], scratch_.bounds[0], body));
+    // Balls this close to the link are not worth another look before the interval is halved.
+    enough_ = 0.5F * largestLane(extra_);
+  }
+
+  HWY_INLINE Segment placed(const SimdNode& node) const {
+    return segmentOf(node, *state_, half_, moving_);
+  }
+
+  /// m; more than what rounding of squares and roots takes away.
+  HWY_INLINE F8 inflated(const SimdNode& node) const {
+    return (set(node.radius) + extra_) * set(1.0F + 2e-6F);
+  }
+
+  /// Obstacles whose boxes meet the box around all lanes.
+  void cull(const Segment& segment, const F8& radius) {
+    const V3 reach = {absolute(segment.g.x) + radius, absolute(segment.g.y) + radius,
+                      absolute(segment.g.z) + radius};
+    const V3 low = segment.x - reach;
+    const V3 high = segment.x + reach;
+    const float lower[3] = {leastLane(low.x), leastLane(low.y), leastLane(low.z)};
+    const float upper[3] = {largestLane(high.x), largestLane(high.y), largestLane(high.z)};
+    const V3 from = set3(lower);
+    const V3 to = set3(upper);
+    const auto& nodes = model_.obstacles.nodes;
+    std::int32_t stack[kMostPending];
+    int pending = 0;
+    if (!nodes.empty()) stack[pending++] = 0;
+    while (pending > 0) {
+      const SimdWorldNode& node = nodes[stack[--pending]];
+      const Lanes apart = above(load(node.lower[0]), to.x) | above(load(node.lower[1]), to.y) |
+                          above(load(node.lower[2]), to.z) | below(load(node.upper[0]), from.x) |
+                          below(load(node.upper[1]), from.y) | below(load(node.upper[2]), from.z);
+      for (Lanes left = ~apart & kAllLanes; left != 0; left &= left - 1) {
+        const std::int32_t child = node.child[std::countr_zero(left)];
+        if (child < 0) {
+          scratch_.hits.push_back({~child, kAllLanes});
+        } else {
+          stack[pending++] = child;
+        }
+      }
+    }
+  }
+
+  /// The hits from `first` to `last` are what the node's parent is not proven apart from.
+  bool visit(const SimdNode& node, const Segment& segment, std::size_t first, std::size_t last) {
+    const std::size_t own = scratch_.hits.size();
+    if (sift(node, segment, first, last)) return true;
+    const bool contact = descend(node, own, scratch_.hits.size());
+    scratch_.hits.resize(own);
+    return contact;
+  }
+
+  bool descend(const SimdNode& node, std::size_t first, std::size_t last) {
+    if (first == last) return false;
+    for (int i = 0; i < node.childCount; ++i) {
+      const SimdNode& child = model_.nodes[node.firstChild + i];
+      if (visit(child, placed(child), first, last)) return true;
+    }
+    return false;
+  }
+
+  /// Adds those of the hits that the node's children have to look at. True: the walk is over.
+  bool sift(const SimdNode& node, const Segment& segment, std::size_t first, std::size_t last) {
+    const F8 plain = inflated(node);
+    F8 radius = plain;
+    F8 squared = radius * radius;
+    const bool isRoot =
+        node.geometry >= 0 && &node == &model_.nodes[model_.rootOfGeometry[node.geometry]];
+    const bool divides = node.childCount > 0 && (node.geometry < 0 || node.beyond > enough_);
+    for (std::size_t i = first; i < last; ++i) {
+      SimdHit hit = scratch_.hits[i];
+      hit.lanes &= ~block_.contactLanes;
+      std::int32_t pair = 0;
+      if (node.geometry >= 0) {
+        pair = model_.pairOf[node.geometry * model_.obstacles.obstacles.size() + hit.index];
+        if (pair < 0) continue;
+        hit.lanes &= ~static_cast<Lanes>(block_.openLanes[pair]);
+      }
+      if (hit.lanes == 0) continue;
+      if (padded_) {
+        radius = plain + set(extraOf(node, hit.index, pair));
+        squared = radius * radius;
+      }
+      const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
+      if (obstacle.kind == ObstacleKind::Field) {
+        if (fields_.visit(node, segment, radius, hit, static_cast<std::uint32_t>(pair), divides,
+                          node.beyond > enough_))
+          return true;
+        continue;
+      }
+      hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
+      if (hit.lanes == 0) continue;
+      if (isRoot && block_.stopAtContact &&
+          probe(node, segment, hit, static_cast<std::uint32_t>(pair)))
+        return true;
+      if (node.inside > 0.0F && touches(node, segment, hit, static_cast<std::uint32_t>(pair)))
+        return true;
+      hit.lanes &= ~block_.contactLanes;
+      if (hit.lanes == 0) continue;
+      if (divides) {
+        scratch_.hits.push_back(hit);
+      } else {
+        const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
+        const F8 away = root(squaredDistance(model_.obstacles, obstacle, middle));
+        markUnresolved(block_, static_cast<std::uint32_t>(pair), hit.lanes, node.beyond > enough_,
+                       set(node.radius - 0.5F * node.beyond) - away);
+      }
+    }
+    return false;
+  }
+
+  /// m, rounded up: what the pair keeps beyond the margin of all, or any pair of the obstacle where
+  /// the node has several pieces of geometry.
+  float extraOf(const SimdNode& node, std::int32_t obstacle, std::int32_t pair) const {
+    const float extra = node.geometry >= 0 ? model_.extras[pair] : model_.obstacleExtras[obstacle];
+    return extra * (1.0F + 1e-5F);
+  }
+
+  /// Looks at balls inside the link, in the lane in which it is deepest in the obstacle.
+  bool probe(const SimdNode& node, const Segment& segment, const SimdHit& hit, std::uint32_t pair) {
+    const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
+    if (obstacle.near != NearProof::Inside && obstacle.near != NearProof::Distance) return false;
+    const V3 still = set3({0.0F, 0.0F, 0.0F});
+    const F8 squared = squaredDistance(model_.obstacles, obstacle, {segment.x, still});
+    const float near = kProbeShare * node.radius;
+    const Lanes lanes = hit.lanes & below(squared, set(near * near));
+    if (lanes == 0) return false;
+    const int best = lowestLane(squared, lanes);
+    const SimdModel::InnerBalls& probes = model_.probesOf[node.geometry];
+    for (std::int32_t i = probes.first; i < probes.first + probes.count; ++i) {
+      const SimdModel::Probes& eight = model_.probes[i];
+      const V3 x = placedAt(*state_, best, eight);
+      const F8 inside = load(eight.inside) - set(scratch_.rounding);
+      const F8 away = squaredDistance(model_.obstacles, obstacle, {x, still});
+      const Lanes found = obstacle.near == NearProof::Inside
+                              ? below(away, set(1e-30F))
+                              : below(away, set(kMeeting) * inside * inside);
+      if (found == 0) continue;
+      const int which = std::countr_zero(found);
+      Row at[3];
+      Row radii;
+      store3(x, at);
+      store(inside, radii);
+      const float point[3] = {at[0].lane[which], at[1].lane[which], at[2].lane[which]};
+      if (!(radii.lane[which] > 0.0F)) continue;
+      return claim(block_, pair, 1U << best, set3(point), radii.lane[which]);
+    }
+    return false;
+  }
+
+  /// At a middle, the centre is so near that the obstacle reaches into the link.
+  bool touches(const SimdNode& node, const Segment& segment, const SimdHit& hit,
+               std::uint32_t pair) {
+    if (!block_.stopAtContact) return false;
+    const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
+    const float within = node.inside - scratch_.rounding;
+    if (!(within > 0.0F)) return false;
+    const Lanes lanes = lanesNear(obstacle, segment, within, hit.lanes);
+    return lanes != 0 && claim(block_, pair, lanes, segment.x, within);
+  }
+
+  /// Lanes in which the obstacle is known to reach within that distance of the middle.
+  Lanes lanesNear(const SimdObstacle& obstacle, const Segment& segment, float within,
+                  Lanes lanes) const {
+    const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
+    const float most = obstacle.near == NearProof::Distance ? kMeeting * within * within : 1e-30F;
+    if (obstacle.near == NearProof::None) return 0;
+    return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(most));
+  }
+
+  /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings behind.
+  static constexpr int kMostPending = 64;
+
+  const SimdModel& model_;
+  SimdScratch& scratch_;
+  SimdBlock& block_;
+  FieldWalk fields_;
+  const F8 half_;
+  const bool moving_;
+  const bool padded_;  ///< margins differ
+  const SimdBodyState* state_ = nullptr;
+  F8 extra_;
+  float enough_ = 0.0F;
+};
+
+bool Bodies(const SimdModel& model, SimdScratch& scratch) {
+  return WorldWalk(model, scratch).bodies();
+}
+
+bool Pairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
+           SimdScratch& scratch) {
+  return WorldWalk(model, scratch).pairs(geometry, obstacles);
+}
+
+}  // namespace
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swept::detail {
+
+SWEPT_DISPATCH_TABLE(Bodies);
+SWEPT_DISPATCH_TABLE(Pairs);
+
+bool walkWorld(const SimdModel& model, SimdScratch& scratch) {
+  return SWEPT_DISPATCH(Bodies)(model, scratch);
+}
+
+bool walkPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
+               SimdScratch& scratch) {
+  return SWEPT_DISPATCH(Pairs)(model, geometry, obstacles, scratch);
+}
+
+}  // namespace swept::detail
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/pair_model.hpp"
+#include "simd/compile/simd_model.hpp"
+#include "simd/tables/pair_separation_table.hpp"
+
+namespace swept::detail {
+
+/// All tables that were built for a robot.
+struct PairSeparationTables {
+  struct Entry {
+    int bodyA = 0;
+    int bodyB = 0;
+    std::shared_ptr<const PairSeparationTable> table;
+  };
+  std::vector<Entry> entries;
+  SharedArray<RobotGeometry> geometry;  ///< that they are about
+};
+
+/// For all of SimdModel::bodyPairs that can have one and are worth it. Built on as many threads as
+/// there are processors, and the same on any number.
+std::shared_ptr<const PairSeparationTables> buildPairSeparationTables(const PairModel& model,
+                                                                      const SimdModel& simd);
+
+/// Gives each of SimdModel::bodyPairs the table that holds for all of its pairs, if there is one:
+/// the geometry is the same, and the margins are not larger. A table may know of more pairs.
+void chooseTables(const PairModel& model, const PairSeparationTables& tables, SimdModel& simd);
+
+/// Tables for the pairs of a model that is usable. `like`: null, or that of an earlier version for
+/// the same robot, group and reference; its tables are chosen from, and none are built.
+void addTables(const PairModel& model, const SimdModel* like, SimdModel& simd);
+
+}  // namespace swept::detail
