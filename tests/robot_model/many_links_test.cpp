@@ -11,9 +11,10 @@
 
 #include "acm/never_pairs.hpp"
 #include "acm/never_proof.hpp"
+#include "certify/workspace_data.hpp"
 #include "kinematics/common_ancestors.hpp"
 #include "long_robots.hpp"
-#include "certify/workspace_data.hpp"
+#include "simd/tables/pair_separation_table.hpp"
 #include "simd/tables/table_candidates.hpp"
 
 namespace swept {
@@ -150,16 +151,16 @@ std::size_t armsOf(const detail::SimdModel& lanes) {
 }
 
 TEST(ManyLinks, BoundsTakeRoomAsThePairsDo) {
-  const std::size_t at150 = armsOf(compiled(test::ballChain(150, 3.0))->lanes);
-  const std::size_t at300 = armsOf(compiled(test::ballChain(300, 3.0))->lanes);
+  const std::size_t at150 = armsOf(compiled(test::ballChain(150, 3.0))->simd);
+  const std::size_t at300 = armsOf(compiled(test::ballChain(300, 3.0))->simd);
   EXPECT_LE(at300, 4 * 300 * 300);
   EXPECT_LE(static_cast<double>(at300), 4.5 * static_cast<double>(at150));
 }
 
 /// What slides makes arms of all joints before it longer.
 TEST(ManyLinks, BoundsOfWhatSlidesTakeRoomAsThePairsDo) {
-  const std::size_t at150 = armsOf(compiled(test::telescope(150))->lanes);
-  const std::size_t at300 = armsOf(compiled(test::telescope(300))->lanes);
+  const std::size_t at150 = armsOf(compiled(test::telescope(150))->simd);
+  const std::size_t at300 = armsOf(compiled(test::telescope(300))->simd);
   EXPECT_LE(at300, 4 * 300 * 300);
   EXPECT_LE(static_cast<double>(at300), 4.5 * static_cast<double>(at150));
 }
@@ -185,21 +186,21 @@ constexpr std::size_t kMostCells = std::size_t{128} * 192 * 192;
 TEST(ManyLinks, SomePairsHaveTablesWhereNotAllCan) {
   const auto model = compiled(test::combOfArms(80));
   const Tables tables = tablesOf(*model);
-  EXPECT_GT(model->lanes.bodyPairs.size(), 1200U);
+  EXPECT_GT(model->simd.bodyPairs.size(), 1200U);
   EXPECT_GT(tables.number, 20U);
   EXPECT_LE(tables.cells, kMostCells);
 }
 
 TEST(ManyLinks, TablesAreTriedForTheNearest) {
   const auto model = compiled(test::combOfArms(30));
-  const std::vector<char> never(model->lanes.bodyPairs.size(), 0);
+  const std::vector<char> never(model->simd.bodyPairs.size(), 0);
   // Neighbours, and next ones but one.
-  const auto some = detail::tableCandidates(*model, model->lanes, never, 29 + 28);
+  const auto some = detail::tableCandidates(*model, model->simd, never, 29 + 28);
   ASSERT_EQ(some.bodyPairs.size(), 57U);
   for (const std::int32_t i : some.bodyPairs)
-    EXPECT_LE(model->lanes.bodyPairs[i].bodyB - model->lanes.bodyPairs[i].bodyA, 2);
+    EXPECT_LE(model->simd.bodyPairs[i].bodyB - model->simd.bodyPairs[i].bodyA, 2);
   EXPECT_EQ(some.coarseness, 1);
-  const auto all = detail::tableCandidates(*model, model->lanes, never, 10'000);
+  const auto all = detail::tableCandidates(*model, model->simd, never, 10'000);
   EXPECT_EQ(all.bodyPairs.size(), 435U);
   EXPECT_EQ(all.coarseness, 2);
 }

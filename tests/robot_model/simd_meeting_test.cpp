@@ -41,7 +41,7 @@ TEST(SimdMeeting, BallsAreInsideTheLinks) {
   double large = 0.0;
   for (const Named& robot : robotsWithTables()) {
     SCOPED_TRACE(robot.name);
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr || bodies.table->meetings.empty()) continue;
       const PairSeparationTable& table = *bodies.table;
       for (int i = 0; i < 100; ++i) {
@@ -72,7 +72,7 @@ TEST(SimdMeeting, CellsInContactHaveOne) {
   int known = 0;
   int inContact = 0;
   for (const Named& robot : robotsWithTables()) {
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr) continue;
       const PairSeparationTable& table = *bodies.table;
       const Poses poses(*robot.model, table.axes, table.joints);

@@ -152,10 +152,10 @@ TEST(SimdState, ProvesWhatEightStatesDo) {
     int closed = 0;
     for (const Named& tree : trees()) {
       SCOPED_TRACE(tree.name);
-      SimdModel withoutTables = tree.model->lanes;
+      SimdModel withoutTables = tree.model->simd;
       for (detail::SimdBodyPair& pair : withoutTables.bodyPairs) pair.table = nullptr;
       BothWalks covers(withoutTables);
-      BothWalks tables(tree.model->lanes);
+      BothWalks tables(tree.model->simd);
       for (const std::vector<double>& state : randomStates(random, *tree.model, 300)) {
         ASSERT_TRUE(covers.walk(*tree.model, state));
         const std::vector<std::uint32_t> pairs = covers.openOfOne();

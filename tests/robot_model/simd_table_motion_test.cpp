@@ -90,8 +90,8 @@ TEST(SimdTableMotion, PointsComeNoNearerThanBounded) {
   std::map<Chain, Tightness> chains;
   for (const Named& robot : robotsWithTables()) {
     SCOPED_TRACE(robot.name);
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
-      const auto motion = TableMotion::between(*robot.model, robot.model->lanes, bodies);
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
+      const auto motion = TableMotion::between(*robot.model, robot.model->simd, bodies);
       if (!motion) continue;
       Tightness& approach = chains[chainOf(*robot.model, bodies)];
       for (int i = 0; i < 400; ++i) compare(random, *robot.model, bodies, *motion, approach);

@@ -97,7 +97,7 @@ TEST(SimdTable, NothingMeetsInCellsThatAreFree) {
   for (const Named& robot : robotsWithTables()) {
     SCOPED_TRACE(robot.name);
     Share share;
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr) continue;
       ++(bodies.table->joints == 1 ? single : twofold);
       tryToRefute(random, *robot.model, bodies, share);
@@ -136,7 +136,7 @@ TEST(SimdTable, NothingMeetsInPartsThatAreFree) {
   int parts = 0;
   for (const Named& robot : robotsWithTables()) {
     SCOPED_TRACE(robot.name);
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr || bodies.table->openParts.empty()) continue;
       const PairSeparationTable& table = *bodies.table;
       const int before = parts;
@@ -168,7 +168,7 @@ TEST(SimdTable, ABoxIsFreeWhereNoPairIsOpen) {
   int free = 0;
   int open = 0;
   for (const Named& robot : robotsWithTables()) {
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr) continue;
       for (int i = 0; i < 2000; ++i) {
         Values lower{};
@@ -191,8 +191,8 @@ TEST(SimdTable, PairsThatAreCloseInMostOfTheirRangeHaveOne) {
   for (const Named& robot : robotsWithTables()) {
     if (robot.name != "universal") continue;
     int tables = 0;
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
-      const auto motion = detail::TableMotion::between(*robot.model, robot.model->lanes, bodies);
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
+      const auto motion = detail::TableMotion::between(*robot.model, robot.model->simd, bodies);
       if (!motion) continue;
       SCOPED_TRACE(std::to_string(bodies.bodyA) + ", " + std::to_string(bodies.bodyB));
       ASSERT_NE(bodies.table, nullptr);
@@ -209,7 +209,7 @@ TEST(SimdTable, NoContactIsInAFreeCell) {
   int contacts = 0;
   for (const Named& robot : robotsWithTables()) {
     SCOPED_TRACE(robot.name);
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr) continue;
       const PairSeparationTable& table = *bodies.table;
       for (int i = 0; i < 400; ++i) {
@@ -236,7 +236,7 @@ TEST(SimdTable, NothingIsKnownOutsideTheLimitsOrOfWhatIsNoNumber) {
   Random random(43);
   int asked = 0;
   for (const Named& robot : robotsWithTables()) {
-    for (const SimdBodyPair& bodies : robot.model->lanes.bodyPairs) {
+    for (const SimdBodyPair& bodies : robot.model->simd.bodyPairs) {
       if (bodies.table == nullptr) continue;
       const PairSeparationTable& table = *bodies.table;
       for (int i = 0; i < 200; ++i) {

@@ -131,7 +131,7 @@ inline std::vector<Named> buildRobotsWithTables() {
     // Tables of bodies that never meet, too.
     const auto all = std::make_shared<CheckerModel>(*model);
     for (detail::BodyPair& pair : all->bodyPairs) pair.never = false;
-    all->lanes = detail::compileSimdModel(*all);
+    all->simd = simdModelOf(*all);
     return std::shared_ptr<const CheckerModel>(all);
   };
   Random random(40);
