@@ -6,7 +6,7 @@
 #include <exception>
 #include <limits>
 
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 #include "swept/robot_model/path_clearance.hpp"
@@ -401,7 +401,7 @@ void askPlaced(const Site& site, Workspace*, Random& random, Answer& answer) {
   const auto& attached = site.checker->options().attached;
   const std::string name =
       attached.empty() ? "nobody" : attached[random.below(attached.size())].name;
-  const WorldBody body = site.checker->placed(name, q);
+  const WorldBody body = site.checker->detachedBody(name, q);
   for (const WorldBody::Part& part : body.parts) answer.result("pose", part.world_from_shape);
 }
 
@@ -418,7 +418,7 @@ void askExplain(const Site& site, Workspace*, Random& random, Answer& answer) {
 void askPairs(const Site& site, Workspace*, Random&, Answer& answer) {
   put(answer, site.checker->checkedPairs());
   put(answer, site.checker->skippedPairs());
-  put(answer, site.checker->standingContacts());
+  put(answer, site.checker->staticContacts());
   answer.result("linksWithoutGeometry", site.checker->linksWithoutGeometry());
   answer.result("checksNothing", site.checker->checksNothing());
   answer.result("dimension", site.checker->dimension());
@@ -470,12 +470,12 @@ void askMatrix(const Site& site, Workspace*, Random& random, Answer& answer) {
   const Robot& robot = *site.model;
   constexpr std::size_t kFew = 24;
   if (robot.links().size() > kFew) return;
-  CollisionMatrixOptions options;
+  AllowedCollisionMatrixOptions options;
   options.budget = 50'000;
   options.samples = 100;
   options.seed = static_cast<std::uint32_t>(random.bits());
   options.threads = 1;
-  for (const LinkPairReport& pair : collisionMatrix(robot, options)) {
+  for (const LinkPairReport& pair : computeAllowedCollisionMatrix(robot, options)) {
     answer.result("linkA", pair.linkA);
     answer.result("linkB", pair.linkB);
     answer.result("status", pair.status);
