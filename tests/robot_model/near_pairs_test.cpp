@@ -144,8 +144,9 @@ TEST(NearGeometries, FewOfManyAreCollected) {
   detail::PairQuery query(*model, workspace);
   const std::vector<double> from{0.0, 0.0, 0.0, 0.0};
   const std::vector<double> to{0.3, 0.2, 0.1, 0.5};
-  ASSERT_TRUE(query.start(from, to));
-  query.moveTo(0.5);
+  const detail::StraightPath path(model->kinematics, from, to);
+  ASSERT_TRUE(query.start(path));
+  query.moveTo(0.5, 0.5);
   std::vector<std::uint32_t> near;
   detail::NearGeometries(*model, query, workspace).collect(0.5, near);
   EXPECT_TRUE(std::ranges::is_sorted(near));

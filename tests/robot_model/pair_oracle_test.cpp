@@ -38,12 +38,13 @@ TEST(PairOracle, KeepsTheEarliestContact) {
     detail::WorkspaceData workspace(*model);
     detail::PairQuery query(*model, workspace);
     MotionCertificate certificate;
-    detail::PairOracle judge(*model, from, to, query, certificate);
+    const detail::StraightPath path(model->kinematics, from, to);
+    detail::PairOracle oracle(*model, path, query, certificate);
     double earliest = 1.0;
     for (const double t : times) {
       int contacts = 0;
       for (std::uint32_t pair = 0; pair < 3; ++pair) {
-        contacts += judge.look(pair, t, 0.0).kind == detail::ExactAnswer::Kind::Contact ? 1 : 0;
+        contacts += oracle.look(pair, t, 0.0).kind == detail::ExactAnswer::Kind::Contact ? 1 : 0;
       }
       EXPECT_EQ(contacts, 1);
       earliest = std::min(earliest, t);

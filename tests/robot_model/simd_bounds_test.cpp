@@ -104,7 +104,7 @@ class MovingRobot {
 
   void move() {
     scratch.emplace(lanes);
-    moves = detail::compileSimdMotion(lanes, model.kinematics, from, to, *scratch);
+    moves = StraightSimdMotion(lanes, model.kinematics, from, to, *scratch).compile();
     for (const auto& motion : scratch->motion) {
       spins += static_cast<Real>(motion.spin);
       speeds += static_cast<Real>(motion.speed);

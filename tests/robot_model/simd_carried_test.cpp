@@ -43,8 +43,8 @@ struct Both {
     to = configuration(random, model.kinematics, turn, 3.0 * options.link);
     withFew.emplace(few);
     withMany.emplace(many);
-    moves = detail::compileSimdMotion(few, model.kinematics, from, to, *withFew) &&
-            detail::compileSimdMotion(many, model.kinematics, from, to, *withMany);
+    moves = StraightSimdMotion(few, model.kinematics, from, to, *withFew).compile() &&
+            StraightSimdMotion(many, model.kinematics, from, to, *withMany).compile();
   }
 
   static std::pair<std::size_t, std::size_t> placeOf(int slot) {

@@ -231,8 +231,9 @@ class Conformance {
       ASSERT_TRUE(open) << "one tier has a proof, the other a witness";
       // Only what comes within the tolerance may be left open.
       const double tolerance = tiers_.exact.options.tolerance;
-      const MotionClearance clearance = detail::motionClearance(
-          tiers_.exact, motion.from, motion.to, 0.1 * tolerance, ClearanceQuery::Least, exactWork_);
+      const detail::StraightPath path(tiers_.exact.kinematics, motion.from, motion.to);
+      const MotionClearance clearance = detail::motionClearance(tiers_.exact, path, 0.1 * tolerance,
+                                                                ClearanceQuery::Least, exactWork_);
       EXPECT_LE(clearance.lower, margin_ + tolerance);
     }
     Geometry geometry(tiers_.exact, motion);

@@ -141,16 +141,17 @@ class Stage {
     pose.translation() = surface - depth * normal - pose.linear() * tip.point;
     model_.worldGeometry.front() = worldGeometry(tip.shape, pose);
     model_.worldGeometry.front().body = 0;
-    model_.simd.obstacles = detail::compileObstacles(
-        model_.worldGeometry, static_cast<double>(model_.simd.reach), true);
+    model_.simd.obstacles = detail::compileObstacles(model_.worldGeometry,
+                                                     static_cast<double>(model_.simd.reach), true);
     return collide(link.shape, tip.shape, world_from_link.inverse() * pose) == Contact::Touching;
   }
 
   /// Proven, m: the motion keeps this much.
   double clearance() {
     WorkspaceData workspace(model_);
-    return detail::motionClearance(model_, from_, to_, 0.1 * tolerance::kMotion,
-                                   ClearanceQuery::Least, workspace)
+    const detail::StraightPath path(model_.kinematics, from_, to_);
+    return detail::motionClearance(model_, path, 0.1 * tolerance::kMotion, ClearanceQuery::Least,
+                                   workspace)
         .lower;
   }
 

@@ -72,7 +72,8 @@ class Robots {
     const double slide = random_.scale(1e-3, 1e3);
     from_ = configuration(random_, model_.kinematics, turn, slide);
     to_ = configuration(random_, model_.kinematics, turn, slide);
-    if (!detail::compileSimdMotion(lanes_, model_.kinematics, from_, to_, *scratch_)) return false;
+    if (!StraightSimdMotion(lanes_, model_.kinematics, from_, to_, *scratch_).compile())
+      return false;
     for (int lane = 0; lane < kLanes; ++lane) {
       // The first and the last lane are at the ends of the motion.
       const double time = lane == 0 ? 0.0 : lane == kLanes - 1 ? 1.0 : random_.uniform(0.0, 1.0);
@@ -238,7 +239,7 @@ TEST(SimdKinematics, FarTurnsAndWhatIsNoNumberAreRefused) {
   const SimdModel lanes = simdModelOf(model);
   SimdScratch scratch(lanes);
   const auto takes = [&](const std::vector<double>& from, const std::vector<double>& to) {
-    return detail::compileSimdMotion(lanes, model.kinematics, from, to, scratch);
+    return StraightSimdMotion(lanes, model.kinematics, from, to, scratch).compile();
   };
   const std::vector<double> good{0.1, 0.2, 0.3, 0.4, 0.1};
   EXPECT_TRUE(takes(good, good));

@@ -83,7 +83,7 @@ class Pass {
     const SimdModel lanes = simdModelOf(model_);
     SimdScratch scratch(lanes);
     Found found;
-    found.usable = detail::compileSimdMotion(lanes, model_.kinematics, from_, to_, scratch);
+    found.usable = StraightSimdMotion(lanes, model_.kinematics, from_, to_, scratch).compile();
     if (!found.usable) return found;
     detail::SimdBlock& block = scratch.block;
     for (int i = 0; i < detail::kLanes; ++i) {

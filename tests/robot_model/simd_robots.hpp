@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/workspace_data.hpp"
+#include "simd/kernels/simd_motion.hpp"
 #include "simd/tables/pair_separation_tables.hpp"
 #include "swept/core/axis_frame.hpp"
 
@@ -132,6 +133,25 @@ void changeGeometry(detail::CheckerModel& model, const Change& change) {
   change(geometry);
   model.robotGeometry = detail::SharedArray(std::move(geometry));
 }
+
+/// The straight motion between two configurations in single precision.
+class StraightSimdMotion {
+ public:
+  StraightSimdMotion(const detail::SimdModel& model, const detail::KinematicModel& kinematics,
+                     std::span<const double> from, std::span<const double> to,
+                     detail::SimdScratch& scratch)
+      : path_(kinematics, from, to),
+        joints_(kinematics.bodies.size()),
+        motion_(model, kinematics, path_, joints_, scratch) {}
+
+  bool compile() { return motion_.compile(); }
+  detail::SimdMotion& get() { return motion_; }
+
+ private:
+  detail::StraightPath path_;
+  std::vector<detail::JointMotion> joints_;
+  detail::SimdMotion motion_;
+};
 
 /// What a Checker compiles of such a model, tables too.
 inline detail::SimdModel simdModelOf(const detail::PairModel& model) {

@@ -56,10 +56,10 @@ class Approach {
     if (!self_) model_.worldGeometry = {worldGeometry(Sphere{0.5 * sum}, obstacle_)};
     const detail::SimdModel lanes = simdModelOf(model_);
     detail::SimdScratch scratch(lanes);
-    if (!detail::compileSimdMotion(lanes, model_.kinematics, from_, to_, scratch))
-      return std::nullopt;
+    StraightSimdMotion motion(lanes, model_.kinematics, from_, to_, scratch);
+    if (!motion.compile()) return std::nullopt;
     Silent silent;
-    return detail::searchMotion(lanes, silent, detail::SimdGoal::Prefix, scratch).kind;
+    return detail::searchMotion(motion.get(), silent, detail::SimdGoal::Prefix, scratch).kind;
   }
 
  private:

@@ -217,7 +217,8 @@ MotionClearance Checker::motionClearance(ConfigurationView from, ConfigurationVi
     throw std::invalid_argument("Checker: accuracy " + detail::formatNumber(accuracy) +
                                 " m must be greater than zero");
   }
-  return detail::motionClearance(*model_, from, to, accuracy, query, dataOf(workspace));
+  const detail::StraightPath path(model_->kinematics, from, to);
+  return detail::motionClearance(*model_, path, accuracy, query, dataOf(workspace));
 }
 
 bool Checker::withinLimits(ConfigurationView q) const {

@@ -29,26 +29,27 @@ constexpr double kContactShare = 1.0 / 16.0;
 
 class MotionProver {
  public:
-  MotionProver(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
-               MotionQuery wanted, WorkspaceData& workspace, MotionCertificate& certificate)
+  MotionProver(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
+               WorkspaceData& workspace, MotionCertificate& certificate)
       : model_(model),
+        path_(path),
         workspace_(workspace),
         wanted_(wanted),
         query_(model, workspace),
         certificate_(certificate),
-        judge_(model, from, to, query_, certificate) {}
+        oracle_(model, path, query_, certificate) {}
 
-  void run(std::span<const double> from, std::span<const double> to) {
-    search(from, to);
+  void run() {
+    search();
     std::optional<Witness>& witness = certificate_.witness;
-    if (wanted_ == MotionQuery::VerdictOnly || !witness || !judge_.start()) return;
-    query_.moveTo(witness->t);
+    if (wanted_ == MotionQuery::VerdictOnly || !witness || !oracle_.start()) return;
+    query_.moveTo(witness->t, 0.0);
     takeNearestPoints(model_, query_, *witness);
   }
 
  private:
-  void search(std::span<const double> from, std::span<const double> to) {
-    if (settleInSimd(from, to) || !judge_.start()) return;
+  void search() {
+    if (settleInSimd() || !oracle_.start()) return;
     if (!certificate_.witness) searchWhole();
     // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest. A
     // second attempt in another order settles some of what the first left open.
@@ -72,19 +73,20 @@ class MotionProver {
 
   /// The lane tier: proves most motions, refutes most others, and leaves the rest in
   /// workspace.pending. True: it is decided.
-  bool settleInSimd(std::span<const double> from, std::span<const double> to) {
+  bool settleInSimd() {
     const int lanes = subIntervalsLeft(model_, certificate_.effort);
+    SimdMotion motion(model_.simd, model_.kinematics, path_, workspace_.motion, workspace_.simd);
     const bool fits = model_.simd.usable && model_.options.maxIntervals >= kLanes && lanes > 0 &&
-                      compileSimdMotion(model_.simd, model_.kinematics, from, to, workspace_.simd);
+                      motion.compile();
     if (!fits) {
-      if (judge_.start()) takeAll(model_, query_, workspace_);
+      if (oracle_.start()) takeAll(model_, query_, workspace_);
       return false;
     }
     workspace_.simd.mostIntervals = lanes;
     workspace_.simd.mostWaiting = kMostWaiting;
     const SimdGoal goal =
         wanted_ == MotionQuery::VerdictOnly ? SimdGoal::Verdict : SimdGoal::Prefix;
-    const SimdAnswer answer = searchMotion(model_.simd, judge_, goal, workspace_.simd);
+    const SimdAnswer answer = searchMotion(motion, oracle_, goal, workspace_.simd);
     certificate_.effort.lanes += answer.intervals;
     if (answer.kind == SimdAnswer::Kind::Contact) {
       certificate_.verdict = Verdict::Collision;
@@ -98,7 +100,7 @@ class MotionProver {
     }
     if (answer.kind == SimdAnswer::Kind::Open) {
       takeRest(workspace_);
-    } else if (judge_.start()) {
+    } else if (oracle_.start()) {
       takeAll(model_, query_, workspace_);
     }
     return false;
@@ -121,7 +123,7 @@ class MotionProver {
     workspace_.failed.clear();
     Outcome outcome;
     if (interval.count == 0) return outcome;
-    query_.moveTo(middle);
+    query_.moveTo(middle, half);
     ++certificate_.effort.intervals;
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
       const std::uint32_t pair = arena[i];
@@ -227,7 +229,7 @@ class MotionProver {
 
   /// Whether one of these pairs of the arena is in contact where the motion begins.
   bool meetAtBegin(std::size_t first, std::size_t count) {
-    query_.moveTo(0.0);
+    query_.moveTo(0.0, 0.0);
     for (std::size_t i = first; i < first + count; ++i) {
       const PairAnswer answer = query_.prove(workspace_.arena[i], 0.0);
       ++(answer.culled ? certificate_.effort.culled : certificate_.effort.distances);
@@ -255,11 +257,12 @@ class MotionProver {
   }
 
   const CheckerModel& model_;
+  const JointPath& path_;
   WorkspaceData& workspace_;
   const MotionQuery wanted_;
   PairQuery query_;
   MotionCertificate& certificate_;
-  PairOracle judge_;
+  PairOracle oracle_;
   std::optional<double> undecidedAt_;
   std::optional<double> prefixEnd_;  ///< of what is proven; what follows may be searched further
 };
@@ -283,19 +286,18 @@ void addPart(const WaypointSegment& part, MotionCertificate&& own, MotionCertifi
 
 }  // namespace
 
-MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,
-                                std::span<const double> to, MotionQuery wanted,
-                                WorkspaceData& workspace) {
+MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
+                                MotionQuery wanted, WorkspaceData& workspace) {
   MotionCertificate certificate;
   if (model.world->obstacles().empty()) {
-    MotionProver(model, from, to, wanted, workspace, certificate).run(from, to);
+    MotionProver(model, path, wanted, workspace, certificate).run();
     return certificate;
   }
   certificate.verdict = Verdict::Free;
-  WaypointSegments(model, from, to, workspace).forEach([&](const WaypointSegment& part) {
+  WaypointSegments(model, path, workspace).forEach([&](const WaypointSegment& part) {
     MotionCertificate own;
     own.effort = certificate.effort;  // the cap on intervals is for all parts together
-    MotionProver(model, part.from, part.to, wanted, workspace, own).run(part.from, part.to);
+    MotionProver(model, part.path, wanted, workspace, own).run();
     addPart(part, std::move(own), certificate);
     const bool settled = certificate.verdict == Verdict::Free;
     if (!settled && !workLeft(model, certificate.effort)) return false;
@@ -304,6 +306,12 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
   if (wanted == MotionQuery::VerdictOnly && certificate.verdict != Verdict::Free)
     certificate.freeUntil = 0.0;
   return certificate;
+}
+
+MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,
+                                std::span<const double> to, MotionQuery wanted,
+                                WorkspaceData& workspace) {
+  return certifyMotion(model, StraightPath(model.kinematics, from, to), wanted, workspace);
 }
 
 }  // namespace swept::detail

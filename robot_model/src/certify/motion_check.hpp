@@ -10,6 +10,9 @@ namespace swept::detail {
 
 /// Proves a motion free by adaptive bisection (after Schwarzer, Saha, Latombe 2005), each interval
 /// by the pairs' distances at its middle against bounds of their approach; see ApproachBound.
+MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
+                                MotionQuery wanted, WorkspaceData& workspace);
+/// The same of the straight motion between two configurations.
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,
                                 std::span<const double> to, MotionQuery wanted,
                                 WorkspaceData& workspace);
@@ -22,8 +25,8 @@ struct OtherClearances {
 
 /// Pairs that stay at least as far apart as `others` has it are looked at no closer than shows
 /// that, and nothing else is said of them: `upper` stays infinite where none comes nearer.
-MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
-                                std::span<const double> to, double accuracy, ClearanceQuery wanted,
-                                WorkspaceData& workspace, OtherClearances others = {});
+MotionClearance motionClearance(const CheckerModel& model, const JointPath& path, double accuracy,
+                                ClearanceQuery wanted, WorkspaceData& workspace,
+                                OtherClearances others = {});
 
 }  // namespace swept::detail

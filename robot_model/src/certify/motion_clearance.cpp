@@ -47,8 +47,8 @@ class ClearanceSearch {
     kinds_[1].upper = others.self;
   }
 
-  void run(std::span<const double> from, std::span<const double> to) {
-    if (!query_.start(from, to)) {
+  void run(const JointPath& path) {
+    if (!query_.start(path)) {
       for (KindClearance& kind : kinds_) kind.lower = 0.0;
       return;
     }
@@ -76,7 +76,7 @@ class ClearanceSearch {
   void lookAtAll() {
     auto& open = workspace_.measured;
     open.clear();
-    beginAt(0.5);
+    beginAt(0.5, 0.5);
     const auto look = [&](const GeometryPair& pair) {
       KindClearance& kind = kindOf(pair);
       --queriesLeft_;
@@ -103,7 +103,7 @@ class ClearanceSearch {
   void split(const PendingInterval& interval) {
     const double middle = 0.5 * (interval.begin + interval.end);
     const double half = 0.5 * (interval.end - interval.begin);
-    beginAt(middle);
+    beginAt(middle, half);
     const std::size_t first = workspace_.nextArena.size();
     const bool last = isLast(first, interval.count);
     for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
@@ -121,8 +121,8 @@ class ClearanceSearch {
          workspace_.nextGeneration);
   }
 
-  void beginAt(double middle) {
-    query_.moveTo(middle);
+  void beginAt(double middle, double half) {
+    query_.moveTo(middle, half);
     ++intervals_;
     --waiting_;
   }
@@ -229,9 +229,9 @@ void addKinds(ClearanceQuery wanted, MotionClearance& all) {
 
 }  // namespace
 
-MotionClearance motionClearance(const CheckerModel& model, std::span<const double> from,
-                                std::span<const double> to, double accuracy, ClearanceQuery wanted,
-                                WorkspaceData& workspace, OtherClearances others) {
+MotionClearance motionClearance(const CheckerModel& model, const JointPath& path, double accuracy,
+                                ClearanceQuery wanted, WorkspaceData& workspace,
+                                OtherClearances others) {
   const bool byKind = wanted != ClearanceQuery::Least;
   // Nothing is below 0: of the kind that is not wanted no pair is looked at.
   if (wanted == ClearanceQuery::World) others.self = 0.0;
@@ -240,14 +240,14 @@ MotionClearance motionClearance(const CheckerModel& model, std::span<const doubl
   all.lower = std::numeric_limits<double>::infinity();
   if (byKind) all.world.lower = all.self.lower = all.lower;
   std::int64_t queries = mostMeasures(model);
-  WaypointSegments(model, from, to, workspace).forEach([&](const WaypointSegment& part) {
+  WaypointSegments(model, path, workspace).forEach([&](const WaypointSegment& part) {
     const int budget = model.options.maxIntervals - all.intervals;
     if (budget == 0 || queries <= 0) {  // nothing is known of what is left
       all.lower = all.world.lower = all.self.lower = 0.0;
       return false;
     }
     ClearanceSearch search(model, accuracy, byKind, budget, queries, others, workspace);
-    search.run(part.from, part.to);
+    search.run(part.path);
     queries = search.queriesLeft();
     all.intervals += search.intervals();
     if (!byKind) {

@@ -8,7 +8,7 @@
 namespace swept::detail {
 
 bool PairOracle::start() {
-  if (!started_) started_ = query_.start(from_, to_);
+  if (!started_) started_ = query_.start(path_);
   return started_;
 }
 
@@ -25,7 +25,7 @@ bool PairOracle::isContact(const SimdContact& contact, double t) {
 
 bool PairOracle::isInside(std::uint32_t pair, std::int32_t point, double t) {
   if (!start()) return false;
-  query_.moveTo(t);
+  query_.moveTo(t, 0.0);
   const Eigen::Vector3d at =
       query_.placed(pair, model_.simd.hulls->inBody[static_cast<std::size_t>(point)]);
   return keep(pointWitness(model_, pair, at, t));
@@ -35,7 +35,7 @@ ExactAnswer PairOracle::look(std::uint32_t pair, double t, double half) {
   ExactAnswer look;
   Effort& effort = certificate_.effort;
   if (effort.intervals >= model_.options.maxIntervals || !start()) return look;
-  query_.moveTo(t);
+  query_.moveTo(t, half);
   const PairAnswer answer = query_.prove(pair, half);
   ++effort.intervals;
   ++(answer.culled ? effort.culled : effort.distances);

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "certify/pair_query.hpp"
 #include "simd/search/simd_search.hpp"
@@ -14,11 +13,11 @@ namespace swept::detail {
 /// witness go to the certificate.
 class PairOracle final : public ExactOracle {
  public:
-  PairOracle(const CheckerModel& model, std::span<const double> from, std::span<const double> to,
-             PairQuery& query, MotionCertificate& certificate)
-      : model_(model), from_(from), to_(to), query_(query), certificate_(certificate) {}
+  PairOracle(const CheckerModel& model, const JointPath& path, PairQuery& query,
+             MotionCertificate& certificate)
+      : model_(model), path_(path), query_(query), certificate_(certificate) {}
 
-  /// Compiles the motion for the query, once. False: nothing can be said about it.
+  /// Has the query take the motion, once. False: nothing can be said about it.
   bool start();
 
   bool isContact(const SimdContact& contact, double t) override;
@@ -29,7 +28,7 @@ class PairOracle final : public ExactOracle {
   bool keep(std::optional<Witness> witness);
 
   const CheckerModel& model_;
-  std::span<const double> from_, to_;
+  const JointPath& path_;
   PairQuery& query_;
   MotionCertificate& certificate_;
   bool started_ = false;

@@ -23,9 +23,11 @@ constexpr double kQueryShare = 1.0 / 16.0;
 
 }  // namespace
 
-bool PairQuery::start(std::span<const double> from, std::span<const double> to) {
-  if (!compileMotion(model_.kinematics, from, to, workspace_.motion)) return false;
+bool PairQuery::start(const JointPath& path) {
+  if (!path.linearize(0.5, 0.5, workspace_.motion)) return false;
   ++workspace_.motionStamp;
+  ++workspace_.boundStamp;
+  bool curved = false;
   CarriedRounding& most = workspace_.mostCarried;
   most = {};
   double slid = 0.0;  // of all joints: what is no number shows in a sum
@@ -37,11 +39,23 @@ bool PairQuery::start(std::span<const double> from, std::span<const double> to) 
     most.angleError = std::max(most.angleError, own.angleError);
     most.slideError = std::max(most.slideError, own.slideError);
     slid += joint.slid() + joint.speed;
+    curved = curved || !joint.hasConstantRates();
   }
+  path_ = curved ? &path : nullptr;
   return slid < kLargestNorm;
 }
 
-void PairQuery::moveTo(double t) {
+bool PairQuery::startAt(std::span<const double> q) {
+  if (!start(StraightPath(model_.kinematics, q, q))) return false;
+  moveTo(0.0, 0.0);
+  return true;
+}
+
+void PairQuery::moveTo(double t, double half) {
+  if (path_ != nullptr) {
+    path_->linearize(t, half, workspace_.motion);
+    ++workspace_.boundStamp;
+  }
   workspace_.t = t;
   ++workspace_.stamp;
   workspace_.stateStamps[0] = workspace_.stamp;
@@ -67,24 +81,24 @@ std::span<const double> PairQuery::arms(const RobotGeometry& geometry) {
 
 const PointMotionBound& PairQuery::bound(int travel) {
   if (!workspace_.nestedMotionBounds.empty()) return nestedBound(model_.motionBounds[travel]);
-  if (workspace_.motionBoundStamps[travel] != workspace_.motionStamp) {
+  if (workspace_.motionBoundStamps[travel] != workspace_.boundStamp) {
     const MotionBoundSlot& slot = model_.motionBounds[travel];
     const RobotGeometry& geometry = model_.robotGeometry[slot.geometry];
     workspace_.motionBounds[travel] =
         pointMotionBound(model_.kinematics, geometry.levers.path, arms(geometry), slot.firstJoint,
                          workspace_.motion);
-    workspace_.motionBoundStamps[travel] = workspace_.motionStamp;
+    workspace_.motionBoundStamps[travel] = workspace_.boundStamp;
   }
   return workspace_.motionBounds[travel];
 }
 
 const PointMotionBound& PairQuery::nestedBound(const MotionBoundSlot& slot) {
   std::vector<PointMotionBound>& bounds = workspace_.nestedMotionBounds[slot.geometry];
-  if (workspace_.motionBoundStamps[slot.geometry] != workspace_.motionStamp) {
+  if (workspace_.motionBoundStamps[slot.geometry] != workspace_.boundStamp) {
     const RobotGeometry& geometry = model_.robotGeometry[slot.geometry];
     nestedMotionBounds(model_.kinematics, geometry.levers.path, arms(geometry), workspace_.motion,
                        bounds);
-    workspace_.motionBoundStamps[slot.geometry] = workspace_.motionStamp;
+    workspace_.motionBoundStamps[slot.geometry] = workspace_.boundStamp;
   }
   return bounds[slot.firstJoint];
 }

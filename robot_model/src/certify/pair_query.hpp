@@ -6,6 +6,7 @@
 #include <span>
 
 #include "certify/workspace_data.hpp"
+#include "kinematics/joint_path.hpp"
 
 namespace swept::detail {
 
@@ -40,10 +41,12 @@ class PairQuery {
   void setTolerance(double tolerance) { tolerance_ = tolerance; }
   double tolerance() const { return tolerance_; }
 
-  /// Compiles the motion. False: nothing can be said about it.
-  bool start(std::span<const double> from, std::span<const double> to);
-  /// Moves to t.
-  void moveTo(double t);
+  /// Takes a motion, which has to outlive the query. False: nothing can be said about it.
+  bool start(const JointPath& path);
+  /// The same, for a motion that stays at a configuration; moves there.
+  bool startAt(std::span<const double> q);
+  /// Moves to t. What is asked from then on is about [t - half, t + half] or less.
+  void moveTo(double t, double half);
 
   /// Whether the pair stays apart by more than the margin on [t - half, t + half], or is within the
   /// margin at t. `half` in units of t.
@@ -107,6 +110,7 @@ class PairQuery {
   const CheckerModel& model_;
   WorkspaceData& workspace_;
   double tolerance_;
+  const JointPath* path_ = nullptr;  ///< null where no joint's rate changes
 };
 
 }  // namespace swept::detail

@@ -73,9 +73,10 @@ PathClearance pathClearance(const Checker& checker, const ConfigurationList& sta
   for (std::size_t i = 0; i < segments && !isDone(wanted, all); ++i) {
     const detail::OtherClearances others{wanted.whole ? all.upper : all.world.upper,
                                          all.self.upper};
-    const MotionClearance own = detail::motionClearance(
-        *checker.model_, states[i], states[std::min(i + 1, states.size() - 1)], accuracy, query,
-        checker.dataOf(workspace), others);
+    const detail::StraightPath path(checker.model_->kinematics, states[i],
+                                    states[std::min(i + 1, states.size() - 1)]);
+    const MotionClearance own = detail::motionClearance(*checker.model_, path, accuracy, query,
+                                                        checker.dataOf(workspace), others);
     all.intervals += own.intervals;
     if (wanted.whole && own.upper < all.upper) all.selfPair = own.selfPair;
     if (wanted.whole) addSegment(own, i, all);

@@ -22,7 +22,7 @@ void listParts(WorkspaceData& workspace) {
 
 void takeAll(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   workspace.pending.clear();
-  query.moveTo(0.5);
+  query.moveTo(0.5, 0.5);
   NearGeometries(model, query, workspace).collect(0.5, workspace.pendingArena);
   if (!workspace.pendingArena.empty())
     workspace.pending.push_back({0.0, 1.0, 0, workspace.pendingArena.size()});

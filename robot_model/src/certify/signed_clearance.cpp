@@ -95,8 +95,9 @@ void differentiate(const CheckerModel& model, PairQuery& query, std::span<const 
     workspace.probe[i] = stepFrom(model.kinematics, i, q[i]);
     const double step = workspace.probe[i] - q[i];  // rounding has changed it
     const std::span<const double> to = fullConfiguration(model, workspace.probe, workspace.to);
-    if (step != 0.0 && query.start(from, to)) {
-      query.moveTo(0.0);
+    const StraightPath path(model.kinematics, from, to);
+    if (step != 0.0 && query.start(path)) {
+      query.moveTo(0.0, 0.0);
       const Vector3d velocity = query.velocity(nearest.pair, found.pointA, found.pointB);
       gradient[i] = found.normal.dot(velocity) / step;
     }
@@ -111,8 +112,7 @@ SignedClearance signedClearance(const CheckerModel& model, std::span<const doubl
   std::ranges::fill(gradient, 0.0);
   const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
-  if (!query.start(q, q)) return {};
-  query.moveTo(0.0);
+  if (!query.startAt(q)) return {};
   Nearest nearest = nearestApart(model, query, workspace);
   if (!(nearest.clearance.lower > 0.0)) {
     const Nearest overlap = deepest(model, query, workspace);

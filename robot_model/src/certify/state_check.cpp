@@ -34,22 +34,16 @@ Verdict provePairs(PairQuery& query, std::span<const std::uint32_t> pairs) {
   return proven ? Verdict::Free : Verdict::Undecided;
 }
 
-bool startAt(PairQuery& query, std::span<const double> q) {
-  if (!query.start(q, q)) return false;
-  query.moveTo(0.0);
-  return true;
-}
-
 Verdict checkPairs(const CheckerModel& model, std::span<const double> q,
                    std::span<const std::uint32_t> pairs, WorkspaceData& workspace) {
   PairQuery query(model, workspace);
-  return startAt(query, q) ? provePairs(query, pairs) : Verdict::Undecided;
+  return query.startAt(q) ? provePairs(query, pairs) : Verdict::Undecided;
 }
 
 Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
                       WorkspaceData& workspace) {
   PairQuery query(model, workspace);
-  if (!startAt(query, q)) return Verdict::Undecided;
+  if (!query.startAt(q)) return Verdict::Undecided;
   NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
   return provePairs(query, workspace.arena);
 }
@@ -140,7 +134,7 @@ double stateClearance(const CheckerModel& model, std::span<const double> configu
                       WorkspaceData& workspace) {
   const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
-  if (!startAt(query, q)) return 0.0;
+  if (!query.startAt(q)) return 0.0;
   const NearestOfKinds nearest = nearestPairs(model, query, workspace);
   return std::min(nearest.world.lower, nearest.self.lower);
 }
@@ -156,7 +150,7 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
     }
   }
   PairQuery query(model, workspace);
-  if (!startAt(query, q)) return report;
+  if (!query.startAt(q)) return report;
   NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
   bool proven = true;
   std::set<std::tuple<std::string, std::string, bool>> reported;

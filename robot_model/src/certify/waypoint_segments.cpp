@@ -13,12 +13,12 @@ namespace swept::detail {
 namespace {
 
 /// Behind the configuration that is there already.
-void placeObstacles(const CheckerModel& model, std::vector<double>& whole) {
-  auto at = whole.begin() + model.kinematics.dimension;
+void placeObstacles(const CheckerModel& model, std::vector<double>& full) {
+  auto at = full.begin() + model.kinematics.dimension;
   const double time = *std::prev(at);
   // No pose is known, and nothing is free.
   if (!std::isfinite(time)) {
-    std::fill(at, whole.end(), std::numeric_limits<double>::quiet_NaN());
+    std::fill(at, full.end(), std::numeric_limits<double>::quiet_NaN());
     return;
   }
   for (const MovingObstacle& obstacle : model.world->obstacles()) {
@@ -40,34 +40,48 @@ double angleBetween(const MovingObstacle::Waypoint& a, const MovingObstacle::Way
 }  // namespace
 
 std::span<const double> fullConfiguration(const CheckerModel& model, std::span<const double> q,
-                                          std::vector<double>& whole) {
-  if (whole.empty()) return q;
-  std::ranges::copy(q, whole.begin());
-  placeObstacles(model, whole);
-  return whole;
+                                          std::vector<double>& full) {
+  if (full.empty()) return q;
+  std::ranges::copy(q, full.begin());
+  placeObstacles(model, full);
+  return full;
 }
 
-WaypointSegments::WaypointSegments(const CheckerModel& model, std::span<const double> from,
-                                   std::span<const double> to, WorkspaceData& workspace)
-    : model_(model), from_(from), to_(to), workspace_(workspace) {
-  workspace.crossings.clear();
+WaypointSegments::WaypointSegments(const CheckerModel& model, const JointPath& path,
+                                   WorkspaceData& workspace)
+    : model_(model), path_(path), workspace_(workspace) {
+  auto& crossings = workspace.crossings;
+  crossings.clear();
   if (workspace.from.empty()) return;
-  const double begin = from.back();
-  const double end = to.back();
-  if (!std::isfinite(begin) || !std::isfinite(end)) return;
-  const auto isPassed = [&](double time) {
-    return time > std::min(begin, end) && time < std::max(begin, end);
+  const auto timeAt = [&](double t) {
+    path.interpolate(t, workspace.probe);
+    return workspace.probe.back();
   };
+  const double begin = timeAt(0.0);
+  const double end = timeAt(1.0);
+  if (std::isfinite(begin) && std::isfinite(end)) addCrossings(begin, end);
+  crossings.insert(crossings.begin(), {0.0, begin});
+  crossings.push_back({1.0, end});
+}
+
+void WaypointSegments::addCrossings(double begin, double end) {
+  auto& crossings = workspace_.crossings;
+  const double first = std::min(begin, end);
+  const double last = std::max(begin, end);
+  const auto isPassed = [first, last](double time) { return time > first && time < last; };
   const auto pass = [&](double time) {
     // Halves: the whole span may overflow.
     const double t = (0.5 * time - 0.5 * begin) / (0.5 * end - 0.5 * begin);
-    workspace.crossings.push_back({std::clamp(t, 0.0, 1.0), time});
+    crossings.push_back({std::clamp(t, 0.0, 1.0), time});
   };
-  for (const MovingObstacle& obstacle : model.world->obstacles()) {
+  for (const MovingObstacle& obstacle : model_.world->obstacles()) {
     const auto& waypoints = obstacle.waypoints;
-    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const auto after =
+        std::ranges::upper_bound(waypoints, first, {}, &MovingObstacle::Waypoint::time);
+    for (auto i = static_cast<std::size_t>(after - waypoints.begin()); i < waypoints.size(); ++i) {
       if (isPassed(waypoints[i].time)) pass(waypoints[i].time);
       if (i == 0) continue;
+      if (waypoints[i - 1].time >= last) break;
       // About half a turn: from its ends alone rounding would tell which way round. An angle costs
       // as much as tens of comparisons: it is looked at only where the middle is passed.
       const double halfway = 0.5 * waypoints[i - 1].time + 0.5 * waypoints[i].time;
@@ -76,7 +90,6 @@ WaypointSegments::WaypointSegments(const CheckerModel& model, std::span<const do
     }
   }
   // By time: of a jump both ends may be at the same t.
-  auto& crossings = workspace.crossings;
   if (begin < end)
     std::ranges::sort(crossings, std::less<>(), &WaypointCrossing::time);
   else
@@ -88,23 +101,14 @@ WaypointSegments::WaypointSegments(const CheckerModel& model, std::span<const do
                   crossings.end());
 }
 
-WaypointSegment WaypointSegments::part(const WaypointCrossing& begin, const WaypointCrossing& end) {
-  fill(begin, workspace_.from);
-  fill(end, workspace_.to);
-  return {begin.t, end.t, workspace_.from, workspace_.to};
-}
-
 /// At the time itself: where it is large, that of the interpolated configuration may lie on the
 /// other side of a waypoint.
-void WaypointSegments::fill(const WaypointCrossing& crossing, std::vector<double>& whole) const {
+void WaypointSegments::fill(const WaypointCrossing& crossing, std::vector<double>& full) const {
   const auto dimension = static_cast<std::size_t>(model_.kinematics.dimension);
-  const std::span<double> q = std::span(whole).first(dimension);
-  if (crossing.t == 0.0 || crossing.t == 1.0)
-    std::ranges::copy(crossing.t == 0.0 ? from_ : to_, q.begin());
-  else
-    interpolateMotion(model_.kinematics, from_, to_, crossing.t, q);
+  const std::span<double> q = std::span(full).first(dimension);
+  path_.interpolate(crossing.t, q);
   q.back() = crossing.time;
-  placeObstacles(model_, whole);
+  placeObstacles(model_, full);
 }
 
 }  // namespace swept::detail

@@ -5,25 +5,25 @@
 #include <vector>
 
 #include "certify/workspace_data.hpp"
+#include "kinematics/joint_path.hpp"
 
 namespace swept::detail {
 
 /// Moving obstacles on a common clock with the robot: a configuration's last value is the time, and
-/// whole configurations (see KinematicModel) have the obstacles' poses behind it.
+/// full configurations (see KinematicModel) have the obstacles' poses behind it.
 ///
-/// A motion of all of them between two whole configurations is even, as the robot's is, as long as
-/// no obstacle passes a waypoint. So a motion is taken apart where one does.
+/// Between two waypoints an obstacle moves straight on. So a motion is taken apart where one passes
+/// a waypoint.
 
-/// The configuration itself without moving obstacles, else `whole` after filling it.
+/// The configuration itself without moving obstacles, else `full` after filling it.
 std::span<const double> fullConfiguration(const CheckerModel& model, std::span<const double> q,
-                                          std::vector<double>& whole);
+                                          std::vector<double>& full);
 
-/// A part [begin, end] of a motion on which the obstacles' motions are even.
+/// A part [begin, end] of a motion on which no obstacle changes its way.
 struct WaypointSegment {
   double begin = 0.0;
   double end = 1.0;
-  std::span<const double> from;  ///< whole configurations
-  std::span<const double> to;
+  const JointPath& path;  ///< of the robot's joints and the obstacles' (see KinematicModel)
 
   double timeOf(double t) const { return begin + t * (end - begin); }
 };
@@ -31,31 +31,39 @@ struct WaypointSegment {
 /// The parts of a motion in order; calls `visit(const WaypointSegment&)` until it returns false.
 class WaypointSegments {
  public:
-  WaypointSegments(const CheckerModel& model, std::span<const double> from,
-                   std::span<const double> to, WorkspaceData& workspace);
+  /// `path`: of configurations, with a time that is linear in t.
+  WaypointSegments(const CheckerModel& model, const JointPath& path, WorkspaceData& workspace);
 
   template <typename Visitor>
   void forEach(const Visitor& visit) {
     if (workspace_.from.empty()) {
-      visit(WaypointSegment{.from = from_, .to = to_});
+      visit(WaypointSegment{.path = path_});
       return;
     }
-    WaypointCrossing begin{0.0, from_.back()};
-    for (std::size_t i = 0; i <= workspace_.crossings.size(); ++i) {
-      const WaypointCrossing end = i < workspace_.crossings.size()
-                                       ? workspace_.crossings[i]
-                                       : WaypointCrossing{1.0, to_.back()};
-      if (!visit(part(begin, end))) return;
-      begin = end;
-    }
+    for (std::size_t i = 0; i + 1 < workspace_.crossings.size(); ++i)
+      if (!visitBetween(workspace_.crossings[i], workspace_.crossings[i + 1], visit)) return;
   }
 
  private:
-  WaypointSegment part(const WaypointCrossing& begin, const WaypointCrossing& end);
-  void fill(const WaypointCrossing& crossing, std::vector<double>& whole) const;
+  template <typename Visitor>
+  bool visitBetween(const WaypointCrossing& begin, const WaypointCrossing& end,
+                    const Visitor& visit) {
+    fill(begin, workspace_.from);
+    fill(end, workspace_.to);
+    const KinematicModel& kinematics = model_.kinematics;
+    // Between the configurations at its ends a straight path rounds less than as a part of itself.
+    if (path_.asStraight() != nullptr) {
+      const StraightPath segment(kinematics, workspace_.from, workspace_.to);
+      return visit(WaypointSegment{begin.t, end.t, segment});
+    }
+    const PathSegment segment(kinematics, path_, begin.t, end.t, workspace_.from, workspace_.to);
+    return visit(WaypointSegment{begin.t, end.t, segment});
+  }
+  void addCrossings(double begin, double end);
+  void fill(const WaypointCrossing& crossing, std::vector<double>& full) const;
 
   const CheckerModel& model_;
-  std::span<const double> from_, to_;
+  const JointPath& path_;
   WorkspaceData& workspace_;
 };
 

@@ -44,6 +44,7 @@ struct WorkspaceData {
   explicit WorkspaceData(const CheckerModel& model);
 
   std::uint64_t version = 0;  ///< of the model that it fits
+  /// Around the current t, or of the whole motion where no rate changes.
   std::vector<JointMotion> motion;
   /// At the current t; computed when first asked for.
   std::vector<BodyState> states;
@@ -57,13 +58,14 @@ struct WorkspaceData {
   };
   std::vector<Placed> placed;
   std::int64_t stamp = 0;
-  /// Of the current motion; computed when first asked for. Of a long chain of joints (see
+  /// Of the current `motion`; computed when first asked for. Of a long chain of joints (see
   /// nestedMotionBounds) all of a geometry together, per geometry, in place of
   /// CheckerModel::motionBounds.
   std::vector<PointMotionBound> motionBounds;
   std::vector<std::int64_t> motionBoundStamps;
   std::vector<std::vector<PointMotionBound>> nestedMotionBounds;
-  std::int64_t motionStamp = 0;
+  std::int64_t motionStamp = 0;  ///< one for each path
+  std::int64_t boundStamp = 0;   ///< one for each `motion`
   double t = 0.0;
   std::vector<CarriedRounding> carried;  ///< per body, of the current motion
   CarriedRounding mostCarried;           ///< no body has more of anything

@@ -212,11 +212,12 @@ RestArms restArms(const KinematicModel& model, int body, const Vector3d& center,
 PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const int> path,
                                   std::span<const double> arms, std::size_t first,
                                   std::span<const JointMotion> motion) {
-  // Lemma (DESIGN of a motion certificate): with joint rates r_k constant and W_k a bound on the
-  // angular velocity of body k relative to the reference,
-  //   p'' = sum_k r_k [ 2 w_{k-1} x dp/dq_k + r_k d2p/dq_k2 ],
-  // hence |p''| <= sum_k |r_k| rho_k (2 W_{k-1} + |r_k|) for rotations and 2 |r_k| W_{k-1} for
-  // translations. A joint with both translates first, then rotates about its moved origin.
+  // Lemma: with joint rates r_k, accelerations b_k and W_k a bound on the angular velocity of body
+  // k relative to the reference,
+  //   p'' = sum_k b_k dp/dq_k + r_k [ 2 w_{k-1} x dp/dq_k + r_k d2p/dq_k2 ],
+  // hence |p''| <= sum_k rho_k (|b_k| + |r_k| (2 W_{k-1} + |r_k|)) for rotations and
+  // |b_k| + 2 |r_k| W_{k-1} for translations. A joint with both translates first, then rotates
+  // about its moved origin.
   double maxTranslation = 0.0;
   for (std::size_t i = first; i < path.size(); ++i)
     maxTranslation += motion[path[i]].maxTranslation;
@@ -233,8 +234,9 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
     maxTranslation -= joint.maxTranslation;
     const double arm = arms[i] + std::max(0.0, maxTranslation) * kOutward;
     bound.speed += joint.speed + joint.spinSpeed * arm;
-    bound.acceleration += 2.0 * joint.speed * turning;
-    bound.acceleration += joint.spinSpeed * arm * (2.0 * turning + joint.spinSpeed);
+    bound.acceleration += 2.0 * joint.speed * turning + joint.acceleration;
+    bound.acceleration +=
+        joint.spinSpeed * arm * (2.0 * turning + joint.spinSpeed) + joint.spinAcceleration * arm;
 
     double next = turning + joint.spinSpeed;
     const bool turnsToo = turns(body.type);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinematics/full_state.hpp"
+#include "kinematics/joint_path.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
@@ -58,8 +59,8 @@ void requireSize(std::size_t size, std::size_t expected, const std::string& what
   refuse(what + " has " + std::to_string(size) + " values instead of " + std::to_string(expected));
 }
 
-// Lemma: the angular velocity is the sum of the joints' spins, each of which turns with the joints
-// before it, at most as fast as these turn together.
+// Lemma: the angular velocity is the sum of the joints' spins, each of which changes by its own
+// acceleration and turns with the joints before it, at most as fast as these turn together.
 MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& levers,
                     const Vector3d& center, const std::vector<JointMotion>& motion) {
   std::vector<double> arms = levers.arms;
@@ -70,9 +71,9 @@ MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& l
   rates.speed = travel.speed;
   rates.acceleration = travel.acceleration;
   for (const int body : levers.path) {
-    const double spin = motion[static_cast<std::size_t>(body)].spinSpeed;
-    rates.angularAcceleration += rates.angularSpeed * spin;
-    rates.angularSpeed += spin;
+    const JointMotion& joint = motion[static_cast<std::size_t>(body)];
+    rates.angularAcceleration += rates.angularSpeed * joint.spinSpeed + joint.spinAcceleration;
+    rates.angularSpeed += joint.spinSpeed;
   }
   constexpr double kOutward = 1.0 + 1e-12;
   rates.angularSpeed *= kOutward;
@@ -104,7 +105,7 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
 
   const KinematicModel kinematics = detail::compileKinematics(robot, *moved, held);
   std::vector<JointMotion> motion(kinematics.bodies.size());
-  if (!detail::compileMotion(kinematics, from, to, motion)) {
+  if (!detail::StraightPath(kinematics, from, to).linearize(0.5, 0.5, motion)) {
     refuse(
         "a value is not finite, a quaternion has no direction, or a prismatic value is outside its "
         "limits");

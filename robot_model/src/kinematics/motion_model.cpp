@@ -36,20 +36,21 @@ Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to, bool neg
   return (2.0 * std::atan2(sine, relative.w()) / sine) * relative.vec();
 }
 
-Isometry3d jointTransform(const MovingBody& body, const JointMotion& motion, double t) {
+/// `since`: t less the anchor.
+Isometry3d jointTransform(const MovingBody& body, const JointMotion& motion, double since) {
   Isometry3d joint_from_body = Isometry3d::Identity();
-  joint_from_body.translation() = motion.translation + t * motion.rate;
+  joint_from_body.translation() = motion.translation + since * motion.rate;
   if (body.type == JointType::Revolute || body.type == JointType::Continuous ||
       body.type == JointType::Planar) {
     const Vector3d axis = body.type == JointType::Planar ? body.planarBasis.col(2) : body.axis;
     joint_from_body.linear() =
-        Eigen::AngleAxisd(motion.angle + t * motion.angleRate, axis).toRotationMatrix();
+        Eigen::AngleAxisd(motion.angle + since * motion.angleRate, axis).toRotationMatrix();
   } else if (body.type == JointType::Floating) {
+    const double turning = motion.spin.norm();  // at the anchor; the bound may be larger
     const Quaterniond turned =
-        motion.spinSpeed > 0.0
-            ? Quaterniond(Eigen::AngleAxisd(t * motion.spinSpeed, motion.spin / motion.spinSpeed)) *
-                  motion.rotation
-            : motion.rotation;
+        turning > 0.0 ? Quaterniond(Eigen::AngleAxisd(since * turning, motion.spin / turning)) *
+                            motion.rotation
+                      : motion.rotation;
     joint_from_body.linear() = turned.normalized().toRotationMatrix();
   }
   return joint_from_body;
@@ -152,11 +153,6 @@ bool hasDirection(const double* quaternion) {
   return length > 1e-6 && std::isfinite(length);
 }
 
-double cyclicDifference(double from, double to) {
-  const double difference = to - from;
-  return std::abs(difference) <= kPi ? difference : std::remainder(difference, 2.0 * kPi);
-}
-
 KinematicModel compileKinematics(const Robot& robot, const Group& group,
                                  const Eigen::VectorXd& reference) {
   KinematicModel model;
@@ -212,7 +208,7 @@ int addAttachedFrame(KinematicModel& model, int body, const Isometry3d& body_fro
 int addObstacleFrames(KinematicModel& model, std::size_t count) {
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   constexpr int kPose = 8;  // with the magnitude
-  const int first = static_cast<int>(model.bodies.size());
+  const int first = model.firstObstacle = static_cast<int>(model.bodies.size());
   if (count == 0) return first;
   model.cyclic.push_back(0);
   model.lower.push_back(-kUnlimited);
@@ -248,6 +244,8 @@ bool compileFloating(const double* from, const double* to, JointMotion& motion) 
   motion.rotation = first;
   motion.spin = rotationVector(first, second, dot(from + 3, to + 3) < 0.0);
   motion.maxTranslation = std::max(start.norm(), end.norm());
+  motion.speed = motion.rate.norm();
+  motion.spinSpeed = motion.spin.norm();
   return true;
 }
 
@@ -266,6 +264,9 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       motion.angle = body.multiplier * *q0 + body.offset;
       motion.angleRate = body.multiplier * difference;
       motion.spin = motion.angleRate * body.axis;
+      motion.spinSpeed = motion.spin.norm();
+      motion.lowAngle = std::min(motion.angle, motion.angle + motion.angleRate);
+      motion.highAngle = std::max(motion.angle, motion.angle + motion.angleRate);
       motion.largestAngle = std::abs(body.multiplier) *
                                 (std::max(std::abs(*q0), std::abs(*q1)) + std::abs(difference)) +
                             std::abs(body.offset);
@@ -280,6 +281,7 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       if (!(std::min(start, end) >= body.lower && std::max(start, end) <= body.upper)) return false;
       motion.translation = start * body.axis;
       motion.rate = (body.multiplier * difference) * body.axis;
+      motion.speed = motion.rate.norm();
       const double largest = std::abs(body.multiplier) *
                                  (std::max(std::abs(*q0), std::abs(*q1)) + std::abs(difference)) +
                              std::abs(body.offset);
@@ -296,6 +298,8 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       motion.largestAngle = std::max(std::abs(q0[2]), std::abs(q1[2])) + std::abs(motion.angleRate);
       motion.spin = motion.angleRate * body.planarBasis.col(2);
       motion.maxTranslation = std::max(std::hypot(q0[0], q0[1]), std::hypot(q1[0], q1[1]));
+      motion.speed = motion.rate.norm();
+      motion.spinSpeed = motion.spin.norm();
       break;
     case JointType::Floating:
       if (!compileFloating(q0, q1, motion)) return false;
@@ -310,8 +314,6 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
     case JointType::Fixed:
       break;
   }
-  motion.speed = motion.rate.norm();
-  motion.spinSpeed = motion.spin.norm();
   return true;
 }
 
@@ -320,7 +322,7 @@ bool compileMotion(const KinematicModel& model, std::span<const double> from,
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(from.begin(), from.end(), finite)) return false;
   if (!std::all_of(to.begin(), to.end(), finite)) return false;
-  for (std::size_t i = 1; i < model.bodies.size(); ++i) {
+  for (std::size_t i = 1; i < motion.size(); ++i) {
     if (!compileJoint(model, model.bodies[i], from, to, motion[i])) return false;
   }
   return true;
@@ -336,7 +338,7 @@ BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
                  const BodyState& parent) {
   const Isometry3d world_from_joint = parent.world_from_body * body.parent_from_joint;
   BodyState state;
-  state.world_from_body = world_from_joint * jointTransform(body, joint, t);
+  state.world_from_body = world_from_joint * jointTransform(body, joint, t - joint.anchor);
   const Vector3d spin = world_from_joint.linear() * joint.spin;
   state.angular = parent.angular + spin;
   // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
@@ -365,7 +367,6 @@ void interpolateMotion(const KinematicModel& model, std::span<const double> from
     if (body.type != JointType::Floating || body.variable >= model.dimension) continue;
     JointMotion motion;
     if (!compileFloating(from.data() + body.variable, to.data() + body.variable, motion)) continue;
-    motion.spinSpeed = motion.spin.norm();
     const Quaterniond turned(jointTransform(body, motion, t).linear());
     for (int i = 0; i < 4; ++i) q[body.variable + 3 + i] = turned.coeffs()[i];
   }

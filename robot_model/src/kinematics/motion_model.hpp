@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -57,7 +59,8 @@ struct KinematicModel {
   std::vector<char> cyclic;                       ///< per value of a configuration
   std::vector<double> lower, upper;               ///< likewise: rad, m or s
   int dimension = 0;                              ///< of a configuration
-  int fullDimension = 0;                          ///< of a whole configuration
+  int fullDimension = 0;                          ///< of a full configuration
+  int firstObstacle = 0;  ///< of the bodies: from here on they are moving obstacles
 };
 
 /// `reference` has a value for every variable of the robot.
@@ -69,25 +72,35 @@ int addAttachedFrame(KinematicModel& model, int body, const Eigen::Isometry3d& b
 /// Frames for so many obstacles; the index of the first one.
 int addObstacleFrames(KinematicModel& model, std::size_t count);
 
-/// How one joint moves over t in [0, 1]: its child frame at t is
-/// [ exp(t spin) rotation | translation + t rate ], all in the joint frame.
+/// How one joint moves during an interval of t: at `anchor + s` its child frame is
+/// [ exp(s spin) rotation | translation + s rate ], all in the joint frame, but for what the bounds
+/// on accelerations let it leave that. Where both are 0 its rates are constant.
 struct JointMotion {
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< m, at t = 0
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< m per unit t
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< at t = 0
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();                ///< rad per unit t
-  double angle = 0.0;           ///< rad: a revolute joint's value at t = 0, about its axis
-  double angleRate = 0.0;       ///< rad per unit t
-  double speed = 0.0;           ///< m per unit t, |rate|
-  double spinSpeed = 0.0;       ///< rad per unit t, |spin|
-  double maxTranslation = 0.0;  ///< m, planar and floating: largest |translation| over the motion
-  double low = 0.0;             ///< m, prismatic: range of its value over the motion
-  double high = 0.0;            ///< m
-  double largestAngle = 0.0;    ///< rad, of what the joint's angle is made of, for its rounding
-  double slideError = 0.0;      ///< m, what a translation rounds by beyond what its own size tells
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< m, at the anchor
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< m per unit t, likewise
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< likewise
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();                ///< rad per unit t, likewise
+  double anchor = 0.0;                                           ///< t
+  double angle = 0.0;      ///< rad, at the anchor: a revolute joint's value, about its axis
+  double angleRate = 0.0;  ///< rad per unit t, likewise
+  ///@{
+  /// Over the interval.
+  double speed = 0.0;             ///< m per unit t, no less than |rate|
+  double spinSpeed = 0.0;         ///< rad per unit t, no less than |spin|
+  double acceleration = 0.0;      ///< m per unit t squared, bounds that of the translation
+  double spinAcceleration = 0.0;  ///< rad per unit t squared, likewise of the turn
+  double maxTranslation = 0.0;    ///< m, planar and floating: largest |translation|
+  double low = 0.0;               ///< m, prismatic: range of its value
+  double high = 0.0;              ///< m
+  double lowAngle = 0.0;          ///< rad, revolute: range of its value
+  double highAngle = 0.0;         ///< rad
+  double largestAngle = 0.0;      ///< rad, of what the joint's angle is made of, for its rounding
+  double slideError = 0.0;        ///< m, what a translation rounds by beyond what its size tells
+  ///@}
 
-  /// m. Largest |translation| over the motion, whatever the type.
+  /// m. Largest |translation| over the interval, whatever the type.
   double slid() const { return std::max({maxTranslation, -low, high}); }
+  bool hasConstantRates() const { return acceleration == 0.0 && spinAcceleration == 0.0; }
 };
 
 /// What the joints that carry a body add to the rounding of its place in one motion, beyond what
@@ -126,7 +139,12 @@ bool hasDirection(const double* quaternion);
 
 /// The way a cyclic value goes: the given difference when it is at most half a turn, else the
 /// shorter.
-double cyclicDifference(double from, double to);
+inline double cyclicDifference(double from, double to) {
+  const double difference = to - from;
+  return std::abs(difference) <= std::numbers::pi
+             ? difference
+             : std::remainder(difference, 2.0 * std::numbers::pi);
+}
 
 /// One joint's share of a motion whose values are finite. False as below.
 bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span<const double> from,

@@ -55,14 +55,15 @@ void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,
   const double rounding = kRounding * static_cast<double>(path.size() + 1);
   double maxTranslation = 0.0;  // of the joints beyond
   double carried = 0.0;         // sum of w beyond
-  double driven = 0.0;          // of 2 V w + s^2 arm
+  double driven = 0.0;          // of 2 V w + e
   double speed = 0.0;
   for (std::size_t i = path.size(); i-- > 0;) {
     const JointMotion& joint = motion[path[i]];
     const Around around = aroundOf(bounds[i]);
     // Planar and floating joints farther out carry the ball away from this axis.
     const double arm = arms[i] + maxTranslation * kOutward;
-    const double own = joint.spinSpeed * joint.spinSpeed * arm;
+    const double own =
+        (joint.spinSpeed * joint.spinSpeed + joint.spinAcceleration) * arm + joint.acceleration;
     const double moved = joint.spinSpeed * arm + joint.speed;
     const double sum = driven + own - 2.0 * (around.turning - around.excess) * carried;
     const double error =

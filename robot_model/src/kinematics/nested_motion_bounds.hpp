@@ -37,9 +37,9 @@ inline double boundTogether(const KinematicModel& model, const MovingBody& body,
 /// from c to i is no less than W(i) - s_c. So
 ///   W(i) <= V(i) - V(r) + d,  d = max(0, s_r + s_c - t) where both turn, else 0.
 /// With l_m the speed of joint m's slide, the acceleration relative to r is at most the sum over
-/// the joints m from c on of 2 W(m's parent) w_m + s_m^2 arm_m, w_m = s_m arm_m + l_m, where W(r) =
-/// 0:
-///   s_c^2 arm_c + sum over m beyond c of (2 V(m's parent) w_m + s_m^2 arm_m)
+/// the joints m from c on of 2 W(m's parent) w_m + e_m, where W(r) = 0, w_m = s_m arm_m + l_m, and
+/// e_m = (s_m^2 + b_m) arm_m + a_m with b_m and a_m the accelerations of m's turn and slide:
+///   e_c + sum over m beyond c of (2 V(m's parent) w_m + e_m)
 ///   - 2 (V(r) - d) sum over m beyond c of w_m.
 /// Both sums go on from one r to its parent, so that each takes one step.
 void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,

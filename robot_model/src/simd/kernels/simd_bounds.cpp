@@ -32,6 +32,11 @@ void boundTurning(const SimdModel& model, SimdScratch& scratch) {
   }
 }
 
+void addAccelerations(const SimdJointMotion& joint, std::size_t at, SimdScratch& scratch) {
+  scratch.turned[at] = (scratch.turned[at] + joint.spinAcceleration) * kOutward;
+  scratch.slid[at] = (scratch.slid[at] + joint.acceleration) * kOutward;
+}
+
 /// What boundSteps does, for the joints of a path from the index `first` on alone: `turned` and
 /// `slid` of the scratch, by their index.
 void boundPath(const SimdModel& model, const std::vector<int>& path, std::size_t first,
@@ -45,12 +50,18 @@ void boundPath(const SimdModel& model, const std::vector<int>& path, std::size_t
       next = std::min(next, start + scratch.together[path[i]]);
     scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
     scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
+    if (scratch.curved) addAccelerations(joint, i, scratch);
     start = before;
     before = next * kOutward;
   }
 }
 
 }  // namespace
+
+void addAccelerations(const SimdReference& reference, SimdScratch& scratch) {
+  for (std::size_t i = 0; i < reference.steps.size(); ++i)
+    addAccelerations(scratch.motion[reference.steps[i].body], i, scratch);
+}
 
 void boundCarried(const SimdModel& model, SimdScratch& scratch) {
   boundTurning(model, scratch);
@@ -62,6 +73,10 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch) {
     const SimdCarried& joint = model.carried[at];
     const auto spin = static_cast<double>(scratch.motion[at].spin);
     const auto speed = static_cast<double>(scratch.motion[at].speed);
+    const double spinAcceleration =
+        scratch.curved ? static_cast<double>(scratch.motion[at].spinAcceleration) : 0.0;
+    const double acceleration =
+        scratch.curved ? static_cast<double>(scratch.motion[at].acceleration) : 0.0;
     const double around = turning[model.bodies[at].parent];
     const double less = around - excess[at];
     const double largest = around + excess[at];
@@ -70,7 +85,7 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch) {
       // What slides beyond this joint takes the body away from its axis.
       const double grown = slid[body] - slid[at] + rounding * slid[body];
       const double arm = static_cast<double>(joint.arms[i]) + grown;
-      const double own = spin * spin * arm;
+      const double own = (spin * spin + spinAcceleration) * arm + acceleration;
       if (joint.around >= 0) {
         const double sum = driven[body] + own - 2.0 * less * carried[body];
         const double error = rounding * (driven[body] + own + 2.0 * largest * carried[body]);

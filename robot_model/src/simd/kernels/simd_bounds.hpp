@@ -30,6 +30,9 @@ inline void boundSteps(const SimdReference& reference, SimdScratch& scratch) {
   }
 }
 
+/// What the joints' own accelerations add to that.
+void addAccelerations(const SimdReference& reference, SimdScratch& scratch);
+
 /// SimdScratch::bounds from SimdModel::carried, in time proportional to the number of arms: of
 /// every body relative to each of its ancestors that is a reference. The lemma is that of
 /// nestedMotionBounds, with what boundMotion has of joints.

@@ -104,14 +104,26 @@ HWY_INLINE V3 placeFrame(const SimdBody& body, const SimdJointMotion& motion, co
   return {axis[0], axis[1], axis[2]};
 }
 
-HWY_INLINE void placeVelocity(const SimdBody& body, const SimdJointMotion& motion, const V3& axis,
+/// What a joint's rates are in the lanes.
+struct Rates {
+  F8 turn;   ///< rad per unit t
+  V3 slide;  ///< m per unit t
+};
+
+template <bool kGiven>
+HWY_INLINE Rates ratesOf(const SimdJointMotion& motion, const SimdBlock& block, int body) {
+  if constexpr (!kGiven) return {set(motion.angleRate), set3(motion.slideRate)};
+  const Row* slide = &block.slideRate[3 * static_cast<std::size_t>(body)];
+  return {load(block.angleRate[body]), {load(slide[0]), load(slide[1]), load(slide[2])}};
+}
+
+HWY_INLINE void placeVelocity(const SimdBody& body, const Rates& rates, const V3& axis,
                               const SimdBodyState& parent, SimdBodyState& state) {
   V3 linear = load3(parent.linear);
   V3 angular = load3(parent.angular);
-  if (body.kind != SimdJointKind::Turn)
-    linear = addRotated(linear, parent.rotation, set3(motion.slideRate));
+  if (body.kind != SimdJointKind::Turn) linear = addRotated(linear, parent.rotation, rates.slide);
   if (body.kind != SimdJointKind::Slide) {
-    const V3 spin = set(motion.angleRate) * axis;
+    const V3 spin = rates.turn * axis;
     angular = angular + spin;
     linear = addCross(linear, load3(state.origin), spin);  // - spin x origin
   }
@@ -126,8 +138,9 @@ HWY_INLINE void placeRoot(const SimdNode& root, bool moving, const F8& half,
   if (moving) store3(half * addCross(load3(state.linear), load3(state.angular), x), ball.by);
 }
 
-void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<const int> bodies,
-           SimdBlock& block) {
+template <bool kGiven>
+HWY_INLINE void placeAll(const SimdModel& model, const SimdJointMotion* motion,
+                         std::span<const int> bodies, SimdBlock& block) {
   const F8 time = load(block.time);
   const F8 half = load(block.half);
   const bool moving = block.mode == SimdMode::Motion;
@@ -135,7 +148,7 @@ void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<cons
     const SimdBody& body = model.bodies[b];
     const SimdJointMotion& joint = motion[b];
     Row* slide = &block.slide[3 * static_cast<std::size_t>(b)];
-    if (block.mode != SimdMode::States) {
+    if constexpr (!kGiven) {
       store(multiplyAdd(time, set(joint.angleRate), set(joint.angle)), block.angle[b]);
       if (body.kind != SimdJointKind::Turn)
         for (int i = 0; i < 3; ++i)
@@ -144,14 +157,21 @@ void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<cons
     const SimdBodyState& parent = block.states[body.parent];
     SimdBodyState& state = block.states[b];
     const V3 axis = placeFrame(body, joint, block.angle[b], slide, parent, state);
-    if (moving) placeVelocity(body, joint, axis, parent, state);
+    if (moving) placeVelocity(body, ratesOf<kGiven>(joint, block, b), axis, parent, state);
     if (body.kind == SimdJointKind::Floating) turnAfter(joint.after, state);
     if (model.rootOfBody[b] >= 0)
       placeRoot(model.nodes[model.rootOfBody[b]], moving, half, state, block.roots[b]);
   }
 }
 
-void Bound(const SimdModel& model, SimdScratch& scratch) {
+void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<const int> bodies,
+           SimdBlock& block) {
+  block.given ? placeAll<true>(model, motion, bodies, block)
+              : placeAll<false>(model, motion, bodies, block);
+}
+
+template <bool kCurved>
+HWY_INLINE void boundAll(const SimdModel& model, SimdScratch& scratch) {
   for (const int body : model.allBodies) {
     const SimdBody& joint = model.bodies[body];
     if (joint.cosine < 0.0F) continue;
@@ -164,6 +184,7 @@ void Bound(const SimdModel& model, SimdScratch& scratch) {
   for (std::size_t k = 0; k < model.references.size(); ++k) {
     const SimdReference& reference = model.references[k];
     boundSteps(reference, scratch);
+    if constexpr (kCurved) addAccelerations(reference, scratch);
     const std::size_t steps = reference.steps.size();
     const auto rows = static_cast<std::size_t>(reference.rows);
     for (std::size_t r = 0; r < rows; ++r) {
@@ -184,6 +205,10 @@ void Bound(const SimdModel& model, SimdScratch& scratch) {
       store(sum * set(outward), scratch.bounds[k].acceleration[r]);
     }
   }
+}
+
+void Bound(const SimdModel& model, SimdScratch& scratch) {
+  scratch.curved ? boundAll<true>(model, scratch) : boundAll<false>(model, scratch);
 }
 
 }  // namespace

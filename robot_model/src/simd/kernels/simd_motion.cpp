@@ -20,7 +20,8 @@ constexpr double kOutward = 1.0 + 2.0 * kSingle;
 
 /// Of the lane frame of a body in that of its parent, and of what a floating joint is turned by
 /// before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the axis.
-void compileFloating(const MovingBody& body, const JointMotion& joint, SimdJointMotion& lane) {
+[[gnu::always_inline]] inline void compileFloating(const MovingBody& body, const JointMotion& joint,
+                                                   SimdJointMotion& lane) {
   Eigen::Matrix3d toAxis = Eigen::Matrix3d::Identity();
   if (joint.spinSpeed > 0.0) toAxis = axisFrame(joint.spin);
   const Eigen::Matrix3d before = body.parent_from_joint.linear() * toAxis;
@@ -40,35 +41,35 @@ struct Extent {
   double speeds = 0.0;        ///< m per unit t, of all joints
   double slid = 0.0;          ///< m, of all joints
   double slideError = 0.0;    ///< m, likewise
+  bool withinLimits = true;   ///< all joints that only turn
 };
 
 /// rad. Beyond, the rounding of 2 pi shows in what is left of an angle when turns are taken off.
 constexpr double kLargestAngle = 1e6;
 
-bool addTurn(double angle, double rate, double spin, SimdJointMotion& lane, Extent& extent) {
+/// rad. The same turn, near 0 where the angle is large.
+double nearZero(double angle) {
+  return std::abs(angle) > 4.0 ? std::remainder(angle, 2.0 * std::numbers::pi) : angle;
+}
+
+/// `travel`: rad, no less than what the angle is off its value at the anchor.
+bool addTurn(double angle, double rate, double spin, double travel, SimdJointMotion& lane,
+             Extent& extent) {
   if (!(std::abs(angle) <= kLargestAngle)) return false;
-  if (std::abs(angle) > 4.0) angle = std::remainder(angle, 2.0 * std::numbers::pi);
+  angle = nearZero(angle);
   lane.angle = static_cast<float>(angle);
   lane.angleRate = static_cast<float>(rate);
   lane.spin = static_cast<float>(spin * kOutward);
-  const double reached = std::abs(angle) + std::abs(rate);
+  const double reached = std::abs(angle) + travel;
   extent.largestAngle = std::max(extent.largestAngle, reached);
   extent.spins += spin;
   return reached <= kFarthest;  // not if it is no number
 }
 
-/// Any joint that does not only turn.
-bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::size_t index,
-              std::span<const double> from, std::span<const double> to, SimdJointMotion& lane,
-              Extent& extent) {
-  const MovingBody& body = kinematics.bodies[index];
-  JointMotion joint;
-  if (!compileJoint(kinematics, body, from, to, joint)) return false;
-  if (!(joint.largestAngle <= kLargestAngle)) return false;
-  // The largest of several may leave out what is no number: a walk must never see it.
-  if (!std::isfinite(joint.maxTranslation + joint.high - joint.low + joint.speed)) return false;
-  const bool floating = body.type == JointType::Floating;
-  // Slides are written in the parent's frame.
+/// Slides are written in the parent's frame.
+[[gnu::always_inline]] inline void setSlides(const SimdModel& model, const MovingBody& body,
+                                             std::size_t index, const JointMotion& joint,
+                                             SimdJointMotion& lane) {
   const Eigen::Matrix3d lane_from_joint =
       model.parentLaneFromParent[index] * body.parent_from_joint.linear();
   const Eigen::Vector3d slide = lane_from_joint * joint.translation;
@@ -77,37 +78,96 @@ bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::siz
     lane.slide[k] = static_cast<float>(slide[k]);
     lane.slideRate[k] = static_cast<float>(slideRate[k]);
   }
+}
+
+/// Any joint that does not only turn.
+bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::size_t index,
+              const JointMotion& joint, SimdJointMotion& lane, Extent& extent) {
+  const MovingBody& body = kinematics.bodies[index];
+  if (!(joint.largestAngle <= kLargestAngle)) return false;
+  // The largest of several may leave out what is no number: a walk must never see it.
+  if (!std::isfinite(joint.maxTranslation + joint.high - joint.low + joint.speed)) return false;
+  setSlides(model, body, index, joint, lane);
   lane.speed = static_cast<float>(joint.speed * kOutward);
   extent.speeds += joint.speed;
   lane.slid = static_cast<float>(joint.slid() * kOutward);
   extent.slid += joint.slid();
   extent.slideError += joint.slideError;
+  const bool floating = body.type == JointType::Floating;
   if (floating) compileFloating(body, joint, lane);
-  return addTurn(floating ? 0.0 : joint.angle, floating ? joint.spinSpeed : joint.angleRate,
-                 joint.spinSpeed, lane, extent);
+  const double rate = floating ? joint.spinSpeed : joint.angleRate;
+  return addTurn(floating ? 0.0 : joint.angle, rate, joint.spinSpeed,
+                 joint.hasConstantRates() ? std::abs(rate) : joint.spinSpeed, lane, extent);
 }
 
-/// The motion's joints, and what their error depends on.
-bool addJoints(const SimdModel& model, const KinematicModel& kinematics,
-               std::span<const double> from, std::span<const double> to, SimdScratch& scratch,
-               Extent& extent) {
+bool isWithin(const MovingBody& body, double low, double high) {
+  return (low >= body.lower && high <= body.upper) || body.type == JointType::Continuous;
+}
+
+/// A joint that only turns, at a constant rate: of a straight path, from its ends. What exact
+/// geometry has to know besides would take a tenth of the time of a motion that is soon proven.
+bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
+                     std::span<const double> from, std::span<const double> to,
+                     SimdJointMotion& lane, Extent& extent) {
+  const double begin = from[body.variable];
+  const double end = to[body.variable];
+  const bool cyclic = kinematics.cyclic[body.variable] != 0;
+  const double angle = body.multiplier * begin + body.offset;
+  // The shorter way from a small angle to a large one is small, and rounds as the large one does.
+  if (!(std::abs(body.multiplier * end) <= kLargestAngle)) return false;
+  const double rate = body.multiplier * (cyclic ? cyclicDifference(begin, end) : end - begin);
+  if (!addTurn(angle, rate, std::abs(rate), std::abs(rate), lane, extent)) return false;
+  extent.withinLimits &=
+      isWithin(body, std::min(angle, angle + rate), std::max(angle, angle + rate));
+  return true;
+}
+
+/// The joints of a straight path, or of a state that stays, and what their error depends on.
+bool addStraight(const SimdModel& model, const KinematicModel& kinematics,
+                 std::span<const double> from, std::span<const double> to, SimdScratch& scratch,
+                 Extent& extent) {
   for (std::size_t i = 1; i < kinematics.bodies.size(); ++i) {
     const MovingBody& body = kinematics.bodies[i];
-    if (model.bodies[i].kind != SimdJointKind::Turn) {
-      if (!addSlide(model, kinematics, i, from, to, scratch.motion[i], extent)) return false;
+    SimdJointMotion& lane = scratch.motion[i];
+    if (model.bodies[i].kind == SimdJointKind::Turn) {
+      if (!addStraightTurn(kinematics, body, from, to, lane, extent)) return false;
       continue;
     }
-    const double begin = from[body.variable];
-    const double end = to[body.variable];
-    const bool cyclic = kinematics.cyclic[body.variable] != 0;
-    const double angle = body.multiplier * begin + body.offset;
-    // The shorter way from a small angle to a large one is small, and rounds as the large one does.
-    if (!(std::abs(body.multiplier * end) <= kLargestAngle)) return false;
-    const double rate = body.multiplier * (cyclic ? cyclicDifference(begin, end) : end - begin);
-    if (!addTurn(angle, rate, std::abs(rate), scratch.motion[i], extent)) return false;
-    const bool within =
-        std::min(angle, angle + rate) >= body.lower && std::max(angle, angle + rate) <= body.upper;
-    scratch.withinLimits = scratch.withinLimits && (within || body.type == JointType::Continuous);
+    if (!compileJoint(kinematics, body, from, to, scratch.slide)) return false;
+    if (!addSlide(model, kinematics, i, scratch.slide, lane, extent)) return false;
+  }
+  return true;
+}
+
+/// What it is at the anchor says what it is everywhere.
+bool isLinear(const JointMotion& joint) {
+  return joint.hasConstantRates() && joint.anchor == 0.0;
+}
+
+void setAccelerations(const JointMotion& joint, SimdJointMotion& lane) {
+  lane.acceleration = static_cast<float>(joint.acceleration * kOutward);
+  lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kOutward);
+}
+
+/// Those of any path, as it is over the whole motion.
+bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
+               std::span<const JointMotion> joints, SimdScratch& scratch, Extent& extent) {
+  for (std::size_t i = 1; i < joints.size(); ++i) {
+    const JointMotion& joint = joints[i];
+    const SimdJointKind kind = model.bodies[i].kind;
+    SimdJointMotion& lane = scratch.motion[i];
+    setAccelerations(joint, lane);
+    if (kind == SimdJointKind::Turn) {
+      const MovingBody& body = kinematics.bodies[i];
+      if (!(joint.largestAngle <= kLargestAngle)) return false;
+      extent.withinLimits &= isWithin(body, joint.lowAngle, joint.highAngle);
+      if (!addTurn(joint.angle, joint.angleRate, joint.spinSpeed, joint.spinSpeed, lane, extent))
+        return false;
+      continue;
+    }
+    // The axis that a floating joint turns about is the same in all lanes.
+    if (kind == SimdJointKind::Floating && !isLinear(joint)) return false;
+    if (!addSlide(model, kinematics, i, joint, lane, extent)) return false;
   }
   return true;
 }
@@ -119,6 +179,7 @@ bool addJoints(const SimdModel& model, const KinematicModel& kinematics,
 /// spins, of which half an interval counts at most a half. What is slid takes points as much
 /// farther from the obstacles' frames as well.
 bool setRounding(const SimdModel& model, const Extent& extent, SimdScratch& scratch) {
+  scratch.withinLimits = extent.withinLimits;
   const double reach = model.reach + extent.slid;
   const double relative = static_cast<double>(model.rounding) * (1.0 + extent.largestAngle / 8.0);
   const double rounding = relative * (reach * (1.0 + 0.5 * extent.spins) + 0.5 * extent.speeds) +
@@ -127,23 +188,78 @@ bool setRounding(const SimdModel& model, const Extent& extent, SimdScratch& scra
   return rounding < 1.0;
 }
 
+/// Takes over the larger bounds.
+void widen(const SimdJointMotion& other, SimdJointMotion& motion) {
+  motion.spin = std::max(motion.spin, other.spin);
+  motion.speed = std::max(motion.speed, other.speed);
+  motion.slid = std::max(motion.slid, other.slid);
+  motion.acceleration = std::max(motion.acceleration, other.acceleration);
+  motion.spinAcceleration = std::max(motion.spinAcceleration, other.spinAcceleration);
+}
+
 }  // namespace
 
-bool compileSimdMotion(const SimdModel& model, const KinematicModel& kinematics,
-                       std::span<const double> from, std::span<const double> to,
-                       SimdScratch& scratch) {
+bool SimdMotion::compile() {
   Extent extent;
-  scratch.withinLimits = true;
-  if (!addJoints(model, kinematics, from, to, scratch, extent)) return false;
-  boundMotion(model, scratch);
-  return setRounding(model, extent, scratch);
+  const StraightPath* const straight = path_.asStraight();
+  scratch_.curved = scratch_.block.given = straight == nullptr;
+  const bool added = scratch_.curved ? path_.linearize(0.5, 0.5, joints_) &&
+                                           addCurved(model_, kinematics_, joints_, scratch_, extent)
+                                     : addStraight(model_, kinematics_, straight->from(),
+                                                   straight->to(), scratch_, extent);
+  if (!added) return false;
+  boundMotion(model_, scratch_);
+  return setRounding(model_, extent, scratch_);
+}
+
+/// Values and rates of the joints at the middle of each lane, and bounds that hold in all.
+void SimdMotion::linearizeLanes() {
+  SimdBlock& block = scratch_.block;
+  block.angleRate.resize(block.angle.size());
+  block.slideRate.resize(block.slide.size());
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    path_.linearize(static_cast<double>(block.time.lane[lane]),
+                    static_cast<double>(block.half.lane[lane]), joints_);
+    for (std::size_t i = 1; i < joints_.size(); ++i) {
+      SimdJointMotion& motion = scratch_.motion[i];
+      SimdJointMotion own = motion;
+      if (!isLinear(joints_[i])) {
+        own = localMotion(i);
+        if (lane == 0) motion = own;
+        widen(own, motion);
+      }
+      const float since = isLinear(joints_[i]) ? block.time.lane[lane] : 0.0F;
+      block.angle[i].lane[lane] = own.angle + since * own.angleRate;
+      block.angleRate[i].lane[lane] = own.angleRate;
+      for (std::size_t k = 0; k < 3; ++k) {
+        block.slide[3 * i + k].lane[lane] = own.slide[k] + since * own.slideRate[k];
+        block.slideRate[3 * i + k].lane[lane] = own.slideRate[k];
+      }
+    }
+  }
+  boundMotion(model_, scratch_);
+}
+
+/// Of a joint whose rate changes, in the interval that `joints` is about.
+SimdJointMotion SimdMotion::localMotion(std::size_t body) const {
+  const JointMotion& joint = joints_[body];
+  SimdJointMotion own;
+  setAccelerations(joint, own);
+  own.angle = static_cast<float>(nearZero(joint.angle));
+  own.angleRate = static_cast<float>(joint.angleRate);
+  own.spin = static_cast<float>(joint.spinSpeed * kOutward);
+  own.speed = static_cast<float>(joint.speed * kOutward);
+  own.slid = static_cast<float>(joint.slid() * kOutward);
+  if (model_.bodies[body].kind != SimdJointKind::Turn)
+    setSlides(model_, kinematics_.bodies[body], body, joint, own);
+  return own;
 }
 
 bool compileSimdState(const SimdModel& model, const KinematicModel& kinematics,
                       std::span<const double> q, SimdScratch& scratch) {
   Extent extent;
-  scratch.withinLimits = true;
-  return addJoints(model, kinematics, q, q, scratch, extent) && setRounding(model, extent, scratch);
+  return addStraight(model, kinematics, q, q, scratch, extent) &&
+         setRounding(model, extent, scratch);
 }
 
 bool compileSimdStates(const SimdModel& model, const KinematicModel& kinematics,
@@ -152,15 +268,15 @@ bool compileSimdStates(const SimdModel& model, const KinematicModel& kinematics,
   const auto dimension = static_cast<std::size_t>(kinematics.dimension);
   const std::size_t count = states.size() / dimension;
   Extent extent;
-  scratch.withinLimits = true;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const std::span<const double> q =
         states.subspan((lane < count ? lane : 0) * dimension, dimension);
     Extent own;
-    if (!addJoints(model, kinematics, q, q, scratch, own)) return false;
+    if (!addStraight(model, kinematics, q, q, scratch, own)) return false;
     extent.largestAngle = std::max(extent.largestAngle, own.largestAngle);
     extent.slid = std::max(extent.slid, own.slid);
     extent.slideError = std::max(extent.slideError, own.slideError);
+    extent.withinLimits &= own.withinLimits;
     for (std::size_t i = 1; i < model.bodies.size(); ++i) {
       scratch.block.angle[i].lane[lane] = scratch.motion[i].angle;
       for (std::size_t k = 0; k < 3; ++k)

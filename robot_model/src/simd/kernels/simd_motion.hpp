@@ -1,22 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <span>
 
-#include "kinematics/motion_model.hpp"
+#include "kinematics/joint_path.hpp"
 #include "simd/compile/simd_model.hpp"
+#include "simd/kernels/simd_kinematics.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 
 namespace swept::detail {
 
-/// Compiles a motion in single precision, with the bounds on its error and on its accelerations.
-/// False: a value is not finite or outside what it may be, or the motion turns so far that single
-/// precision is not enough; compileMotion tells.
-bool compileSimdMotion(const SimdModel& model, const KinematicModel& kinematics,
-                       std::span<const double> from, std::span<const double> to,
-                       SimdScratch& scratch);
+/// A motion in single precision. Frames and velocities of bodies at the middles of a block's
+/// sub-intervals, and bounds that hold in these.
+class SimdMotion {
+ public:
+  /// `joints`: as many as there are bodies, to work in. All have to outlive this.
+  SimdMotion(const SimdModel& model, const KinematicModel& kinematics, const JointPath& path,
+             std::span<JointMotion> joints, SimdScratch& scratch)
+      : model_(model), kinematics_(kinematics), path_(path), joints_(joints), scratch_(scratch) {}
 
-/// A single state, without bounds on accelerations. False as above.
+  /// The whole motion, with the bounds on its error and on its accelerations. False: the path says
+  /// nothing of it (see JointPath::linearize), or it turns so far that single precision is not
+  /// enough.
+  bool compile();
+
+  /// Places bodies, whose ancestors are among these, at the sub-intervals of the scratch's block.
+  void place(std::span<const int> bodies) {
+    if (scratch_.curved) linearizeLanes();
+    placeBodies(model_, scratch_.motion, bodies, scratch_.block);
+  }
+
+  const SimdModel& model() const { return model_; }
+
+ private:
+  void linearizeLanes();
+  SimdJointMotion localMotion(std::size_t body) const;
+
+  const SimdModel& model_;
+  const KinematicModel& kinematics_;
+  const JointPath& path_;
+  std::span<JointMotion> joints_;
+  SimdScratch& scratch_;
+};
+
+/// A single state, without bounds on accelerations. False: a value is not finite or outside what it
+/// may be, or so large that single precision is not enough.
 bool compileSimdState(const SimdModel& model, const KinematicModel& kinematics,
                       std::span<const double> q, SimdScratch& scratch);
 

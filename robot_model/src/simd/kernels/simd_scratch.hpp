@@ -6,23 +6,27 @@
 #include <limits>
 #include <vector>
 
+#include "kinematics/motion_model.hpp"
 #include "simd/compile/row.hpp"
 
 namespace swept::detail {
 
 struct SimdModel;
 
-/// One joint's share of a motion, t in [0, 1].
-struct SimdJointMotion {
-  float angle = 0.0F;       ///< rad, at t = 0
-  float angleRate = 0.0F;   ///< rad per unit t
-  float slide[3] = {};      ///< m, parent's frame, at t = 0
-  float slideRate[3] = {};  ///< m per unit t
-  float rotation[9] = {};   ///< Floating: in place of SimdBody::rotation
-  float after[9] = {};      ///< Floating: applied to the body before it turns
-  float spin = 0.0F;        ///< rad per unit t, not below |angleRate|
-  float speed = 0.0F;       ///< m per unit t, not below |slideRate|
-  float slid = 0.0F;        ///< m, not below what it is off zero during the motion; 0: only turns
+/// One joint's share of a motion, t in [0, 1]. Its size is a power of two, for it is looked up all
+/// the time.
+struct alignas(32) SimdJointMotion {
+  float angle = 0.0F;         ///< rad, at t = 0
+  float angleRate = 0.0F;     ///< rad per unit t
+  float slide[3] = {};        ///< m, parent's frame, at t = 0
+  float slideRate[3] = {};    ///< m per unit t
+  float rotation[9] = {};     ///< Floating: in place of SimdBody::rotation
+  float after[9] = {};        ///< Floating: applied to the body before it turns
+  float spin = 0.0F;          ///< rad per unit t, not below |angleRate|
+  float speed = 0.0F;         ///< m per unit t, not below |slideRate|
+  float slid = 0.0F;          ///< m, not below what it is off zero during the motion; 0: only turns
+  float acceleration = 0.0F;  ///< m per unit t squared, bounds that of the slide
+  float spinAcceleration = 0.0F;  ///< rad per unit t squared, bounds that of the turn
 };
 
 /// Frame and velocity field of one body in all lanes: p has velocity linear + angular x p.
@@ -67,10 +71,15 @@ enum class SimdMode : std::uint8_t {
 
 /// Eight sub-intervals of a motion, or states, and what is found out about them.
 struct SimdBlock {
-  Row time;                           ///< of the middles
-  Row half;                           ///< half widths, in units of t
-  std::vector<Row> angle;             ///< rad, per body
-  std::vector<Row> slide;             ///< m, 3 per body
+  Row time;                ///< of the middles
+  Row half;                ///< half widths, in units of t
+  std::vector<Row> angle;  ///< rad, per body
+  std::vector<Row> slide;  ///< m, 3 per body
+  /// `angle` and `slide` are given, and, of a motion, their rates; else a motion's rates are
+  /// constant, and tell.
+  bool given = false;
+  std::vector<Row> angleRate;         ///< rad per unit t, where it is given
+  std::vector<Row> slideRate;         ///< m per unit t, likewise
   std::vector<SimdBodyState> states;  ///< per body
   std::vector<SimdRoot> roots;        ///< per body; of those that have geometry
   /// Pairs that are open, with their lanes in openLanes.
@@ -109,6 +118,7 @@ struct SimdScratch {
   explicit SimdScratch(const SimdModel& model);
   void restBase(const SimdModel& model);
   std::vector<SimdJointMotion> motion;
+  JointMotion slide;               ///< of one joint, while that is compiled
   std::vector<SimdBounds> bounds;  ///< per reference
   std::vector<float> together;     ///< rad per unit t, per body: it and its parent turning
   std::vector<float> turning;      ///< rad per unit t, per step of a reference
@@ -163,6 +173,7 @@ struct SimdScratch {
   std::vector<Roots> rootsOfEight;
   std::vector<SimdQuery> queries;
   float rounding = 0.0F;      ///< m, of this motion
+  bool curved = false;        ///< its rates change
   bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
   /// Sub-intervals with the pairs still open on them: now, and of the next halving.
   struct Item {

@@ -10,8 +10,9 @@ std::uint32_t TableLanes::proven(const PairSeparationTable& table) const {
   PairSeparationTable::Values lower;
   PairSeparationTable::Values upper;
   boxOf(table, 0, kLanes, lower, upper);
-  // A motion's first lanes are in order of time, and its angles do not turn back.
-  if (block.mode != SimdMode::States && table.free(lower, upper)) return kAllLanes;
+  // A motion's first lanes are in order of time, and angles of constant rate do not turn back.
+  const bool inOrder = block.mode != SimdMode::States && !scratch_.curved;
+  if (inOrder && table.free(lower, upper)) return kAllLanes;
   std::uint32_t lanes = 0;
   for (int lane = 0; lane < kLanes; ++lane) {
     boxOf(table, lane, lane + 1, lower, upper);

@@ -19,10 +19,11 @@ constexpr float kFinestInflation = 2e-4F;
 
 class Division {
  public:
-  Division(const SimdModel& model, ExactOracle& judge, SimdGoal goal, SimdScratch& scratch,
+  Division(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch,
            SimdAnswer& answer)
-      : model_(model),
-        judge_(judge),
+      : model_(motion.model()),
+        motion_(motion),
+        oracle_(oracle),
         scratch_(scratch),
         answer_(answer),
         decides_(goal == SimdGoal::Verdict) {}
@@ -126,7 +127,7 @@ class Division {
       const std::vector<int>& ofB = model_.ancestors[model_.geometryBody[source.other]];
       scratch_.bodies.insert(scratch_.bodies.end(), std::ranges::mismatch(ofA, ofB).in2, ofB.end());
     }
-    placeBodies(model_, scratch_.motion, scratch_.bodies, scratch_.block);
+    motion_.place(scratch_.bodies);
   }
 
   /// A time at which exact geometry is asked about the pair, and around it.
@@ -161,7 +162,7 @@ class Division {
     while (open != 0 && looks_ < kMostLooks) {
       const Look at = nextLook(open);
       ++looks_;
-      const ExactAnswer look = judge_.look(pair, at.t, at.half);
+      const ExactAnswer look = oracle_.look(pair, at.t, at.half);
       if (look.kind == ExactAnswer::Kind::Contact) {
         // Where the first contact is wanted, the exact tier looks for it.
         inContact_ = true;
@@ -205,7 +206,8 @@ class Division {
   }
 
   const SimdModel& model_;
-  ExactOracle& judge_;
+  SimdMotion& motion_;
+  ExactOracle& oracle_;
   SimdScratch& scratch_;
   SimdAnswer& answer_;
   const bool decides_;  ///< a contact
@@ -217,9 +219,9 @@ class Division {
 
 }  // namespace
 
-bool dividePairs(const SimdModel& model, ExactOracle& judge, SimdGoal goal, SimdScratch& scratch,
+bool dividePairs(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch,
                  SimdAnswer& answer) {
-  return Division(model, judge, goal, scratch, answer).run();
+  return Division(motion, oracle, goal, scratch, answer).run();
 }
 
 }  // namespace swept::detail

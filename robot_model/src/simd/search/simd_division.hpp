@@ -8,9 +8,9 @@
 namespace swept::detail {
 
 /// Takes from scratch.rest what planes between the hulls of two bodies prove. Their directions come
-/// from exact geometry at one time; each serves for all sub-intervals around it. True: the judge
+/// from exact geometry at one time; each serves for all sub-intervals around it. True: the oracle
 /// found a contact that decides.
-bool dividePairs(const SimdModel& model, ExactOracle& judge, SimdGoal goal, SimdScratch& scratch,
+bool dividePairs(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch,
                  SimdAnswer& answer);
 
 }  // namespace swept::detail

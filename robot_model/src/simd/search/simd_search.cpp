@@ -26,15 +26,15 @@ void forgetOpen(SimdBlock& block) {
   block.open.clear();
 }
 
-/// Suspects of one motion that the judge is asked about, at most: each costs more than a block.
+/// Suspects of one motion that the oracle is asked about, at most: each costs more than a block.
 constexpr int kMostLikelyContacts = 4;
 /// Points of a link that exact geometry is asked about, of those that seem to be in an obstacle.
 constexpr std::int32_t kMostPoints = 2;
 
 class MotionSearch {
  public:
-  MotionSearch(const SimdModel& model, ExactOracle& judge, SimdGoal goal, SimdScratch& scratch)
-      : model_(model), judge_(judge), goal_(goal), scratch_(scratch) {
+  MotionSearch(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch)
+      : model_(motion.model()), motion_(motion), oracle_(oracle), goal_(goal), scratch_(scratch) {
     for (const Row& row : scratch.bounds[0].acceleration)
       for (const float value : row.lane)
         answer_.acceleration = std::max(answer_.acceleration, value);
@@ -66,7 +66,7 @@ class MotionSearch {
       return answer_;
     }
     forgetBehind(scratch_.rest);
-    if (!scratch_.rest.empty() && dividePairs(model_, judge_, goal_, scratch_, answer_))
+    if (!scratch_.rest.empty() && dividePairs(motion_, oracle_, goal_, scratch_, answer_))
       return contact();
     if (!scratch_.rest.empty()) {
       answer_.kind = SimdAnswer::Kind::Open;
@@ -110,7 +110,7 @@ class MotionSearch {
     return goal_ == SimdGoal::Verdict;
   }
 
-  /// Walks until it is through or the judge has confirmed a contact that decides. Otherwise the
+  /// Walks until it is through or the oracle has confirmed a contact that decides. Otherwise the
   /// walk is repeated for what lies before the contact, without looking for more; and a claim that
   /// is not confirmed is not made a second time.
   template <typename Walk>
@@ -122,7 +122,7 @@ class MotionSearch {
     const std::uint32_t behind = block.contactLanes;
     if (walkAll()) {
       const int lane = std::countr_zero(block.contactLanes & ~behind);
-      const bool confirmed = judge_.isContact(block.contacts[lane], timeOf(lane));
+      const bool confirmed = oracle_.isContact(block.contacts[lane], timeOf(lane));
       if (confirmed && decides(lane)) return true;
       contacts_ = confirmed;
       block.contactLanes = lanesBehind();
@@ -135,7 +135,7 @@ class MotionSearch {
     ++likelyContacts_;
     const bool confirmed =
         isInside(block.likelyContact) ||
-        judge_.look(block.likelyContact.pair, timeOf(block.likelyContact.lane), 0.0).kind ==
+        oracle_.look(block.likelyContact.pair, timeOf(block.likelyContact.lane), 0.0).kind ==
             ExactAnswer::Kind::Contact;
     return confirmed && decides(block.likelyContact.lane);
   }
@@ -145,7 +145,7 @@ class MotionSearch {
     if (model_.sources[likelyContact.pair].obstacle < 0) return false;
     const PointsInside points = pointsInside(model_, likelyContact, scratch_);
     for (std::int32_t i = 0; i < std::min(points.count, kMostPoints); ++i)
-      if (judge_.isInside(likelyContact.pair, points.index[i], timeOf(likelyContact.lane)))
+      if (oracle_.isInside(likelyContact.pair, points.index[i], timeOf(likelyContact.lane)))
         return true;
     return false;
   }
@@ -158,7 +158,7 @@ class MotionSearch {
       block.half.lane[lane] = 1.0F / (2.0F * kLanes);
     }
     answer_.intervals += kLanes;
-    placeBodies(model_, scratch_.motion, model_.allBodies, block);
+    motion_.place(model_.allBodies);
     return walk([&] { return walkWorld(model_, scratch_) || walkSelf(model_, scratch_); });
   }
 
@@ -263,11 +263,12 @@ class MotionSearch {
     scratch_.bodies.clear();
     for (const int body : model_.allBodies)
       if (scratch_.bodyWanted[body] != 0) scratch_.bodies.push_back(body);
-    placeBodies(model_, scratch_.motion, scratch_.bodies, scratch_.block);
+    motion_.place(scratch_.bodies);
   }
 
   const SimdModel& model_;
-  ExactOracle& judge_;
+  SimdMotion& motion_;
+  ExactOracle& oracle_;
   const SimdGoal goal_;
   bool contacts_ = true;  ///< looked for
   SimdScratch& scratch_;
@@ -278,9 +279,9 @@ class MotionSearch {
 
 }  // namespace
 
-SimdAnswer searchMotion(const SimdModel& model, ExactOracle& judge, SimdGoal goal,
+SimdAnswer searchMotion(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal,
                         SimdScratch& scratch) {
-  return MotionSearch(model, judge, goal, scratch).run();
+  return MotionSearch(motion, oracle, goal, scratch).run();
 }
 
 void searchStates(const SimdModel& model, SimdMode mode, SimdContacts contacts,
@@ -288,6 +289,7 @@ void searchStates(const SimdModel& model, SimdMode mode, SimdContacts contacts,
   SimdBlock& block = scratch.block;
   forgetOpen(block);
   block.mode = mode;
+  block.given = mode == SimdMode::States;
   block.stopAtContact = contacts == SimdContacts::Sought;
   block.contactLanes = 0;
   block.likelyContact = {};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "simd/compile/simd_model.hpp"
+#include "simd/kernels/simd_motion.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 
 namespace swept::detail {
@@ -12,12 +13,13 @@ namespace swept::detail {
 struct SimdAnswer {
   enum class Kind : std::uint8_t {
     Free,     ///< all pairs, on all of [0, 1]
-    Contact,  ///< the judge said so; with SimdGoal::Prefix, and all before it is proven
+    Contact,  ///< the oracle said so; with SimdGoal::Prefix, and all before it is proven
     Open,     ///< scratch.rest is what is left
     TooMany,  ///< pairs would have to wait: nothing is known of those not in contact
   };
   Kind kind = Kind::Open;
-  /// Of the earliest contact that the judge confirmed; what begins there or later is not in `rest`.
+  /// Of the earliest contact that the oracle confirmed; what begins there or later is not in
+  /// `rest`.
   float horizon = std::numeric_limits<float>::infinity();
   int intervals = 0;          ///< sub-intervals examined
   float acceleration = 0.0F;  ///< m per unit t squared, bounds that of all ball centres
@@ -60,8 +62,8 @@ enum class SimdContacts : std::uint8_t {
   Ignored,  ///< pairs that are in contact are left open, as all that is not proven apart
 };
 
-/// Of the motion in the scratch.
-SimdAnswer searchMotion(const SimdModel& model, ExactOracle& judge, SimdGoal goal,
+/// Of a motion that is compiled.
+SimdAnswer searchMotion(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal,
                         SimdScratch& scratch);
 /// Of states: of the motion's begin in all lanes (SimdMode::State), or of eight (States). What is
 /// found is in scratch.block: a lane is free if it is neither in `contactLanes` nor has open pairs.
