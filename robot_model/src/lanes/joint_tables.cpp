@@ -72,7 +72,7 @@ std::vector<JointTable::Pairs> geometriesOf(const CheckerModel& model, const Lan
     const LanePairSource& source = lanes.sources[i];
     if (source.obstacle >= 0 || indexOf[source.bodyPair] < 0) continue;
     pairs[indexOf[source.bodyPair]].push_back(
-        {source.geometry, source.other, model.pairs[i].margin});
+        {source.geometry, source.other, model.pairs[i].kept()});
   }
   return pairs;
 }
@@ -86,7 +86,7 @@ bool holdsFor(const CheckerModel& model, const JointTables& tables, const JointT
   const auto known = std::ranges::find_if(table.pairs, [&](const JointTable::Geometries& other) {
     return other.a == pair.a && other.b == pair.b;
   });
-  return known != table.pairs.end() && known->margin >= pair.margin &&
+  return known != table.pairs.end() && known->margin >= pair.kept() &&
          sameGeometry(tables.geometry[pair.a], model.robotGeometry[pair.a]) &&
          sameGeometry(tables.geometry[pair.b], model.robotGeometry[pair.b]);
 }

@@ -109,11 +109,11 @@ class LaneCompiler {
 
   /// All rounded up, so that no margin is lost.
   void addMargins() {
-    double least = model_.pairs.empty() ? model_.options.margin : model_.pairs.front().margin;
+    double least = model_.pairs.empty() ? model_.options.margin : model_.pairs.front().kept();
     double most = least;
     for (const GeometryPair& pair : model_.pairs) {
-      least = std::min(least, pair.margin);
-      most = std::max(most, pair.margin);
+      least = std::min(least, pair.kept());
+      most = std::max(most, pair.kept());
     }
     lanes_.margin = std::nextafter(static_cast<float>(least), 1e30F);
     if (!(most > least)) return;
@@ -121,7 +121,7 @@ class LaneCompiler {
     lanes_.obstacleExtras.assign(model_.worldGeometry.size(), 0.0F);
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       const GeometryPair& pair = model_.pairs[i];
-      const float extra = std::nextafter(singleAbove(pair.margin - least), 1e30F);
+      const float extra = std::nextafter(singleAbove(pair.kept() - least), 1e30F);
       lanes_.extras[i] = extra;
       float& all = pair.self ? lanes_.bodyPairs[lanes_.sources[i].bodyPair].extra
                              : lanes_.obstacleExtras[pair.b];
