@@ -8,7 +8,8 @@ using namespace swept;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // The first byte says which format.
-  static constexpr std::array kNames{"m.stl", "m.obj", "m.ply", "m.dae"};
+  static constexpr std::array kNames{"m.stl", "m.obj",  "m.ply", "m.dae",
+                                     "m.off", "m.gltf", "m.glb"};
   if (size == 0) return 0;
   const std::string name = kNames[data[0] % kNames.size()];
   fuzz::files().write(name, fuzz::textOf(data + 1, size - 1));

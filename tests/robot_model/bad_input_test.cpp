@@ -275,7 +275,7 @@ std::vector<BadInput> meshes() {
        "header"},
       {"MeshOfUnknownKind", "r.urdf", shaped("<mesh filename='notes.txt'/>"),
        "@/r.urdf:4: error: mesh 'notes.txt' of link 'a' has the ending '.txt'; allowed are .stl, "
-       ".obj, .dae and .ply"},
+       ".obj, .dae, .ply, .off, .gltf and .glb"},
       {"MeshWithoutTriangles", "r.urdf", shaped("<mesh filename='lines.obj'/>"),
        "@/r.urdf:4: error: mesh 'lines.obj' of link 'a' has no triangles"},
       {"MeshAllDegenerate", "r.urdf", shaped("<mesh filename='needle.obj'/>"),

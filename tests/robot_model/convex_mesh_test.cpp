@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "input_files.hpp"
-#include "io/collada_convex.hpp"
 #include "io/mesh_file.hpp"
 
 namespace swept {
@@ -44,18 +42,6 @@ TEST(ConvexMesh, IsRefusedWhereItHasNoFacesOrIsASecondOne) {
        {collada("<convex_mesh convex_hull_of=\"#h\">", "</convex_mesh>"),
         collada("<mesh>", "</mesh><convex_mesh></convex_mesh>"), collada("<convex_mesh/>", "")})
     EXPECT_THROW(reader.read(folder.write("c.dae", text)), detail::MeshFileError) << text;
-}
-
-TEST(ConvexMesh, OnlyItsNameChanges) {
-  EXPECT_EQ(detail::withConvexMeshes("<geometry id='a'>\n<convex_mesh>x</convex_mesh></geometry>"
-                                     "<geometry><convex_mesh\n>y</convex_mesh ></geometry>"),
-            "<geometry id='a'>\n<mesh>x</mesh></geometry>"
-            "<geometry><mesh\n>y</mesh ></geometry>");
-  for (const char* same :
-       {"<convex_mesh>x</convex_mesh>", "<geometry/><convex_mesh>x</convex_mesh>",
-        "<geometry><convex_meshes>x</convex_meshes>", "<geometry><convex_mesh>x", "<convex_mesh",
-        "<geometry><mesh></mesh><convex_mesh>x</convex_mesh>"})
-    EXPECT_EQ(detail::withConvexMeshes(same), same);
 }
 
 }  // namespace

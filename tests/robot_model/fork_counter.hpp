@@ -2,21 +2,18 @@
 #pragma once
 
 #include <pthread.h>
-#include <sys/resource.h>
 
 #include <atomic>
 #include <stdexcept>
 
 namespace swept::test {
 
-/// What children of this process cost while the object lives.
+/// How many children this process has made while the object lives.
 class ForkCounter {
  public:
-  ForkCounter() : forks_(total()), faults_(totalFaults()) {}
+  ForkCounter() : forks_(total()) {}
 
   int forks() const { return total() - forks_; }
-  /// Pages that the system gave to children that have ended: cleared, or copied.
-  long pages() const { return totalFaults() - faults_; }
 
  private:
   static std::atomic<int>& total() {
@@ -25,14 +22,8 @@ class ForkCounter {
     if (error != 0) throw std::runtime_error("forks cannot be counted");
     return count;
   }
-  static long totalFaults() {
-    rusage usage{};
-    getrusage(RUSAGE_CHILDREN, &usage);
-    return usage.ru_minflt;
-  }
 
   int forks_;
-  long faults_;
 };
 
 }  // namespace swept::test

@@ -106,7 +106,8 @@ TEST(LoadMesh, FilesThatCannotBeUsedAreNamed) {
     return said.substr(said.find("mesh "));
   };
   EXPECT_EQ(message("mesh.step", "x"),
-            "mesh has the ending '.step'; allowed are .stl, .obj, .dae and .ply");
+            "mesh has the ending '.step'; allowed are .stl, .obj, .dae, .ply, .off, .gltf "
+            "and .glb");
   EXPECT_EQ(message("empty.stl", ""), "mesh is empty");
   EXPECT_EQ(message("points.obj", "v 0 0 0\n"), "mesh has no triangles");
   const std::string line = message("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All meshes of a robot are read in one process, and each as if it were the only one. There was a
-// process for each, of which each had 16 MiB from the system: for an arm of ten small meshes that
-// was most of what loading it took.
+// All meshes of a robot that assimp reads are read in one process, and each as if it were the only
+// one. What we read ourselves needs none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <span>
 #include <string>
@@ -24,11 +19,14 @@
 #include <vector>
 
 #include "fork_counter.hpp"
+#include "gltf_text.hpp"
 #include "input_files.hpp"
 #include "io/mesh_file.hpp"
 #include "io/mesh_import.hpp"
 #include "sanitizers.hpp"
+#include "swept/robot_model/mesh_file.hpp"
 #include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/visual_model.hpp"
 
 namespace swept {
 namespace {
@@ -40,33 +38,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 /// A tetrahedron of that size.
 std::string tetrahedron(double size) {
-  const std::string s = std::to_string(size);
-  return "v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nv 0 0 " + s +
-         "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-}
-
-/// Writes a ball of 2 n (n - 1) triangles.
-void writeBall(const std::filesystem::path& file, int n) {
-  std::ofstream stream(file);
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const double latitude = std::numbers::pi * i / n, longitude = 2.0 * std::numbers::pi * j / n;
-      stream << "v " << std::sin(latitude) * std::cos(longitude) << " "
-             << std::sin(latitude) * std::sin(longitude) << " " << std::cos(latitude)
-             << "\nvn 0 0 1\n";
-    }
-  }
-  const auto face = [&](int a, int b, int c) {
-    stream << "f " << a + 1 << "//" << a + 1 << " " << b + 1 << "//" << b + 1 << " " << c + 1
-           << "//" << c + 1 << "\n";
-  };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const int next = (j + 1) % n;
-      if (i > 0) face(i * n + j, (i + 1) * n + j, i * n + next);
-      if (i < n - 1) face(i * n + next, (i + 1) * n + j, (i + 1) * n + next);
-    }
-  }
+  return test::GltfTetrahedron(static_cast<float>(size)).glb();
 }
 
 /// A robot of links with a mesh each, in that order.
@@ -80,13 +52,14 @@ std::string robotOf(const std::vector<std::string>& files) {
   return text + "</robot>";
 }
 
-/// Sizes of tetrahedra that an import of a test does something else with. What is not a face or a
-/// corner of one, a remark say, does not come so far.
+/// Sizes of tetrahedra that an import of a test does something else with.
 constexpr double kCrash = 11.0, kHang = 12.0, kEat = 13.0, kBad = 14.0;
 
 bool isOfSize(Bytes bytes, double size) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return text.find("v " + std::to_string(size)) != std::string_view::npos;
+  std::string corner;
+  for (const double value : {size, 0.0, 0.0}) test::appendBytes(corner, static_cast<float>(value));
+  return text.find(corner) != std::string_view::npos;
 }
 
 /// How many triangles are read, or why none.
@@ -100,11 +73,11 @@ std::string said(MeshFileReader& reader, const std::filesystem::path& file) {
 
 class MeshFileReading : public testing::Test {
  protected:
-  /// Files `0.obj` and so on, of tetrahedra of different sizes.
+  /// Files `0.glb` and so on, of tetrahedra of different sizes.
   std::vector<std::string> writeFiles(int count) {
     std::vector<std::string> names;
     for (int i = 0; i < count; ++i) {
-      names.push_back(std::to_string(i) + ".obj");
+      names.push_back(std::to_string(i) + ".glb");
       folder_.write(names.back(), tetrahedron(1.0 + 0.1 * i));
     }
     return names;
@@ -125,30 +98,6 @@ class MeshFileReading : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-/// The first test: none before it leaves free memory that this process and its child could use.
-TEST_F(MeshFileReading, WhatAssimpClearsComesFromTheSystemOnce) {
-#if defined(SWEPT_TEST_ADDRESS_SANITIZER) || defined(SWEPT_TEST_THREAD_SANITIZER)
-  GTEST_SKIP() << "a sanitizer has pages of its own";
-#elif !defined(__GLIBC__)
-  GTEST_SKIP() << "another allocator gives memory back";
-#endif
-  // Growing, so that what the first one left free is too small for what is ahead of the others.
-  const std::vector<int> sizes{3, 5, 8, 11, 16, 24, 36, 16, 36, 24, 8, 36};
-  for (const int n : sizes) writeBall(folder_.path() / (std::to_string(n) + ".obj"), n);
-  const test::ForkCounter counter;
-  {
-    MeshFileReader reader;
-    for (const int n : sizes)
-      EXPECT_EQ(said(reader, folder_.path() / (std::to_string(n) + ".obj")),
-                std::to_string(2 * n * (n - 1)));
-  }
-  // The 16 MiB of one file are 4096 pages of 4 KiB, and what is shared with the parent until it is
-  // written, or is the mesh, is some 500 more. A process for each file had 50 000.
-  EXPECT_EQ(counter.forks(), 1);
-  EXPECT_GT(counter.pages(), 0);
-  EXPECT_LE(counter.pages(), (std::int64_t{20} << 20) / sysconf(_SC_PAGESIZE) + 800);
-}
-
 TEST_F(MeshFileReading, OneProcessReadsAllMeshesOfARobot) {
   const auto urdf = folder_.write("m.urdf", robotOf(writeFiles(12)));
   const test::ForkCounter counter;
@@ -158,10 +107,10 @@ TEST_F(MeshFileReading, OneProcessReadsAllMeshesOfARobot) {
 }
 
 TEST_F(MeshFileReading, OneMeshOfManyLinksIsReadOnce) {
-  folder_.write("a.obj", tetrahedron(1.0));
+  folder_.write("a.glb", tetrahedron(1.0));
   std::string text = "<robot name='m'><link name='base'>";
   for (int i = 0; i < 12; ++i)
-    text += "<collision><geometry><mesh filename='a.obj'/></geometry></collision>";
+    text += "<collision><geometry><mesh filename='a.glb'/></geometry></collision>";
   const auto urdf = folder_.write("m.urdf", text + "</link></robot>");
   const test::ForkCounter counter;
   const auto robot = Robot::load(urdf);
@@ -174,8 +123,14 @@ TEST_F(MeshFileReading, OneMeshOfManyLinksIsReadOnce) {
   for (const CollisionGeometry& piece : pieces) EXPECT_EQ(corners(piece), corners(pieces[0]));
 }
 
-TEST_F(MeshFileReading, RobotsWithoutMeshesNeedNoProcess) {
+TEST_F(MeshFileReading, OtherFormatsAndRobotsWithoutMeshesNeedNoProcess) {
+  folder_.write("cube.obj", test::kCubeObj);
+  folder_.write("sheet.stl", test::kTriangleStl);
+  folder_.write("sheet.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   const test::ForkCounter counter;
+  const auto robot =
+      Robot::load(folder_.write("o.urdf", robotOf({"cube.obj", "sheet.stl", "sheet.off"})));
+  EXPECT_EQ(meshOf(*robot, "cube.obj").triangles().size(), 12U);
   Robot::load(folder_.write("m.urdf",
                             "<robot name='m'><link name='a'><collision><geometry>"
                             "<sphere radius='1'/></geometry></collision></link></robot>"));
@@ -185,9 +140,9 @@ TEST_F(MeshFileReading, RobotsWithoutMeshesNeedNoProcess) {
 TEST_F(MeshFileReading, TheRobotIsTheSameInAnyOrderAndFromManyThreads) {
   std::vector<std::string> files = writeFiles(12);
   const auto robot = Robot::load(folder_.write("m.urdf", robotOf(files)));
-  EXPECT_EQ(meshOf(*robot, "3.obj").vertices().size(), 4U);
+  EXPECT_EQ(meshOf(*robot, "3.glb").vertices().size(), 4U);
   EXPECT_FALSE(
-      std::ranges::equal(meshOf(*robot, "3.obj").vertices(), meshOf(*robot, "4.obj").vertices()));
+      std::ranges::equal(meshOf(*robot, "3.glb").vertices(), meshOf(*robot, "4.glb").vertices()));
   std::mt19937 random(7);
   std::vector<std::string> orders;
   for (int i = 0; i < 4; ++i) {
@@ -206,6 +161,26 @@ TEST_F(MeshFileReading, TheRobotIsTheSameInAnyOrderAndFromManyThreads) {
   for (const auto& other : others) expectSame(*robot, *other, files);
 }
 
+/// In this process, as a host with threads may want it.
+TEST_F(MeshFileReading, NoProcessIsMadeWhereNoneIsWanted) {
+  const std::vector<std::string> files = writeFiles(3);
+  const auto urdf = folder_.write("m.urdf", robotOf(files));
+  const auto usual = Robot::load(urdf);
+  LoadOptions options;
+  options.childProcess = false;
+  const test::ForkCounter counter;
+  expectSame(*usual, *Robot::load(urdf, {}, options), files);
+  EXPECT_EQ(loadMesh(folder_.path() / files[1], 1.0, options).triangles().size(), 4U);
+  EXPECT_EQ(VisualModel::parse("<robot name='m'><link name='a'><visual><geometry><mesh filename='" +
+                                   files[2] + "'/></geometry></visual></link></robot>",
+                               (folder_.path() / "m.urdf").string(), options)
+                .triangles,
+            4U);
+  EXPECT_EQ(counter.forks(), 0);
+  folder_.write("0.glb", "glTF");
+  EXPECT_NE(test::inputError([&] { (void)loadMesh(folder_.path() / "0.glb", 1.0, options); }), "");
+}
+
 /// Crashes, hangs and takes memory for files of those sizes.
 MeshFileContent importOrFail(const std::string& name, Bytes bytes) {
   if (isOfSize(bytes, kCrash)) std::abort();
@@ -218,15 +193,14 @@ MeshFileContent importOrFail(const std::string& name, Bytes bytes) {
 TEST_F(MeshFileReading, WhatFailsIsRefusedAndTheOthersAreRead) {
   MeshFileReader reader(importOrFail);
   const auto write = [&](double size) {
-    return folder_.write(std::to_string(size) + ".obj", tetrahedron(size));
+    return folder_.write(std::to_string(size) + ".glb", tetrahedron(size));
   };
   const auto good = write(1.0);
   EXPECT_EQ(said(reader, good), "4");
   EXPECT_EQ(said(reader, write(kCrash)), "cannot be read: assimp crashed (signal 6)");
   EXPECT_EQ(said(reader, good), "4");
-  EXPECT_EQ(said(reader, folder_.write("cut.obj", "v 1 2")),
-            "cannot be read: its line 1: a vertex must have 3 numbers, a fourth that is 1, or 6 "
-            "with its colour");
+  EXPECT_EQ(said(reader, folder_.write("cut.glb", "glTF")),
+            "cannot be read: it does not start as binary glTF of version 2 does");
   EXPECT_EQ(said(reader, good), "4");
 #if !defined(SWEPT_TEST_ADDRESS_SANITIZER) && !defined(SWEPT_TEST_THREAD_SANITIZER)
   EXPECT_EQ(said(reader, write(kEat)), "cannot be read: out of memory");
@@ -253,7 +227,7 @@ TEST_F(MeshFileReading, AFileIsRefusedOnlyByAProcessThatHasReadNoOther) {
     });
     const test::ForkCounter counter;
     for (int i = 0; i < 6; ++i) {
-      const auto file = folder_.write(std::to_string(i) + ".obj", tetrahedron(1.0 + i));
+      const auto file = folder_.write(std::to_string(i) + ".glb", tetrahedron(1.0 + i));
       const MeshFileContent content = reader.read(file);
       EXPECT_EQ(content.triangles.size(), 4U);
       EXPECT_EQ(std::ranges::max(content.vertices, {}, [](const auto& v) { return v.sum(); }).sum(),
@@ -273,8 +247,8 @@ TEST_F(MeshFileReading, AProcessThatRefusedAFileReadsNoOther) {
     if (refused) content.vertices.at(0) = Eigen::Vector3d(0.25, 0.25, 0.25);
     return content;
   });
-  const auto good = folder_.write("good.obj", tetrahedron(1.0));
-  const auto bad = folder_.write("bad.obj", tetrahedron(kBad));
+  const auto good = folder_.write("good.glb", tetrahedron(1.0));
+  const auto bad = folder_.write("bad.glb", tetrahedron(kBad));
   const MeshFileContent before = reader.read(good);
   EXPECT_EQ(said(reader, bad), "is bad");
   EXPECT_EQ(said(reader, bad), "is bad");

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "format_table.hpp"
+#include "gltf_text.hpp"
 #include "input_files.hpp"
 #include "io/mesh_file.hpp"
 
@@ -128,6 +130,101 @@ TEST(MeshFilesKeys, Ply) {
               change("element tristrips", "element edge 1\nproperty int vertex1",
                      "element tristrips 1\nproperty list int int vertex_indices")},
              trianglesOf(".ply"));
+}
+
+TEST(MeshFilesKeys, Off) {
+  const Changes change{"OFF\n4 1 3\n0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 1 2\n"};
+  walkFormat("Meshes: OFF",
+             {change("COFF", "OFF", "STCNOFF"),
+              change("#", "4 1 3", "4 1 3 # 7"),
+              change("vertices", "4 1 3\n0 0 0\n", "3 1 3\n"),
+              {"faces", change.text, replaced(change.text, "4 1 3", "4 2 3") + "3 1 2 3\n"},
+              change("edges", "4 1 3", "4 1 99"),
+              change("vertex", "1 0 0", "2 0 0"),
+              change("vertex/other", "1 0 0", "1 0 0 nan x"),
+              change("face", "3 0 1 2", "3 0 1 3"),
+              change("face/colour", "3 0 1 2", "3 0 1 2 x"),
+              change("BINARY", "OFF", "OFF BINARY"),
+              change("4OFF", "OFF", "4OFF")},
+             trianglesOf(".off"));
+}
+
+/// Cases that replace a part of the JSON of a file.
+struct GltfChanges {
+  std::string json = test::GltfTetrahedron().json();
+  static std::string file(const std::string& text) {
+    return test::glbOf(text, test::GltfTetrahedron().bytes);
+  }
+  KeyCase operator()(const std::string& key, const std::string& from, const std::string& to) const {
+    return {key, file(json), file(replaced(json, from, to))};
+  }
+  GltfChanges with(const std::string& from, const std::string& to) const {
+    return {replaced(json, from, to)};
+  }
+};
+
+std::vector<KeyCase> gltfNodes() {
+  const GltfChanges change;
+  const std::string node = R"([{"mesh":0}])";
+  const GltfChanges twoScenes =
+      change.with(R"([{"nodes":[0]}])", R"([{"nodes":[0]},{"nodes":[1]}])")
+          .with(node, R"([{"mesh":0},{"mesh":0,"scale":[1,2,3]}])");
+  const auto placed = [&](const std::string& key, const std::string& more) {
+    return change(key, node, R"([{"mesh":0,)" + more + "}]");
+  };
+  return {
+      change("asset/version", "2.0", "1.0"),
+      change("extensionsRequired", R"("scene":0)",
+             R"("scene":0,"extensionsRequired":["KHR_mesh_quantization"])"),
+      twoScenes("scene", R"("scene":0)", R"("scene":1)"),
+      twoScenes("scenes/nodes", R"([{"nodes":[0]})", R"([{"nodes":[0,1]})"),
+      change.with(R"({"nodes":[0]})", R"({"nodes":[0,1]})")
+          .with(node, R"([{"mesh":0},{"name":"b","scale":[2,2,2]}])")("nodes/mesh", R"("name":"b")",
+                                                                      R"("mesh":0)"),
+      change.with(node, R"([{"mesh":0},{"mesh":0}])")("nodes/children", R"([{"mesh":0})",
+                                                      R"([{"children":[1],"mesh":0})"),
+      placed("nodes/matrix", R"("matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1])"),
+      placed("nodes/translation", R"("translation":[1,2,3])"),
+      placed("nodes/rotation", R"("rotation":[0,0,1,0])"),
+      placed("nodes/scale", R"("scale":[1,2,3])"),
+      placed("nodes/skin", R"("skin":0)"),
+      change.with(R"("scene":0)",
+                  R"("scene":0,"cameras":[{"type":"perspective","perspective":{"yfov":1,)"
+                  R"("znear":1}}])")("nodes/camera", node, R"([{"mesh":0,"camera":0}])"),
+      placed("nodes/extensions/EXT_mesh_gpu_instancing",
+             R"("extensions":{"EXT_mesh_gpu_instancing":{}})"),
+      change("animations", R"("scene":0)", R"("scene":0,"animations":[])"),
+  };
+}
+
+std::vector<KeyCase> gltfMeshes() {
+  const GltfChanges change;
+  const std::string indices = R"("indices":1)", mesh = "meshes/primitives/";
+  const GltfChanges fewer = change.with(R"("count":12)", R"("count":9)");
+  return {
+      {mesh + "attributes/POSITION", test::GltfTetrahedron().glb(),
+       test::GltfTetrahedron(2.0F).glb()},
+      change(mesh + "attributes/NORMAL", R"("POSITION":0)", R"("POSITION":0,"NORMAL":0)"),
+      change.with(indices, indices + R"(,"mode":5)")(mesh + "indices", indices + ",", ""),
+      change(mesh + "mode", indices, indices + R"(,"mode":6)"),
+      change.with(R"("scene":0)", R"("scene":0,"materials":[{}])")(mesh + "material", indices,
+                                                                   indices + R"(,"material":0)"),
+      change(mesh + "targets", indices, indices + R"(,"targets":[])"),
+      change("accessors/count", R"("count":12)", R"("count":9)"),
+      change("accessors/componentType", "5123", "5121"),
+      fewer("accessors/byteOffset", "5123", R"(5123,"byteOffset":6)"),
+      change("accessors/sparse", "5123", R"(5123,"sparse":{})"),
+      fewer("bufferViews/byteOffset", R"("byteOffset":48,"byteLength":24)",
+            R"("byteOffset":54,"byteLength":18)"),
+      change("bufferViews/byteStride", R"("byteLength":48)", R"("byteLength":72,"byteStride":16)"),
+      change("buffers/uri", R"("byteLength":72)", R"("byteLength":72,"uri":"a.bin")"),
+  };
+}
+
+TEST(MeshFilesKeys, Gltf) {
+  std::vector<KeyCase> cases = gltfNodes();
+  for (KeyCase& key : gltfMeshes()) cases.push_back(std::move(key));
+  walkFormat("Meshes: glTF (.gltf, .glb)", cases, trianglesOf(".glb"));
 }
 
 /// Four corners of a geometry whose faces are `faces`, below a node with `placed`.

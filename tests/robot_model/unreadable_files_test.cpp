@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "gltf_text.hpp"
 #include "input_files.hpp"
 #include "nobody.hpp"
 #include "swept/robot_model/cloud_file.hpp"
@@ -126,10 +127,10 @@ TEST(UnreadableFiles, MayNotBeRead) {
             "m.urdf:1: error: mesh '" + mesh + "' of link 'a' cannot be read");
 }
 
-/// Where no pipe can be opened, no process can be made that reads the mesh.
+/// Where no pipe can be opened, no process can be made that reads a mesh in glTF.
 TEST(UnreadableFiles, AreMeshesWhereNoProcessCanBeMade) {
   const test::TemporaryFolder folder;
-  const std::string mesh = folder.write("cube.obj", test::kCubeObj).string();
+  const std::string mesh = folder.write("a.glb", test::GltfTetrahedron().glb()).string();
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
   const int next = open("/dev/null", O_RDONLY | O_CLOEXEC);

@@ -253,7 +253,7 @@ TEST_F(VisualModelTest, APictureIsNoColour) {
   EXPECT_EQ(model.links[0].visuals.back().colour, (Colour{0.0, 1.0, 0.0, 1.0}));
 }
 
-/// Materials that assimp cannot read cost the colours alone.
+/// Materials that cannot be read cost the colours alone.
 TEST_F(VisualModelTest, BrokenMaterialsCostTheColoursAlone) {
   std::string text = twoColours("<color>0 0 1 1</color>");
   text.replace(text.find("<instance_effect url='#low-fx'/>"), 32,

@@ -43,7 +43,8 @@ struct Scaling {
   }
   Shape of(const ConvexHull& s) const { return ConvexHull::scaled(s, factor, middle); }
   Shape of(const TriangleMesh& s) const {
-    return TriangleMesh::build((*this)(s.vertices()), s.triangles(), s.interior(), 0.0);
+    return TriangleMesh::build((*this)(s.vertices()), s.triangles(), s.interior(), 0.0)
+        .withSourceError(factor * s.sourceError());
   }
   Shape of(const PointCloud& s) const {
     std::vector<double> radii;

@@ -185,7 +185,18 @@ TriangleMesh TriangleMesh::moved(std::span<const Eigen::Vector3d> vertices) cons
   const std::vector<Eigen::Vector3d> corners = cornersOf(surface.vertices, surface.triangles);
   surface.bvh = std::make_shared<const detail::WideBvh>(data_->bvh->refitted({corners, 3}));
   if (surface.bvh->spread() > kRebuildGrowth * surface.builtSpread) arrange(surface);
-  return finished(std::move(surface));
+  return finished(std::move(surface)).withSourceError(sourceError_);
+}
+
+TriangleMesh TriangleMesh::withSourceError(double error) const {
+  if (!(error >= 0.0) || !std::isfinite(error)) {
+    std::ostringstream message;
+    message << "the source error of a mesh is " << error << "; allowed: finite and not negative";
+    throw std::invalid_argument(message.str());
+  }
+  TriangleMesh mesh = *this;
+  mesh.sourceError_ = error;
+  return mesh;
 }
 
 /// Builds the hierarchy and puts the triangles, and what goes with each, in the order of its

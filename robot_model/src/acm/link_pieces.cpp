@@ -21,6 +21,7 @@ LinkPieces piecesOf(const Robot& robot, const KinematicModel& model, int link) {
     LinkPieces::Piece piece{geometry.shape, mesh ? Shape(mesh->hull()) : geometry.shape,
                             model.body_from_link[link] * geometry.link_from_shape,
                             boundingSphere(geometry.shape), -1};
+    if (mesh != nullptr) result.sourceError = std::max(result.sourceError, mesh->sourceError());
     piece.ball.center = piece.body_from_shape * piece.ball.center;
     result.reach = std::max(result.reach, piece.ball.center.norm() + piece.ball.radius);
     if (geometry.cover) {

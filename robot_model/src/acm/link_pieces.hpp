@@ -32,7 +32,8 @@ struct LinkPieces {
   };
   std::vector<Piece> pieces;
   std::vector<Ball> balls;
-  double reach = 0.0;  ///< m, no point is farther from the body's origin
+  double reach = 0.0;        ///< m, no point is farther from the body's origin
+  double sourceError = 0.0;  ///< m, the largest of its meshes (TriangleMesh::sourceError)
 
   /// Each piece has a cover.
   bool covered() const {

@@ -10,13 +10,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <new>
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 #if defined(__linux__)
 #include <sys/prctl.h>
 #endif
@@ -68,24 +64,6 @@ void resetSignals() {
   }
   sigprocmask(SIG_UNBLOCK, &ending, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
-}
-
-/// Assimp's reader of .obj clears 16 MiB for each file; to have these pages from the system is most
-/// of what reading a small file takes. So they stay here: a free block with room for them and for
-/// what is allocated ahead of them, and one in use behind it, lest it become part of what is free
-/// at the heap's end and small blocks divide that. What is not used of the two takes no memory.
-void keepMemoryForObj() {
-#if defined(__GLIBC__)
-  constexpr int kMapped = 32 << 20;  // bytes; the most that glibc takes
-  constexpr std::size_t kFree = 20 << 20, kBehind = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, kMapped);
-  mallopt(M_TRIM_THRESHOLD, 2 * kMapped);
-  // Compilers leave out blocks that nobody uses.
-  void* volatile block = std::malloc(kFree);
-  void* volatile behind = std::malloc(kBehind);
-  static_cast<void>(behind);
-  std::free(block);
-#endif
 }
 
 bool receiveAll(int socket, char* bytes, std::size_t size) {
@@ -142,7 +120,6 @@ void liveAsChild(int socket, pid_t parent, const ChildWork& work, std::uint64_t 
   static_cast<void>(parent);
 #endif
   resetSignals();
-  keepMemoryForObj();
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   const Bounds bounds(parentMemory);

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "io/collada_positions.hpp"
 #include "io/collada_xml.hpp"
@@ -26,7 +28,7 @@ struct Layout {
 };
 
 /// A list of corners: indices of positions.
-using Corners = std::vector<Count>;
+using Corners = std::vector<int>;
 
 bool isFaces(const XMLElement& group) {
   constexpr std::array<std::string_view, 4> kFaces{"triangles", "polylist", "polygons",
@@ -37,39 +39,30 @@ bool isFaces(const XMLElement& group) {
 /// One <mesh>: every name in it is looked up in it.
 class MeshReader {
  public:
-  MeshReader(XMLElement& mesh, const InputSource& source, CrossingFace& crossing,
-             FaceMaterials materials)
-      : xml_(mesh),
-        source_(source),
-        crossing_(crossing),
-        materials_(materials),
-        positions_(mesh, source) {}
+  MeshReader(const XMLElement& mesh, const InputSource& source, FaceCutter& cutter)
+      : xml_(mesh), source_(source), cutter_(cutter), positions_(mesh, source) {}
   ColladaMesh read();
 
  private:
   [[noreturn]] void fail(const XMLElement& element, const std::string& problem) const {
     failElement(source_, element, problem);
   }
-  std::vector<std::string_view> words(const XMLElement& element) const {
-    return colladaWords(element, source_);
-  }
   bool hasFaces() const;
   void requireKnown(const XMLElement& group) const;
-  Layout layoutOf(XMLElement& group) const;
-  Corners readList(XMLElement& list, const Layout& layout);
-  void readGroup(XMLElement& group);
-  Count trianglesOf(XMLElement& group, const std::vector<Corners>& lists);
-  Count polylistOf(XMLElement& group, const Corners& corners);
-  void look(const XMLElement& list, std::span<const Count> corners, std::int64_t face = -1);
-  void keepFaces();
+  Layout layoutOf(const XMLElement& group) const;
+  Corners readList(const XMLElement& list, const Layout& layout) const;
+  void readGroup(const XMLElement& group);
+  void addTriangles(const XMLElement& group, const XMLElement* list, const Corners& corners);
+  void addPolylist(const XMLElement& group, const XMLElement* list, const Corners& corners);
+  void addStrip(const Corners& corners);
+  void add(const XMLElement& list, std::span<const int> corners, std::int64_t face = -1) {
+    cutter_.cut(corners, positions_.all(), mesh_.content.triangles, list.GetLineNum(), face);
+  }
 
-  XMLElement& xml_;
+  const XMLElement& xml_;
   const InputSource& source_;
-  CrossingFace& crossing_;
-  FaceMaterials materials_;
+  FaceCutter& cutter_;
   ColladaPositions positions_;
-  std::vector<bool> used_;
-  std::set<const XMLElement*> groups_;  ///< that have faces
   ColladaMesh mesh_;
 };
 
@@ -95,7 +88,7 @@ void MeshReader::requireKnown(const XMLElement& group) const {
   if (hole != nullptr && name != "extra") fail(*hole, "is a polygon with holes, which is not read");
 }
 
-Layout MeshReader::layoutOf(XMLElement& group) const {
+Layout MeshReader::layoutOf(const XMLElement& group) const {
   constexpr Count kMaxOffset = 64;  // far beyond the handful of inputs that files have
   Layout layout;
   forEachChild(group, "input", [&](const XMLElement& input) {
@@ -111,133 +104,110 @@ Layout MeshReader::layoutOf(XMLElement& group) const {
   return layout;
 }
 
-/// What is left of the list are indices of vertices.
-Corners MeshReader::readList(XMLElement& list, const Layout& layout) {
-  const auto entries = words(list);
-  if (entries.empty()) return {};
-  if (!layout.hasVertex) fail(list, "has no <input> of vertices to index");
-  if (entries.size() % layout.width != 0) {
-    fail(list, "ends within a corner, which takes " + std::to_string(layout.width) + " indices");
-  }
+Corners MeshReader::readList(const XMLElement& list, const Layout& layout) const {
   Corners corners;
-  std::vector<std::string_view> kept;
-  for (std::size_t i = layout.vertex; i < entries.size(); i += layout.width) {
-    const auto value = colladaCount(entries[i]);
+  Count entries = 0;
+  forEachColladaWord(list, source_, [&](std::string_view word) {
+    if (!layout.hasVertex) fail(list, "has no <input> of vertices to index");
+    if (entries++ % layout.width != layout.vertex) return;
+    const auto value = colladaCount(word);
     if (!value) fail(list, "does not hold whole numbers only");
-    if (*value >= used_.size()) fail(list, "has an index past its source");
-    used_[*value] = true;
-    corners.push_back(*value);
-    kept.push_back(entries[i]);
-  }
-  setColladaWords(list, kept);
+    if (*value >= positions_.all().size()) fail(list, "has an index past its source");
+    corners.push_back(static_cast<int>(*value));
+  });
+  if (entries > 0 && entries % layout.width != 0)
+    fail(list, "ends within a corner, which takes " + std::to_string(layout.width) + " indices");
   return corners;
 }
 
-void MeshReader::look(const XMLElement& list, std::span<const Count> corners, std::int64_t face) {
-  if (corners.size() <= 4) return;
-  std::vector<Eigen::Vector3d> polygon;
-  for (const Count corner : corners) polygon.push_back(positions_.all()[corner]);
-  crossing_.look(polygon, list.GetLineNum(), face);
-}
-
-Count MeshReader::polylistOf(XMLElement& group, const Corners& corners) {
-  std::vector<Count> faces;
-  Count triangles = 0, listed = 0;
-  forEachChild(group, "vcount", [&](XMLElement& sizes) {
-    const auto entries = words(sizes);
-    for (const std::string_view word : entries) {
-      const auto size = colladaCount(word);
-      if (!size) fail(sizes, "does not hold whole numbers only");
-      if (*size < 3) fail(sizes, "has a face of " + shown(word) + " corners; 3 are the least");
-      triangles += *size - 2;
-      listed += *size;
-      faces.push_back(*size);
-    }
-    setColladaWords(sizes, entries);
-  });
-  if (listed != corners.size() || faces.size() != colladaCount(source_, group, "count")) {
-    fail(group, "has " + std::to_string(faces.size()) + " faces of " + std::to_string(listed) +
-                    " corners by its <vcount>, and " + std::to_string(corners.size()) +
-                    " corners in its <p>; its count is " + group.Attribute("count"));
-  }
-  Count first = 0;
-  for (std::size_t face = 0; face < faces.size(); first += faces[face++])
-    look(*group.FirstChildElement("p"), std::span(corners).subspan(first, faces[face]),
-         static_cast<std::int64_t>(face));
-  return triangles;
-}
-
-Count MeshReader::trianglesOf(XMLElement& group, const std::vector<Corners>& lists) {
-  const std::string_view name = group.Name();
+void MeshReader::addTriangles(const XMLElement& group, const XMLElement* list,
+                              const Corners& corners) {
   const Count count = colladaCount(source_, group, "count");
-  if (name == "triangles" || name == "polylist") {
-    if (lists.size() > 1) fail(group, "has more than one <p>; one is allowed");
-    const Corners corners = lists.empty() ? Corners{} : lists.front();
-    if (name == "polylist") return polylistOf(group, corners);
-    if (corners.size() == 3 * count) return count;
+  if (corners.size() != 3 * count) {
     fail(group, "has " + std::to_string(corners.size()) +
                     " corners; as many as 3 times its count, " + std::to_string(count) +
                     ", have to be there");
   }
-  if (lists.size() != count) {
-    fail(group, "has " + std::to_string(lists.size()) + " elements <p>; its count is " +
-                    std::to_string(count));
-  }
-  if (std::ranges::any_of(lists, [](const Corners& list) { return list.size() < 3; }))
-    fail(group, "has a <p> of less than 3 corners");
-  Count triangles = 0;
-  const XMLElement* list = group.FirstChildElement("p");
-  for (const Corners& corners : lists) {
-    if (name == "polygons") look(*list, corners);
-    list = list->NextSiblingElement("p");
-    triangles += corners.size() - 2;
-  }
-  return triangles;
+  for (std::size_t i = 0; i < corners.size(); i += 3) add(*list, std::span(corners).subspan(i, 3));
 }
 
-void MeshReader::readGroup(XMLElement& group) {
+void MeshReader::addPolylist(const XMLElement& group, const XMLElement* list,
+                             const Corners& corners) {
+  std::vector<std::uint32_t> faces;
+  Count listed = 0;
+  forEachChild(group, "vcount", [&](const XMLElement& sizes) {
+    forEachColladaWord(sizes, source_, [&](std::string_view word) {
+      const auto size = colladaCount(word);
+      if (!size) fail(sizes, "does not hold whole numbers only");
+      if (*size < 3) fail(sizes, "has a face of " + shown(word) + " corners; 3 are the least");
+      listed += *size;
+      faces.push_back(static_cast<std::uint32_t>(*size));
+    });
+  });
+  const Count count = colladaCount(source_, group, "count");
+  if (listed != corners.size() || faces.size() != count) {
+    fail(group, "has " + std::to_string(faces.size()) + " faces of " + std::to_string(listed) +
+                    " corners by its <vcount>, and " + std::to_string(corners.size()) +
+                    " corners in its <p>; its count is " + std::to_string(count));
+  }
+  std::span<const int> rest(corners);
+  for (std::size_t face = 0; face < faces.size(); ++face) {
+    add(*list, rest.first(faces[face]), static_cast<std::int64_t>(face));
+    rest = rest.subspan(faces[face]);
+  }
+}
+
+/// Every other triangle of a strip turns the other way in the order of its corners.
+void MeshReader::addStrip(const Corners& corners) {
+  requireFewTriangles(mesh_.content.triangles.size() + corners.size() - 2);
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const bool isOdd = i % 2 != 0;
+    mesh_.content.triangles.emplace_back(corners[i - (isOdd ? 1 : 2)], corners[i - (isOdd ? 2 : 1)],
+                                         corners[i]);
+  }
+}
+
+void MeshReader::readGroup(const XMLElement& group) {
+  const std::string_view name = group.Name();
+  const bool isOneList = name == "triangles" || name == "polylist";
   const Layout layout = layoutOf(group);
-  std::vector<Corners> lists;
-  forEachChild(group, "p", [&](XMLElement& list) { lists.push_back(readList(list, layout)); });
-  const Count triangles = trianglesOf(group, lists);
-  if (triangles == 0) return;
-  mesh_.triangles += triangles;
-  groups_.insert(&group);
-  if (materials_ == FaceMaterials::LeftOut) group.DeleteAttribute("material");
-  keepChildren(group, [](XMLElement& child) {
-    const std::string_view name = child.Name();
-    if (name == "input") child.SetAttribute("offset", 0);
-    return name == "p" || name == "vcount" || (name == "input" && hasSemantic(child, "VERTEX"));
+  const std::size_t before = mesh_.content.triangles.size();
+  Count lists = 0;
+  forEachChild(group, "p", [&](const XMLElement&) { ++lists; });
+  if (isOneList && lists > 1) fail(group, "has more than one <p>; one is allowed");
+  forEachChild(group, "p", [&](const XMLElement& list) {
+    const Corners corners = readList(list, layout);
+    if (name == "triangles") return addTriangles(group, &list, corners);
+    if (name == "polylist") return addPolylist(group, &list, corners);
+    if (corners.size() < 3) fail(group, "has a <p> of less than 3 corners");
+    if (name == "tristrips") return addStrip(corners);
+    add(list, corners);
   });
-}
-
-/// In the order that assimp needs: it looks up what it has read already.
-void MeshReader::keepFaces() {
-  keepChildren(xml_, [&](const XMLElement& child) {
-    return !groups_.empty() && (positions_.isPart(child) || groups_.contains(&child));
-  });
-  if (!groups_.empty()) positions_.moveToFront();
+  if (lists == 0 && name == "triangles") addTriangles(group, nullptr, {});
+  if (lists == 0 && name == "polylist") addPolylist(group, nullptr, {});
+  if (!isOneList && lists != colladaCount(source_, group, "count")) {
+    fail(group, "has " + std::to_string(lists) + " elements <p>; its count is " +
+                    std::to_string(colladaCount(source_, group, "count")));
+  }
+  const char* const material = group.Attribute("material");
+  mesh_.groups.push_back({mesh_.content.triangles.size() - before, material ? material : ""});
 }
 
 ColladaMesh MeshReader::read() {
-  forEachChild(xml_, nullptr, [&](XMLElement& child) { requireKnown(child); });
+  forEachChild(xml_, nullptr, [&](const XMLElement& child) { requireKnown(child); });
   if (hasFaces()) positions_.read();
-  used_.resize(positions_.all().size());
-  forEachChild(xml_, nullptr, [&](XMLElement& child) {
+  forEachChild(xml_, nullptr, [&](const XMLElement& child) {
     if (isFaces(child)) readGroup(child);
   });
-  for (std::size_t i = 0; i < used_.size(); ++i)
-    if (used_[i]) mesh_.corners.push_back(positions_.all()[i]);
-  mesh_.loss = positions_.loss();
-  keepFaces();
+  mesh_.content.vertices = positions_.all();
+  keepUsedVertices(mesh_.content);
   return std::move(mesh_);
 }
 
 }  // namespace
 
-ColladaMesh readColladaMesh(XMLElement& mesh, const InputSource& source, CrossingFace& crossing,
-                            FaceMaterials materials) {
-  return MeshReader(mesh, source, crossing, materials).read();
+ColladaMesh readColladaMesh(const XMLElement& mesh, const InputSource& source, FaceCutter& cutter) {
+  return MeshReader(mesh, source, cutter).read();
 }
 
 }  // namespace swept::detail

@@ -2,12 +2,13 @@
 #include "io/collada_transform.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <vector>
 
-#include "io/mesh_claim.hpp"
 #include "text/numbers.hpp"
 
 namespace swept::detail {
@@ -18,54 +19,86 @@ using tinyxml2::XMLElement;
 
 constexpr double kUnitAxis = 1e-3;  ///< more is no rounding but a mistake
 
-std::vector<double> numbers(const XMLElement& element, std::size_t count,
-                            const InputSource& source) {
-  std::vector<double> values;
-  MeshClaim unused;
-  for (const std::string_view word : colladaWords(element, source)) {
-    const auto value = unused.coordinate(word);
+/// Of the entries of a rotation, each made of an axis and an angle in some 20 roundings, taken
+/// together as one matrix, for each turn that the file has begun.
+constexpr double kRotationError = 80.0 * 0x1p-53;
+
+template <std::size_t kCount>
+std::array<double, kCount> numbers(const XMLElement& element, const InputSource& source) {
+  std::array<double, kCount> values{};
+  std::size_t count = 0;
+  forEachColladaWord(element, source, [&](std::string_view word) {
+    const auto value = parseNumber(word);
     if (!value) failElement(source, element, "holds more than finite numbers");
-    values.push_back(*value);
-  }
-  if (values.size() != count)
+    if (count < kCount) values[count] = *value;
+    ++count;
+  });
+  if (count != kCount)
     failElement(source, element,
-                "has " + std::to_string(values.size()) + " numbers; " + std::to_string(count) +
+                "has " + std::to_string(count) + " numbers; " + std::to_string(kCount) +
                     " have to be there");
   return values;
 }
 
-}  // namespace
+struct Rotation {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  double error = 0.0;
+};
 
-bool isColladaTransform(std::string_view name) {
-  return name == "translate" || name == "rotate" || name == "scale" || name == "matrix";
+Rotation rotationOf(const XMLElement& element, const InputSource& source) {
+  const auto values = numbers<4>(element, source);
+  const Eigen::Vector3d axis(values[0], values[1], values[2]);
+  if (values[3] == 0.0) return {};
+  // An axis of another length turns nothing in some readers, and stretches in others.
+  if (!(std::abs(axis.norm() - 1.0) <= kUnitAxis))
+    failElement(source, element,
+                "has an axis whose length is " + formatNumber(axis.norm()) + "; it must be 1");
+  // Exact: of many turns the text alone is rounded.
+  const double degrees = std::remainder(values[3], 360.0);
+  return {
+      Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis.normalized()).toRotationMatrix(),
+      kRotationError * std::max(1.0, std::abs(values[3]) / 360.0)};
 }
 
-Eigen::Matrix4d colladaTransform(const XMLElement& element, const InputSource& source) {
+}  // namespace
+
+ColladaPlace::ColladaPlace(double unit)
+    : linear_(unit * Eigen::Matrix3d::Identity()), stretch_(unit) {}
+
+void ColladaPlace::enter(const XMLElement& element, const InputSource& source) {
   const std::string_view name = element.Name();
-  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   if (name == "translate") {
-    result.translation() = Eigen::Vector3d::Map(numbers(element, 3, source).data());
+    offset = Eigen::Vector3d::Map(numbers<3>(element, source).data());
   } else if (name == "scale") {
-    result.linear() = Eigen::Vector3d::Map(numbers(element, 3, source).data()).asDiagonal();
+    linear = Eigen::Vector3d::Map(numbers<3>(element, source).data()).asDiagonal();
   } else if (name == "rotate") {
-    const auto values = numbers(element, 4, source);
-    const Eigen::Vector3d axis = Eigen::Vector3d::Map(values.data());
-    if (values[3] == 0.0) return result.matrix();
-    // Assimp takes the axis for a unit vector.
-    if (std::abs(axis.norm() - 1.0) > kUnitAxis)
-      failElement(source, element,
-                  "has an axis whose length is " + formatNumber(axis.norm()) + "; it must be 1");
-    result.linear() = Eigen::AngleAxisd(values[3] * std::numbers::pi / 180.0, axis.normalized())
-                          .toRotationMatrix();
+    const Rotation rotation = rotationOf(element, source);
+    linear = rotation.matrix;
+    steps_ += rotation.error;
   } else if (name == "matrix") {
-    const auto values = numbers(element, 16, source);
+    const auto values = numbers<16>(element, source);
     const Eigen::Matrix4d matrix =
         Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
     if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
       failElement(source, element, "has a last row other than 0 0 0 1");
-    return matrix;
+    linear = matrix.topLeftCorner<3, 3>();
+    offset = matrix.topRightCorner<3, 1>();
   }
-  return result.matrix();
+  if (linear.isIdentity(0.0) && offset.isZero(0.0)) return;
+  reach_ += stretch_ * offset.stableNorm();
+  if (name != "translate") {
+    constexpr double kNormError = 1e-12;
+    stretch_ *= linear.jacobiSvd().singularValues()[0] * (1.0 + kNormError);
+  }
+  steps_ += kStep;
+  offset_ += linear_ * offset;
+  linear_ = linear_ * linear;
+}
+
+double ColladaPlace::error(double distance) const {
+  return steps_ * (stretch_ * distance + reach_);
 }
 
 }  // namespace swept::detail

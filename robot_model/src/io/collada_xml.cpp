@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/collada_xml.hpp"
 
-#include <algorithm>
 #include <charconv>
 
 namespace swept::detail {
@@ -15,22 +14,6 @@ void failElement(const InputSource& source, const XMLElement& element, const std
 std::string colladaTarget(const XMLElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
   return text != nullptr && text[0] == '#' ? text + 1 : "";
-}
-
-std::vector<std::string_view> colladaWords(const XMLElement& element, const InputSource& source) {
-  const auto isSpace = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
-  std::vector<std::string_view> found;
-  for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
-    if (node->ToComment() != nullptr) continue;
-    if (node->ToText() == nullptr) failElement(source, element, "holds more than text");
-    const std::string_view text = node->Value();
-    for (auto at = text.begin(); (at = std::find_if_not(at, text.end(), isSpace)) != text.end();) {
-      const auto end = std::find_if(at, text.end(), isSpace);
-      found.emplace_back(at, end);
-      at = end;
-    }
-  }
-  return found;
 }
 
 std::optional<std::uint64_t> colladaCount(std::string_view word) {
@@ -53,16 +36,6 @@ std::uint64_t colladaCount(const InputSource& source, const XMLElement& element,
 bool hasSemantic(const XMLElement& input, std::string_view semantic) {
   const char* const text = input.Attribute("semantic");
   return text != nullptr && text == semantic;
-}
-
-void setColladaWords(XMLElement& element, const std::vector<std::string_view>& words) {
-  std::string text;
-  for (const std::string_view word : words) {
-    if (!text.empty()) text += ' ';
-    text += word;
-  }
-  element.DeleteChildren();
-  element.SetText(text.c_str());
 }
 
 }  // namespace swept::detail

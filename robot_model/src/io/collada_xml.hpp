@@ -3,11 +3,11 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/input_source.hpp"
 
@@ -20,9 +20,23 @@ namespace swept::detail {
 /// What `#id` in an attribute points to; empty: it does not point into the file.
 std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attribute);
 
-/// The words of its text, which live as long as that. Fails if it holds other elements.
-std::vector<std::string_view> colladaWords(const tinyxml2::XMLElement& element,
-                                           const InputSource& source);
+/// The words of its text, one after the other, which live as long as that. Fails if it holds other
+/// elements.
+template <typename Action>
+void forEachColladaWord(const tinyxml2::XMLElement& element, const InputSource& source,
+                        const Action& action) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  for (const auto* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToComment() != nullptr) continue;
+    if (node->ToText() == nullptr) failElement(source, element, "holds more than text");
+    const std::string_view text = node->Value();
+    for (auto at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+      const auto end = std::min(text.find_first_of(kBlanks, at), text.size());
+      action(text.substr(at, end - at));
+      at = text.find_first_not_of(kBlanks, end);
+    }
+  }
+}
 
 /// Whole numbers below 2^32: sums and products of a few cannot overflow.
 std::optional<std::uint64_t> colladaCount(std::string_view word);
@@ -33,26 +47,12 @@ std::uint64_t colladaCount(const InputSource& source, const tinyxml2::XMLElement
 
 bool hasSemantic(const tinyxml2::XMLElement& input, std::string_view semantic);
 
-/// Makes the words all that the element has: assimp stops at a comment between them.
-void setColladaWords(tinyxml2::XMLElement& element, const std::vector<std::string_view>& words);
-
 /// The children of that name, one after the other; null: all elements.
 template <typename Element, typename Action>
 void forEachChild(Element& parent, const char* name, const Action& action) {
   for (Element* child = parent.FirstChildElement(name); child != nullptr;
        child = child->NextSiblingElement(name)) {
     action(*child);
-  }
-}
-
-/// Deletes all children, text and comments too, but the elements of which `isKept` is true.
-template <typename Predicate>
-void keepChildren(tinyxml2::XMLNode& parent, const Predicate& isKept) {
-  for (tinyxml2::XMLNode* child = parent.FirstChild(); child != nullptr;) {
-    tinyxml2::XMLNode* const next = child->NextSibling();
-    tinyxml2::XMLElement* const element = child->ToElement();
-    if (element == nullptr || !isKept(*element)) parent.DeleteChild(child);
-    child = next;
   }
 }
 

@@ -29,15 +29,6 @@ double roundingOf(const MeshFileContent& content) {
       std::min(kDecimals, kUsualWidths * TriangleMesh::usualCrackWidth(content.vertices)));
 }
 
-/// Assimp has coordinates in single precision; far from 0 that takes them where they are not.
-void requirePrecise(const MeshFileContent& content, const Eigen::Vector3d& scale) {
-  constexpr double kMostLost = 1e-3;  // m
-  const double lost = content.loss * scale.cwiseAbs().maxCoeff();
-  if (lost <= kMostLost) return;
-  throw MeshFileError("has coordinates that single precision moves by " + formatNumber(lost) +
-                      " m; at most " + formatNumber(kMostLost) + " m are allowed");
-}
-
 void addCover(MadeMesh& made, CoverCache& covers) {
   const auto start = std::chrono::steady_clock::now();
   made.cover = covers.coverOf(*made.mesh);
@@ -46,7 +37,6 @@ void addCover(MadeMesh& made, CoverCache& covers) {
 }
 
 MadeMesh made(MeshFileContent content, const Eigen::Vector3d& scale, CoverCache* covers) {
-  requirePrecise(content, scale);
   MadeMesh result;
   const double rounding = roundingOf(content);
   for (Eigen::Vector3d& vertex : content.vertices) vertex = vertex.cwiseProduct(scale);
@@ -54,7 +44,8 @@ MadeMesh made(MeshFileContent content, const Eigen::Vector3d& scale, CoverCache*
   const double crackWidth = std::max(rounding * scale.cwiseAbs().minCoeff(),
                                      TriangleMesh::usualCrackWidth(content.vertices));
   result.mesh =
-      TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth);
+      TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth)
+          .withSourceError(content.error * scale.cwiseAbs().maxCoeff());
   result.rounding = rounding * scale.cwiseAbs().maxCoeff();
   result.opening = result.mesh->opening();
   if (covers != nullptr) addCover(result, *covers);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "io/cover_cache.hpp"
-#include "io/mesh_file.hpp"
+#include "io/mesh_content.hpp"
 #include "swept/core/sphere_cover.hpp"
 #include "swept/core/triangle_mesh.hpp"
 

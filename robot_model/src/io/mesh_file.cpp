@@ -12,9 +12,6 @@
 #include <system_error>
 #include <utility>
 
-#include "io/child_process.hpp"
-#include "io/collada_convex.hpp"
-#include "io/mesh_claim.hpp"
 #include "io/mesh_import.hpp"
 #include "io/point_file.hpp"
 #include "text/numbers.hpp"
@@ -47,30 +44,39 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-using Check = MeshClaim (*)(std::string_view, const InputSource&);
-
-Check checkOf(const std::string& ending, FaceMaterials materials) {
-  if (ending == ".dae" && materials == FaceMaterials::Kept) return checkColladaWithMaterials;
-  constexpr std::array<std::pair<std::string_view, Check>, 4> kFormats{
-      {{".stl", checkStl}, {".obj", checkObj}, {".dae", checkCollada}, {".ply", checkPly}}};
-  const auto found =
-      std::ranges::find(kFormats, ending, [](const auto& format) { return format.first; });
-  if (found != kFormats.end()) return found->second;
-  throw MeshFileError("has the ending " + shown(ending) +
-                      "; allowed are .stl, .obj, .dae and .ply");
+std::string_view textOf(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-MeshClaim claimOf(const std::filesystem::path& file, std::string_view text, Check check) {
+/// Null: it is none of ours.
+MeshFileContent (*readerOf(const std::string& ending))(std::string_view, const InputSource&) {
+  if (ending == ".stl") return readStlMesh;
+  if (ending == ".obj") return readObjMesh;
+  if (ending == ".ply") return readPlyMesh;
+  if (ending == ".off") return readOffMesh;
+  return nullptr;
+}
+
+[[noreturn]] void refuseEnding(const std::string& ending) {
+  throw MeshFileError("has the ending " + shown(ending) +
+                      "; allowed are .stl, .obj, .dae, .ply, .off, .gltf and .glb");
+}
+
+/// What `read` makes of a file, or how a message puts that it cannot.
+template <typename Read>
+auto readOrRefuse(const std::filesystem::path& file, const Read& read) {
   try {
-    MeshClaim claim = check(text, InputSource(file.string(), {}));
-    if (claim.triangles == 0) throw MeshFileError("has no triangles");
-    requireFewTriangles(claim.triangles);
-    return claim;
+    return read(InputSource(file.string(), {}));
   } catch (const InputError& error) {
     const std::string line =
         error.line() > 0 ? "its line " + std::to_string(error.line()) + ": " : "";
     throw MeshFileError("cannot be read: " + line + error.message());
   }
+}
+
+void requireSome(std::uint64_t triangles) {
+  if (triangles == 0) throw MeshFileError("has no triangles");
+  requireFewTriangles(triangles);
 }
 
 std::string extent(const Eigen::AlignedBox3d& box) {
@@ -122,7 +128,7 @@ std::string saidOf(std::string_view request, const MeshImport& import) {
     std::string text(1, static_cast<char>(Kind::Content));
     append(content.vertices, text);
     append(content.triangles, text);
-    append(content.colours, text);
+    text.append(reinterpret_cast<const char*>(&content.error), sizeof content.error);
     return text;
   } catch (const MeshFileError& error) {
     return static_cast<char>(Kind::Error) + std::string(error.what());
@@ -132,21 +138,12 @@ std::string saidOf(std::string_view request, const MeshImport& import) {
 }
 
 /// Holds what assimp made of a file against what there is to be made of it.
-void requireWhole(const MeshClaim& claim, MeshFileContent& content) {
+void requireWhole(const MeshSummary& summary, const MeshFileContent& content) {
   constexpr double kSame = 1e-4;  // of the largest coordinate: a thousand times single precision
-  // A face that crosses itself bounds no one region: readers that cut it, fan it or fill it leave
-  // different surfaces, and a solid with it may lose its inside. So it is refused, by its place.
-  if (content.triangles.size() != claim.triangles && !claim.crossing.name().empty()) {
-    throw MeshFileError(
-        "cannot be read: " + claim.crossing.name() +
-        " crosses or touches itself; a face of more than 4 corners must not, or has to be "
-        "given as triangles");
-  }
-  if (content.triangles.size() != claim.triangles) {
-    throw MeshFileError("cannot be read: it has " + std::to_string(claim.triangles) +
-                        " triangles, where a face of n corners counts n - 2, and assimp makes " +
-                        std::to_string(content.triangles.size()) +
-                        " of them; faces of more than 4 corners must not cross themselves");
+  if (content.triangles.size() != summary.triangles) {
+    throw MeshFileError("cannot be read: it has " + std::to_string(summary.triangles) +
+                        " triangles, and assimp makes " + std::to_string(content.triangles.size()) +
+                        " of them");
   }
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3i& triangle : content.triangles) {
@@ -155,16 +152,16 @@ void requireWhole(const MeshClaim& claim, MeshFileContent& content) {
       box.extend(content.vertices[static_cast<std::size_t>(corner)]);
     }
   }
-  const double off = std::max((box.min() - claim.box.min()).cwiseAbs().maxCoeff(),
-                              (box.max() - claim.box.max()).cwiseAbs().maxCoeff());
   const double largest =
-      std::max(claim.box.min().cwiseAbs().maxCoeff(), claim.box.max().cwiseAbs().maxCoeff());
+      std::max(summary.box.min().cwiseAbs().maxCoeff(), summary.box.max().cwiseAbs().maxCoeff());
+  const double beyond = std::max((summary.box.min() - box.min()).maxCoeff(),
+                                 (box.max() - summary.box.max()).maxCoeff());
   // NaN fails it.
-  if (!(off <= kSame * largest)) {
-    throw MeshFileError("cannot be read: its faces reach " + extent(claim.box) +
+  if (!(beyond <= kSame * largest)) {
+    throw MeshFileError("cannot be read: its faces reach no farther than " + extent(summary.box) +
                         ", and those that assimp makes of them " + extent(box));
   }
-  content.loss = std::max(claim.loss, off);
+  if (!(content.error >= 0.0 && content.error <= kSame * largest)) refuseContent();
 }
 
 ChildLimits limitsFor(std::size_t bytes) {
@@ -177,27 +174,20 @@ MeshFileContent contentOf(std::string_view said) {
   const std::string_view rest = said.substr(1);
   if (said.front() == static_cast<char>(Kind::Error)) throw MeshFileError(std::string(rest));
   MeshFileContent content;
-  take(take(take(rest, content.vertices), content.triangles), content.colours);
-  if (!content.colours.empty() && content.colours.size() != content.triangles.size())
-    refuseContent();
+  const std::string_view last = take(take(rest, content.vertices), content.triangles);
+  if (last.size() != sizeof content.error) refuseContent();
+  std::memcpy(&content.error, last.data(), sizeof content.error);
   return content;
 }
 
 }  // namespace
 
-void requireFewTriangles(std::uint64_t count) {
-  constexpr std::uint64_t kMost = 20'000'000;
-  if (count <= kMost) return;
-  throw MeshFileError("has more than " + std::to_string(kMost) +
-                      " triangles, which is the most allowed");
-}
+MeshFileReader::MeshFileReader(ImportPlace place) : MeshFileReader(importMesh, place) {}
 
-MeshFileReader::MeshFileReader() : MeshFileReader(importMesh) {}
-
-MeshFileReader::MeshFileReader(MeshImport import)
-    : child_([import = std::move(import)](std::string_view request) {
-        return saidOf(request, import);
-      }) {}
+MeshFileReader::MeshFileReader(MeshImport import, ImportPlace place)
+    : import_(std::move(import)),
+      place_(place),
+      child_([import = import_](std::string_view request) { return saidOf(request, import); }) {}
 
 MeshFileContent MeshFileReader::ask(const std::string& name, std::string_view text) {
   try {
@@ -211,10 +201,10 @@ MeshFileContent MeshFileReader::ask(const std::string& name, std::string_view te
 }
 
 MeshFileContent MeshFileReader::askForWhole(const std::string& name, std::string_view text,
-                                            const MeshClaim& claim) {
+                                            const MeshSummary& summary) {
   try {
     MeshFileContent content = ask(name, text);
-    requireWhole(claim, content);
+    requireWhole(summary, content);
     return content;
   } catch (const MeshFileError&) {
     // Whatever that file has done to the process: it reads no other.
@@ -223,39 +213,52 @@ MeshFileContent MeshFileReader::askForWhole(const std::string& name, std::string
   }
 }
 
+MeshFileContent MeshFileReader::import(const std::string& name, std::string_view text,
+                                       const MeshSummary& summary) {
+  if (place_ == ImportPlace::Here) {
+    MeshFileContent content =
+        import_(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    requireWhole(summary, content);
+    return content;
+  }
+  if (child_.hasAnswered()) {
+    try {
+      return askForWhole(name, text, summary);
+    } catch (const MeshFileError&) {
+      // Not this file's fault, perhaps, but of those before it: a process that has read none says.
+    }
+  }
+  return askForWhole(name, text, summary);
+}
+
 MeshFileContent MeshFileReader::read(const std::filesystem::path& file) {
   return readAs(file, FaceMaterials::LeftOut);
 }
 
 MeshFileContent MeshFileReader::readWithColours(const std::filesystem::path& file) {
-  if (lowerEnding(file) != ".dae") return read(file);
-  try {
-    return readAs(file, FaceMaterials::Kept);
-  } catch (const MeshFileError&) {
-    return read(file);
-  }
+  return readAs(file, FaceMaterials::Kept);
 }
 
 MeshFileContent MeshFileReader::readAs(const std::filesystem::path& file, FaceMaterials materials) {
   const std::string ending = lowerEnding(file);
-  const Check check = checkOf(ending, materials);
+  const bool isCollada = ending == ".dae", isGltf = ending == ".gltf" || ending == ".glb";
+  const auto reader = readerOf(ending);
+  if (reader == nullptr && !isCollada && !isGltf) refuseEnding(ending);
   const std::vector<std::uint8_t> bytes = readBytes(file);
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  std::string renamed;
-  if (ending == ".dae" && text.find("<convex_mesh") != std::string_view::npos)
-    text = renamed = withConvexMeshes(text);
-  const MeshClaim claim = claimOf(file, text, check);
-  const std::string_view read = claim.bare ? std::string_view(*claim.bare) : text;
-  // By a name of ours, whatever the file's has in it.
-  const std::string name = "mesh" + ending;
-  if (child_.hasAnswered()) {
-    try {
-      return askForWhole(name, read, claim);
-    } catch (const MeshFileError&) {
-      // Not this file's fault, perhaps, but of those before it: a process that has read none says.
-    }
+  const std::string_view text = textOf(bytes);
+  if (isGltf) {
+    const MeshSummary summary = readOrRefuse(file, [&](const InputSource& source) {
+      return gltfSummary(text, ending == ".glb", source);
+    });
+    requireSome(summary.triangles);
+    // By a name of ours, whatever the file's has in it.
+    return import("mesh" + ending, text, summary);
   }
-  return askForWhole(name, read, claim);
+  MeshFileContent content = readOrRefuse(file, [&](const InputSource& source) {
+    return isCollada ? readColladaFile(text, source, materials) : reader(text, source);
+  });
+  requireSome(content.triangles.size());
+  return content;
 }
 
 }  // namespace swept::detail

@@ -1,70 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/child_process.hpp"
-#include "io/mesh_claim.hpp"
+#include "io/gltf_summary.hpp"
+#include "io/mesh_content.hpp"
+#include "io/mesh_readers.hpp"
 
 namespace swept::detail {
-
-/// Of a face without a material, or whose material is a picture.
-inline constexpr std::uint32_t kNoColour = 0xFFFFFFFF;
-
-/// What a mesh file holds, before it is welded.
-struct MeshFileContent {
-  std::vector<Eigen::Vector3d> vertices;   ///< in the file's frame and unit
-  std::vector<Eigen::Vector3i> triangles;  ///< indices into vertices
-  double loss = 0.0;                       ///< how far coordinates may be from the file's; its unit
-  /// 0xRRGGBB of each triangle, or kNoColour; empty: the file has no colours, or nobody asked.
-  std::vector<std::uint32_t> colours;
-};
-
-/// A mesh file that cannot be used; what() says why, without the file's name.
-struct MeshFileError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Throws MeshFileError for more than 20 million.
-void requireFewTriangles(std::uint64_t count);
 
 /// What makes a mesh of a file's bytes; the name tells the format. Throws MeshFileError and
 /// std::bad_alloc.
 using MeshImport =
     std::function<MeshFileContent(const std::string& name, std::span<const std::uint8_t> bytes)>;
 
-/// Reads .stl, .obj, .dae and .ply, in letters of any size. Polygons are triangulated, points and
-/// lines dropped, node transforms applied.
+/// Where files are read that assimp reads.
+enum class ImportPlace { Child, Here };
+
+inline ImportPlace importPlaceOf(const LoadOptions& options) {
+  return options.childProcess ? ImportPlace::Child : ImportPlace::Here;
+}
+
+/// Reads .stl, .obj, .dae, .ply, .off, .gltf and .glb, in letters of any size. Polygons are
+/// triangulated (FaceCutter), points and lines dropped, node transforms applied.
 ///
-/// All faces are there: small readers of ours (mesh_claim.hpp) count them first, refuse what is
-/// out of range, cut off or in words that they do not know, and what assimp returns must have as
-/// many triangles and reach as far.
+/// All faces are there: what is out of range, cut off or in words that nobody knows is refused.
+/// Nothing else of a file is judged: normals, colours, textures, materials, cameras and lights cost
+/// no file, whatever they hold.
 ///
-/// Nothing else of a file is judged: assimp gets the faces and their corners alone (bytes that mean
-/// any number stay), and normals, colours, textures, materials, cameras and lights cost no file,
-/// whatever they hold.
-///
-/// Coordinates pass through single precision, as assimp has them. `loss` bounds what that changes
-/// in the words of the file, and has what it changes in the box of the whole once nodes are
-/// applied: some 1e-7 of the largest coordinate, none where the file itself has single precision.
-/// Nothing else counts it.
-///
-/// COLLADA: `<unit>` is applied, so that lengths are metres. `<up_axis>` is not: robot descriptions
-/// take the coordinates as they stand in the file (what RViz and MoveIt show), while assimp by
-/// itself would turn a Z_UP file so that y points up.
+/// glTF is read by assimp, in single precision: MeshFileContent::error bounds what that changes. A
+/// small reader of ours (gltf_summary.hpp) counts the triangles first, and what assimp returns must
+/// have as many and reach no farther. Our readers read all others, in double precision.
 ///
 /// Assimp runs in a process of its own, for as long and with as much memory as a file of that size
 /// can reasonably take: one that makes it crash or hang is refused as any other. That process reads
 /// one file after the other, each within limits of its own, as long as it reads them whole; one
 /// that failed at a file reads no other, and a file is refused only by one that has read no other.
+/// With ImportPlace::Here it runs in this process, without limits.
 ///
 /// No other file is opened, not even one that this file names (materials, textures, buffers).
 /// Throws MeshFileError for another ending, a file over 256 MB, one with more than 20 million
@@ -72,9 +50,9 @@ using MeshImport =
 /// made, and reads the next file nevertheless. One thread uses it, and outlives it.
 class MeshFileReader {
  public:
-  MeshFileReader();
+  explicit MeshFileReader(ImportPlace place = ImportPlace::Child);
   /// With something else in place of assimp.
-  explicit MeshFileReader(MeshImport import);
+  explicit MeshFileReader(MeshImport import, ImportPlace place = ImportPlace::Child);
 
   MeshFileContent read(const std::filesystem::path& file);
   /// The same with the colours that a COLLADA file's materials have. What is wrong with these costs
@@ -83,11 +61,15 @@ class MeshFileReader {
 
  private:
   MeshFileContent readAs(const std::filesystem::path& file, FaceMaterials materials);
+  MeshFileContent import(const std::string& name, std::string_view text,
+                         const MeshSummary& summary);
   MeshFileContent ask(const std::string& name, std::string_view text);
-  /// All that `claim` says there is.
+  /// All that `summary` says there is.
   MeshFileContent askForWhole(const std::string& name, std::string_view text,
-                              const MeshClaim& claim);
+                              const MeshSummary& summary);
 
+  MeshImport import_;
+  ImportPlace place_;
   ChildProcess child_;
 };
 

@@ -2,17 +2,14 @@
 #include "io/mesh_import.hpp"
 
 #include <assimp/MemoryIOWrapper.h>
-#include <assimp/config.h>
-#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <exception>
 #include <new>
-#include <string_view>
 #include <utility>
 
 #include "swept/robot_model/foreign_text.hpp"
@@ -45,57 +42,65 @@ Eigen::Matrix4d toEigen(const aiMatrix4x4& matrix) {
   return Eigen::Map<const RowMajor4f>(&matrix.a1).cast<double>();
 }
 
-/// Those that FaceMaterials::Kept keeps.
-bool hasMaterials(std::span<const std::uint8_t> bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  return text.find("<library_effects") != std::string_view::npos;
-}
-
-/// 0xRRGGBB, or kNoColour.
-std::uint32_t colourOf(const aiMaterial& material) {
-  aiColor3D colour;
-  if (material.GetTextureCount(aiTextureType_DIFFUSE) > 0 ||
-      material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != AI_SUCCESS)
-    return kNoColour;
-  std::uint32_t code = 0;
-  for (const float part : {colour.r, colour.g, colour.b}) {
-    if (!(part >= 0.0F && part <= 1.0F)) return kNoColour;
-    code = code << 8 | static_cast<std::uint32_t>(std::lround(255.0F * part));
+/// A node of assimp's and those above it: how it places its meshes, and by how much single
+/// precision may have moved what it places.
+class Place {
+ public:
+  /// What `node`, a child of what has this place, gives its own.
+  Place of(const aiNode& node) const {
+    // Each entry is made of a unit quaternion, a scale and a translation in some 30 roundings, all
+    // of them together as one matrix.
+    constexpr double kNodeError = 64.0 * kRounding;
+    Place own = *this;
+    const Eigen::Matrix4d matrix = toEigen(node.mTransformation);
+    if (matrix.isIdentity(0.0)) return own;
+    own.file_from_node_ = file_from_node_ * matrix;
+    own.reach_ += stretch_ * matrix.topRightCorner<3, 1>().norm();
+    own.stretch_ *= matrix.topLeftCorner<3, 3>().norm();
+    own.steps_ += kNodeError;
+    return own;
   }
-  return code;
-}
+  Eigen::Vector3d operator()(const aiVector3D& v) const {
+    return (file_from_node_ * Eigen::Vector4d(v.x, v.y, v.z, 1.0)).head<3>();
+  }
+  /// Of points no farther than that from the node's origin.
+  double error(double distance) const { return steps_ * (stretch_ * distance + reach_); }
 
-void appendMesh(const aiScene& scene, const aiMesh& mesh, const Eigen::Matrix4d& file_from_node,
-                MeshFileContent& content) {
-  const std::uint32_t colour = mesh.mMaterialIndex < scene.mNumMaterials
-                                   ? colourOf(*scene.mMaterials[mesh.mMaterialIndex])
-                                   : kNoColour;
+ private:
+  static constexpr double kRounding = 0x1p-24;  ///< of single precision
+  Eigen::Matrix4d file_from_node_ = Eigen::Matrix4d::Identity();
+  /// What is at a distance of d from the node's origin is no farther from the file's than stretch_
+  /// d + reach_, whatever cancels. The Frobenius norm is no less than what a matrix stretches by.
+  double stretch_ = 1.0, reach_ = 0.0;
+  double steps_ = 1.0 * kRounding;  ///< of that; at first for the coordinates themselves
+};
+
+void appendMesh(const aiMesh& mesh, const Place& place, MeshFileContent& content) {
   const int first = static_cast<int>(content.vertices.size());
+  double farthest = 0.0;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D& v = mesh.mVertices[i];
-    const Eigen::Vector4d p = file_from_node * Eigen::Vector4d(v.x, v.y, v.z, 1.0);
-    content.vertices.emplace_back(p.head<3>());
+    farthest = std::max(farthest, Eigen::Vector3d(v.x, v.y, v.z).norm());
+    content.vertices.emplace_back(place(v));
   }
+  content.error = std::max(content.error, place.error(farthest));
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
     if (face.mNumIndices != 3) continue;  // a point or a line
     content.triangles.emplace_back(first + static_cast<int>(face.mIndices[0]),
                                    first + static_cast<int>(face.mIndices[1]),
                                    first + static_cast<int>(face.mIndices[2]));
-    content.colours.push_back(colour);
   }
   requireFewTriangles(content.triangles.size());
 }
 
-void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& file_from_parent,
+void appendNode(const aiScene& scene, const aiNode& node, const Place& parent,
                 MeshFileContent& content) {
-  const Eigen::Matrix4d file_from_node = file_from_parent * toEigen(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    appendMesh(scene, *scene.mMeshes[node.mMeshes[i]], file_from_node, content);
-  }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    appendNode(scene, *node.mChildren[i], file_from_node, content);
-  }
+  const Place place = parent.of(node);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i)
+    appendMesh(*scene.mMeshes[node.mMeshes[i]], place, content);
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    appendNode(scene, *node.mChildren[i], place, content);
 }
 
 /// Too little memory is no fault of the file, but for Assimp it is as any other.
@@ -114,16 +119,15 @@ void rethrowNoMemory(const Assimp::Importer& importer) {
 MeshFileContent importMesh(const std::string& name, std::span<const std::uint8_t> bytes) {
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(name, bytes));
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     rethrowNoMemory(importer);
     throw MeshFileError("cannot be read: " + foreignText(importer.GetErrorString()));
   }
   MeshFileContent content;
-  appendNode(*scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), content);
+  appendNode(*scene, *scene->mRootNode, Place(), content);
   if (content.triangles.empty()) throw MeshFileError("has no triangles");
-  if (!hasMaterials(bytes)) content.colours.clear();  // assimp's own grey
+  keepUsedVertices(content);
   return content;
 }
 

@@ -36,7 +36,8 @@ MeshPlace placeOfMesh(const std::string& reference, const InputSource& source);
 /// The meshes that one input file refers to: found, read, scaled and shared.
 class MeshStore {
  public:
-  explicit MeshStore(const InputSource& source) : source_(source) {}
+  explicit MeshStore(const InputSource& source)
+      : source_(source), files_(importPlaceOf(source.options())) {}
 
   /// Throws one InputError that names all files that are not there, ten at the most and how many
   /// more.

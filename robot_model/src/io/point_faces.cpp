@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "io/mesh_file.hpp"
+#include "io/mesh_content.hpp"
 #include "text/numbers.hpp"
 
 namespace swept::detail {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "io/mesh_file.hpp"
+#include "io/mesh_content.hpp"
 #include "swept/robot_model/visual_model.hpp"
 
 namespace swept::detail {

@@ -36,7 +36,11 @@ struct Unusable {
 class VisualReader {
  public:
   VisualReader(detail::XmlFile& xml, const VisualLimits& limits)
-      : xml_(xml), limits_(limits), warnings_(xml.source()), materials_(xml, warnings_) {}
+      : xml_(xml),
+        limits_(limits),
+        warnings_(xml.source()),
+        materials_(xml, warnings_),
+        files_(detail::importPlaceOf(xml.source().options())) {}
 
   VisualModel read();
 

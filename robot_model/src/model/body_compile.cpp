@@ -49,6 +49,12 @@ bool samePose(const Isometry3d& a, const Isometry3d& b) {
   return a.matrix() == b.matrix();
 }
 
+/// m. No point of the shape is farther from where its source has it.
+double sourceErrorOf(const Shape& shape) {
+  const auto* mesh = std::get_if<TriangleMesh>(&shape);
+  return mesh != nullptr ? mesh->sourceError() : 0.0;
+}
+
 class BodyCompiler {
  public:
   BodyCompiler(const PairModel* like, PairModel& model) : like_(like), model_(model) {}
@@ -156,6 +162,7 @@ class BodyCompiler {
     geometry.piece = index;
     geometry.scale = scale;
     geometry.shape = scale == 1.0 ? *piece.shape : scaled(*piece.shape, scale);
+    geometry.sourceError = sourceErrorOf(geometry.shape);
     geometry.cover = scale == 1.0 && piece.cover != nullptr ? piece.cover : coverOf(geometry.shape);
     return geometry;
   }
@@ -218,6 +225,7 @@ class BodyCompiler {
     geometry.part = index;
     geometry.shape = scale == 1.0 ? part.shape : scaledAsBefore(part.shape, scale);
     geometry.scale = scale;
+    geometry.sourceError = sourceErrorOf(geometry.shape);
     geometry.world_from_shape = part.world_from_shape;
     const Aabb box = boundingBox(geometry.shape);
     const bool bounded = box.lower.allFinite() && box.upper.allFinite();

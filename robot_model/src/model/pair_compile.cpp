@@ -24,7 +24,9 @@ using Eigen::Vector3d;
 /// m. More than a norm is off by whose squares underflow, and than what is made of it.
 constexpr double kUnderflow = 1e-140;
 
-bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b) {
+/// Shapes that come nearer than the errors of their sources may be in contact.
+bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b, double sourceError) {
+  if (sourceError > 0.0) return !(distance(a, b, a_from_b).lower > sourceError);
   return collide(a, b, a_from_b) != Contact::Separate;
 }
 
@@ -128,7 +130,8 @@ class PairCompiler {
     // Wherever it is within the limits: compileMotion refuses what is beyond them.
     const double magnitude = std::max(robot.levers.span, robot.magnitude);
     const double slack = poseRounding(magnitude + world.magnitude, robot.transforms);
-    return outside.stableNorm() > robot.levers.reachFromBase + margin + slack;
+    return outside.stableNorm() >
+           robot.levers.reachFromBase + margin + slack + robot.sourceError + world.sourceError;
   }
 
   void pairWithWorld() {
@@ -175,7 +178,8 @@ class PairCompiler {
     if (bodies.reason == PairReason::Unmoved) {
       bodies.touching =
           bodies.touching ||
-          touch(robot.shape, world.shape, robot.body_from_shape.inverse() * world.world_from_shape);
+          touch(robot.shape, world.shape, robot.body_from_shape.inverse() * world.world_from_shape,
+                robot.sourceError + world.sourceError);
       return;
     }
     if (outOfReach(robot, world, bodies.margin)) return;
@@ -191,11 +195,12 @@ class PairCompiler {
   /// A distance between two bodies is that of the nearest of all of their pieces: beside one that
   /// is in reach, and far away, the nearest may be out of reach, however little.
   void measureAll(std::size_t collisionBody, std::size_t firstBodyPair) {
-    double farthest = 0.0;
+    double farthest = 0.0, sourceError = 0.0;
     std::int64_t parts = 0;
     for (const WorldGeometry& world : model_.worldGeometry) {
       if (model_.bodyPairs[firstBodyPair + world.body].reason != PairReason::Checked) continue;
       farthest = std::max(farthest, world.magnitude);
+      sourceError = std::max(sourceError, world.sourceError);
       ++parts;
     }
     if (parts == 0) return;
@@ -205,7 +210,8 @@ class PairCompiler {
       GeometryPair& like = model_.likeWorldPairs[i];
       like.a = i;
       like.motionBoundA = motionBoundSlot(i, 0);
-      like.rounding = poseRounding(magnitudeOf(robot) + farthest, robot.transforms);
+      like.rounding = poseRounding(magnitudeOf(robot) + farthest, robot.transforms) +
+                      robot.sourceError + sourceError;
       model_.measuredPairs += parts;
     }
   }
@@ -267,7 +273,8 @@ class PairCompiler {
       movingBody(b.body, moving_from_b);
       bodies.touching = bodies.touching || touch(a.shape, b.shape,
                                                  (moving_from_a * a.body_from_shape).inverse() *
-                                                     moving_from_b * b.body_from_shape);
+                                                     moving_from_b * b.body_from_shape,
+                                                 a.sourceError + b.sourceError);
     }
     if (bodies.reason != PairReason::Checked) return;
     GeometryPair pair;
@@ -277,7 +284,9 @@ class PairCompiler {
     pair.reference = ancestors_.with(b.body);
     pair.motionBoundA = motionBoundSlot(i, pair.reference);
     pair.motionBoundB = motionBoundSlot(j, pair.reference);
-    pair.rounding = poseRounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms);
+    pair.sourceError = a.sourceError + b.sourceError;
+    pair.rounding = poseRounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms) +
+                    pair.sourceError;
     pair.margin = bodies.margin;
     add(pair, model_.pairs, "shapes");
   }
@@ -303,7 +312,8 @@ GeometryPair worldPair(const PairModel& model, const GeometryPair& like, int wor
   const double magnitudes = magnitudeOf(robot) + model.worldGeometry[worldGeometry].magnitude;
   GeometryPair pair = like;
   pair.b = worldGeometry;
-  pair.rounding = poseRounding(magnitudes, robot.transforms);
+  pair.sourceError = robot.sourceError + model.worldGeometry[worldGeometry].sourceError;
+  pair.rounding = poseRounding(magnitudes, robot.transforms) + pair.sourceError;
   return pair;
 }
 

@@ -44,7 +44,8 @@ struct RobotGeometry {
   double radius = 0.0;     ///< m
   /// m, of its coordinates in the shape's frame and of what places that in the body's.
   double magnitude = 0.0;
-  double transforms = 0.0;  ///< multiplied to place it in the model frame
+  double transforms = 0.0;   ///< multiplied to place it in the model frame
+  double sourceError = 0.0;  ///< m, sourceErrorOf() the shape
   LeverArms levers;
   std::shared_ptr<const SphereCover> cover;
 };
@@ -61,6 +62,7 @@ struct WorldGeometry {
   /// m, of its coordinates in the shape's frame and of what places that: no point is farther from
   /// the model frame's origin.
   double magnitude = 0.0;
+  double sourceError = 0.0;  ///< m, sourceErrorOf() the shape
 };
 
 /// Geometry `a` of the robot against geometry `b` of the world or of the robot.
@@ -73,9 +75,14 @@ struct GeometryPair {
   int motionBoundA = 0;   ///< index into PairModel::motionBounds
   int motionBoundB = -1;  ///< likewise; -1 when b does not move relative to the reference
   /// m, bound on the error of the computed relative pose, for any point, while all translations are
-  /// zero and angles small; see CarriedRounding for the rest.
+  /// zero and angles small; see CarriedRounding for the rest. With `sourceError`.
   double rounding = 0.0;
-  double margin = 0.0;  ///< m, what the two have to keep
+  double margin = 0.0;       ///< m, what the two have to keep
+  double sourceError = 0.0;  ///< m, of both geometries
+
+  /// m. What geometry as it is has to keep, so that the two keep their margin wherever the errors
+  /// of their sources have them.
+  double kept() const { return margin + sourceError; }
 };
 
 /// Why a pair of bodies is checked or not.

@@ -22,7 +22,8 @@ struct SameShape {
     return &s.vertices() == &as<ConvexHull>().vertices();
   }
   bool operator()(const TriangleMesh& s) const {
-    return &s.vertices() == &as<TriangleMesh>().vertices();
+    return &s.vertices() == &as<TriangleMesh>().vertices() &&
+           s.sourceError() == as<TriangleMesh>().sourceError();
   }
   bool operator()(const PointCloud& s) const {
     return s.points().data() == as<PointCloud>().points().data();

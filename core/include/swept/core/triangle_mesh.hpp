@@ -85,7 +85,7 @@ class TriangleMesh {
   /// built anew where deformation made its boxes large.
   ///
   /// Throws std::invalid_argument for another number of vertices, a coordinate that is not finite,
-  /// and vertices that were equal for build() and no longer are.
+  /// and vertices that were equal for build() and no longer are. sourceError() stays.
   TriangleMesh moved(std::span<const Eigen::Vector3d> vertices) const;
 
   const std::vector<Eigen::Vector3d>& vertices() const { return data_->vertices; }  ///< m
@@ -101,6 +101,13 @@ class TriangleMesh {
   /// `crackWidth` that does, no more than twice one that does not. 0 when isClosed(); infinity when
   /// a tenth of the longest side of the mesh would not do. Takes a few times as long as build().
   double opening() const;
+
+  /// The same mesh, of which no point is farther than `error` (m) from where what it was made of
+  /// has it: of a file that was read in less than double precision, say. Queries of core's answer
+  /// for the mesh as it is; a Checker takes the error for rounding. Throws std::invalid_argument
+  /// for one that is negative or not finite.
+  TriangleMesh withSourceError(double error) const;
+  double sourceError() const { return sourceError_; }  ///< m; 0 unless somebody knows better
 
   /// Whether the solid contains `point` (m, mesh frame). Always false under `Surface` and for open
   /// components, and for a non-finite point. Proven unless `point` is within rounding (about 1e-14
@@ -153,6 +160,7 @@ class TriangleMesh {
   static TriangleMesh finished(Surface surface);
   explicit TriangleMesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
+  double sourceError_ = 0.0;
 };
 
 }  // namespace swept

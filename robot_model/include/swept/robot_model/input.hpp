@@ -11,8 +11,8 @@
 namespace swept {
 
 /// A file, or a user's value, that cannot be used. what() is `file:line: error: message`, which has
-/// the element, the value seen and what is allowed. The middle is left out of a word of more than 512
-/// bytes, and of a message of more than 4000.
+/// the element, the value seen and what is allowed. The middle is left out of a word of more than
+/// 512 bytes, and of a message of more than 4000.
 class InputError : public std::runtime_error {
  public:
   /// line 0: the file has no lines that matter, and is named alone.
@@ -64,6 +64,17 @@ struct LoadOptions {
   /// it, for the next time (README, "The cache"); empty: nothing is kept. One that cannot be used
   /// is a remark to `warn`.
   std::filesystem::path cache = {};
+  /// Meshes in glTF (`.gltf`, `.glb`) are read by assimp, which is not proof against damaged or
+  /// hostile files: in a child process, with bounds on time and memory. That process is made with
+  /// fork(), once for all meshes of a robot or a scene, and only if one of them is glTF; it runs
+  /// nothing of the host's, and what the host's other threads do meanwhile does not matter to it.
+  /// But it is a copy of the host, made while these run: handlers of pthread_atfork() are called,
+  /// and memory that is written meanwhile is copied.
+  ///
+  /// False: no process is made. Assimp reads in this one then, without bounds: a file that makes it
+  /// crash ends the program, one that makes it hang is waited for. All other formats are read by
+  /// swept itself, here, whatever this says.
+  bool childProcess = true;
 };
 
 }  // namespace swept

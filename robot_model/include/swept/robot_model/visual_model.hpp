@@ -64,8 +64,8 @@ struct VisualLimits {
 /// The `<visual>` elements of a URDF and their materials, which Robot does not read.
 ///
 /// Nothing about a `<visual>` costs the whole: an element, a mesh or a material that cannot be used
-/// is left out, with one warning for all of a kind. Meshes are read as those of `<collision>` are:
-/// in a process of its own, within the same limits for a file. A COLLADA file's own colours count
+/// is left out, with one warning for all of a kind. Meshes are read as those of `<collision>` are,
+/// within the same limits for a file. A COLLADA file's own colours count
 /// before those of the URDF; pictures on surfaces are not read.
 struct VisualModel {
   std::vector<LinkVisuals> links;   ///< those with a `<visual>`, in the order of the file

@@ -107,11 +107,11 @@ class SimdCompiler {
 
   /// All rounded up, so that no margin is lost.
   void addMargins() {
-    double least = model_.pairs.empty() ? model_.options.margin : model_.pairs.front().margin;
+    double least = model_.pairs.empty() ? model_.options.margin : model_.pairs.front().kept();
     double most = least;
     for (const GeometryPair& pair : model_.pairs) {
-      least = std::min(least, pair.margin);
-      most = std::max(most, pair.margin);
+      least = std::min(least, pair.kept());
+      most = std::max(most, pair.kept());
     }
     simd_.margin = std::nextafter(static_cast<float>(least), 1e30F);
     if (!(most > least)) return;
@@ -119,7 +119,7 @@ class SimdCompiler {
     simd_.obstacleExtras.assign(model_.worldGeometry.size(), 0.0F);
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       const GeometryPair& pair = model_.pairs[i];
-      const float extra = std::nextafter(singleAbove(pair.margin - least), 1e30F);
+      const float extra = std::nextafter(singleAbove(pair.kept() - least), 1e30F);
       simd_.extras[i] = extra;
       float& all = pair.self ? simd_.bodyPairs[simd_.sources[i].bodyPair].extra
                              : simd_.obstacleExtras[pair.b];

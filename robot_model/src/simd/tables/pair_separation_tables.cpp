@@ -72,7 +72,7 @@ std::vector<PairSeparationTable::Pairs> geometriesOf(const PairModel& model, con
     const SimdPairSource& source = simd.sources[i];
     if (source.obstacle >= 0 || indexOf[source.bodyPair] < 0) continue;
     pairs[indexOf[source.bodyPair]].push_back(
-        {source.geometry, source.other, model.pairs[i].margin});
+        {source.geometry, source.other, model.pairs[i].kept()});
   }
   return pairs;
 }
@@ -87,7 +87,7 @@ bool holdsFor(const PairModel& model, const PairSeparationTables& tables,
       std::ranges::find_if(table.pairs, [&](const PairSeparationTable::Geometries& other) {
         return other.a == pair.a && other.b == pair.b;
       });
-  return known != table.pairs.end() && known->margin >= pair.margin &&
+  return known != table.pairs.end() && known->margin >= pair.kept() &&
          sameGeometry(tables.geometry[pair.a], model.robotGeometry[pair.a]) &&
          sameGeometry(tables.geometry[pair.b], model.robotGeometry[pair.b]);
 }

@@ -3,11 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/mesh_claim.hpp"
+#include "io/face_cutter.hpp"
+#include "io/mesh_readers.hpp"
 #include "io/point_file.hpp"
 #include "text/numbers.hpp"
 
@@ -24,12 +26,11 @@ class ObjReader {
  public:
   ObjReader(std::string_view bytes, const InputSource& source)
       : lines_(source, bytes), source_(source) {}
-  MeshClaim read();
+  MeshFileContent read();
 
  private:
   struct Face {
-    std::size_t first;  ///< of its corners
-    std::size_t count;
+    std::uint32_t count;  ///< of its corners
     int line;
   };
   void readLine();
@@ -44,12 +45,13 @@ class ObjReader {
 
   LineReader lines_;
   const InputSource& source_;
-  MeshClaim claim_;
+  MeshFileContent content_;
   std::vector<Eigen::Vector3d> vertices_;
-  std::vector<std::uint32_t> corners_;
-  std::vector<Face> large_;  ///< of more than 4 corners
-  std::size_t needed_ = 0;   ///< so many vertices
-  int neededAt_ = 0;         ///< line
+  std::vector<int> corners_;  ///< of all faces
+  std::vector<Face> faces_;
+  std::uint64_t triangles_ = 0;  ///< of these faces
+  std::size_t needed_ = 0;       ///< so many vertices
+  int neededAt_ = 0;             ///< line
 };
 
 void ObjReader::readVertex(const std::vector<std::string_view>& line) {
@@ -60,12 +62,10 @@ void ObjReader::readVertex(const std::vector<std::string_view>& line) {
     lines_.fail("a vertex must have 3 numbers, a fourth that is 1, or 6 with its colour");
   Eigen::Vector3d point;
   for (std::size_t i = 1; i <= 3; ++i) {
-    const auto value = claim_.coordinate(line[i]);
+    const auto value = parseNumber(line[i]);
     if (!value) lines_.fail(shown(line[i]) + " of a vertex must be a finite number");
     point[static_cast<Eigen::Index>(i - 1)] = *value;
-    claim_.bare->append(i == 1 ? "v " : " ").append(line[i]);
   }
-  *claim_.bare += '\n';
   vertices_.push_back(point);
 }
 
@@ -105,18 +105,16 @@ std::size_t ObjReader::readCorner(std::string_view word) const {
 
 void ObjReader::readFace(const std::vector<std::string_view>& line) {
   if (line.size() < 4) lines_.fail("a face must have at least 3 corners");
-  if (line.size() > 5) large_.push_back({corners_.size(), line.size() - 1, lines_.number()});
-  *claim_.bare += 'f';
+  triangles_ += line.size() - 3;
+  requireFewTriangles(triangles_);
+  faces_.push_back({static_cast<std::uint32_t>(line.size() - 1), lines_.number()});
   for (std::size_t i = 1; i < line.size(); ++i) {
     const std::size_t corner = readCorner(line[i]);
-    corners_.push_back(static_cast<std::uint32_t>(corner));
-    *claim_.bare += ' ' + std::to_string(corner + 1);
+    corners_.push_back(static_cast<int>(corner));
     if (corner < needed_) continue;
     needed_ = corner + 1;
     neededAt_ = lines_.number();
   }
-  *claim_.bare += '\n';
-  claim_.triangles += line.size() - 3;
 }
 
 void ObjReader::readLine() {
@@ -141,26 +139,26 @@ void ObjReader::finish() {
     source_.fail(neededAt_, "a corner is vertex " + std::to_string(needed_) + "; there are " +
                                 std::to_string(vertices_.size()));
   }
-  for (const std::uint32_t corner : corners_) claim_.box.extend(vertices_[corner]);
-  std::vector<Eigen::Vector3d> polygon;
-  for (const Face& face : large_) {
-    polygon.clear();
-    for (std::size_t i = 0; i < face.count; ++i)
-      polygon.push_back(vertices_[corners_[face.first + i]]);
-    claim_.crossing.look(polygon, face.line);
+  FaceCutter cutter(source_);
+  content_.triangles.reserve(triangles_);
+  std::span<const int> rest(corners_);
+  for (const Face& face : faces_) {
+    cutter.cut(rest.first(face.count), vertices_, content_.triangles, face.line);
+    rest = rest.subspan(face.count);
   }
+  content_.vertices = std::move(vertices_);
+  keepUsedVertices(content_);
 }
 
-MeshClaim ObjReader::read() {
-  claim_.bare.emplace();
+MeshFileContent ObjReader::read() {
   while (lines_.next()) readLine();
   finish();
-  return std::move(claim_);
+  return std::move(content_);
 }
 
 }  // namespace
 
-MeshClaim checkObj(std::string_view bytes, const InputSource& source) {
+MeshFileContent readObjMesh(std::string_view bytes, const InputSource& source) {
   return ObjReader(bytes, source).read();
 }
 

@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/mesh_claim.hpp"
+#include "io/face_cutter.hpp"
+#include "io/mesh_readers.hpp"
 #include "io/ply_header.hpp"
 #include "text/numbers.hpp"
 
@@ -23,7 +24,7 @@ bool isCorners(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-/// What the header must have for all faces to be seen by assimp.
+/// What the header must have for all faces to be seen.
 void checkHeader(const PlyHeader& header, const InputSource& source) {
   const auto face = std::ranges::find_if(header.elements, isFace);
   if (face == header.elements.end()) source.fail(0, "the header has no element 'face'");
@@ -55,11 +56,8 @@ class PlyBody {
 
   /// To be called ahead of each element: in text it has a line.
   void begin(const PlyElement& element, std::uint64_t index);
-  /// A finite number; with a claim, a coordinate of it.
-  double next(const PlyElement& element, const PlyProperty& property, Scalar type,
-              MeshClaim* claim = nullptr);
-  /// The word of the last one, of text.
-  std::string_view word() const { return words_[used_ - 1]; }
+  /// A finite number.
+  double next(const PlyElement& element, const PlyProperty& property, Scalar type);
   bool isText() const { return form_ == PlyForm::Ascii; }
   /// The line of the present element; 0: it has none.
   int line() const { return isText() ? lines_.number() : 0; }
@@ -121,18 +119,11 @@ void PlyBody::skip(const PlyElement& element, const PlyProperty& property) {
   }
 }
 
-double PlyBody::next(const PlyElement& element, const PlyProperty& property, Scalar type,
-                     MeshClaim* claim) {
-  std::optional<double> value;
-  if (isText()) {
-    const std::string_view word = nextWord(property);
-    value = claim != nullptr ? claim->coordinate(word) : parseNumber(word);
-  } else {
-    const auto order = form_ == PlyForm::LittleEndian ? std::endian::little : std::endian::big;
-    value = decode(type, nextBytes(element, type), order);
-    if (claim != nullptr) value = claim->coordinate(*value);
-  }
-  if (!value) fail(shown(property.name) + " must be a finite number");
+double PlyBody::next(const PlyElement& element, const PlyProperty& property, Scalar type) {
+  const auto order = form_ == PlyForm::LittleEndian ? std::endian::little : std::endian::big;
+  const std::optional<double> value =
+      isText() ? parseNumber(nextWord(property)) : decode(type, nextBytes(element, type), order);
+  if (!value || !std::isfinite(*value)) fail(shown(property.name) + " must be a finite number");
   return *value;
 }
 
@@ -151,39 +142,25 @@ class PlyReader {
   PlyReader(std::string_view bytes, const InputSource& source)
       : lines_(source, bytes),
         header_(readPlyHeader(lines_, source)),
-        body_(lines_, header_.form, bytes, source) {
+        body_(lines_, header_.form, bytes, source),
+        cutter_(source) {
     checkHeader(header_, source);
   }
-  MeshClaim read();
+  MeshFileContent read();
 
  private:
   void readElement(const PlyElement& element);
   void readCorners(const PlyElement& element, const PlyProperty& property, std::uint64_t count);
-  void beginBare();
   std::uint64_t wholeNumber(const PlyElement& element, const PlyProperty& property, Scalar type);
 
   LineReader lines_;
   PlyHeader header_;
   PlyBody body_;
-  MeshClaim claim_;
-  std::vector<Eigen::Vector3d> vertices_;
-  std::int64_t faces_ = 0;  ///< so far
+  FaceCutter cutter_;
+  MeshFileContent content_;
+  std::vector<int> corners_;  ///< of the present face
+  std::int64_t faces_ = 0;    ///< so far
 };
-
-/// Of text, in which assimp takes words for other numbers, or the file for none of its own.
-void PlyReader::beginBare() {
-  if (!body_.isText()) return;
-  const auto vertex = std::ranges::find_if(header_.elements, isVertex);
-  const auto face = std::ranges::find_if(header_.elements, isFace);
-  claim_.bare = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex->count);
-  for (const PlyProperty& property : vertex->properties) {
-    if (property.axis < 0) continue;
-    *claim_.bare += property.type == Scalar::Float32 ? "\nproperty float " : "\nproperty double ";
-    *claim_.bare += property.name;
-  }
-  *claim_.bare += "\nelement face " + std::to_string(face->count) +
-                  "\nproperty list uint uint vertex_indices\nend_header\n";
-}
 
 std::uint64_t PlyReader::wholeNumber(const PlyElement& element, const PlyProperty& property,
                                      Scalar type) {
@@ -199,30 +176,25 @@ void PlyReader::readCorners(const PlyElement& element, const PlyProperty& proper
                             std::uint64_t count) {
   if (count < 3)
     body_.fail("a face has " + std::to_string(count) + " corners; it must have at least 3");
-  if (claim_.bare) *claim_.bare += std::to_string(count);
-  std::vector<Eigen::Vector3d> polygon;
+  corners_.clear();
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t corner = wholeNumber(element, property, property.type);
-    if (corner >= vertices_.size()) {
+    if (corner >= content_.vertices.size()) {
       body_.fail("a corner is vertex " + std::to_string(corner) + "; there are " +
-                 std::to_string(vertices_.size()) + ", counted from 0");
+                 std::to_string(content_.vertices.size()) + ", counted from 0");
     }
-    claim_.box.extend(vertices_[corner]);
-    if (count > 4) polygon.push_back(vertices_[corner]);
-    if (claim_.bare) *claim_.bare += ' ' + std::to_string(corner);
+    corners_.push_back(static_cast<int>(corner));
   }
-  if (claim_.bare) *claim_.bare += '\n';
-  claim_.crossing.look(polygon, body_.line(), body_.line() > 0 ? -1 : faces_);
+  cutter_.cut(corners_, content_.vertices, content_.triangles, body_.line(),
+              body_.line() > 0 ? -1 : faces_);
   ++faces_;
-  claim_.triangles += count - 2;
 }
 
 void PlyReader::readElement(const PlyElement& element) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (const PlyProperty& property : element.properties) {
     if (property.axis >= 0) {
-      point[property.axis] = body_.next(element, property, property.type, &claim_);
-      if (claim_.bare) claim_.bare->append(body_.word()).append(1, ' ');
+      point[property.axis] = body_.next(element, property, property.type);
       continue;
     }
     const std::uint64_t count =
@@ -233,13 +205,10 @@ void PlyReader::readElement(const PlyElement& element) {
     }
     for (std::uint64_t i = 0; i < count; ++i) body_.skip(element, property);
   }
-  if (!isVertex(element)) return;
-  vertices_.push_back(point);
-  if (claim_.bare) *claim_.bare += '\n';
+  if (isVertex(element)) content_.vertices.push_back(point);
 }
 
-MeshClaim PlyReader::read() {
-  beginBare();
+MeshFileContent PlyReader::read() {
   for (const PlyElement& element : header_.elements) {
     // Without properties it has nothing that could be counted.
     if (element.properties.empty()) continue;
@@ -250,12 +219,13 @@ MeshClaim PlyReader::read() {
     }
   }
   body_.endFile();
-  return std::move(claim_);
+  keepUsedVertices(content_);
+  return std::move(content_);
 }
 
 }  // namespace
 
-MeshClaim checkPly(std::string_view bytes, const InputSource& source) {
+MeshFileContent readPlyMesh(std::string_view bytes, const InputSource& source) {
   return PlyReader(bytes, source).read();
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 
-#include "io/mesh_claim.hpp"
+#include "io/mesh_readers.hpp"
 #include "io/point_file.hpp"
 #include "io/scalar.hpp"
+#include "text/numbers.hpp"
 
 namespace swept::detail {
 
@@ -43,23 +45,33 @@ bool isText(std::string_view bytes) {
   source.fail(0, "neither STL as text, which starts with 'solid', nor a binary one: " + problem);
 }
 
-MeshClaim readBinary(std::string_view bytes, const InputSource& source) {
-  MeshClaim claim;
-  claim.triangles = countOf(bytes);
-  for (std::uint64_t i = 0; i < claim.triangles; ++i) {
+/// Of the three vertices that come next.
+void addTriangle(MeshFileContent& content) {
+  const int first = static_cast<int>(content.vertices.size());
+  content.triangles.emplace_back(first, first + 1, first + 2);
+}
+
+MeshFileContent readBinary(std::string_view bytes, const InputSource& source) {
+  const std::uint64_t count = countOf(bytes);
+  requireFewTriangles(count);
+  MeshFileContent content;
+  content.triangles.reserve(count);
+  content.vertices.reserve(3 * count);
+  for (std::uint64_t i = 0; i < count; ++i) {
     const char* at = bytes.data() + kHeader + kFacet * i + kCorners;
+    addTriangle(content);
     for (int corner = 0; corner < 3; ++corner) {
       Eigen::Vector3d point;
       for (double& value : point) {
         value = static_cast<double>(bytesAs<float>(at, std::endian::little));
-        if (!claim.coordinate(value))
-          source.fail(0, "triangle " + std::to_string(i) + " has a corner that is not finite");
         at += sizeof(float);
       }
-      claim.box.extend(point);
+      if (!point.allFinite())
+        source.fail(0, "triangle " + std::to_string(i) + " has a corner that is not finite");
+      content.vertices.push_back(point);
     }
   }
-  return claim;
+  return content;
 }
 
 /// The lines of a text: solids of facets of three corners, each line as it has to be. Normals may
@@ -67,7 +79,7 @@ MeshClaim readBinary(std::string_view bytes, const InputSource& source) {
 class TextReader {
  public:
   TextReader(std::string_view bytes, const InputSource& source) : lines_(source, bytes) {}
-  MeshClaim read();
+  MeshFileContent read();
 
  private:
   /// The words of the next line, if there is one.
@@ -80,7 +92,7 @@ class TextReader {
 
   LineReader lines_;
   std::vector<std::string_view> words_;
-  MeshClaim claim_;
+  MeshFileContent content_;
 };
 
 bool TextReader::next() {
@@ -108,28 +120,24 @@ void TextReader::readNext(std::string_view wanted, std::size_t count) {
 void TextReader::readFacet() {
   if (!startsWith("facet normal")) require("facet normal", 5);
   readNext("outer loop", 2);
-  *claim_.bare += "facet normal 0 0 0\nouter loop\n";
+  requireFewTriangles(content_.triangles.size() + 1);
+  addTriangle(content_);
   for (int corner = 0; corner < 3; ++corner) {
     readNext("vertex", 4);
     Eigen::Vector3d point;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view word = words_[static_cast<std::size_t>(1 + axis)];
-      const auto value = claim_.coordinate(word);
+      const auto value = parseNumber(word);
       if (!value) lines_.fail(shown(word) + " of a vertex must be a finite number");
       point[axis] = *value;
     }
-    claim_.box.extend(point);
-    claim_.bare->append("vertex ").append(words_[1]).append(" ");
-    claim_.bare->append(words_[2]).append(" ").append(words_[3]).append("\n");
+    content_.vertices.push_back(point);
   }
-  *claim_.bare += "endloop\nendfacet\n";
   readNext("endloop", 1);
   readNext("endfacet", 1);
-  ++claim_.triangles;
 }
 
-MeshClaim TextReader::read() {
-  claim_.bare = "solid\n";
+MeshFileContent TextReader::read() {
   while (next()) {
     if (!startsWith("solid")) require("solid", 1);
     for (;;) {
@@ -138,13 +146,12 @@ MeshClaim TextReader::read() {
       readFacet();
     }
   }
-  *claim_.bare += "endsolid\n";
-  return std::move(claim_);
+  return std::move(content_);
 }
 
 }  // namespace
 
-MeshClaim checkStl(std::string_view bytes, const InputSource& source) {
+MeshFileContent readStlMesh(std::string_view bytes, const InputSource& source) {
   if (isBinary(bytes)) return readBinary(bytes, source);
   if (!isText(bytes)) failForm(bytes, source);
   return TextReader(bytes, source).read();
