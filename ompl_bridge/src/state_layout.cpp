@@ -7,8 +7,17 @@ namespace swept::detail {
 namespace {
 
 SubspaceKind kindOf(const Robot& robot, const Joint& joint) {
-  if (joint.type == JointType::Planar) return SubspaceKind::SE2;
-  if (joint.type == JointType::Floating) return SubspaceKind::SE3;
+  switch (joint.type) {
+    case JointType::Planar:
+      return SubspaceKind::SE2;
+    case JointType::Floating:
+      return SubspaceKind::SE3;
+    case JointType::Fixed:
+    case JointType::Revolute:
+    case JointType::Continuous:
+    case JointType::Prismatic:
+      break;
+  }
   const bool cyclic = robot.variables()[joint.firstVariable].cyclic;
   return cyclic ? SubspaceKind::SO2 : SubspaceKind::RealVector;
 }

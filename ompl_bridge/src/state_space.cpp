@@ -144,10 +144,8 @@ void requireOptions(const Robot& robot, const Group& group, const StateSpaceOpti
       refuse("group `" + group.name + "` has no variable `" + name + "` to limit");
     }
     const Variable& variable = robot.variables()[*index];
-    const Joint& joint = robot.joints()[variable.joint];
-    const int place = *index - joint.firstVariable;
-    const bool turns = variable.cyclic || (joint.type == JointType::Floating && place >= 3);
-    if (turns) refuse("`" + name + "` is an angle without limits, or part of an orientation");
+    if (variable.cyclic || isOrientation(robot, variable))
+      refuse("`" + name + "` is an angle without limits, or part of an orientation");
     for (const double value : {limits.first, limits.second}) {
       const std::optional<double> limit = limitNear(variable, value);
       if (limit) detail::warnOfLimit({name, value, *limit, unitOf(robot, variable)}, "limits");

@@ -67,46 +67,57 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
                                         std::span<const double> to) const {
   JointMotion motion;
   motion.axis = joint.axis;
-  if (joint.kind == JointKind::Revolute || joint.kind == JointKind::Prismatic) {
-    const bool cyclic =
-        joint.variable >= 0 && model_.variables[static_cast<std::size_t>(joint.variable)].cyclic;
-    const double start = joint.multiplier * from[0] + joint.offset;
-    const double change =
-        joint.multiplier * (cyclic ? shorterWay(from[0], to[0]) : to[0] - from[0]);
-    // The shorter way from a small angle to a large one is small, and an offset may leave little of
-    // a large value.
-    const double made = std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
-                        std::abs(joint.offset);
-    if (joint.kind == JointKind::Revolute) {
-      motion.angle = start;
-      motion.spin = change;
-      motion.angles = made;
-    } else {
-      motion.translation = start * joint.axis;
-      motion.rate = change * joint.axis;
-      motion.lengths = made;
+  switch (joint.kind) {
+    case JointKind::Fixed:
+      break;
+    case JointKind::Revolute:
+    case JointKind::Prismatic: {
+      const bool cyclic =
+          joint.variable >= 0 && model_.variables[static_cast<std::size_t>(joint.variable)].cyclic;
+      const double start = joint.multiplier * from[0] + joint.offset;
+      const double change =
+          joint.multiplier * (cyclic ? shorterWay(from[0], to[0]) : to[0] - from[0]);
+      // The shorter way from a small angle to a large one is small, and an offset may leave little
+      // of a large value.
+      const double made =
+          std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
+          std::abs(joint.offset);
+      if (joint.kind == JointKind::Revolute) {
+        motion.angle = start;
+        motion.spin = change;
+        motion.angles = made;
+      } else {
+        motion.translation = start * joint.axis;
+        motion.rate = change * joint.axis;
+        motion.lengths = made;
+      }
+      break;
     }
-  } else if (joint.kind == JointKind::Planar) {
-    const Vector3d y = joint.axis.cross(joint.planarX);
-    motion.translation = from[0] * joint.planarX + from[1] * y;
-    motion.rate = (to[0] - from[0]) * joint.planarX + (to[1] - from[1]) * y;
-    motion.angle = from[2];
-    motion.spin = shorterWay(from[2], to[2]);
-    motion.angles = std::max(std::abs(from[2]), std::abs(to[2]));
-    motion.lengths =
-        std::max(std::abs(from[0]) + std::abs(from[1]), std::abs(to[0]) + std::abs(to[1]));
-  } else if (joint.kind == JointKind::Floating) {
-    motion.translation = {from[0], from[1], from[2]};
-    const Vector3d goal(to[0], to[1], to[2]);
-    motion.rate = goal - motion.translation;
-    motion.lengths = std::max(motion.translation.lpNorm<1>(), goal.lpNorm<1>());
-    motion.rotation = orientation(from.data() + 3, joint.name);
-    Quaterniond relative = orientation(to.data() + 3, joint.name) * motion.rotation.conjugate();
-    const double product = from[3] * to[3] + from[4] * to[4] + from[5] * to[5] + from[6] * to[6];
-    if (product < 0.0) relative.coeffs() = -relative.coeffs();
-    if (const double sine = relative.vec().norm(); sine > 0.0) {
-      motion.axis = relative.vec() / sine;
-      motion.spin = 2.0 * std::atan2(sine, relative.w());
+    case JointKind::Planar: {
+      const Vector3d y = joint.axis.cross(joint.planarX);
+      motion.translation = from[0] * joint.planarX + from[1] * y;
+      motion.rate = (to[0] - from[0]) * joint.planarX + (to[1] - from[1]) * y;
+      motion.angle = from[2];
+      motion.spin = shorterWay(from[2], to[2]);
+      motion.angles = std::max(std::abs(from[2]), std::abs(to[2]));
+      motion.lengths =
+          std::max(std::abs(from[0]) + std::abs(from[1]), std::abs(to[0]) + std::abs(to[1]));
+      break;
+    }
+    case JointKind::Floating: {
+      motion.translation = {from[0], from[1], from[2]};
+      const Vector3d goal(to[0], to[1], to[2]);
+      motion.rate = goal - motion.translation;
+      motion.lengths = std::max(motion.translation.lpNorm<1>(), goal.lpNorm<1>());
+      motion.rotation = orientation(from.data() + 3, joint.name);
+      Quaterniond relative = orientation(to.data() + 3, joint.name) * motion.rotation.conjugate();
+      const double product = from[3] * to[3] + from[4] * to[4] + from[5] * to[5] + from[6] * to[6];
+      if (product < 0.0) relative.coeffs() = -relative.coeffs();
+      if (const double sine = relative.vec().norm(); sine > 0.0) {
+        motion.axis = relative.vec() / sine;
+        motion.spin = 2.0 * std::atan2(sine, relative.w());
+      }
+      break;
     }
   }
   return motion;

@@ -100,7 +100,7 @@ void readValues(const Json& json, const Model& model, const std::string& where, 
   joint.variable = variable.get<int>();
   joint.multiplier = readNumber(at(json, "multiplier", where), where + ", multiplier");
   joint.offset = readNumber(at(json, "offset", where), where + ", offset");
-  const bool several = joint.kind == JointKind::Planar || joint.kind == JointKind::Floating;
+  const bool several = values > 1;
   if (several && (joint.multiplier != 1.0 || joint.offset != 0.0))
     throw Refusal(where + ": a joint of this type cannot mimic another");
   // One motion would end where the next one does not begin.

@@ -132,24 +132,15 @@ void triangleQuery(const FclPair& pair, int query) {
 
 template <typename Solver>
 void triangleQuery(const FclPair& pair, int query) {
-  switch (pair.a->getNodeType()) {
-    case fcl::GEOM_SPHERE:
-      return triangleQuery<Solver, fcl::Sphered>(pair, query);
-    case fcl::GEOM_BOX:
-      return triangleQuery<Solver, fcl::Boxd>(pair, query);
-    case fcl::GEOM_CYLINDER:
-      return triangleQuery<Solver, fcl::Cylinderd>(pair, query);
-    case fcl::GEOM_CAPSULE:
-      return triangleQuery<Solver, fcl::Capsuled>(pair, query);
-    case fcl::GEOM_CONE:
-      return triangleQuery<Solver, fcl::Coned>(pair, query);
-    case fcl::GEOM_ELLIPSOID:
-      return triangleQuery<Solver, fcl::Ellipsoidd>(pair, query);
-    case fcl::GEOM_CONVEX:
-      return triangleQuery<Solver, fcl::Convexd>(pair, query);
-    default:
-      throw std::invalid_argument("no triangle query");
-  }
+  const fcl::NODE_TYPE type = pair.a->getNodeType();
+  if (type == fcl::GEOM_SPHERE) return triangleQuery<Solver, fcl::Sphered>(pair, query);
+  if (type == fcl::GEOM_BOX) return triangleQuery<Solver, fcl::Boxd>(pair, query);
+  if (type == fcl::GEOM_CYLINDER) return triangleQuery<Solver, fcl::Cylinderd>(pair, query);
+  if (type == fcl::GEOM_CAPSULE) return triangleQuery<Solver, fcl::Capsuled>(pair, query);
+  if (type == fcl::GEOM_CONE) return triangleQuery<Solver, fcl::Coned>(pair, query);
+  if (type == fcl::GEOM_ELLIPSOID) return triangleQuery<Solver, fcl::Ellipsoidd>(pair, query);
+  if (type == fcl::GEOM_CONVEX) return triangleQuery<Solver, fcl::Convexd>(pair, query);
+  throw std::invalid_argument("no triangle query");
 }
 
 void fclQuery(const FclPair& pair, int query, fcl::GJKSolverType solver) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/box_bounds.hpp"
+#include "bvh/box_bounds.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>

@@ -104,9 +104,10 @@ inline Aabb randomBox(std::mt19937& random, World world, double reach) {
       const Vector3d at = Vector3d::Constant(chance(random, 0.5) ? 0.0 : 1.0);
       return {at, at + Vector3d(0.5, 0.0, 0.5)};
     }
-    default:
-      return evenBox(random, reach);
+    case World::Even:
+      break;
   }
+  return evenBox(random, reach);
 }
 
 inline Aabb shifted(const Aabb& box, const Vector3d& by) {

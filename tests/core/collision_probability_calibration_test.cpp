@@ -139,12 +139,15 @@ class SceneSampler {
         return TriangleMesh::build(boxSoup({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}).vertices,
                                    boxSoup({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}).triangles,
                                    MeshInterior::Surface);
-      default:
-        if (which == 0) return makeSphere(0.3);
-        if (which == 1) return makeBox({0.5, 0.7, 0.3});
-        if (which == 2) return makeCylinder(0.2, 0.6);
-        return makeCapsule(0.15, 0.5);
+      case Kind::Solid:
+      case Kind::FewPairs:
+      case Kind::ManyPairs:
+        break;
     }
+    if (which == 0) return makeSphere(0.3);
+    if (which == 1) return makeBox({0.5, 0.7, 0.3});
+    if (which == 2) return makeCylinder(0.2, 0.6);
+    return makeCapsule(0.15, 0.5);
   }
 
   /// Within a step or two of the noise from the surface, mostly outside.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/ray_crossing.hpp"
+#include "mesh/ray_crossing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 usage: include_cycles.py ROOT [--draw]
 
-Without a cycle the folders are written in layers, the ones that include nothing of the others first; with
---draw, each with what it includes. A cycle is written with the lines that make it.
+Without a cycle the folders that include others, or are included, are written in layers, those that include none
+of the others first; with --draw, each with what it includes. A cycle is written with the lines that make it.
 """
 import re
 import sys
@@ -16,7 +16,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 
 def source_roots(root):
     """The folders that quoted includes are looked for in."""
-    return sorted(folder for folder in root.glob("**/src") if folder.is_dir() and "build" not in folder.parts)
+    return sorted(folder for folder in root.glob("**/src")
+                  if folder.is_dir() and "build" not in folder.relative_to(root).parts)
 
 
 def edges_of(source):
@@ -67,6 +68,8 @@ def main():
     for source in source_roots(root):
         edges = edges_of(source)
         folders = {folder for edge in edges for folder in edge}
+        if not folders:
+            continue
         layers, left = layers_of(folders, edges)
         name = source.relative_to(root)
         if left:

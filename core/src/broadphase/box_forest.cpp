@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "broadphase/box_forest.hpp"
 
-#include "simd/box_overlaps.hpp"
+#include "broadphase/box_overlaps.hpp"
 
 namespace swept::detail {
 

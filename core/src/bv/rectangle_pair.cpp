@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "narrowphase/simplex.hpp"
+#include "geometry/simplex.hpp"
 
 namespace swept::detail {
 

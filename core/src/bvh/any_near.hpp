@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "bvh/near_boxes.hpp"
 #include "bvh/pending_boxes.hpp"
 #include "bvh/wide_bvh.hpp"
-#include "simd/near_boxes.hpp"
 #include "swept/core/segment_query.hpp"
 
 namespace swept::detail {

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "clearance_grid/build_field.hpp"
+#include "clearance_grid/grid_bounds.hpp"
 #include "geometry/point_text.hpp"
-#include "simd/grid_bounds.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "continuous/deforming_tree.hpp"
+#include "continuous/follow_corners.hpp"
+#include "continuous/meeting_pairs.hpp"
 #include "continuous/surface_features.hpp"
-#include "simd/follow_corners.hpp"
-#include "simd/meeting_pairs.hpp"
 #include "swept/core/continuous/deforming_mesh.hpp"
 
 namespace swept {

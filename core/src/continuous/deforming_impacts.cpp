@@ -5,7 +5,7 @@
 
 #include "continuous/deforming_data.hpp"
 #include "continuous/deforming_workspace.hpp"
-#include "simd/meeting_features.hpp"
+#include "continuous/meeting_features.hpp"
 #include "swept/core/continuous/impact.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"

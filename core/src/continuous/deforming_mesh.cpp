@@ -8,7 +8,7 @@
 
 #include "continuous/deforming_data.hpp"
 #include "continuous/deforming_refit.hpp"
-#include "simd/follow_corners.hpp"
+#include "continuous/follow_corners.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {

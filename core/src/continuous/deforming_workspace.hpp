@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "continuous/feature_cache.hpp"
-#include "simd/meeting_pairs.hpp"
+#include "continuous/meeting_pairs.hpp"
 #include "swept/core/continuous/deforming_mesh.hpp"
 
 namespace swept {

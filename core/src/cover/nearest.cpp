@@ -6,9 +6,9 @@
 #include <bit>
 #include <cmath>
 
+#include "bvh/near_boxes.hpp"
 #include "bvh/pending_boxes.hpp"
 #include "cover/rounded.hpp"
-#include "simd/near_boxes.hpp"
 
 namespace swept::detail {
 namespace {

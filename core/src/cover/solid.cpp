@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "cover/outer_polyhedron.hpp"
-#include "geometry/mesh_components.hpp"
+#include "mesh/mesh_components.hpp"
 
 namespace swept::detail {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "cover/nearest.hpp"
 #include "cover/pockets.hpp"
-#include "geometry/closed_component.hpp"
+#include "mesh/closed_component.hpp"
 #include "swept/core/bvh/bv_tree.hpp"
 #include "swept/core/shapes.hpp"
 

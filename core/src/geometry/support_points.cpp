@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "simd/farthest_point.hpp"
+#include "geometry/farthest_point.hpp"
 
 namespace swept::detail {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bvh/near_boxes.hpp"
 #include "bvh/pending_boxes.hpp"
-#include "simd/near_boxes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/segment_query.hpp"
 

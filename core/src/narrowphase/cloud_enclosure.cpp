@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "bvh/box_bounds.hpp"
 #include "bvh/box_frames.hpp"
 #include "bvh/pending_boxes.hpp"
-#include "simd/box_bounds.hpp"
 
 namespace swept::detail {
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/simplex.hpp"
 #include "narrowphase/convex.hpp"
-#include "narrowphase/simplex.hpp"
 
 namespace swept::detail {
 

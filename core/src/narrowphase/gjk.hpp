@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "geometry/simplex.hpp"
 #include "narrowphase/convex.hpp"
 #include "narrowphase/part_approach.hpp"
-#include "narrowphase/simplex.hpp"
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/simplex.hpp"
 #include "narrowphase/newton.hpp"
-#include "narrowphase/simplex.hpp"
 
 namespace swept::detail {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/convex_parts.hpp"
+#include "mesh/convex_parts.hpp"
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/piecewise.hpp"
 #include "swept/core/signed_distance.hpp"

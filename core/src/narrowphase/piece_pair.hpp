@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdint>
 
+#include "bvh/box_bounds.hpp"
 #include "bvh/box_frames.hpp"
 #include "bvh/wide_bvh.hpp"
 #include "narrowphase/convex.hpp"
-#include "simd/box_bounds.hpp"
 #include "swept/core/point_cloud.hpp"
 #include "swept/core/shapes.hpp"
 #include "swept/core/triangle_pair.hpp"

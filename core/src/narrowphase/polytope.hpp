@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "geometry/simplex.hpp"
 #include "narrowphase/convex.hpp"
-#include "narrowphase/simplex.hpp"
 
 namespace swept::detail {
 

@@ -11,7 +11,7 @@
 #include "command_line/commands.hpp"
 #include "input/problem_choice.hpp"
 #include "output/progress.hpp"
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 
 namespace swept {
 namespace {

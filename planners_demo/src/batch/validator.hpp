@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 
 namespace swept {
 

@@ -7,7 +7,7 @@
 
 #include "batch/run_result.hpp"
 #include "input/task.hpp"
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 #include "replay/query_dump.hpp"
 
 namespace swept {

@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "page/pages.hpp"
-
 namespace swept {
 
 std::span<const Command* const> commands() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
 #include "command_line/command.hpp"
 
 /// The subcommands and what they run.
@@ -44,5 +46,8 @@ ExitCode runReport(const Arguments& args);
 
 extern const Command kCompletionCommand;
 ExitCode runCompletion(const Arguments& args);
+
+/// Those that there are for pages alone: `view`, or none in a program without pages.
+std::span<const Command* const> pageCommands();
 
 }  // namespace swept

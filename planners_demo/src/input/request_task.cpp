@@ -14,6 +14,7 @@
 #include "input/groups.hpp"
 #include "input/states.hpp"
 #include "output/text_output.hpp"
+#include "robot/joint_types.hpp"
 #include "swept/robot_model/limits.hpp"
 
 namespace swept {
@@ -112,7 +113,7 @@ void refuseWorkspace(const Robot& robot, const Group& group, const PlanningReque
   if (!request.workspace) return;
   for (const int j : group.joints) {
     const Joint& joint = robot.joints()[static_cast<std::size_t>(j)];
-    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
+    if (detail::slidesFreely(joint.type))
       throw UsageError(file + ": workspace_parameters bound where joint '" + joint.name +
                        "' may go, which is not supported");
   }

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "command_line/command.hpp"
+#include "command_line/commands.hpp"
 #include "command_line/options.hpp"
 #include "io/json_value.hpp"
 #include "output/clearance_text.hpp"

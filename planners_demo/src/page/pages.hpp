@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
-
 #include "certificate/verify_outcome.hpp"
 #include "command_line/arguments.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/task.hpp"
 #include "output/text_output.hpp"
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 
 namespace CLI {
@@ -19,12 +17,7 @@ class App;
 /// was built without three.js has neither the option nor the subcommand `view`.
 namespace swept {
 
-struct Command;
-
 void addHtmlOption(CLI::App& app, Arguments& args);
-
-/// The subcommands that there are for pages alone: `view`, or none.
-std::span<const Command* const> pageCommands();
 
 /// Throws UsageError when the file of --html could not be written: better before the work than
 /// after it. Does nothing without --html, as all that follow.

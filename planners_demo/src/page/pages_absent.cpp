@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "page/pages.hpp"
 
+#include "command_line/commands.hpp"
+
 /// For a program without pages. No option leads to one.
 namespace swept {
 

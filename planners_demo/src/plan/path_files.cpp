@@ -6,6 +6,7 @@
 #include "input/states.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
+#include "robot/joint_types.hpp"
 
 namespace swept {
 namespace {
@@ -54,8 +55,7 @@ bool isYaml(const std::filesystem::path& file) {
 void requireOneValuePerJoint(const std::filesystem::path& file, const Robot& robot,
                              const Group& group) {
   for (const int j : group.joints) {
-    const JointType type = robot.joints()[j].type;
-    if (type == JointType::Planar || type == JointType::Floating)
+    if (detail::valueCount(robot.joints()[j].type) > 1)
       throw UsageError("'" + file.string() +
                        "': a joint trajectory has one value per joint, and joint " +
                        robot.joints()[j].name + " has several; use .json or .csv");

@@ -20,8 +20,8 @@
 #include "plan/plan_dump.hpp"
 #include "plan/plan_options.hpp"
 #include "plan/plan_sets.hpp"
-#include "plan/planners.hpp"
-#include "plan/planning.hpp"
+#include "planning/planners.hpp"
+#include "planning/planning.hpp"
 
 namespace swept {
 namespace {

@@ -2,7 +2,7 @@
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
 #include "page/pages.hpp"
-#include "plan/planners.hpp"
+#include "planning/planners.hpp"
 #include "replay/query_dump.hpp"
 
 namespace swept {

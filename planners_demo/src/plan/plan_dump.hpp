@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 #include "replay/query_dump.hpp"
 
 namespace swept {

@@ -17,7 +17,7 @@
 #include "output/text_table.hpp"
 #include "plan/plan_dump.hpp"
 #include "plan/plan_sets.hpp"
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 
 namespace swept {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command_line/arguments.hpp"
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 
 namespace swept {
 

@@ -16,9 +16,15 @@ std::optional<double> share(std::size_t part, std::size_t whole) {
 }  // namespace
 
 std::string ReportMethod::family() const {
-  return kind == Validator::Kind::Certified  ? "certified"
-         : kind == Validator::Kind::Discrete ? "discrete"
-                                             : "fcl";
+  switch (kind) {
+    case Validator::Kind::Certified:
+      return "certified";
+    case Validator::Kind::Discrete:
+      return "discrete";
+    case Validator::Kind::Fcl:
+      break;
+  }
+  return "fcl";
 }
 
 std::string ReportMethod::name() const {

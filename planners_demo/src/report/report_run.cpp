@@ -10,7 +10,7 @@
 #include "bench/peer.hpp"
 #include "command_line/commands.hpp"
 #include "output/progress.hpp"
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 #include "report/course_parts.hpp"
 #include "report/random_motion_part.hpp"
 #include "report/report_output.hpp"

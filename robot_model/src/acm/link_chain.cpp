@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "robot/joint_types.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
@@ -64,7 +65,7 @@ void LinkChain::addPath(int from, bool reversed) {
     const MovingBody& body = model_.bodies[i];
     ChainJoint joint;
     joint.body = i;
-    joint.slides = body.type == JointType::Prismatic;
+    joint.slides = slidesWithinLimits(body.type);
     joint.scale = std::abs(body.multiplier);
     reach_ += body.parent_from_joint.translation().norm();
     if (joint.slides) reach_ += std::max(std::abs(body.lower), std::abs(body.upper));
@@ -75,12 +76,11 @@ void LinkChain::addPath(int from, bool reversed) {
 
 void LinkChain::addVariable(const Robot& robot, ChainJoint& joint) {
   const MovingBody& body = model_.bodies[joint.body];
-  const bool several = body.type == JointType::Planar || body.type == JointType::Floating;
-  bounded_ = bounded_ && !several && std::abs(body.offset) <= kFarthest;
+  const int count = valueCount(body.type);
+  bounded_ = bounded_ && count <= 1 && std::abs(body.offset) <= kFarthest;
   const auto known = std::ranges::find(variables_, body.variable);
   joint.variable = static_cast<std::size_t>(known - variables_.begin());
   if (known != variables_.end()) return;
-  const int count = body.type == JointType::Planar ? 3 : body.type == JointType::Floating ? 7 : 1;
   for (int i = 0; i < count; ++i) {
     variables_.push_back(body.variable + i);
     box_.lower.push_back(robot.variables()[body.variable + i].lower);

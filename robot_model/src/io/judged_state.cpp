@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 
 #include "output/text_output.hpp"
+#include "robot/joint_types.hpp"
 #include "text/numbers.hpp"
 
 namespace swept::detail {
@@ -17,8 +19,8 @@ namespace {
 std::string normaliseOrientation(const Robot& robot, const Group& group, std::span<double> q) {
   for (std::size_t i = 0; i < group.variables.size(); ++i) {
     const Joint& joint = robot.joints()[robot.variables()[group.variables[i]].joint];
-    if (joint.type != JointType::Floating || group.variables[i] != joint.firstVariable + 3)
-      continue;
+    const std::optional<int> place = quaternionPlace(joint.type);
+    if (!place || group.variables[i] != joint.firstVariable + *place) continue;
     Eigen::Map<Eigen::Vector4d> orientation(q.data() + i);
     const double norm = orientation.norm();
     if (!unitQuaternion(orientation))

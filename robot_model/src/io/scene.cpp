@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/scene.hpp"
 
-#include "io/scene_remarks.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
 
@@ -24,6 +23,15 @@ PlanningScene readAnyScene(const std::filesystem::path& scene, const Robot* robo
   const std::string text = readTextFile(scene);
   if (yaml) return readSceneYaml(text, source, robot);
   return {.world = readSceneText(text, source)};
+}
+
+/// Who names a scene takes Free for an answer about it.
+void warnIfEmpty(const World& world, const InputSource& source) {
+  // Readers refuse bodies without geometry.
+  if (world.bodies().empty() && world.obstacles().empty())
+    source.warnOfUnchecked(0,
+                           "no body of the scene has geometry: the robot is checked in an "
+                           "empty world");
 }
 
 }  // namespace

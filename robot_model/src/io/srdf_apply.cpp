@@ -5,6 +5,7 @@
 
 #include "io/srdf.hpp"
 #include "io/warning_kinds.hpp"
+#include "robot/joint_types.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "text/numbers.hpp"
 
@@ -28,16 +29,16 @@ int variableCount(const RobotParts& robot, int joint) {
                                         [joint](const Variable& v) { return v.joint == joint; }));
 }
 
-/// A floating joint's last four values: must be a rotation, and become a unit quaternion.
-void normaliseRotation(SrdfDocument::JointValue& value, const std::string& owner,
+/// The four values at `place` must be a rotation, and become a unit quaternion.
+void normaliseRotation(SrdfDocument::JointValue& value, int place, const std::string& owner,
                        const InputSource& source) {
-  const Eigen::Map<Eigen::Vector4d> given(value.values.data() + 3);
+  const Eigen::Map<Eigen::Vector4d> given(value.values.data() + place);
   const auto unit = unitQuaternion(given);
   if (!unit) {
     source.fail(value.line, owner + ": the quaternion (x, y, z, w) of joint '" + value.joint +
                                 "' must have length 1");
   }
-  std::copy(unit->coeffs().begin(), unit->coeffs().end(), value.values.begin() + 3);
+  std::copy(unit->coeffs().begin(), unit->coeffs().end(), value.values.begin() + place);
 }
 
 void addValue(SrdfDocument::JointValue value, const InputSource& source, const RobotParts& robot,
@@ -60,7 +61,8 @@ void addValue(SrdfDocument::JointValue value, const InputSource& source, const R
                                 (count == 1 ? " value, " : " values, ") +
                                 std::to_string(value.values.size()) + " given");
   }
-  if (joint.type == JointType::Floating) normaliseRotation(value, owner, source);
+  if (const std::optional<int> place = quaternionPlace(joint.type))
+    normaliseRotation(value, *place, owner, source);
   for (int i = 0; i < count; ++i) {
     const int v = joint.firstVariable + i;
     const Variable& variable = robot.variables[v];

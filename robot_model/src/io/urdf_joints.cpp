@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "io/urdf_elements.hpp"
+#include "robot/joint_types.hpp"
 #include "text/numbers.hpp"
 
 namespace swept::detail {
@@ -63,7 +64,7 @@ void UrdfJointReader::readAxis(Element& joint, JointType type, const std::string
                              "the x axis, which URDF takes then");
     return;
   }
-  if (type == JointType::Fixed || type == JointType::Floating) {
+  if (!hasAxis(type)) {
     joint.DeleteChild(axis);  // means nothing there, and exporters write zeros
     return;
   }
@@ -79,7 +80,7 @@ void UrdfJointReader::readAxis(Element& joint, JointType type, const std::string
 
 void UrdfJointReader::readLimit(Element& joint, JointType type, const std::string& owner) {
   Element* limit = xml_.onlyChild(joint, "limit", owner);
-  const bool bounded = type == JointType::Revolute || type == JointType::Prismatic;
+  const bool bounded = hasLimits(type);
   if (limit == nullptr) {
     if (bounded)
       xml_.fail(joint, owner + " has no <limit>; revolute and prismatic joints need one");
@@ -118,10 +119,10 @@ void UrdfJointReader::readMimic(Element& joint, UrdfOutline::Joint& outline,
   const std::string target = xml_.text(*mimic, "joint", owner);
   setNumber(*mimic, "multiplier", xml_.number(*mimic, "multiplier", owner, 1.0));
   setNumber(*mimic, "offset", xml_.number(*mimic, "offset", owner, 0.0));
-  if (outline.type == JointType::Planar || outline.type == JointType::Floating) {
+  if (valueCount(outline.type) > 1) {
     xml_.fail(*mimic, owner + " cannot mimic: only revolute, continuous and prismatic joints can");
   }
-  if (outline.type == JointType::Fixed) {
+  if (valueCount(outline.type) == 0) {
     xml_.source().warn(mimic->GetLineNum(), owner + " is fixed: its <mimic> is ignored");
     joint.DeleteChild(mimic);
     return;

@@ -10,6 +10,7 @@
 
 #include "io/mesh_store.hpp"
 #include "io/urdfdom_parse.hpp"
+#include "robot/joint_types.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "text/numbers.hpp"
 
@@ -201,9 +202,7 @@ int Assembler::addJoint(const UrdfOutline::Joint& joint, int parentLink) {
   result.parentLink = parentLink;
   result.childLink = static_cast<int>(parts_.links.size());
   result.parent_from_joint = toEigen(model->parent_to_joint_origin_transform);
-  if (joint.type != JointType::Fixed && joint.type != JointType::Floating) {
-    result.axis = toEigen(model->axis).normalized();
-  }
+  if (hasAxis(joint.type)) result.axis = toEigen(model->axis).normalized();
   parts_.joints.push_back(std::move(result));
   return static_cast<int>(parts_.joints.size()) - 1;
 }
@@ -263,7 +262,7 @@ void Assembler::warnOfMimicRange(const Joint& joint) {
   if (!std::isfinite(a) || !std::isfinite(b)) {
     source_.fail(outline.mimic->line, start + " and its values are not finite");
   }
-  if (joint.type == JointType::Continuous) return;
+  if (!hasLimits(joint.type)) return;
   const auto limits = model_->getJoint(joint.name)->limits;
   // A multiplier of five digits may miss a limit by a hair: that changes nothing, for the joint
   // goes where its master takes it.
@@ -282,8 +281,7 @@ void Assembler::boundMaster(const Joint& follower) {
   Joint& master = parts_.joints[follower.mimic->master];
   Variable& variable = parts_.variables[master.firstVariable];
   const double multiplier = follower.mimic->multiplier;
-  const bool comesBack =
-      follower.type != JointType::Prismatic && multiplier == std::round(multiplier);
+  const bool comesBack = turns(follower.type) && multiplier == std::round(multiplier);
   if (!variable.cyclic || comesBack) return;
   variable.cyclic = false;
   master.type = JointType::Revolute;

@@ -6,17 +6,13 @@
 
 #include "io/urdf_elements.hpp"
 #include "io/zero_sizes.hpp"
+#include "robot/joint_types.hpp"
 
 namespace swept::detail {
 
 namespace {
 
 using tinyxml2::XMLElement;
-
-bool hasOneValue(JointType type) {
-  return type == JointType::Revolute || type == JointType::Continuous ||
-         type == JointType::Prismatic;
-}
 
 /// Leaves out the `<mimic>` of a joint that is not there, or has not one value, as MoveIt does: the
 /// joint is then its own.
@@ -29,7 +25,7 @@ void dropMimicsOfNothing(XmlFile& xml, UrdfOutline& outline,
     if (!joint.mimic) continue;
     const auto target = types.find(joint.mimic->joint);
     const bool known = target != types.end();
-    if (known && hasOneValue(target->second)) continue;
+    if (known && valueCount(target->second) == 1) continue;
     xml.source().warn(
         joint.mimic->line,
         "joint '" + joint.name + "' mimics '" + joint.mimic->joint + "', which " +

@@ -3,37 +3,33 @@
 
 #include <tinyxml2.h>
 
+#include <array>
+#include <utility>
+
 #include "text/numbers.hpp"
 
 namespace swept::detail {
 
 namespace {
 
+constexpr std::array<std::pair<tinyxml2::XMLError, const char*>, 10> kSyntaxErrors{{
+    {tinyxml2::XML_ERROR_EMPTY_DOCUMENT, "the document is empty"},
+    {tinyxml2::XML_ERROR_MISMATCHED_ELEMENT, "an opening and a closing tag do not match"},
+    {tinyxml2::XML_ERROR_PARSING_ELEMENT, "an element cannot be parsed"},
+    {tinyxml2::XML_ERROR_PARSING_ATTRIBUTE, "an attribute cannot be parsed"},
+    {tinyxml2::XML_ERROR_PARSING_COMMENT, "a comment is not closed"},
+    {tinyxml2::XML_ERROR_PARSING_TEXT, "text is not closed by a tag"},
+    {tinyxml2::XML_ERROR_PARSING_DECLARATION,
+     "<?xml ...?> must be the first thing in the file, before comments and elements"},
+    {tinyxml2::XML_ERROR_PARSING_CDATA, "a CDATA section is not closed"},
+    {tinyxml2::XML_ERROR_PARSING_UNKNOWN, "a tag that starts with '<!' is not closed"},
+    {tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED, "elements are nested too deeply"},
+}};
+
 std::string syntaxError(const tinyxml2::XMLDocument& document) {
-  switch (document.ErrorID()) {
-    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "the document is empty";
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "an opening and a closing tag do not match";
-    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
-      return "an element cannot be parsed";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute cannot be parsed";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT:
-      return "a comment is not closed";
-    case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "text is not closed by a tag";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "<?xml ...?> must be the first thing in the file, before comments and elements";
-    case tinyxml2::XML_ERROR_PARSING_CDATA:
-      return "a CDATA section is not closed";
-    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
-      return "a tag that starts with '<!' is not closed";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements are nested too deeply";
-    default:
-      return document.ErrorName();
-  }
+  for (const auto& [error, text] : kSyntaxErrors)
+    if (error == document.ErrorID()) return text;
+  return document.ErrorName();
 }
 
 }  // namespace

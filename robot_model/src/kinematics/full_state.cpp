@@ -2,9 +2,11 @@
 #include "kinematics/full_state.hpp"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "kinematics/motion_model.hpp"
+#include "robot/joint_types.hpp"
 
 namespace swept::detail {
 
@@ -23,8 +25,8 @@ void requireFullState(const Robot& robot, const Eigen::Ref<const Eigen::VectorXd
              " is not finite");
   }
   for (const Joint& joint : robot.joints()) {
-    if (joint.type != JointType::Floating) continue;
-    if (!hasDirection(state.data() + joint.firstVariable + 3))
+    const std::optional<int> place = quaternionPlace(joint.type);
+    if (place && !hasDirection(state.data() + joint.firstVariable + *place))
       refuse("the quaternion of joint '" + joint.name + "' has no direction");
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
 #include "kinematics/rigid_transform.hpp"
+#include "robot/joint_types.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "text/numbers.hpp"
@@ -98,8 +100,8 @@ void addVariable(ToolChain& chain, int value) {
   const Variable& variable = chain.robot->variables()[chain.group->variables[value]];
   const Joint& joint = chain.robot->joints()[variable.joint];
   const int place = chain.group->variables[value] - joint.firstVariable;
-  const bool rotates = joint.type == JointType::Floating && place >= 3;
-  if (rotates && place > 3) {
+  const bool rotates = isOrientation(*chain.robot, variable);
+  if (rotates && place > detail::quaternionPlace(joint.type)) {
     chain.degreeOf.push_back(chain.degreeOf.back());
     return;
   }
@@ -108,9 +110,7 @@ void addVariable(ToolChain& chain, int value) {
   degree.variable = value;
   degree.turn = rotates;
   degree.cyclic = variable.cyclic;
-  degree.slides = joint.type == JointType::Prismatic ||
-                  (joint.type == JointType::Planar && place < 2) ||
-                  (joint.type == JointType::Floating && !rotates);
+  degree.slides = detail::isLength(joint.type, place);
   if (!rotates && !variable.cyclic) {
     degree.low = variable.lower;
     degree.high = variable.upper;

@@ -86,7 +86,10 @@ void sweepByJoint(const MovingBody& body, const Range& range, ReachableSet& set)
       set.low = -set.ball;
       set.high = set.ball;
       break;
-    default:
+    case JointType::Fixed:
+    case JointType::Revolute:
+    case JointType::Continuous:
+    case JointType::Planar:
       break;  // a rotation about the axis of revolution changes nothing
   }
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "robot/joint_types.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept::detail {
@@ -123,16 +124,6 @@ struct BodyState {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
-
-/// Joints that only turn, about an axis that is fixed in the parent.
-inline bool turns(JointType type) {
-  return type == JointType::Revolute || type == JointType::Continuous;
-}
-
-/// Joints that let a body slide without limits.
-inline bool slidesFreely(JointType type) {
-  return type == JointType::Planar || type == JointType::Floating;
-}
 
 /// Of x, y, z, w. False, too, where the squares overflow, or a component is not finite.
 bool hasDirection(const double* quaternion);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 
+#include "robot/joint_types.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
@@ -41,6 +43,11 @@ int placeOf(const Robot& robot, const Variable& variable) {
   return static_cast<int>(index) - robot.joints()[variable.joint].firstVariable;
 }
 
+bool isOrientation(JointType type, int place) {
+  const std::optional<int> first = detail::quaternionPlace(type);
+  return first && place >= *first && place < *first + 4;
+}
+
 /// `2e-05 beyond`
 std::string excessText(double excess) {
   return withDigits(excess, 3) + " beyond";
@@ -59,8 +66,7 @@ std::optional<double> limitNear(const Variable& variable, double value) {
 }
 
 bool isOrientation(const Robot& robot, const Variable& variable) {
-  return robot.joints()[variable.joint].type == JointType::Floating &&
-         placeOf(robot, variable) >= 3;
+  return isOrientation(robot.joints()[variable.joint].type, placeOf(robot, variable));
 }
 
 std::vector<TakenToLimit> takeToLimits(const Robot& robot, const Group& group,
@@ -123,16 +129,8 @@ std::vector<std::string> distinctNumbers(std::span<const double> values) {
 }
 
 std::string unitOf(const Joint& joint, int place) {
-  switch (joint.type) {
-    case JointType::Prismatic:
-      return "m";
-    case JointType::Planar:
-      return place < 2 ? "m" : "rad";
-    case JointType::Floating:
-      return place < 3 ? "m" : "";
-    default:
-      return "rad";
-  }
+  if (detail::isLength(joint.type, place)) return "m";
+  return isOrientation(joint.type, place) ? "" : "rad";
 }
 
 std::string unitOf(const Robot& robot, const Variable& variable) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "robot/joint_types.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
@@ -63,7 +64,8 @@ Eigen::VectorXd Robot::defaultState() const {
     q[static_cast<Eigen::Index>(v)] = zeroAllowed ? 0.0 : 0.5 * lower + 0.5 * upper;
   }
   for (const Joint& joint : joints_) {
-    if (joint.type == JointType::Floating) q[joint.firstVariable + 6] = 1.0;
+    if (const std::optional<int> place = detail::quaternionPlace(joint.type))
+      q[joint.firstVariable + *place + 3] = 1.0;
   }
   return q;
 }

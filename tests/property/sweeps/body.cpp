@@ -162,13 +162,21 @@ void makeConvex(Body& body, double size, Random& random) {
       body.parts.push_back(ofPoints(points, 0.0));
       return;
     }
-    default: {
+    case Kind::Triangle: {
       auto points = scattered(3, s, random);
       if (random.chance(0.05)) points[2] = points[1];
       if (random.chance(0.05)) points[2] = 0.5 * (points[0] + points[1]);
       body.shape = swept::Triangle{{points[0], points[1], points[2]}};
       body.parts.push_back(ofPoints(points, 0.0));
+      return;
     }
+    case Kind::Plane:
+    case Kind::HalfSpace:
+    case Kind::ClosedMesh:
+    case Kind::OpenMesh:
+    case Kind::SurfaceMesh:
+    case Kind::Cloud:
+      return;  // none of them is convex and bounded
   }
 }
 

@@ -46,8 +46,11 @@ class Maker {
       case Scene::Swaying:
         swaying();
         break;
-      default:
+      case Scene::Grazing:
+      case Scene::Crossing:
+      case Scene::NearMiss:
         meeting();
+        break;
     }
     sweep_.pathA.finish();
     sweep_.pathB.finish();

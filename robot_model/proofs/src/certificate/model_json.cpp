@@ -9,6 +9,7 @@
 
 #include "certificate/shape_json.hpp"
 #include "output/robot_json.hpp"
+#include "robot/joint_types.hpp"
 #include "swept/core/axis_frame.hpp"
 #include "swept/robot_model/usage_error.hpp"
 
@@ -44,19 +45,6 @@ Json poseJson(const Isometry3d& pose) {
   return numbers;
 }
 
-std::size_t valuesOf(JointType type) {
-  switch (type) {
-    case JointType::Fixed:
-      return 0;
-    case JointType::Planar:
-      return 3;
-    case JointType::Floating:
-      return 7;
-    default:
-      return 1;
-  }
-}
-
 /// Where the joint's values come from: the group's variables, or those that stay as they are.
 void addValues(const Checker& checker, const Joint& joint, Json& json) {
   const Robot& robot = checker.robot();
@@ -74,9 +62,8 @@ void addValues(const Checker& checker, const Joint& joint, Json& json) {
   const Eigen::VectorXd reference = checker.options().reference.value_or(robot.defaultState());
   json["variable"] = nullptr;
   json["values"] = Json::array();
-  for (std::size_t i = 0; i < valuesOf(joint.type); ++i)
-    json["values"].push_back(
-        multiplier * reference[source.firstVariable + static_cast<Eigen::Index>(i)] + offset);
+  for (int i = 0; i < detail::valueCount(joint.type); ++i)
+    json["values"].push_back(multiplier * reference[source.firstVariable + i] + offset);
 }
 
 Json jointJson(const Checker& checker, const Joint& joint) {

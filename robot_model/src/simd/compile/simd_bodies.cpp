@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/pair_model.hpp"
+#include "robot/joint_types.hpp"
 #include "simd/compile/cover_compile.hpp"
 #include "simd/compile/single.hpp"
 #include "swept/core/axis_frame.hpp"
@@ -25,9 +26,12 @@ SimdJointKind kindOf(JointType type) {
       return SimdJointKind::Planar;
     case JointType::Floating:
       return SimdJointKind::Floating;
-    default:
-      return SimdJointKind::Turn;
+    case JointType::Fixed:
+    case JointType::Revolute:
+    case JointType::Continuous:
+      break;
   }
+  return SimdJointKind::Turn;
 }
 
 /// rad. What is left of an angle by an offset rounds in double as the angle does: up to this offset
@@ -49,9 +53,18 @@ bool boundsHold(const KinematicModel& kinematics) {
 
 /// Frames are turned so that the joint's axis is z.
 Matrix3d bodyFromLane(const MovingBody& body) {
-  if (body.type == JointType::Planar) return body.planarBasis;
-  if (!turns(body.type)) return Matrix3d::Identity();
-  return axisFrame(body.axis);
+  switch (body.type) {
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return axisFrame(body.axis);
+    case JointType::Planar:
+      return body.planarBasis;
+    case JointType::Fixed:
+    case JointType::Prismatic:
+    case JointType::Floating:
+      break;
+  }
+  return Matrix3d::Identity();
 }
 
 /// Of the angle between the axes of a joint and its parent's, as SimdBody has it.
@@ -88,8 +101,8 @@ void addBodies(const std::vector<MovingBody>& moving, SimdModel& simd) {
     fromLane[i] = bodyFromLane(moving[i]);
     laneFromParent[i] = fromLane[parent].transpose();
     bodies[i] = laneBody(moving[i], moving[parent], laneFromParent[i], fromLane[i]);
-    simd.floats = simd.floats || bodies[i].kind == SimdJointKind::Floating;
-    simd.slides = simd.slides || bodies[i].kind != SimdJointKind::Turn;
+    simd.floats = simd.floats || floats(bodies[i].kind);
+    simd.slides = simd.slides || slides(bodies[i].kind);
   }
   std::size_t deepest = 0;
   for (const auto& path : ancestors) deepest = std::max(deepest, path.size());

@@ -26,6 +26,43 @@ enum class SimdJointKind : std::uint8_t {
   Floating,  ///< slides, then turns about an axis that the motion chooses
 };
 
+constexpr bool slides(SimdJointKind kind) {
+  switch (kind) {
+    case SimdJointKind::Slide:
+    case SimdJointKind::Planar:
+    case SimdJointKind::Floating:
+      return true;
+    case SimdJointKind::Turn:
+      break;
+  }
+  return false;
+}
+
+constexpr bool turns(SimdJointKind kind) {
+  switch (kind) {
+    case SimdJointKind::Turn:
+    case SimdJointKind::Planar:
+    case SimdJointKind::Floating:
+      return true;
+    case SimdJointKind::Slide:
+      break;
+  }
+  return false;
+}
+
+/// The motion chooses the axis.
+constexpr bool floats(SimdJointKind kind) {
+  switch (kind) {
+    case SimdJointKind::Floating:
+      return true;
+    case SimdJointKind::Turn:
+    case SimdJointKind::Slide:
+    case SimdJointKind::Planar:
+      break;
+  }
+  return false;
+}
+
 /// One moving body. Single precision: what that costs is part of SimdModel::rounding.
 struct SimdBody {
   int parent = 0;

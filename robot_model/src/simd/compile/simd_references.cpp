@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/pair_model.hpp"
+#include "robot/joint_types.hpp"
 
 namespace swept::detail {
 
@@ -152,7 +153,7 @@ void compileReferences(const PairModel& model, const std::vector<int>& bodies, S
     for (std::size_t i = 1; i < simd.bodies.size(); ++i) {
       if (reference.slot[i] < 0) continue;
       ++moved;
-      if (model.kinematics.bodies[i].type == JointType::Prismatic) ++slides;
+      if (slidesWithinLimits(model.kinematics.bodies[i].type)) ++slides;
     }
     arms += moved * reference.rows * kLanes * (1 + slides);  // each slide has shares of them
   }

@@ -85,14 +85,12 @@ HWY_INLINE void turnAfter(const float (&after)[9], SimdBodyState& state) {
 HWY_INLINE V3 placeFrame(const SimdBody& body, const SimdJointMotion& motion, const Row& angle,
                          const Row* slide, const SimdBodyState& parent, SimdBodyState& state) {
   V3 offset = set3(body.translation);
-  if (body.kind != SimdJointKind::Turn)
-    offset = offset + V3{load(slide[0]), load(slide[1]), load(slide[2])};
+  if (slides(body.kind)) offset = offset + V3{load(slide[0]), load(slide[1]), load(slide[2])};
   store3(addRotated(load3(parent.origin), parent.rotation, offset), state.origin);
   F8 sine = set(0.0F);
   F8 cosine = set(1.0F);
-  if (body.kind != SimdJointKind::Slide) sineCosine(load(angle), sine, cosine);
-  const M3 turned =
-      setMatrix(body.kind == SimdJointKind::Floating ? motion.rotation : body.rotation);
+  if (turns(body.kind)) sineCosine(load(angle), sine, cosine);
+  const M3 turned = setMatrix(floats(body.kind) ? motion.rotation : body.rotation);
   F8 axis[3];
   for (std::size_t i = 0; i < 3; ++i) {
     const V3 row = rowTimes(parent.rotation + 3 * i, turned);
@@ -121,8 +119,8 @@ HWY_INLINE void placeVelocity(const SimdBody& body, const Rates& rates, const V3
                               const SimdBodyState& parent, SimdBodyState& state) {
   V3 linear = load3(parent.linear);
   V3 angular = load3(parent.angular);
-  if (body.kind != SimdJointKind::Turn) linear = addRotated(linear, parent.rotation, rates.slide);
-  if (body.kind != SimdJointKind::Slide) {
+  if (slides(body.kind)) linear = addRotated(linear, parent.rotation, rates.slide);
+  if (turns(body.kind)) {
     const V3 spin = rates.turn * axis;
     angular = angular + spin;
     linear = addCross(linear, load3(state.origin), spin);  // - spin x origin
@@ -150,7 +148,7 @@ HWY_INLINE void placeAll(const SimdModel& model, const SimdJointMotion* motion,
     Row* slide = &block.slide[3 * static_cast<std::size_t>(b)];
     if constexpr (!kGiven) {
       store(multiplyAdd(time, set(joint.angleRate), set(joint.angle)), block.angle[b]);
-      if (body.kind != SimdJointKind::Turn)
+      if (slides(body.kind))
         for (int i = 0; i < 3; ++i)
           store(multiplyAdd(time, set(joint.slideRate[i]), set(joint.slide[i])), slide[i]);
     }
@@ -158,7 +156,7 @@ HWY_INLINE void placeAll(const SimdModel& model, const SimdJointMotion* motion,
     SimdBodyState& state = block.states[b];
     const V3 axis = placeFrame(body, joint, block.angle[b], slide, parent, state);
     if (moving) placeVelocity(body, ratesOf<kGiven>(joint, block, b), axis, parent, state);
-    if (body.kind == SimdJointKind::Floating) turnAfter(joint.after, state);
+    if (floats(body.kind)) turnAfter(joint.after, state);
     if (model.rootOfBody[b] >= 0)
       placeRoot(model.nodes[model.rootOfBody[b]], moving, half, state, block.roots[b]);
   }

@@ -129,7 +129,7 @@ bool addStraight(const SimdModel& model, const KinematicModel& kinematics,
   for (std::size_t i = 1; i < kinematics.bodies.size(); ++i) {
     const MovingBody& body = kinematics.bodies[i];
     SimdJointMotion& lane = scratch.motion[i];
-    if (model.bodies[i].kind == SimdJointKind::Turn) {
+    if (!slides(model.bodies[i].kind)) {
       if (!addStraightTurn(kinematics, body, from, to, lane, extent)) return false;
       continue;
     }
@@ -157,7 +157,7 @@ bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
     const SimdJointKind kind = model.bodies[i].kind;
     SimdJointMotion& lane = scratch.motion[i];
     setAccelerations(joint, lane);
-    if (kind == SimdJointKind::Turn) {
+    if (!slides(kind)) {
       const MovingBody& body = kinematics.bodies[i];
       if (!(joint.largestAngle <= kLargestAngle)) return false;
       extent.withinLimits &= isWithin(body, joint.lowAngle, joint.highAngle);
@@ -166,7 +166,7 @@ bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
       continue;
     }
     // The axis that a floating joint turns about is the same in all lanes.
-    if (kind == SimdJointKind::Floating && !isLinear(joint)) return false;
+    if (floats(kind) && !isLinear(joint)) return false;
     if (!addSlide(model, kinematics, i, joint, lane, extent)) return false;
   }
   return true;
@@ -250,7 +250,7 @@ SimdJointMotion SimdMotion::localMotion(std::size_t body) const {
   own.spin = static_cast<float>(joint.spinSpeed * kOutward);
   own.speed = static_cast<float>(joint.speed * kOutward);
   own.slid = static_cast<float>(joint.slid() * kOutward);
-  if (model_.bodies[body].kind != SimdJointKind::Turn)
+  if (slides(model_.bodies[body].kind))
     setSlides(model_, kinematics_.bodies[body], body, joint, own);
   return own;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/farthest_point.hpp"
+#include "geometry/farthest_point.hpp"
 
 #include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/farthest_point.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE "geometry/farthest_point.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

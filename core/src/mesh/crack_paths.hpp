@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/meeting_points.hpp"
-#include "geometry/open_patches.hpp"
+#include "mesh/meeting_points.hpp"
+#include "mesh/open_patches.hpp"
 
 namespace swept::detail {
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "bvh/wide_bvh.hpp"
-#include "geometry/convex_parts.hpp"
-#include "geometry/mesh_components.hpp"
-#include "geometry/mesh_cracks.hpp"
 #include "geometry/point_text.hpp"
 #include "geometry/weld.hpp"
+#include "mesh/convex_parts.hpp"
+#include "mesh/mesh_components.hpp"
+#include "mesh/mesh_cracks.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/floating_point_environment.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "narrowphase/simplex.hpp"
+#include "geometry/simplex.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

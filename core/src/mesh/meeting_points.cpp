@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/meeting_points.hpp"
+#include "mesh/meeting_points.hpp"
 
 #include <algorithm>
 #include <array>

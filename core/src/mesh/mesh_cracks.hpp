@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/mesh_components.hpp"
-#include "geometry/open_patches.hpp"
+#include "mesh/mesh_components.hpp"
+#include "mesh/open_patches.hpp"
 
 namespace swept::detail {
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "bvh/box_bounds.hpp"
 #include "bvh/wide_bvh.hpp"
-#include "geometry/closed_component.hpp"
-#include "geometry/ray_crossing.hpp"
-#include "simd/box_bounds.hpp"
+#include "mesh/closed_component.hpp"
+#include "mesh/ray_crossing.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_mesh.hpp"
 

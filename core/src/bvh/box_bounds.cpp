@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/box_bounds.hpp"
+#include "bvh/box_bounds.hpp"
 
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/box_bounds.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE "bvh/box_bounds.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

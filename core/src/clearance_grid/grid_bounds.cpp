@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/grid_bounds.hpp"
+#include "clearance_grid/grid_bounds.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/grid_bounds.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE \
+  "clearance_grid/grid_bounds.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

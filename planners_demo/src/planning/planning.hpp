@@ -11,8 +11,8 @@
 #include "command_line/exit_code.hpp"
 #include "input/task.hpp"
 #include "output/clearance_text.hpp"
-#include "plan/end_report.hpp"
-#include "plan/pose_target.hpp"
+#include "planning/end_report.hpp"
+#include "planning/pose_target.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/checker.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/patch_cycles.hpp"
+#include "mesh/patch_cycles.hpp"
 
 #include <algorithm>
 #include <bitset>

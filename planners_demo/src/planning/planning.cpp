@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plan/planning.hpp"
+#include "planning/planning.hpp"
 
 #include <ompl/base/goals/GoalStates.h>
 #include <ompl/util/Console.h>
@@ -17,11 +17,11 @@
 #include <thread>
 #include <utility>
 
-#include "swept/robot_model/did_you_mean.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
-#include "plan/planners.hpp"
+#include "planning/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 #include "swept/robot_model/foreign_text.hpp"
 
 namespace swept {

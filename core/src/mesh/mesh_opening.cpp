@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "geometry/mesh_components.hpp"
-#include "geometry/mesh_cracks.hpp"
 #include "geometry/point_text.hpp"
 #include "geometry/weld.hpp"
+#include "mesh/mesh_components.hpp"
+#include "mesh/mesh_cracks.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_mesh.hpp"
 

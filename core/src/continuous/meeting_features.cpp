@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/meeting_features.hpp"
+#include "continuous/meeting_features.hpp"
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/meeting_features.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE \
+  "continuous/meeting_features.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/convex_parts.hpp"
+#include "mesh/convex_parts.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

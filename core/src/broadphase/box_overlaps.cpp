@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/box_overlaps.hpp"
+#include "broadphase/box_overlaps.hpp"
 
 #include <hwy/cache_control.h>
 
@@ -7,7 +7,7 @@
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/box_overlaps.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE "broadphase/box_overlaps.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/follow_corners.hpp"
+#include "continuous/follow_corners.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/follow_corners.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE \
+  "continuous/follow_corners.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

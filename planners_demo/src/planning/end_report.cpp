@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plan/end_report.hpp"
+#include "planning/end_report.hpp"
 
 #include <algorithm>
 #include <limits>

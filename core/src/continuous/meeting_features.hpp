@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "simd/meeting_pairs.hpp"
+#include "continuous/meeting_pairs.hpp"
 
 namespace swept::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/open_patches.hpp"
+#include "mesh/open_patches.hpp"
 
 #include <algorithm>
 #include <cstddef>

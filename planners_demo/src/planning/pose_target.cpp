@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plan/pose_target.hpp"
+#include "planning/pose_target.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "output/text_output.hpp"
-#include "plan/end_report.hpp"
+#include "planning/end_report.hpp"
 #include "swept/robot_model/inverse_kinematics.hpp"
 
 namespace swept {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/mesh_cracks.hpp"
+#include "mesh/mesh_cracks.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "geometry/crack_paths.hpp"
-#include "geometry/patch_cycles.hpp"
+#include "mesh/crack_paths.hpp"
+#include "mesh/patch_cycles.hpp"
 
 namespace swept::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plan/planners.hpp"
+#include "planning/planners.hpp"
 
 #include <ompl/geometric/planners/AnytimePathShortening.h>
 #include <ompl/geometric/planners/cforest/CForest.h>
@@ -45,9 +45,9 @@
 #include <array>
 #include <cctype>
 
-#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 
 namespace swept {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/near_boxes.hpp"
+#include "bvh/near_boxes.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/near_boxes.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE "bvh/near_boxes.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

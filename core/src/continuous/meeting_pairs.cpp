@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simd/meeting_pairs.hpp"
+#include "continuous/meeting_pairs.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/meeting_pairs.cpp"  // compiled once for each instruction set
+#define HWY_TARGET_INCLUDE "continuous/meeting_pairs.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
