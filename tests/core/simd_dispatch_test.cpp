@@ -33,6 +33,12 @@ HWY_AFTER_NAMESPACE();
 namespace swept {
 namespace {
 
+// No kernel has run on these yet.
+constexpr std::int64_t kScalableVectors = HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128;
+static_assert((HWY_TARGETS & kScalableVectors) == 0);
+static_assert((HWY_DISABLED_TARGETS & kScalableVectors) == kScalableVectors,
+              "processors that have them would run them");
+
 SWEPT_DISPATCH_TABLE(compiledFor);
 
 TEST(SimdDispatch, GoesToTheSetThatIsWanted) {

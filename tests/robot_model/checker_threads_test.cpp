@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One checker, asked by many threads while others make new versions of it.
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <atomic>
@@ -136,6 +137,42 @@ TEST(CheckerThreads, BatchesAreTheSameOnAnyNumber) {
         }
       }
     }
+  }
+}
+
+/// While a batch runs, the program's own work gets as many threads of oneTBB's as before.
+TEST(CheckerThreads, BatchesLeaveTheProgramItsThreads) {
+  using oneapi::tbb::global_control;
+  const auto allowed = [] {
+    return global_control::active_value(global_control::max_allowed_parallelism);
+  };
+  const Checker checker(parseArm(armUrdf({})), "all", shared(test::clutter(42)));
+  const Motions motions(checker);
+  const auto processors = std::max(2U, std::thread::hardware_concurrency());
+  const global_control own(global_control::max_allowed_parallelism, processors);
+  const std::size_t before = allowed();
+  for (const unsigned threads : {1U, 2U, 4 * processors}) {
+    std::atomic<bool> ended{false};
+    std::atomic<int> calls{0};
+    std::jthread asking([&] {
+      std::vector<Verdict> verdicts(kMotions);
+      std::vector<MotionCertificate> certificates(kMotions);
+      for (; !ended; ++calls) {
+        checker.checkStates(motions.to, verdicts, threads);
+        checker.certifyMotions(motions.from, motions.to, certificates, MotionQuery::FirstContact,
+                               threads);
+      }
+    });
+    std::size_t least = before;
+    std::size_t most = before;
+    while (calls < 20) {
+      least = std::min(least, allowed());
+      most = std::max(most, allowed());
+    }
+    ended = true;
+    asking.join();
+    EXPECT_EQ(least, before) << threads << " threads";
+    EXPECT_EQ(most, before) << threads << " threads";
   }
 }
 

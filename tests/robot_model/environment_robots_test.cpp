@@ -22,6 +22,8 @@
 #include "swept/robot_model/inverse_kinematics.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/named_states.hpp"
+#include "swept/robot_model/path_certificate.hpp"
+#include "swept/robot_model/path_clearance.hpp"
 #include "swept/robot_model/planning_request.hpp"
 #include "swept/robot_model/problems.hpp"
 #include "swept/robot_model/self_filter.hpp"
@@ -130,12 +132,31 @@ void askMotions(const Checker& checker, const std::vector<std::vector<double>>& 
     if (i > 1) continue;
     const MotionClearance clearance =
         checker.motionClearance(states[i], states[i + 1], 1e-2, workspace);
-    t.add(clearance.lower, clearance.upper, clearance.t, clearance.intervals);
+    t.add(clearance.lower, clearance.upper, clearance.t, clearance.intervals, clearance.world.lower,
+          clearance.self.upper);
   }
   for (const unsigned threads : {1U, 3U}) {
     std::vector<MotionCertificate> certificates(states.size() - 1);
-    checker.certifyMotions(from, to, certificates, MotionQuery::FirstContact, threads);
-    for (const MotionCertificate& certificate : certificates) tell(t, certificate);
+    for (const MotionQuery query : {MotionQuery::FirstContact, MotionQuery::VerdictOnly}) {
+      checker.certifyMotions(from, to, certificates, query, threads);
+      for (const MotionCertificate& certificate : certificates) tell(t, certificate);
+    }
+  }
+}
+
+void askPath(const Checker& checker, const std::vector<std::vector<double>>& states,
+             Transcript& t) {
+  Workspace workspace(checker);
+  const PathClearance least = pathClearance(checker, states, 1e-2, workspace);
+  t.add(least.lower, least.upper, least.t, least.segment.value_or(0), least.intervals, least.bodyA,
+        least.bodyB);
+  for (const unsigned threads : {1U, 3U}) {
+    const PathCertificate path = certifyPath(checker, states, {.threads = threads});
+    t.add(path.verdict());
+    for (const CertifiedSegment& segment : path.segments) {
+      tell(t, segment.certificate);
+      if (segment.clearance) t.add(segment.clearance->world.lower, segment.clearance->self.upper);
+    }
   }
 }
 
@@ -218,6 +239,10 @@ TEST_P(EnvironmentOfCheckers, IsTheDefault) {
   test::expectSameInEveryEnvironment(
       {{"states", [&](Transcript& t) { askStates(there, states, t); }},
        {"motions", [&](Transcript& t) { askMotions(there, states, t); }},
+       {"path",
+        [&](Transcript& t) {
+          askPath(there, {states.begin(), states.begin() + 4}, t);
+        }},
        {"made", [&, group = group](Transcript& t) {
           const Checker checker(robot, group, world, options);
           askStates(checker, {states.begin(), states.begin() + 4}, t);

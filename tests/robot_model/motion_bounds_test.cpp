@@ -235,6 +235,38 @@ TEST(MotionBounds, CountWhatABaseMovesAbout) {
   EXPECT_GE(bound.acceleration, std::hypot(5.0 * 1.0, 2.0 * 2.0));  // and Coriolis'
 }
 
+/// A base so far out that a sum of both slides loses the second one's, which carries the point away
+/// from the axis that the first one turns about.
+TEST(MotionBounds, KeepASmallSlideBesideALargeOne) {
+  for (const JointType type : {JointType::Planar, JointType::Floating}) {
+    KinematicModel model;
+    model.bodies.emplace_back();
+    for (const JointType joint : {JointType::Planar, type}) {
+      MovingBody body;
+      body.parent = static_cast<int>(model.bodies.size()) - 1;
+      body.type = joint;
+      body.axis = Vector3d::UnitZ();
+      body.planarBasis = Eigen::Matrix3d::Identity();
+      body.variable = model.dimension;
+      model.dimension += joint == JointType::Planar ? 3 : 7;
+      model.bodies.push_back(body);
+    }
+    model.cyclic.assign(static_cast<std::size_t>(model.dimension), false);
+    std::vector<double> from{1e18, 0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+    from.resize(static_cast<std::size_t>(model.dimension));
+    std::vector<double> to = from;
+    to[2] = 1.0;
+    std::vector<JointMotion> motion(model.bodies.size());
+    ASSERT_TRUE(swept::detail::compileMotion(model, from, to, motion));
+    const LeverArms levers = swept::detail::leverArms(model, 2, Vector3d::Zero(), 0.0);
+    const auto bound = swept::detail::pointMotionBound(model, levers.path, levers.arms, 0, motion);
+    EXPECT_GE(bound.speed, 5.0);
+    EXPECT_LE(bound.speed, 5.01);
+    EXPECT_GE(bound.acceleration, 5.0);
+    EXPECT_LE(bound.acceleration, 5.01);
+  }
+}
+
 TEST(MotionBounds, ReachHoldsOverAllConfigurations) {
   Random random(4);
   for (int round = 0; round < 200; ++round) {

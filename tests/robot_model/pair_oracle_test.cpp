@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
 
 #include "version_arms.hpp"
 
@@ -54,6 +57,89 @@ TEST(PairOracle, KeepsTheEarliestContact) {
     }
     EXPECT_EQ(certificate.effort.intervals, 9);
   } while (std::next_permutation(times.begin(), times.end()));
+}
+
+/// A box of 0.2 m on the base, and a ball of 0.1 m on a link that slides along x.
+class ClaimsOfTwoLinks : public testing::Test {
+ protected:
+  static constexpr double kHalf = 0.1;    // m, of the box
+  static constexpr double kRadius = 0.1;  // m
+
+  ClaimsOfTwoLinks() {
+    const std::string limits = "<limit lower='-1' upper='1' effort='1' velocity='1'/>";
+    const auto robot = Robot::parse(
+        "<robot name='slide'>" +
+            test::urdfLink("base", {{test::box(2 * kHalf, 2 * kHalf, 2 * kHalf), {0, 0, 0}}}) +
+            test::urdfLink("between", {}) +
+            test::urdfLink("tip", {{test::sphere(kRadius), {0, 0, 0}}}) +
+            test::urdfJoint("x", "prismatic", "base", "between", "<axis xyz='1 0 0'/>" + limits) +
+            test::urdfJoint("y", "prismatic", "between", "tip", "<axis xyz='0 1 0'/>" + limits) +
+            "</robot>",
+        "slide.urdf");
+    model_ = detail::compileChecker(robot, *robot->findGroup("all"), std::make_shared<World>(), {});
+  }
+
+  /// What is made of a claim, at t = 0.5 of a motion that has the ball at x there.
+  std::optional<Witness> confirmed(double x, const std::array<float, 3>& point) {
+    const std::vector<double> from{x - 0.01, 0.0};
+    const std::vector<double> to{x + 0.01, 0.0};
+    detail::WorkspaceData workspace(*model_);
+    detail::PairQuery query(*model_, workspace);
+    MotionCertificate certificate;
+    detail::PairOracle judge(*model_, from, to, query, certificate);
+    const detail::SimdContact claim{0, {point[0], point[1], point[2]}, 0.0F};
+    const bool isContact = judge.isContact(claim, 0.5);
+    EXPECT_EQ(isContact, certificate.witness.has_value());
+    return certificate.witness;
+  }
+
+  /// m, of a witness: how far its points are from the ball and from the box that they are said to
+  /// be in.
+  double apart(const Witness& witness, double x) const {
+    const bool ballFirst = witness.bodyA == "tip";
+    const Eigen::Vector3d& inBall = ballFirst ? witness.pointA : witness.pointB;
+    const Eigen::Vector3d& inBox = ballFirst ? witness.pointB : witness.pointA;
+    const double fromBall = (inBall - Eigen::Vector3d(x, 0.0, 0.0)).norm() - kRadius;
+    const double fromBox = (inBox.cwiseAbs().array() - kHalf).maxCoeff();
+    return std::max({0.0, fromBall, fromBox});
+  }
+
+  std::shared_ptr<const detail::CheckerModel> model_;
+};
+
+TEST_F(ClaimsOfTwoLinks, HoldWhereBothLinksAre) {
+  ASSERT_EQ(model_->pairs.size(), 1U);
+  ASSERT_TRUE(model_->pairs[0].self);
+  const std::optional<Witness> witness = confirmed(0.15, {0.075F, 0.01F, -0.01F});
+  ASSERT_TRUE(witness);
+  EXPECT_EQ(witness->t, 0.5);
+  EXPECT_EQ(witness->distance, 0.0);
+  EXPECT_EQ(witness->pointA, Eigen::Vector3d(0.075F, 0.01F, -0.01F));
+  EXPECT_EQ(witness->pointB, witness->pointA);
+  EXPECT_TRUE(witness->selfPair);
+}
+
+/// Of links that are apart a point of neither was a witness, by single precision's word.
+TEST_F(ClaimsOfTwoLinks, AreRefusedWhereTheLinksAreApart) {
+  EXPECT_FALSE(confirmed(0.3, {0.15F, 0.0F, 0.0F}));
+  EXPECT_FALSE(confirmed(0.3, {0.1F, 0.0F, 0.0F}));
+  EXPECT_FALSE(confirmed(0.3, {0.25F, 0.0F, 0.0F}));
+  EXPECT_FALSE(confirmed(0.2 + 1e-9, {0.1F, 0.0F, 0.0F}));
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(confirmed(0.3, {none, 0.0F, 0.0F}));
+}
+
+/// As points of surfaces are in single precision.
+TEST_F(ClaimsOfTwoLinks, HoldByPointsThatAreARoundingOff) {
+  const double x = 0.15;
+  for (const float point : {0.1F + 1e-6F, 0.05F - 1e-6F, 0.0500001F, 0.0999999F}) {
+    SCOPED_TRACE(point);
+    const std::optional<Witness> witness = confirmed(x, {point, 0.0F, 0.0F});
+    ASSERT_TRUE(witness);
+    EXPECT_LE(apart(*witness, x), 1e-15);
+    EXPECT_EQ(witness->distance, (witness->pointB - witness->pointA).norm());
+    EXPECT_EQ(witness->distance, 0.0);
+  }
 }
 
 }  // namespace

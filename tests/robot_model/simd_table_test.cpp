@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
+#include <vector>
 
 #include "simd/tables/table_motion.hpp"
 #include "swept/core/distance.hpp"
@@ -27,6 +29,54 @@ bool apart(const CheckerModel& model, const SimdBodyPair& bodies,
     if (collide(a.shape, b.shape, between) != Contact::Separate) return false;
   }
   return true;
+}
+
+/// What chooseTables gives a changed model of the tables of another one, per pair of bodies.
+template <typename Change>
+std::vector<bool> tablesAfter(const CheckerModel& model, const Change& change) {
+  CheckerModel changed = model;
+  changeGeometry(changed, change);
+  for (SimdBodyPair& bodies : changed.simd.bodyPairs) bodies.table = nullptr;
+  detail::chooseTables(changed, *model.simd.tables, changed.simd);
+  std::vector<bool> has;
+  for (const SimdBodyPair& bodies : changed.simd.bodyPairs) has.push_back(bodies.table != nullptr);
+  return has;
+}
+
+/// Pieces of equal shape share a cover, wherever they are.
+TEST(SimdTable, HoldsForGeometryThatStandsWhereItDid) {
+  using Geometry = detail::RobotGeometry;
+  for (const Named& robot : robotsWithTables()) {
+    SCOPED_TRACE(robot.name);
+    const CheckerModel& model = *robot.model;
+    const std::vector<bool> before = tablesAfter(model, [](std::vector<Geometry>&) {});
+    for (std::size_t i = 0; i < before.size(); ++i)
+      EXPECT_EQ(before[i], model.simd.bodyPairs[i].table != nullptr);
+    const auto expectNone = [&](std::size_t piece, const auto& change) {
+      const std::vector<bool> after =
+          tablesAfter(model, [&](std::vector<Geometry>& all) { change(all[piece]); });
+      std::vector<bool> expected = before;
+      for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+        const detail::GeometryPair& pair = model.pairs[i];
+        const int own = static_cast<int>(piece);
+        if (pair.self && (pair.a == own || pair.b == own))
+          expected[static_cast<std::size_t>(model.simd.sources[i].bodyPair)] = false;
+      }
+      EXPECT_EQ(after, expected) << "piece " << piece;
+    };
+    std::set<int> bodies;
+    for (std::size_t i = 0; i < model.robotGeometry.size(); ++i) {
+      const Geometry& piece = model.robotGeometry[i];
+      if (!bodies.insert(piece.body).second) continue;
+      expectNone(i, [](Geometry& moved) { moved.body_from_shape.translation().x() += 1e-9; });
+      expectNone(i, [](Geometry& moved) {
+        moved.body_from_shape.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()));
+      });
+      expectNone(i, [](Geometry& grown) { grown.scale *= 1.1; });
+      expectNone(i, [](Geometry& other) { other.shape = Sphere{0.4}; });
+      expectNone(i, [](Geometry& other) { ++other.body; });
+    }
+  }
 }
 
 /// A box of joint values within the table's range, from a point to a fifth of it.

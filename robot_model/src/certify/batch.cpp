@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -64,24 +63,38 @@ Arenas& arenas() {
   return all;
 }
 
-/// Calls `work(begin, end, workspace)` for ranges of up to `grain` of [0, count).
+/// So many threads, but no more than the program lets oneTBB have: of an arena that asks for more
+/// oneTBB warns.
+unsigned allowed(unsigned threads) {
+  using oneapi::tbb::global_control;
+  const std::size_t most = global_control::active_value(global_control::max_allowed_parallelism);
+  return static_cast<unsigned>(std::min<std::size_t>(threads, most));
+}
+
+/// Calls `work(begin, end, workspace)` for ranges of up to `grain` of [0, count). What the program
+/// lets oneTBB have besides is left as it is.
 template <typename Work>
 void forRanges(const Checker& checker, std::size_t count, std::size_t grain, unsigned threads,
                const Work& work) {
-  using oneapi::tbb::global_control;
-  // More than there are processors, if somebody asks for it.
-  std::optional<global_control> more;
-  if (threads > 0) more.emplace(global_control::max_allowed_parallelism, threads);
   const std::size_t ranges = (count + grain - 1) / grain;
+  const auto run = [&](std::size_t first, std::size_t last, Workspace& workspace) {
+    for (std::size_t i = first; i != last; ++i)
+      work(i * grain, std::min(count, (i + 1) * grain), workspace);
+  };
+  threads = allowed(threads);
+  if (threads == 1 || ranges <= 1) {
+    if (ranges == 0) return;
+    Workspace workspace(checker);
+    return run(0, ranges, workspace);
+  }
+  using oneapi::tbb::blocked_range;
   oneapi::tbb::enumerable_thread_specific<Workspace> workspaces(
       [&checker] { return Workspace(checker); });
   Arenas::Arena arena = arenas().take(threads);
   arena->execute([&] {
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, ranges),
-                              [&](const oneapi::tbb::blocked_range<std::size_t>& some) {
-                                Workspace& workspace = workspaces.local();
-                                for (std::size_t i = some.begin(); i != some.end(); ++i)
-                                  work(i * grain, std::min(count, (i + 1) * grain), workspace);
+    oneapi::tbb::parallel_for(blocked_range<std::size_t>(0, ranges),
+                              [&](const blocked_range<std::size_t>& some) {
+                                run(some.begin(), some.end(), workspaces.local());
                               });
   });
   arenas().giveBack(threads, std::move(arena));

@@ -20,7 +20,11 @@ bool PairOracle::keep(std::optional<Witness> witness) {
 }
 
 bool PairOracle::isContact(const SimdContact& contact, double t) {
-  return keep(simdWitness(model_, contact, t));
+  if (model_.pairs[contact.pair].self) {
+    if (!start()) return false;
+    query_.moveTo(t);
+  }
+  return keep(simdWitness(model_, query_, contact, t));
 }
 
 bool PairOracle::isInside(std::uint32_t pair, std::int32_t point, double t) {

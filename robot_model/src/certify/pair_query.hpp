@@ -66,6 +66,8 @@ class PairQuery {
   Eigen::Vector3d placed(std::uint32_t pair, const Eigen::Vector3d& point) {
     return state(model_.robotGeometry[model_.pairs[pair].a].body).world_from_body * point;
   }
+  /// Model frame: where a geometry's shape is.
+  const Eigen::Isometry3d& pose(int geometry);
   /// m. Bound on the pair's approach during `half`.
   double travel(const GeometryPair& pair, double half);
   /// m. Lower bound from bounding volumes alone, kinematic rounding included.
@@ -90,7 +92,6 @@ class PairQuery {
   const PointMotionBound& nestedBound(const MotionBoundSlot& slot);
   Eigen::Vector3d& hint(std::uint32_t pair);
   const Eigen::Vector3d& center(int geometry);
-  const Eigen::Isometry3d& pose(int geometry);
   double rounding(const GeometryPair& pair) const;
   Aabb boxAround(int geometry, double reach);
   /// What the containing balls and boxes say.

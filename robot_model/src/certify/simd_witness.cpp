@@ -1,14 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/simd_witness.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "swept/core/distance.hpp"
 
 namespace swept::detail {
 
-std::optional<Eigen::Vector3d> commonPoint(const CheckerModel& model, const SimdContact& contact) {
+namespace {
+
+using Eigen::Vector3d;
+
+/// m, model frame: the point of the geometry that is nearest to this one; itself where it is in the
+/// geometry. No number where nothing is known.
+Vector3d nearestOf(const CheckerModel& model, PairQuery& query, int geometry,
+                   const Vector3d& point) {
+  const Eigen::Isometry3d point_from_world(Eigen::Translation3d(-point));
+  const DistanceResult found = distance(Sphere{0.0}, model.robotGeometry[geometry].shape,
+                                        point_from_world * query.pose(geometry));
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(found.upper)) return Vector3d::Constant(kNone);
+  return found.upper > 0.0 ? Vector3d(point + found.pointB) : point;
+}
+
+/// The single-precision point is in both links, or in one and by a rounding off the surface of the
+/// other. So the point of either that is nearest to it may be in the other.
+std::optional<ContactPoints> pointsOfLinks(const CheckerModel& model, PairQuery& query,
+                                           const GeometryPair& pair, const Vector3d& point) {
+  const auto near = [&pair](const ContactPoints& points) {
+    return (points.b - points.a).norm() <= pair.margin;
+  };
+  ContactPoints points;
+  points.a = nearestOf(model, query, pair.a, point);
+  points.b = nearestOf(model, query, pair.b, points.a);
+  if (near(points)) return points;
+  points.a = nearestOf(model, query, pair.a, points.b);
+  if (near(points)) return points;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery& query,
+                                           const SimdContact& contact) {
   const GeometryPair& pair = model.pairs[contact.pair];
-  const Eigen::Vector3d point(contact.point[0], contact.point[1], contact.point[2]);
-  if (pair.self) return point;
+  const Vector3d point(contact.point[0], contact.point[1], contact.point[2]);
+  if (pair.self) return pointsOfLinks(model, query, pair, point);
   // The link holds everything within `inside` of the point, whatever rounding there was.
   const WorldGeometry& world = model.worldGeometry[pair.b];
   DistanceOptions options;
@@ -17,8 +55,8 @@ std::optional<Eigen::Vector3d> commonPoint(const CheckerModel& model, const Simd
   const DistanceResult found =
       distance(Sphere{0.0}, world.shape, point_from_world * world.world_from_shape, options);
   if (!(found.upper <= options.contact)) return std::nullopt;
-  if (!(found.upper > 0.0)) return point;
-  return Eigen::Vector3d(point + found.pointB);
+  const Vector3d common = found.upper > 0.0 ? Vector3d(point + found.pointB) : point;
+  return ContactPoints{common, common};
 }
 
 std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t index,
@@ -43,18 +81,19 @@ std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t ind
   return witness;
 }
 
-std::optional<Witness> simdWitness(const CheckerModel& model, const SimdContact& contact,
-                                   double t) {
-  const std::optional<Eigen::Vector3d> point = commonPoint(model, contact);
-  if (!point) return std::nullopt;
+std::optional<Witness> simdWitness(const CheckerModel& model, PairQuery& query,
+                                   const SimdContact& contact, double t) {
+  const std::optional<ContactPoints> points = contactPoints(model, query, contact);
+  if (!points) return std::nullopt;
   const GeometryPair& pair = model.pairs[contact.pair];
   Witness witness;
   witness.t = t;
   witness.bodyA = model.nameOfA(pair);
   witness.bodyB = model.nameOfB(pair);
   witness.selfPair = model.isSelfPair(pair);
-  witness.pointA = *point;
-  witness.pointB = *point;
+  witness.pointA = points->a;
+  witness.pointB = points->b;
+  witness.distance = (points->b - points->a).norm();
   witness.margin = pair.margin;
   return witness;
 }

@@ -4,17 +4,26 @@
 #include <cstdint>
 #include <optional>
 
-#include "certify/checker_model.hpp"
+#include "certify/pair_query.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 
 namespace swept::detail {
 
-/// m, model frame: a point of both bodies of a contact that the lane tier found, checked on the
-/// exact obstacle in double precision. Empty if the check does not confirm it.
-std::optional<Eigen::Vector3d> commonPoint(const CheckerModel& model, const SimdContact& contact);
+/// m, model frame: a point of each body of a contact, the two at most the margin apart.
+struct ContactPoints {
+  Eigen::Vector3d a;
+  Eigen::Vector3d b;
+};
+
+/// Those of a contact that the lane tier found, as exact geometry confirms it in double precision:
+/// of two links both are looked at, where `query` is; of a link and an obstacle the obstacle. Empty
+/// if they do not confirm it.
+std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery& query,
+                                           const SimdContact& contact);
 
 /// The same as a witness.
-std::optional<Witness> simdWitness(const CheckerModel& model, const SimdContact& contact, double t);
+std::optional<Witness> simdWitness(const CheckerModel& model, PairQuery& query,
+                                   const SimdContact& contact, double t);
 
 /// Of a point (m, model frame) of the pair's link, in the world geometry or within the margin of
 /// it; null: it is not.

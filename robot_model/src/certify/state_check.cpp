@@ -48,12 +48,19 @@ Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
   return provePairs(query, workspace.arena);
 }
 
+bool isContact(const CheckerModel& model, std::span<const double> q, const SimdContact& contact,
+               WorkspaceData& workspace) {
+  PairQuery query(model, workspace);
+  if (model.pairs[contact.pair].self && !startAt(query, q)) return false;
+  return contactPoints(model, query, contact).has_value();
+}
+
 /// What the lane tier found out in one lane, and exact geometry about the rest.
 Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane,
                   WorkspaceData& workspace) {
   const SimdBlock& block = workspace.simd.block;
   if ((block.contactLanes >> lane & 1U) != 0) {
-    if (commonPoint(model, block.contacts[lane])) return Verdict::Collision;
+    if (isContact(model, q, block.contacts[lane], workspace)) return Verdict::Collision;
     return checkAllPairs(model, q, workspace);
   }
   takeOpen(lane, workspace.simd);

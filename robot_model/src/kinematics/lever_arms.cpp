@@ -221,11 +221,17 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
   // hence |p''| <= sum_k rho_k (|b_k| + |r_k| (2 W_{k-1} + |r_k|)) for rotations and
   // |b_k| + 2 |r_k| W_{k-1} for translations. A joint with both translates first, then rotates
   // about its moved origin.
-  double maxTranslation = 0.0;
-  for (std::size_t i = first; i < path.size(); ++i)
-    maxTranslation += motion[path[i]].maxTranslation;
+  //
+  // Planar and floating joints beyond path[i] carry the ball away from its axis. Each sum is made
+  // anew: a difference of large sums would lose what is small.
+  const auto slidBeyond = [&](std::size_t i) {
+    double slid = 0.0;
+    for (std::size_t k = path.size(); --k > i;) slid += motion[path[k]].maxTranslation;
+    return slid;
+  };
 
   PointMotionBound bound;
+  double maxTranslation = 0.0;
   double turning = 0.0;        // W_k
   double turningBefore = 0.0;  // W_{k-1}
   double previousRate = 0.0;
@@ -233,9 +239,8 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
   for (std::size_t i = first; i < path.size(); ++i) {
     const MovingBody& body = model.bodies[path[i]];
     const JointMotion& joint = motion[path[i]];
-    // Planar and floating joints farther out carry the ball away from this axis.
-    maxTranslation -= joint.maxTranslation;
-    const double arm = arms[i] + std::max(0.0, maxTranslation) * kOutward;
+    if (i == first || joint.maxTranslation != 0.0) maxTranslation = slidBeyond(i);
+    const double arm = arms[i] + maxTranslation * kOutward;
     bound.speed += joint.speed + joint.spinSpeed * arm;
     bound.acceleration += 2.0 * joint.speed * turning + joint.acceleration;
     bound.acceleration +=

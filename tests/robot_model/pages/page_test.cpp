@@ -11,6 +11,7 @@
 
 #include "input_files.hpp"
 #include "swept/robot_model/usage_error.hpp"
+#include "transcript.hpp"
 
 /// Pages as a program of one's own writes them. What is on a page the tests of the program see to,
 /// which has the same.
@@ -60,6 +61,15 @@ TEST(PageTest, StatesAreWhatTheCheckerSays) {
   EXPECT_EQ(data["states"][1]["contacts"][0]["body_b"], "wall");
   EXPECT_TRUE(data["motions"].empty());
   EXPECT_TRUE(data["visuals"].empty());
+}
+
+TEST(PageTest, IsTheSameInEveryFloatingPointEnvironment) {
+  test::expectSameInEveryEnvironment({{"html", [](test::Transcript& t) {
+                                         Page states(slide()), motions(slide());
+                                         states.addState("start", kStart);
+                                         motions.addMotion("there", kFree, kBeyond);
+                                         t.add(states.html(), motions.html());
+                                       }}});
 }
 
 TEST(PageTest, MotionsFollowEachOther) {

@@ -17,6 +17,7 @@
 #include "sliding_cube.hpp"
 #include "swept/robot_model/path_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
+#include "transcript.hpp"
 
 namespace swept {
 namespace {
@@ -55,6 +56,16 @@ class PathProof : public testing::Test {
   Checker checker_{test::slidingCube(), "all", test::worldWithCube()};
   test::TemporaryFolder folder_;
 };
+
+TEST_F(PathProof, IsTheSameInEveryFloatingPointEnvironment) {
+  const std::filesystem::path file = written(kOver);
+  test::expectSameInEveryEnvironment(
+      {{"written", [&](test::Transcript& t) { t.add(textOf(written(kOver))); }},
+       {"verified", [&](test::Transcript& t) {
+          for (const CheckedProof& proof : {verifyProof(file), verifyProof(file, checker_)})
+            t.add(proof.refusal, proof.intervals, proof.planes, proof.clearance);
+        }}});
+}
 
 TEST_F(PathProof, HoldsAndKeepsWhatIsTrue) {
   const CheckedProof proof = verifyProof(written(kOver));

@@ -166,7 +166,8 @@ class Checker {
   /// each.
   void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                    Workspace& workspace) const;
-  /// The same on so many threads (0: as many as there are processors), whatever their number.
+  /// The same on up to so many threads of oneTBB's (0: as many as there are processors), whatever
+  /// their number. There are no more than the program lets oneTBB have, which is left as it is.
   void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                    unsigned threads = 0) const;
   /// Every violating pair and the clearance. Measures distances where checkState proves them large
@@ -189,8 +190,8 @@ class Checker {
   MotionCertificate certifyMotion(ConfigurationView from, ConfigurationView to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
-  /// Many at once, which follow each other in `from` and `to`, on so many threads (0: as many as
-  /// there are processors). The certificates do not depend on their number. Throws
+  /// Many at once, which follow each other in `from` and `to`, on up to so many threads, as
+  /// checkStates has them. The certificates do not depend on their number. Throws
   /// std::invalid_argument unless there is one certificate for each.
   void certifyMotions(PackedConfigurations from, PackedConfigurations to,
                       std::span<MotionCertificate> certificates,

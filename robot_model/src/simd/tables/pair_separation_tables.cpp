@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "robot/shape_cover.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/tables/table_builder.hpp"
 #include "simd/tables/table_candidates.hpp"
@@ -77,8 +78,10 @@ std::vector<PairSeparationTable::Pairs> geometriesOf(const PairModel& model, con
   return pairs;
 }
 
+/// The same piece in the same place. Pieces of equal shape may share a cover, wherever they are.
 bool sameGeometry(const RobotGeometry& a, const RobotGeometry& b) {
-  return a.cover == b.cover && a.cover != nullptr;
+  return a.cover == b.cover && a.cover != nullptr && a.scale == b.scale && a.body == b.body &&
+         a.body_from_shape.matrix() == b.body_from_shape.matrix() && areSame(a.shape, b.shape);
 }
 
 bool holdsFor(const PairModel& model, const PairSeparationTables& tables,
