@@ -100,6 +100,24 @@ TEST(CheckerVersions, RulesDieWithTheBodyTheyName) {
   EXPECT_TRUE(held.withoutAttached("tool").options().rules.empty());
 }
 
+/// The same shape, and so the same cover: what was known of the body holds for its place alone.
+TEST(CheckerVersions, AnAttachedBodyIsLookedAtWhereItIs) {
+  const auto robot = parseArm(armUrdf({}));
+  const auto world = shared({});
+  const Shape rod = makeCapsule(0.02, 0.1);
+  Checker version = Checker(robot, "all", world).withAttached("rod", "hand", rod, at(0, 0, 0.1));
+  unsigned seed = 40;
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(0.15, 0, 0.1), Eigen::Vector3d(-0.1, 0, 0.2), Eigen::Vector3d(0, 0, 0.1)}) {
+    const Eigen::Isometry3d hand_from_rod(Eigen::Translation3d{place});
+    version = version.withoutAttached("rod").withAttached("rod", "hand", rod, hand_from_rod);
+    const Checker made =
+        Checker(robot, "all", world).withAttached("rod", "hand", rod, hand_from_rod);
+    agreementOf(version, made, 300, ++seed).expectRepresentative(20);
+    EXPECT_EQ(verdictsOf(version, seed), verdictsOf(made, seed));
+  }
+}
+
 TEST(CheckerVersions, ChangedRulesAreThoseOfACheckerMadeWithThem) {
   const auto robot = parseArm(armUrdf({}));
   const auto world = shared(test::clutter(25));
