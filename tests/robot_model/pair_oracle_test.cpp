@@ -86,9 +86,10 @@ class ClaimsOfTwoLinks : public testing::Test {
     detail::WorkspaceData workspace(*model_);
     detail::PairQuery query(*model_, workspace);
     MotionCertificate certificate;
-    detail::PairOracle judge(*model_, from, to, query, certificate);
+    const detail::StraightPath path(model_->kinematics, from, to);
+    detail::PairOracle oracle(*model_, path, query, certificate);
     const detail::SimdContact claim{0, {point[0], point[1], point[2]}, 0.0F};
-    const bool isContact = judge.isContact(claim, 0.5);
+    const bool isContact = oracle.isContact(claim, 0.5);
     EXPECT_EQ(isContact, certificate.witness.has_value());
     return certificate.witness;
   }

@@ -22,7 +22,7 @@ bool PairOracle::keep(std::optional<Witness> witness) {
 bool PairOracle::isContact(const SimdContact& contact, double t) {
   if (model_.pairs[contact.pair].self) {
     if (!start()) return false;
-    query_.moveTo(t);
+    query_.moveTo(t, 0.0);
   }
   return keep(simdWitness(model_, query_, contact, t));
 }
