@@ -29,7 +29,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "plan/planners.hpp"
+#include "planning/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
 
 namespace {

@@ -15,7 +15,7 @@
 #include "sliding_cube.hpp"
 #include "swept/core/shapes.hpp"
 #include "swept/robot_model/checker.hpp"
-#include "swept/robot_model/collision_matrix.hpp"
+#include "swept/robot_model/allowed_collision_matrix.hpp"
 #include "swept/robot_model/mesh_file.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -151,7 +151,7 @@ TEST_F(MeshSourceError, OfALinkIsKeptByThePairsOfTheRobot) {
 TEST_F(MeshSourceError, OfALinkCountsWhereNothingElseCanMeet) {
   const auto status = [&](double gap) {
     const auto robot = robotWithMesh(gap, 0.0, 1e-6);
-    for (const LinkPairReport& pair : collisionMatrix(*robot))
+    for (const LinkPairReport& pair : computeAllowedCollisionMatrix(*robot))
       if (robot->links()[static_cast<std::size_t>(pair.linkB)].name == "mesh") return pair.status;
     return PairStatus::Adjacent;
   };
