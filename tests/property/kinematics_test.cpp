@@ -81,7 +81,7 @@ TEST_P(Kinematics, ClearancesAgree) {
       EXPECT_LT(gap.lower, 1e-6);
     }
     hits += report.verdict == swept::Verdict::Collision;
-    close += gap.upper > 0 && gap.upper < 0.01;
+    close += gap.lower > 0 && gap.upper < 0.01;
   }
   EXPECT_GT(close, 20);
   EXPECT_GT(hits, 20);

@@ -186,6 +186,7 @@ class Turntable {
   double errorAt(const std::array<float, kLanes>& angles) {
     auto& block = scratch_->block;
     block.mode = detail::SimdMode::States;
+    block.given = true;
     std::ranges::copy(angles, block.angle[1].lane);
     detail::placeBodies(lanes_, scratch_->motion, lanes_.allBodies, block);
     Real worst = 0;

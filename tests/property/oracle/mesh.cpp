@@ -103,7 +103,10 @@ Mesh Mesh::read(const std::filesystem::path& file, const Vector3d& scale) {
   for (const Vector3d& vertex : vertices)
     lower = lower.cwiseMin(vertex), upper = upper.cwiseMax(vertex);
   const double rounding = 0x1p-22 * largest * scale.cwiseAbs().minCoeff();
-  return Mesh(vertices, faces, std::max(rounding, 1e-5 * (upper - lower).maxCoeff()));
+  Mesh mesh(vertices, faces, std::max(rounding, 1e-5 * (upper - lower).maxCoeff()));
+  // Of each of three coordinates; assimp keeps them, and places them, in single precision.
+  mesh.rounding_ = std::sqrt(3.0) * 0x1p-22 * largest * scale.cwiseAbs().maxCoeff();
+  return mesh;
 }
 
 int Mesh::split(int first, int last) {

@@ -25,6 +25,8 @@ class Mesh {
   static Mesh read(const std::filesystem::path& file, const Vector3d& scale);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// m; no corner is farther than this from where its file has it.
+  double rounding() const { return rounding_; }
   const std::vector<Node>& nodes() const { return nodes_; }  ///< the root is first
   /// One vertex of each part.
   const std::vector<Vector3d>& representatives() const { return representatives_; }
@@ -54,6 +56,7 @@ class Mesh {
   std::vector<Vector3d> representatives_;
   std::vector<Node> nodes_;
   int closedParts_ = 0;
+  double rounding_ = 0.0;
 };
 
 }  // namespace oracle

@@ -136,7 +136,11 @@ Gap gap(const Piece& a, const Piece& b, const Isometry3d& a_from_b, double enoug
   if (!a.mesh && b.mesh) return gap(b, a, a_from_b.inverse(), enough);
   if (!BoxFilter(a_from_b).near(a.boxCenter, a.boxHalf, b.boxCenter, b.boxHalf, enough))
     return {enough, enough};
-  if (overlap(a, b, a_from_b)) return {0.0, 0.0};
+  const auto rounding = [](const Piece& piece) {
+    return piece.mesh ? piece.mesh->rounding() : 0.0;
+  };
+  const double off = rounding(a) + rounding(b);
+  if (overlap(a, b, a_from_b)) return {0.0, off};
   if (!a.mesh) return gap(a.primitive, b.primitive, a_from_b);
   Least least{{enough, enough}};
   const Isometry3d b_from_a = a_from_b.inverse();
@@ -152,7 +156,7 @@ Gap gap(const Piece& a, const Piece& b, const Isometry3d& a_from_b, double enoug
     return false;
   };
   forLeaves(a, b, a_from_b, leaf, [&] { return least.gap.upper; });
-  return least.gap;
+  return {std::max(0.0, least.gap.lower - off), least.gap.upper + off};
 }
 
 double distanceTo(const Piece& piece, const Vector3d& p) {

@@ -30,7 +30,8 @@ struct Body {
 
 /// Whether the solids share a point.
 bool overlap(const Piece& a, const Piece& b, const Isometry3d& a_from_b);
-/// The distance, or two values of at least `enough` (m) when it is larger.
+/// The distance, or two values of about `enough` (m) when it is larger; with what meshes of files
+/// are off (Mesh::rounding).
 Gap gap(const Piece& a, const Piece& b, const Isometry3d& a_from_b, double enough);
 /// m, from a point in the piece's frame; 0 inside.
 double distanceTo(const Piece& piece, const Vector3d& p);
