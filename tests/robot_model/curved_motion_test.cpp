@@ -7,12 +7,16 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "certify/motion_check.hpp"
+#include "certify/signed_clearance.hpp"
 #include "certify/state_check.hpp"
 #include "kinematics/nested_motion_bounds.hpp"
 #include "model_robots.hpp"
@@ -183,6 +187,62 @@ TEST(CurvedMotions, AreProvenByBothTiersAndRefutedByNothing) {
   EXPECT_GT(200 * tally.prefixes, tally.motions);
   std::printf("%d motions: %d free, %d collisions, %d undecided; %d prefixes\n", tally.motions,
               tally.free, tally.collision, tally.undecided, tally.prefixes);
+}
+
+/// Says no where it said yes of the whole.
+class TakesBack final : public detail::JointPath {
+ public:
+  explicit TakesBack(const QuadraticPath& path) : path_(path) {}
+  bool linearize(double t, double half, std::span<detail::JointMotion> joints) const override {
+    return half == 0.5 && path_.linearize(t, half, joints);
+  }
+  void interpolate(double t, std::span<double> q) const override { path_.interpolate(t, q); }
+
+ private:
+  const QuadraticPath& path_;
+};
+
+TEST(CurvedMotions, APathThatTakesItsBoundsBackIsRefused) {
+  Random random(50);
+  const auto model = compile(kCases[0]);
+  CheckerModel exact = *model;
+  exact.simd.usable = false;
+  for (const CheckerModel* tier : {model.get(), static_cast<const CheckerModel*>(&exact)}) {
+    WorkspaceData workspace(*tier);
+    const QuadraticPath path = pathOf(random, *tier);
+    EXPECT_THROW(detail::certifyMotion(*tier, TakesBack(path), MotionQuery::VerdictOnly, workspace),
+                 std::logic_error);
+  }
+}
+
+/// The bound on a clearance is no more than what any state on the way has.
+TEST(CurvedMotions, KeepTheClearanceThatIsSaid) {
+  Random random(49);
+  int close = 0;
+  for (const Case& which : kCases) {
+    SCOPED_TRACE(std::string(which.robot) + " " + which.scene);
+    const auto model = compile(which);
+    WorkspaceData workspace(*model);
+    std::vector<double> q(static_cast<std::size_t>(model->kinematics.dimension));
+    for (int i = 0; i < 150; ++i) {
+      const QuadraticPath path = pathOf(random, *model);
+      constexpr double kAccuracy = 1e-3;
+      const MotionClearance found =
+          detail::motionClearance(*model, path, kAccuracy, ClearanceQuery::Least, workspace);
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < 20; ++k) {
+        path.interpolate(random.uniform(0.0, 1.0), q);
+        const SignedClearance at = detail::signedClearance(*model, q, {}, workspace);
+        least = std::min(least, std::max(0.0, at.upper));
+      }
+      ASSERT_LE(found.lower, least);
+      path.interpolate(found.t, q);
+      ASSERT_LE(std::max(0.0, detail::signedClearance(*model, q, {}, workspace).lower),
+                found.upper + 1e-9);
+      close += found.lower > 0.0 && least - found.lower < 2.0 * kAccuracy ? 1 : 0;
+    }
+  }
+  EXPECT_GT(close, 50);
 }
 
 /// What begins and ends free, and meets in between: no bound may rest on values at the ends.

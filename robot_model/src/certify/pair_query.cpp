@@ -53,7 +53,7 @@ bool PairQuery::startAt(std::span<const double> q) {
 
 void PairQuery::moveTo(double t, double half) {
   if (path_ != nullptr) {
-    path_->linearize(t, half, workspace_.motion);
+    linearizePart(*path_, t, half, workspace_.motion);
     ++workspace_.boundStamp;
   }
   workspace_.t = t;

@@ -3,8 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 
 namespace swept::detail {
+
+void linearizePart(const JointPath& path, double t, double half, std::span<JointMotion> joints) {
+  if (!path.linearize(t, half, joints))
+    throw std::logic_error("a JointPath that has bounds over a motion has none over a part of it");
+}
 
 bool StraightPath::linearize(double /*t*/, double /*half*/, std::span<JointMotion> joints) const {
   return compileMotion(*model_, from_, to_, joints);

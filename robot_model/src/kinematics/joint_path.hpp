@@ -40,6 +40,10 @@ class JointPath {
   JointPath& operator=(const JointPath&) = default;
 };
 
+/// JointPath::linearize for an interval of a path that said true of the whole. Throws
+/// std::logic_error where the path takes that back: no bound would hold.
+void linearizePart(const JointPath& path, double t, double half, std::span<JointMotion> joints);
+
 /// Values that are linear in t; cyclic ones go the shorter way, orientations by slerp.
 class StraightPath final : public JointPath {
  public:

@@ -218,8 +218,8 @@ void SimdMotion::linearizeLanes() {
   block.angleRate.resize(block.angle.size());
   block.slideRate.resize(block.slide.size());
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    path_.linearize(static_cast<double>(block.time.lane[lane]),
-                    static_cast<double>(block.half.lane[lane]), joints_);
+    linearizePart(path_, static_cast<double>(block.time.lane[lane]),
+                  static_cast<double>(block.half.lane[lane]), joints_);
     for (std::size_t i = 1; i < joints_.size(); ++i) {
       SimdJointMotion& motion = scratch_.motion[i];
       SimdJointMotion own = motion;
