@@ -34,7 +34,7 @@ NeverProof::NeverProof(const LinkPieces& a, const LinkPieces& b, const LinkChain
     : a_(a),
       b_(b),
       chain_(chain),
-      margin_(margin + a.sourceError + b.sourceError),
+      margin_(margin),
       place_(place),
       bounds_(chain),
       nearestDistance_(std::numeric_limits<double>::infinity()) {
@@ -45,8 +45,9 @@ NeverProof::NeverProof(const LinkPieces& a, const LinkPieces& b, const LinkChain
     largest = std::max(largest, joint.scale * value);
   }
   const double joints = static_cast<double>(chain.joints().size() + 2);
-  required_ = margin_ + tolerance::kRoundingPerJoint * largest * joints *
-                            (2.0 * chain.reach() + a.reach + b.reach);
+  required_ =
+      margin_ + a.sourceError + b.sourceError +
+      tolerance::kRoundingPerJoint * largest * joints * (2.0 * chain.reach() + a.reach + b.reach);
   for (const LinkPieces::Piece& first : a.pieces)
     for (const LinkPieces::Piece& second : b.pieces) arena_.push_back({first.root, second.root});
   middle_.resize(chain.variables().size());

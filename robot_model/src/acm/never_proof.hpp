@@ -94,7 +94,7 @@ class NeverProof {
   const double margin_;
   LinkChain::Place& place_;
   ChainBounds bounds_;
-  double required_ = 0.0;  ///< m, margin and rounding
+  double required_ = 0.0;  ///< m, margin, errors of the sources and rounding
   std::vector<Box> boxes_;
   std::vector<BallPair> arena_, work_;
   std::size_t firstOpen_ = 0;
