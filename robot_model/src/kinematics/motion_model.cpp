@@ -14,6 +14,7 @@ namespace swept::detail {
 namespace {
 
 using Eigen::Isometry3d;
+using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
@@ -37,14 +38,18 @@ Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to, bool neg
 }
 
 /// `since`: t less the anchor.
+Matrix3d turnOf(const Vector3d& axis, const JointMotion& motion, double since) {
+  return Eigen::AngleAxisd(motion.angle + since * motion.angleRate, axis).toRotationMatrix();
+}
+
+/// `since`: as above.
 Isometry3d jointTransform(const MovingBody& body, const JointMotion& motion, double since) {
   Isometry3d joint_from_body = Isometry3d::Identity();
   joint_from_body.translation() = motion.translation + since * motion.rate;
   if (body.type == JointType::Revolute || body.type == JointType::Continuous ||
       body.type == JointType::Planar) {
     const Vector3d axis = body.type == JointType::Planar ? body.planarBasis.col(2) : body.axis;
-    joint_from_body.linear() =
-        Eigen::AngleAxisd(motion.angle + since * motion.angleRate, axis).toRotationMatrix();
+    joint_from_body.linear() = turnOf(axis, motion, since);
   } else if (body.type == JointType::Floating) {
     const double turning = motion.spin.norm();  // at the anchor; the bound may be larger
     const Quaterniond turned =
@@ -336,14 +341,27 @@ CarriedRounding carriedRounding(const CarriedRounding& before, const JointMotion
 
 BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
                  const BodyState& parent) {
-  const Isometry3d world_from_joint = parent.world_from_body * body.parent_from_joint;
+  const auto& parentAxes = parent.world_from_body.linear();
+  const Matrix3d axes = parentAxes * body.parent_from_joint.linear();
+  const Vector3d origin =
+      parentAxes * body.parent_from_joint.translation() + parent.world_from_body.translation();
   BodyState state;
-  state.world_from_body = world_from_joint * jointTransform(body, joint, t - joint.anchor);
-  const Vector3d spin = world_from_joint.linear() * joint.spin;
+  const double since = t - joint.anchor;
+  const Vector3d spin = axes * joint.spin;
   state.angular = parent.angular + spin;
   // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
-  state.linear = parent.linear + world_from_joint.linear() * joint.rate -
-                 spin.cross(state.world_from_body.translation());
+  if (turns(body.type)) {
+    // Most joints only turn: what slides is zero. This gives the same bits.
+    state.world_from_body.linear() = axes * turnOf(body.axis, joint, since);
+    state.world_from_body.translation() = origin;
+    state.linear = parent.linear - spin.cross(origin);
+  } else {
+    const Isometry3d joint_from_body = jointTransform(body, joint, since);
+    state.world_from_body.linear() = axes * joint_from_body.linear();
+    state.world_from_body.translation() = axes * joint_from_body.translation() + origin;
+    state.linear =
+        parent.linear + axes * joint.rate - spin.cross(state.world_from_body.translation());
+  }
   return state;
 }
 
