@@ -2,6 +2,10 @@
 // What a version of a checker and a workspace take, in KB of heap.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
+#include <string>
+
 #include "heap_counter.hpp"
 #include "model_robots.hpp"
 #include "version_arms.hpp"
@@ -73,6 +77,54 @@ TEST_F(CheckerMemory, OfAWorkspace) {
                           return workspace;
                         }),
             256.0);
+}
+
+/// Witnesses and clearances name bodies: none of these names fits into a std::string itself.
+TEST(QueryMemory, LongNamesAllocateNothing) {
+  const std::string longName(200, 'n');
+  std::string urdf = "<robot name='long'>" + test::urdfLink(longName + "0", {});
+  for (int i = 1; i <= 3; ++i) {
+    const std::string name = longName + std::to_string(i);
+    const std::string parent = longName + std::to_string(i - 1);
+    urdf += test::urdfLink(name, {{test::box(0.05, 0.05, 0.4), {0, 0, 0.2}}}) +
+            test::urdfJoint("joint" + std::to_string(i), "revolute", parent, name,
+                            "<origin xyz='0 0 0.42'/><axis xyz='0 1 0'/>"
+                            "<limit lower='-3' upper='3' effort='1' velocity='1'/>");
+  }
+  auto world = std::make_shared<World>();
+  world->add(longName + " of the world", Box{{0.1, 0.1, 0.1}}, at(0.5, 0, 0.5));
+  const Checker checker(Robot::parse(urdf + "</robot>", "long.urdf"), "all", world);
+  Workspace workspace(checker);
+
+  int collisions = 0;
+  int ofSelf = 0;
+  long taken = 0;
+  for (int round = 0; round < 2; ++round) {  // the first makes room in the workspace
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> angle(-3, 3);
+    collisions = ofSelf = 0;
+    taken = test::allocations;
+    for (int i = 0; i < 300; ++i) {
+      std::array<double, 3> from{};
+      std::array<double, 3> to{};
+      for (int j = 0; j < 3; ++j) {
+        from[j] = angle(random);
+        to[j] = angle(random);
+      }
+      const MotionCertificate certificate = checker.certifyMotion(from, to, workspace);
+      collisions += certificate.witness ? 1 : 0;
+      ofSelf += certificate.witness && certificate.witness->selfPair ? 1 : 0;
+      (void)checker.certifyMotion(from, to, workspace, MotionQuery::VerdictOnly);
+      (void)checker.checkState(to, workspace);
+      (void)checker.clearance(to, workspace);
+      (void)checker.signedClearance(to, workspace);
+      (void)checker.motionClearance(from, to, 1e-3, workspace);
+    }
+    taken = test::allocations - taken;
+  }
+  EXPECT_EQ(taken, 0);
+  EXPECT_GT(ofSelf, 20);
+  EXPECT_GT(collisions - ofSelf, 20);
 }
 
 TEST_F(CheckerMemory, ALongLineOfVersionsDoesNotGrow) {

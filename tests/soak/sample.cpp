@@ -16,7 +16,7 @@ std::optional<Sample> SampleQueue::pop() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return !samples_.empty() || closed_; });
   if (samples_.empty()) return std::nullopt;
-  std::optional<Sample> sample(std::move(samples_.front()));
+  Sample sample = std::move(samples_.front());
   samples_.pop_front();
   changed_.notify_all();
   return sample;

@@ -32,8 +32,8 @@ std::optional<NearestPair> nearestOf(const JsonValue& json, const std::string& k
   pair.clearance = json.at(clearance).number();
   if (!json.has(nearest) || json.at(nearest).isNull()) return pair;
   const std::vector<JsonValue> names = json.at(nearest).elements(2);
-  pair.bodyA = names[0].text();
-  pair.bodyB = names[1].text();
+  pair.bodyA = BodyName(names[0].text());
+  pair.bodyB = BodyName(names[1].text());
   return pair;
 }
 

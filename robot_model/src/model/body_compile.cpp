@@ -82,7 +82,7 @@ class BodyCompiler {
   void addLinks() {
     const std::vector<Link>& links = model_.robot->links();
     for (std::size_t i = 0; i < links.size(); ++i)
-      model_.collisionBodies.push_back({.name = links[i].name,
+      model_.collisionBodies.push_back({.name = BodyName(links[i].name),
                                         .link = static_cast<int>(i),
                                         .body = model_.kinematics.bodyOfLink[i],
                                         .body_from_frame = model_.kinematics.body_from_link[i]});
@@ -105,7 +105,7 @@ class BodyCompiler {
     }
     CollisionBody collisionBody = model_.collisionBodies[*link];
     collisionBody.kind = CollisionBody::Kind::Attached;
-    collisionBody.name = body.name;
+    collisionBody.name = BodyName(body.name);
     // A frame of its own keeps what is known about the link's as it is.
     if (collisionBody.body != 0) {
       collisionBody.body =
@@ -120,7 +120,7 @@ class BodyCompiler {
     int body = addObstacleFrames(model_.kinematics, obstacles.size());
     for (const MovingObstacle& obstacle : obstacles)
       model_.collisionBodies.push_back(
-          {.kind = CollisionBody::Kind::Obstacle, .name = obstacle.name, .body = body++});
+          {.kind = CollisionBody::Kind::Obstacle, .name = BodyName(obstacle.name), .body = body++});
     for (std::size_t i = 0; i < model_.collisionBodies.size(); ++i) requireOwnName(i);
   }
 

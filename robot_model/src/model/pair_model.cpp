@@ -5,13 +5,14 @@
 
 namespace swept::detail {
 
-std::string PairModel::nameOfA(const GeometryPair& pair) const {
+BodyName PairModel::nameOfA(const GeometryPair& pair) const {
   return collisionBodies[robotGeometry[pair.a].collisionBody].name;
 }
 
-std::string PairModel::nameOfB(const GeometryPair& pair) const {
-  return pair.self ? collisionBodies[robotGeometry[pair.b].collisionBody].name
-                   : world->bodies()[worldGeometry[pair.b].body].name;
+BodyName PairModel::nameOfB(const GeometryPair& pair) const {
+  if (pair.self) return collisionBodies[robotGeometry[pair.b].collisionBody].name;
+  const std::string& name = world->bodies()[worldGeometry[pair.b].body].name;
+  return BodyName(std::shared_ptr<const std::string>(world, &name));
 }
 
 bool PairModel::isSelfPair(const GeometryPair& pair) const {

@@ -26,7 +26,7 @@ inline constexpr double kLargestNorm = 1e150;
 struct CollisionBody {
   enum class Kind : std::uint8_t { Link, Attached, Obstacle };
   Kind kind = Kind::Link;
-  std::string name;
+  BodyName name;
   int link = -1;  ///< into Robot::links(): itself, or the one it is attached to; -1: an obstacle
   int body = 0;   ///< into KinematicModel::bodies
   Eigen::Isometry3d body_from_frame = Eigen::Isometry3d::Identity();
@@ -162,8 +162,8 @@ struct PairModel {
   std::shared_ptr<const NeverMargins> neverMargins;  ///< what the first version has proven
   std::shared_ptr<PairLists> lists = std::make_shared<PairLists>();
 
-  std::string nameOfA(const GeometryPair& pair) const;
-  std::string nameOfB(const GeometryPair& pair) const;
+  BodyName nameOfA(const GeometryPair& pair) const;
+  BodyName nameOfB(const GeometryPair& pair) const;
   bool isSelfPair(
       const GeometryPair& pair) const;  ///< as Witness has it: moving obstacles are none
   /// Whether the pair of bodies is checked that these two pieces are of.

@@ -65,7 +65,8 @@ struct CheckerOptions {
 class Checker;
 
 /// Scratch memory for one thread. No result depends on what it held before. It grows when it is
-/// used with another checker than before; used with one, queries allocate nothing but names.
+/// used with another checker than before; used with one, queries but reportState()
+/// allocate nothing.
 class Workspace {
  public:
   /// For this checker and its versions; any other may use it too, see above.

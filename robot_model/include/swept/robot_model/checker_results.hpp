@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swept/core/verdict.hpp"
+#include "swept/robot_model/body_name.hpp"
 
 /// What a Checker answers.
 namespace swept {
@@ -17,9 +18,9 @@ namespace swept {
 /// Two points of two bodies at most the margin apart: the nearest ones where it comes from a report
 /// or a first contact, any otherwise.
 struct Witness {
-  double t = 0.0;     ///< in [0, 1]; 0 for a state
-  std::string bodyA;  ///< a robot link or an attached body
-  std::string bodyB;  ///< a world body or another link
+  double t = 0.0;  ///< in [0, 1]; 0 for a state
+  BodyName bodyA;  ///< a robot link or an attached body
+  BodyName bodyB;  ///< a world body or another link
   /// Both are links or attached bodies. A world body may have a link's name: this tells which it is
   /// of those that bodyB names.
   bool selfPair = false;
@@ -36,7 +37,7 @@ struct NearestPair {
   double clearance = 0.0;
   ///@{
   /// As of a Witness; empty without such pairs.
-  std::string bodyA, bodyB;
+  BodyName bodyA, bodyB;
   ///@}
 };
 
@@ -54,7 +55,7 @@ struct StateReport {
   double clearance = 0.0;
   ///@{
   /// The pair that gave `clearance`; empty without pairs.
-  std::string nearestA, nearestB;
+  BodyName nearestA, nearestB;
   bool nearestSelfPair = false;  ///< as Witness::selfPair
   ///@}
   NearestPair world;  ///< of the pairs with the world, moving obstacles among it
@@ -111,7 +112,7 @@ struct ClearanceInterval {
   double t = 0.0;  ///< in [0, 1], where upper is attained
   ///@{
   /// The pair that attains it, as of a Witness; empty without.
-  std::string bodyA, bodyB;
+  BodyName bodyA, bodyB;
   ///@}
 };
 
