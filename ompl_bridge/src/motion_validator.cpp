@@ -30,7 +30,7 @@ double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, doubl
     // As the state's conversion will do: it is certified as it will be.
     takeToLimits(checker.robot(), checker.group(), q);
     const MotionCertificate certificate =
-        certifyByEither(checker, scratch.from, q, scratch.workspace, MotionQuery::VerdictOnly);
+        checker.certifyMotion(scratch.from, q, scratch.workspace, MotionQuery::VerdictOnly);
     if (certificate.verdict == Verdict::Free) return t;
   }
   return 0.0;
@@ -75,8 +75,8 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1,
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  const MotionCertificate certificate = certifyByEither(
-      *checker_, scratch->from, scratch->to, scratch->workspace, MotionQuery::VerdictOnly);
+  const MotionCertificate certificate = checker_->certifyMotion(
+      scratch->from, scratch->to, scratch->workspace, MotionQuery::VerdictOnly);
   return count(certificate.verdict == Verdict::Free);
 }
 
@@ -94,9 +94,8 @@ bool CertifiedMotionValidator::checkMotion(const ompl::base::State* s1, const om
   const WorkspacePool::Lease scratch = pool_->lease();
   conversion_.toConfiguration(s1, scratch->from);
   conversion_.toConfiguration(s2, scratch->to);
-  // By both queries, as the other overload does: both say the same.
   const MotionCertificate certificate =
-      certifyByEither(*checker_, scratch->from, scratch->to, scratch->workspace);
+      checker_->certifyMotion(scratch->from, scratch->to, scratch->workspace);
   if (certificate.verdict == Verdict::Free) return count(true);
 
   lastValid.second = lastProven(*checker_, *scratch, certificate.freeUntil, scratch->proven);

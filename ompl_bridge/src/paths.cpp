@@ -39,7 +39,7 @@ std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric&
   std::vector<MotionCertificate> certificates;
   Workspace workspace(checker);
   for (std::size_t i = 1; i < states.size(); ++i)
-    certificates.push_back(certifyByEither(checker, states[i - 1], states[i], workspace));
+    certificates.push_back(checker.certifyMotion(states[i - 1], states[i], workspace));
   return certificates;
 }
 
@@ -81,7 +81,7 @@ unsigned certifyEdges(ompl::base::PlannerData& data, const Checker& checker) {
     data.getEdges(v, neighbours);
     for (const unsigned int other : neighbours) {
       conversion.toConfiguration(data.getVertex(other).getState(), to);
-      const CertifiedEdge edge(certifyByEither(checker, from, to, workspace));
+      const CertifiedEdge edge(checker.certifyMotion(from, to, workspace));
       ompl::base::Cost weight;
       data.getEdgeWeight(v, other, &weight);
       data.removeEdge(v, other);

@@ -308,7 +308,8 @@ void askMotions(const Site& site, Workspace*, Random& random, Answer& answer) {
 
 void askByEither(const Site& site, Workspace* workspace, Random& random, Answer& answer) {
   const Ends motion = asked(anyMotion(site, random), answer);
-  put(answer, certifyByEither(*site.checker, motion.from, motion.to, *workspace, anyQuery(random)));
+  const MotionQuery query = anyQuery(random);
+  put(answer, site.checker->certifyMotion(motion.from, motion.to, *workspace, query));
 }
 
 ClearanceQuery anyClearance(Random& random, Answer& answer) {

@@ -40,22 +40,23 @@ TEST(PairOracle, KeepsTheEarliestContact) {
   do {
     detail::WorkspaceData workspace(*model);
     detail::PairQuery query(*model, workspace);
-    MotionCertificate certificate;
+    detail::ConfirmedContacts contacts(MotionQuery::FirstContact);
+    Effort effort;
     const detail::StraightPath path(model->kinematics, from, to);
-    detail::PairOracle oracle(*model, path, query, certificate);
+    detail::PairOracle oracle(*model, path, query, contacts, effort);
     double earliest = 1.0;
     for (const double t : times) {
-      int contacts = 0;
+      int met = 0;
       for (std::uint32_t pair = 0; pair < 3; ++pair) {
-        contacts += oracle.look(pair, t, 0.0).kind == detail::ExactAnswer::Kind::Contact ? 1 : 0;
+        met += oracle.look(pair, t, 0.0).kind == detail::ExactAnswer::Kind::Contact ? 1 : 0;
       }
-      EXPECT_EQ(contacts, 1);
+      EXPECT_EQ(met, 1);
       earliest = std::min(earliest, t);
-      ASSERT_TRUE(certificate.witness);
-      EXPECT_EQ(certificate.witness->t, earliest);
-      EXPECT_EQ(certificate.witness->bodyB, "ball at " + std::to_string(earliest));
+      ASSERT_TRUE(contacts.any());
+      EXPECT_EQ(contacts.horizon(), earliest);
+      EXPECT_EQ(contacts.earliest()->bodyB, "ball at " + std::to_string(earliest));
     }
-    EXPECT_EQ(certificate.effort.intervals, 9);
+    EXPECT_EQ(effort.intervals, 9);
   } while (std::next_permutation(times.begin(), times.end()));
 }
 
@@ -85,13 +86,14 @@ class ClaimsOfTwoLinks : public testing::Test {
     const std::vector<double> to{x + 0.01, 0.0};
     detail::WorkspaceData workspace(*model_);
     detail::PairQuery query(*model_, workspace);
-    MotionCertificate certificate;
+    detail::ConfirmedContacts contacts(MotionQuery::FirstContact);
+    Effort effort;
     const detail::StraightPath path(model_->kinematics, from, to);
-    detail::PairOracle oracle(*model_, path, query, certificate);
+    detail::PairOracle oracle(*model_, path, query, contacts, effort);
     const detail::SimdContact claim{0, {point[0], point[1], point[2]}, 0.0F};
     const bool isContact = oracle.isContact(claim, 0.5);
-    EXPECT_EQ(isContact, certificate.witness.has_value());
-    return certificate.witness;
+    EXPECT_EQ(isContact, contacts.any());
+    return contacts.earliest();
   }
 
   /// m, of a witness: how far its points are from the ball and from the box that they are said to

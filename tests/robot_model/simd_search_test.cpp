@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
+
 #include "lane_targets.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
@@ -12,7 +15,6 @@ namespace {
 
 using detail::CheckerModel;
 using detail::RobotGeometry;
-using detail::SimdAnswer;
 using enum JointType;
 
 /// Knows nothing.
@@ -46,8 +48,9 @@ class Approach {
   Real farthest() const { return farthest_; }
   bool paired() const { return !model_.pairs.empty(); }
 
-  /// What the search says with radii that add up to `sum` (m).
-  std::optional<SimdAnswer::Kind> search(double sum) {
+  /// Whether the search proves the motion with radii that add up to `sum` (m). Nothing where it
+  /// says nothing.
+  std::optional<bool> isProven(double sum) {
     const detail::GeometryPair& pair = model_.pairs.front();
     changeGeometry(model_, [&](std::vector<RobotGeometry>& geometry) {
       setRadius(geometry[pair.a], 0.5 * sum);
@@ -57,9 +60,15 @@ class Approach {
     const detail::SimdModel lanes = simdModelOf(model_);
     detail::SimdScratch scratch(lanes);
     StraightSimdMotion motion(lanes, model_.kinematics, from_, to_, scratch);
-    if (!motion.compile()) return std::nullopt;
     Silent silent;
-    return detail::searchMotion(motion.get(), silent, detail::SimdGoal::Prefix, scratch).kind;
+    const detail::ConfirmedContacts contacts(MotionQuery::FirstContact);
+    Effort effort;
+    detail::ProofWork work;
+    detail::SimdTier(motion.get(), silent, contacts, std::numeric_limits<int>::max(), scratch,
+                     effort)
+        .prove(work);
+    if (work.everything) return std::nullopt;
+    return work.isProven();
   }
 
  private:
@@ -161,15 +170,14 @@ void tryBoth(bool self, Tally& tally) {
     if (!approach.paired() || !(approach.farthest() > 1.01L * approach.nearest())) continue;
     const auto nearest = static_cast<double>(approach.nearest());
     const double depth = nearest * random.scale(1e-6, 1e-3);
-    const auto touching = approach.search(nearest + depth);
+    const auto touching = approach.isProven(nearest + depth);
     if (!touching) continue;
-    ASSERT_NE(*touching, SimdAnswer::Kind::Free)
-        << "round " << round << ": at " << static_cast<double>(approach.nearestAt()) << " by "
-        << depth;
+    ASSERT_FALSE(*touching) << "round " << round << ": at "
+                            << static_cast<double>(approach.nearestAt()) << " by " << depth;
     ++tally.asked;
     tally.inside += approach.nearestAt() > 0 && approach.nearestAt() < 1 ? 1 : 0;
-    tally.gapFree += *approach.search(0.5 * nearest) == SimdAnswer::Kind::Free ? 1 : 0;
-    tally.tightFree += *approach.search(0.95 * nearest) == SimdAnswer::Kind::Free ? 1 : 0;
+    tally.gapFree += *approach.isProven(0.5 * nearest) ? 1 : 0;
+    tally.tightFree += *approach.isProven(0.95 * nearest) ? 1 : 0;
   }
   EXPECT_GT(tally.asked, kRounds / 3);
   EXPECT_GT(tally.inside, tally.asked / 5);

@@ -192,7 +192,7 @@ void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometr
   for (std::size_t i = 0; i + 1 < outcome.states.size(); ++i) {
     const std::vector<double>& from = outcome.states[i];
     const std::vector<double>& to = outcome.states[i + 1];
-    PathSegment segment{.certificate = certifyByEither(checker, from, to, workspace),
+    PathSegment segment{.certificate = checker.certifyMotion(from, to, workspace),
                         .clearance = 0.0,
                         .clearances = {}};
     if (clearance && segment.certificate.verdict == Verdict::Free) {

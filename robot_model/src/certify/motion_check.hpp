@@ -8,8 +8,8 @@
 
 namespace swept::detail {
 
-/// Proves a motion free by adaptive bisection (after Schwarzer, Saha, Latombe 2005), each interval
-/// by the pairs' distances at its middle against bounds of their approach; see ApproachBound.
+/// Proves a motion free, by SimdTier and then ExactTier. Beside moving obstacles it does so part by
+/// part, between their waypoints.
 MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
                                 MotionQuery wanted, WorkspaceData& workspace);
 /// The same of the straight motion between two configurations.

@@ -38,6 +38,8 @@ class ClearanceSearch {
                   std::int64_t queries, const OtherClearances& others, WorkspaceData& workspace)
       : model_(model),
         workspace_(workspace),
+        now_(workspace.work.now),
+        next_(workspace.work.next),
         query_(model, workspace),
         accuracy_(accuracy),
         byKind_(byKind),
@@ -53,14 +55,10 @@ class ClearanceSearch {
       return;
     }
     lookAtAll();
-    auto& now = workspace_.generation;
-    auto& next = workspace_.nextGeneration;
-    while (!now.empty()) {
-      next.clear();
-      workspace_.nextArena.clear();
-      for (const PendingInterval& interval : now) split(interval);
-      std::swap(now, next);
-      std::swap(workspace_.arena, workspace_.nextArena);
+    while (!now_.intervals.empty()) {
+      next_.clear();
+      for (const OpenInterval& interval : now_.intervals) split(interval);
+      std::swap(now_, next_);
     }
     for (KindClearance& kind : kinds_) kind.lower = std::clamp(kind.lower, 0.0, kind.upper);
   }
@@ -72,7 +70,8 @@ class ClearanceSearch {
   std::int64_t queriesLeft() const { return queriesLeft_; }
 
  private:
-  /// The whole motion, and of all pairs those that are left open: into `generation` and `measured`.
+  /// The whole motion, and of all pairs those that are left open: into the first level and
+  /// `measured`.
   void lookAtAll() {
     auto& open = workspace_.measured;
     open.clear();
@@ -90,35 +89,31 @@ class ClearanceSearch {
     NearGeometries near(model_, query_, workspace_);
     byKind_ ? near.forNearestByKind(0.5, look, kinds_[0].upper, kinds_[1].upper)
             : near.forNearest(0.5, look, kinds_[0].upper);
-    workspace_.generation.clear();
+    now_.clear();
     if (isLast(0, open.size())) {
       for (const MeasuredPair& pair : open) settle(pair.bound, kindOf(pair.pair));
       return;
     }
-    workspace_.arena.resize(open.size());
-    std::iota(workspace_.arena.begin(), workspace_.arena.end(), 0U);
-    push({0.0, 1.0, 0, open.size()}, workspace_.generation);
+    now_.pairs.resize(open.size());
+    std::iota(now_.pairs.begin(), now_.pairs.end(), 0U);
+    pushHalves(0.0, 1.0, 0, now_);
   }
 
-  void split(const PendingInterval& interval) {
-    const double middle = 0.5 * (interval.begin + interval.end);
-    const double half = 0.5 * (interval.end - interval.begin);
-    beginAt(middle, half);
-    const std::size_t first = workspace_.nextArena.size();
+  void split(const OpenInterval& interval) {
+    beginAt(interval.middle(), interval.half());
+    const std::size_t first = next_.pairs.size();
     const bool last = isLast(first, interval.count);
-    for (std::size_t i = interval.first; i < interval.first + interval.count; ++i) {
-      const std::uint32_t index = workspace_.arena[i];
+    for (const std::uint32_t index : now_.pairsOf(interval)) {
       const GeometryPair& pair = workspace_.measured[index].pair;
       KindClearance& kind = kindOf(pair);
-      const double bound = boundPair(pair, middle, half, kind);
+      const double bound = boundPair(pair, interval.middle(), interval.half(), kind);
       if (!last && isOpen(bound, kind)) {
-        workspace_.nextArena.push_back(index);
+        next_.pairs.push_back(index);
       } else {
         settle(bound, kind);
       }
     }
-    push({interval.begin, interval.end, first, workspace_.nextArena.size() - first},
-         workspace_.nextGeneration);
+    pushHalves(interval.begin, interval.end, first, next_);
   }
 
   void beginAt(double middle, double half) {
@@ -135,14 +130,13 @@ class ClearanceSearch {
            2 * static_cast<std::int64_t>(count) > queriesLeft_ || first + count > kMostWaiting;
   }
 
-  /// The halves of an interval with what is open of it.
-  void push(const PendingInterval& open, std::vector<PendingInterval>& generation) {
-    if (open.count == 0) return;
-    const double middle = 0.5 * (open.begin + open.end);
-    generation.push_back({open.begin, middle, open.first, open.count});
-    generation.push_back({middle, open.end, open.first, open.count});
+  /// The halves of an interval with what is open of it, behind `first`.
+  void pushHalves(double begin, double end, std::size_t first, OpenWork& level) {
+    const std::size_t count = level.pairs.size() - first;
+    if (count == 0) return;
+    level.pushHalves(begin, end, first);
     waiting_ += 2;
-    queriesLeft_ -= 2 * static_cast<std::int64_t>(open.count);
+    queriesLeft_ -= 2 * static_cast<std::int64_t>(count);
   }
 
   KindClearance& kindOf(const GeometryPair& pair) {
@@ -187,6 +181,8 @@ class ClearanceSearch {
 
   const CheckerModel& model_;
   WorkspaceData& workspace_;
+  OpenWork& now_;   ///< of `measured`, by index: a level of the bisection
+  OpenWork& next_;  ///< the next one
   PairQuery query_;
   double accuracy_;
   bool byKind_;

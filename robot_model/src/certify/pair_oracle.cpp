@@ -14,8 +14,7 @@ bool PairOracle::start() {
 
 bool PairOracle::keep(std::optional<Witness> witness) {
   if (!witness) return false;
-  const bool earliest = !certificate_.witness || witness->t < certificate_.witness->t;
-  if (earliest) certificate_.witness = std::move(witness);
+  contacts_.add(*std::move(witness));
   return true;
 }
 
@@ -37,12 +36,11 @@ bool PairOracle::isInside(std::uint32_t pair, std::int32_t point, double t) {
 
 ExactAnswer PairOracle::look(std::uint32_t pair, double t, double half) {
   ExactAnswer look;
-  Effort& effort = certificate_.effort;
-  if (effort.intervals >= model_.options.maxIntervals || !start()) return look;
+  if (effort_.intervals >= model_.options.maxIntervals || !start()) return look;
   query_.moveTo(t, half);
   const PairAnswer answer = query_.prove(pair, half);
-  ++effort.intervals;
-  ++(answer.culled ? effort.culled : effort.distances);
+  ++effort_.intervals;
+  ++(answer.culled ? effort_.culled : effort_.distances);
   if (answer.status == Separation::Contact) {
     look.kind = ExactAnswer::Kind::Contact;
     keep(query_.witness(pair, t, answer));

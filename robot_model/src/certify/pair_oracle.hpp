@@ -5,17 +5,17 @@
 #include <optional>
 
 #include "certify/pair_query.hpp"
+#include "proof/confirmed_contacts.hpp"
 #include "simd/search/simd_search.hpp"
 
 namespace swept::detail {
 
-/// Looks at one motion on exact geometry, where the lane tier asks for it. Effort and the earliest
-/// witness go to the certificate.
+/// Looks at one motion on exact geometry, where the SIMD tier asks for it.
 class PairOracle final : public ExactOracle {
  public:
   PairOracle(const CheckerModel& model, const JointPath& path, PairQuery& query,
-             MotionCertificate& certificate)
-      : model_(model), path_(path), query_(query), certificate_(certificate) {}
+             ConfirmedContacts& contacts, Effort& effort)
+      : model_(model), path_(path), query_(query), contacts_(contacts), effort_(effort) {}
 
   /// Has the query take the motion, once. False: nothing can be said about it.
   bool start();
@@ -30,7 +30,8 @@ class PairOracle final : public ExactOracle {
   const CheckerModel& model_;
   const JointPath& path_;
   PairQuery& query_;
-  MotionCertificate& certificate_;
+  ConfirmedContacts& contacts_;
+  Effort& effort_;
   bool started_ = false;
 };
 

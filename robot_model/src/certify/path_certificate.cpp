@@ -21,7 +21,7 @@ constexpr std::size_t kBetween = 256;
 
 CertifiedSegment certified(const Checker& checker, ConfigurationView from, ConfigurationView to,
                            bool clearance, Workspace& workspace) {
-  CertifiedSegment segment{.certificate = certifyByEither(checker, from, to, workspace),
+  CertifiedSegment segment{.certificate = checker.certifyMotion(from, to, workspace),
                            .clearance = {}};
   if (clearance && segment.certificate.verdict != Verdict::Collision) {
     const double accuracy =
@@ -32,20 +32,6 @@ CertifiedSegment certified(const Checker& checker, ConfigurationView from, Confi
 }
 
 }  // namespace
-
-MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
-                                  ConfigurationView to, Workspace& workspace, MotionQuery first) {
-  if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment(
-        [&, from, to, first] { return certifyByEither(checker, from, to, workspace, first); });
-  }
-  MotionCertificate certificate = checker.certifyMotion(from, to, workspace, first);
-  if (certificate.verdict != Verdict::Undecided) return certificate;
-  const MotionQuery second =
-      first == MotionQuery::VerdictOnly ? MotionQuery::FirstContact : MotionQuery::VerdictOnly;
-  MotionCertificate other = checker.certifyMotion(from, to, workspace, second);
-  return other.verdict == Verdict::Free ? other : certificate;
-}
 
 Verdict PathCertificate::verdict() const {
   if (count(Verdict::Collision) > 0) return Verdict::Collision;

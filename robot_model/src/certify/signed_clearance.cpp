@@ -64,8 +64,8 @@ Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData&
 /// Of the pairs whose boxes meet; the others are apart, as is what is out of reach.
 Nearest deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   Nearest nearest;
-  NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
-  for (const std::uint32_t index : workspace.arena) {
+  NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
+  for (const std::uint32_t index : workspace.pairs) {
     const GeometryPair& pair = model.pairs[index];
     if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
     nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));

@@ -44,8 +44,8 @@ Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
                       WorkspaceData& workspace) {
   PairQuery query(model, workspace);
   if (!query.startAt(q)) return Verdict::Undecided;
-  NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
-  return provePairs(query, workspace.arena);
+  NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
+  return provePairs(query, workspace.pairs);
 }
 
 bool isContact(const CheckerModel& model, std::span<const double> q, const SimdContact& contact,
@@ -55,7 +55,7 @@ bool isContact(const CheckerModel& model, std::span<const double> q, const SimdC
   return contactPoints(model, query, contact).has_value();
 }
 
-/// What the lane tier found out in one lane, and exact geometry about the rest.
+/// What the SIMD tier found out in one lane, and exact geometry about the rest.
 Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane,
                   WorkspaceData& workspace) {
   const SimdBlock& block = workspace.simd.block;
@@ -63,13 +63,13 @@ Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane
     if (isContact(model, q, block.contacts[lane], workspace)) return Verdict::Collision;
     return checkAllPairs(model, q, workspace);
   }
-  takeOpen(lane, workspace.simd);
-  auto& pairs = workspace.simd.restArena;
+  std::vector<std::uint32_t>& pairs = workspace.pairs;
+  takeOpen(lane, block, pairs);
   if (pairs.empty()) return Verdict::Free;
   // The one most likely to be in contact first.
   const auto likelyContact = std::ranges::find(pairs, block.likelyContact.pair);
   if (likelyContact != pairs.end()) std::iter_swap(pairs.begin(), likelyContact);
-  return checkPairs(model, q, workspace.simd.restArena, workspace);
+  return checkPairs(model, q, pairs, workspace);
 }
 
 }  // namespace
@@ -158,10 +158,10 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   }
   PairQuery query(model, workspace);
   if (!query.startAt(q)) return report;
-  NearGeometries(model, query, workspace).collect(0.0, workspace.arena);
+  NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
   bool proven = true;
   std::set<std::tuple<std::string, std::string, bool>> reported;
-  for (const std::uint32_t i : workspace.arena) {
+  for (const std::uint32_t i : workspace.pairs) {
     const PairAnswer answer = query.prove(i, 0.0);
     proven = proven && answer.status == Separation::Separated;
     if (answer.status != Separation::Contact) continue;

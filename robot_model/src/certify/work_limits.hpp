@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -13,9 +12,6 @@ namespace swept::detail {
 /// Pairs that are looked at for each interval of CheckerOptions::maxIntervals, and sub-intervals in
 /// single precision, at most: where many pairs stay open, these are the work, not the intervals.
 inline constexpr std::int64_t kWorkPerInterval = 64;
-
-/// Pairs that wait for shorter intervals at most, some 30 bytes each.
-inline constexpr std::size_t kMostWaiting = std::size_t{1} << 24;
 
 /// Pair queries of one motion at most; each pair is looked at once whatever the cap.
 inline std::int64_t mostQueries(const CheckerModel& model) {
@@ -28,8 +24,10 @@ inline std::int64_t mostMeasures(const CheckerModel& model) {
   return kWorkPerInterval * model.options.maxIntervals + model.measuredPairs;
 }
 
-/// Sub-intervals of the lane tier that are left of those of one motion.
+/// Sub-intervals of the SIMD tier that are left of those of one motion. It begins with a block of
+/// eight.
 inline int subIntervalsLeft(const CheckerModel& model, const Effort& effort) {
+  if (model.options.maxIntervals < kLanes) return 0;
   const std::int64_t left = kWorkPerInterval * model.options.maxIntervals - effort.lanes;
   constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, kMost));

@@ -7,26 +7,11 @@
 #include <vector>
 
 #include "certify/checker_model.hpp"
+#include "proof/open_work.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
 
 namespace swept::detail {
-
-/// A part of a motion with the pairs not yet proven apart on it (a range of an arena of pair
-/// indices).
-struct PendingInterval {
-  double begin = 0.0;
-  double end = 1.0;
-  std::size_t first = 0;
-  std::size_t count = 0;
-};
-
-/// One pair of it.
-struct PendingPart {
-  std::uint32_t pair = 0;
-  double begin = 0.0;
-  double end = 1.0;
-};
 
 /// A pair among which the least clearance of a motion is looked for.
 struct MeasuredPair {
@@ -72,13 +57,9 @@ struct WorkspaceData {
   std::vector<double> arms;              ///< m, of one travel
   std::vector<Eigen::Vector3d> hints;    ///< per pair, within one motion: last direction found
   std::vector<std::int64_t> hintStamps;
-  std::vector<std::uint32_t> arena, nextArena, failed;
-  std::vector<PendingInterval> generation, nextGeneration;
+  ProofWork work;                    ///< of the current motion
+  std::vector<std::uint32_t> pairs;  ///< to look at, of a state
   SimdScratch simd;
-  /// What the lane tier left open, in order of time.
-  std::vector<PendingInterval> pending;
-  std::vector<std::uint32_t> pendingArena;
-  std::vector<PendingPart> parts;
   std::vector<MeasuredPair> measured;
   BroadphaseScratch boxes;
   /// Whole configurations: see KinematicModel. Empty without moving obstacles.

@@ -19,9 +19,9 @@ namespace swept {
 std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
                                                   const Checker& checker);
 
-/// Certificates, by certifyByEither(), of all segments of a path, in order: one fewer than it has
-/// states. They say nothing about bounds. Throws std::invalid_argument when the path is not one of
-/// the checker's group.
+/// Certificates, by Checker::certifyMotion(), of all segments of a path, in order: one fewer than
+/// it has states. They say nothing about bounds. Throws std::invalid_argument when the path is not
+/// one of the checker's group.
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker);
 

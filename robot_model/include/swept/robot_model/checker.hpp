@@ -188,6 +188,7 @@ class Checker {
   /// What is proven about the motion from one configuration to another. Undecided, too, where an
   /// end is not finite. Limits do not enter it, but for those of prismatic joints (see checkState):
   /// an end that is a little beyond a limit is where it is given.
+  /// Every query gives the same verdict.
   MotionCertificate certifyMotion(ConfigurationView from, ConfigurationView to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;

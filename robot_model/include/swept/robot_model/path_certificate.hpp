@@ -13,17 +13,9 @@
 
 namespace swept {
 
-/// The motion by one query, and by the other one where that leaves it undecided. Near the tolerance
-/// a proof may hang on the order in which a motion is looked at, and the two queries have each its
-/// own: where `first` leaves the motion undecided and the other one proves it free, the certificate
-/// is the other's.
-MotionCertificate certifyByEither(const Checker& checker, ConfigurationView from,
-                                  ConfigurationView to, Workspace& workspace,
-                                  MotionQuery first = MotionQuery::FirstContact);
-
 /// The motion from one state of a path to the next.
 struct CertifiedSegment {
-  MotionCertificate certificate;  ///< of certifyByEither()
+  MotionCertificate certificate;  ///< by MotionQuery::FirstContact
   /// By kinds of pairs. None where the verdict is Collision, or it was not asked for.
   std::optional<MotionClearance> clearance;
 };

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "kinematics/motion_model.hpp"
@@ -175,25 +174,6 @@ struct SimdScratch {
   float rounding = 0.0F;      ///< m, of this motion
   bool curved = false;        ///< its rates change
   bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
-  /// Sub-intervals with the pairs still open on them: now, and of the next halving.
-  struct Item {
-    float time = 0.5F;
-    float half = 0.5F;
-    std::size_t first = 0;
-    std::size_t count = 0;
-  };
-  std::vector<Item> now, next, rest;
-  int mostIntervals = std::numeric_limits<int>::max();  ///< to be examined
-  /// Pairs that may wait for shorter sub-intervals, or for the exact tier.
-  std::size_t mostWaiting = std::numeric_limits<std::size_t>::max();
-  /// One pair on one sub-interval.
-  struct Part {
-    std::uint32_t pair = 0;
-    float time = 0.5F;
-    float half = 0.5F;
-  };
-  std::vector<Part> parts, waiting;
-  std::vector<std::uint32_t> arena, nextArena, restArena;
   std::vector<std::uint32_t> wanted;      ///< pairs of the block
   std::vector<std::uint8_t> wantedLanes;  ///< per pair of the model
   std::vector<SimdHit> asked;

@@ -16,30 +16,30 @@ constexpr std::size_t kMostParts = 64;
 constexpr int kMostLooks = 6;
 /// m per half-interval. Shorter ones the exact tier does as well.
 constexpr float kFinestInflation = 2e-4F;
+/// Middles of shorter half-intervals need not be exact in single precision.
+constexpr double kFinestHalf = 0x1p-20;
 
 class Division {
  public:
-  Division(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch,
-           SimdAnswer& answer)
-      : model_(motion.model()),
-        motion_(motion),
-        oracle_(oracle),
-        scratch_(scratch),
-        answer_(answer),
-        decides_(goal == SimdGoal::Verdict) {}
+  explicit Division(SimdSearch& search)
+      : search_(search),
+        model_(search.motion.model()),
+        open_(search.work.open),
+        waiting_(search.work.waiting),
+        scratch_(search.scratch) {}
 
   bool run() {
     sortByPair();
-    auto& parts = scratch_.parts;
+    const std::vector<OpenPart>& parts = search_.work.parts;
     std::size_t first = 0;
     while (first < parts.size()) {
       std::size_t last = first;
       while (last < parts.size() && parts[last].pair == parts[first].pair) ++last;
-      scratch_.waiting.assign(parts.begin() + static_cast<std::ptrdiff_t>(first),
-                              parts.begin() + static_cast<std::ptrdiff_t>(last));
+      waiting_.assign(parts.begin() + static_cast<std::ptrdiff_t>(first),
+                      parts.begin() + static_cast<std::ptrdiff_t>(last));
       first = last;
-      if (isSpent() || !canDivide(model_, scratch_.waiting.front().pair)) {
-        for (const Part& part : scratch_.waiting) leave(part);
+      if (search_.isSpent() || !canDivide(model_, waiting_.front().pair)) {
+        for (const OpenPart& part : waiting_) leave(part);
       } else if (dividePair()) {
         return true;
       }
@@ -48,36 +48,30 @@ class Division {
   }
 
  private:
-  using Part = SimdScratch::Part;
-
-  bool isSpent() const { return answer_.intervals >= scratch_.mostIntervals; }
-
   void sortByPair() {
-    auto& parts = scratch_.parts;
+    std::vector<OpenPart>& parts = search_.work.parts;
     parts.clear();
-    for (const SimdScratch::Item& item : scratch_.rest)
-      for (std::size_t i = item.first; i < item.first + item.count; ++i)
-        parts.push_back({scratch_.restArena[i], item.time, item.half});
-    std::ranges::sort(parts, [](const Part& a, const Part& b) {
-      return a.pair != b.pair ? a.pair < b.pair : a.time < b.time;
+    for (const OpenInterval& interval : open_.intervals)
+      for (const std::uint32_t pair : open_.pairsOf(interval))
+        parts.push_back({pair, interval.begin, interval.end});
+    std::ranges::sort(parts, [](const OpenPart& a, const OpenPart& b) {
+      return a.pair != b.pair ? a.pair < b.pair : a.middle() < b.middle();
     });
-    scratch_.rest.clear();
-    scratch_.restArena.clear();
+    open_.clear();
   }
 
   bool dividePair() {
     looks_ = 0;
     beginSeen_ = endSeen_ = inContact_ = false;
-    auto& waiting = scratch_.waiting;
     std::size_t done = 0;
-    while (done < waiting.size()) {
+    while (done < waiting_.size()) {
       fillLanes(done);
-      const std::size_t count = std::min<std::size_t>(kLanes, waiting.size() - done);
+      const std::size_t count = std::min<std::size_t>(kLanes, waiting_.size() - done);
       place(done, count);
       std::uint32_t open = (1U << count) - 1;
-      if (!inContact_ && examine(waiting[done].pair, open)) return true;
+      if (!inContact_ && examine(waiting_[done].pair, open)) return true;
       for (; open != 0; open &= open - 1)
-        handOn(waiting[done + static_cast<std::size_t>(std::countr_zero(open))]);
+        handOn(waiting_[done + static_cast<std::size_t>(std::countr_zero(open))]);
       done += count;
     }
     return false;
@@ -85,38 +79,32 @@ class Division {
 
   /// Halves those from `first` on until they fill the lanes: a look costs more than they do.
   void fillLanes(std::size_t first) {
-    auto& waiting = scratch_.waiting;
-    while (2 * (waiting.size() - first) <= kLanes && !isFine(waiting[first])) {
-      const std::size_t last = waiting.size();
+    while (2 * (waiting_.size() - first) <= kLanes && !isFine(waiting_[first])) {
+      const std::size_t last = waiting_.size();
       for (std::size_t i = first; i < last; ++i) {
-        const Part whole = waiting[i];
-        waiting.push_back(half(whole, 1.0F));
-        waiting[i] = half(whole, -1.0F);
+        const OpenPart whole = waiting_[i];
+        waiting_.push_back({whole.pair, whole.middle(), whole.end});
+        waiting_[i].end = whole.middle();
       }
-      std::ranges::sort(waiting.begin() + static_cast<std::ptrdiff_t>(first), waiting.end(), {},
-                        &Part::time);
+      std::ranges::sort(waiting_.begin() + static_cast<std::ptrdiff_t>(first), waiting_.end(), {},
+                        &OpenPart::middle);
     }
   }
 
-  static Part half(const Part& whole, float side) {
-    const float half = 0.5F * whole.half;
-    return {whole.pair, whole.time + side * half, half};
-  }
-
-  bool isFine(const Part& part) const {
-    return 0.5F * part.half * part.half * answer_.acceleration < kFinestInflation;
+  bool isFine(const OpenPart& part) const {
+    return part.half() < kFinestHalf ||
+           search_.inflation(static_cast<float>(part.half())) < kFinestInflation;
   }
 
   void place(std::size_t first, std::size_t count) {
     SimdBlock& block = scratch_.block;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const Part& part = scratch_.waiting[first + std::min(lane, count - 1)];
-      block.time.lane[lane] = part.time;
-      block.half.lane[lane] = part.half;
+      const OpenPart& part = waiting_[first + std::min(lane, count - 1)];
+      block.time.lane[lane] = static_cast<float>(part.middle());
+      block.half.lane[lane] = static_cast<float>(part.half());
     }
-    answer_.intervals += static_cast<int>(count);
-    const SimdPairSource& source = model_.sources[scratch_.waiting[first].pair];
-    placePair(source);
+    search_.examined += static_cast<int>(count);
+    placePair(model_.sources[waiting_[first].pair]);
   }
 
   void placePair(const SimdPairSource& source) {
@@ -127,7 +115,7 @@ class Division {
       const std::vector<int>& ofB = model_.ancestors[model_.geometryBody[source.other]];
       scratch_.bodies.insert(scratch_.bodies.end(), std::ranges::mismatch(ofA, ofB).in2, ofB.end());
     }
-    motion_.place(scratch_.bodies);
+    search_.motion.place(scratch_.bodies);
   }
 
   /// A time at which exact geometry is asked about the pair, and around it.
@@ -137,13 +125,14 @@ class Division {
     double half;
   };
 
-  /// The middle of what is open, but first the ends of the motion that it reaches: contacts that
-  /// begin or end beyond the motion are deepest there.
+  /// The middle of what is open. Until there is a contact, the ends of the motion that it reaches
+  /// come first: contacts that begin or end beyond the motion are deepest there.
   Look nextLook(std::uint32_t open) {
+    const bool seeks = !search_.contacts.any();
     const int first = std::countr_zero(open);
     const int last = std::bit_width(open) - 1;
-    const bool atBegin = decides_ && !beginSeen_ && timeOf(first) - halfOf(first) <= 0.0;
-    const bool atEnd = decides_ && !endSeen_ && timeOf(last) + halfOf(last) >= 1.0;
+    const bool atBegin = seeks && !beginSeen_ && timeOf(first) - halfOf(first) <= 0.0;
+    const bool atEnd = seeks && !endSeen_ && timeOf(last) + halfOf(last) >= 1.0;
     const bool onlyOne = atBegin != atEnd;
     if (atEnd && (onlyOne || looks_ > 0)) {
       endSeen_ = true;
@@ -157,17 +146,16 @@ class Division {
     return {lane, timeOf(lane), halfOf(lane)};
   }
 
-  /// True: a contact. Leaves in `open` what is not proven.
+  /// True: a contact settles the search. Leaves in `open` what is not proven.
   bool examine(std::uint32_t pair, std::uint32_t& open) {
     while (open != 0 && looks_ < kMostLooks) {
       const Look at = nextLook(open);
       ++looks_;
-      const ExactAnswer look = oracle_.look(pair, at.t, at.half);
+      const ExactAnswer look = search_.oracle.look(pair, at.t, at.half);
       if (look.kind == ExactAnswer::Kind::Contact) {
         // Where the first contact is wanted, the exact tier looks for it.
         inContact_ = true;
-        answer_.horizon = std::min(answer_.horizon, static_cast<float>(at.t));
-        return decides_;
+        return search_.contacts.settle();
       }
       std::uint32_t apart = look.kind == ExactAnswer::Kind::Apart ? 1U << at.lane : 0U;
       if (look.directed)
@@ -189,28 +177,28 @@ class Division {
   double halfOf(int lane) const { return static_cast<double>(scratch_.block.half.lane[lane]); }
 
   /// In halves, or to the exact tier.
-  void handOn(Part part) {
-    const bool enough = scratch_.waiting.size() >= kMostParts || looks_ >= kMostLooks;
-    if (enough || inContact_ || isSpent() || isFine(part)) {
+  void handOn(OpenPart part) {
+    const bool enough = waiting_.size() >= kMostParts || looks_ >= kMostLooks;
+    if (enough || inContact_ || search_.isSpent() || isFine(part)) {
       leave(part);
       return;
     }
-    scratch_.waiting.push_back(half(part, -1.0F));
-    scratch_.waiting.push_back(half(part, 1.0F));
+    const double middle = part.middle();
+    waiting_.insert(waiting_.end(),
+                    {{part.pair, part.begin, middle}, {part.pair, middle, part.end}});
   }
 
-  void leave(const Part& part) {
-    if (part.time - part.half >= answer_.horizon) return;
-    scratch_.rest.push_back({part.time, part.half, scratch_.restArena.size(), 1});
-    scratch_.restArena.push_back(part.pair);
+  void leave(const OpenPart& part) {
+    if (part.begin >= search_.contacts.horizon()) return;
+    open_.intervals.push_back({part.begin, part.end, open_.pairs.size(), 1});
+    open_.pairs.push_back(part.pair);
   }
 
+  SimdSearch& search_;
   const SimdModel& model_;
-  SimdMotion& motion_;
-  ExactOracle& oracle_;
+  OpenWork& open_;
+  std::vector<OpenPart>& waiting_;
   SimdScratch& scratch_;
-  SimdAnswer& answer_;
-  const bool decides_;  ///< a contact
   int looks_ = 0;
   bool beginSeen_ = false;  ///< of the pair
   bool endSeen_ = false;
@@ -219,9 +207,8 @@ class Division {
 
 }  // namespace
 
-bool dividePairs(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch,
-                 SimdAnswer& answer) {
-  return Division(motion, oracle, goal, scratch, answer).run();
+bool dividePairs(SimdSearch& search) {
+  return Division(search).run();
 }
 
 }  // namespace swept::detail

@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "simd/compile/simd_model.hpp"
-#include "simd/kernels/simd_scratch.hpp"
+#include "simd/kernels/simd_motion.hpp"
 #include "simd/search/simd_search.hpp"
 
 namespace swept::detail {
 
-/// Takes from scratch.rest what planes between the hulls of two bodies prove. Their directions come
-/// from exact geometry at one time; each serves for all sub-intervals around it. True: the oracle
-/// found a contact that decides.
-bool dividePairs(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch,
-                 SimdAnswer& answer);
+/// The state of one motion's search in single precision.
+struct SimdSearch {
+  SimdMotion& motion;
+  ExactOracle& oracle;
+  const ConfirmedContacts& contacts;
+  ProofWork& work;
+  SimdScratch& scratch;
+  int mostIntervals = 0;      ///< to examine
+  int examined = 0;           ///< sub-intervals
+  float acceleration = 0.0F;  ///< m per unit t squared, bounds that of all ball centres
+
+  bool isSpent() const { return examined >= mostIntervals; }
+  /// m. By how much the balls of a sub-interval grow, `half` being half its width.
+  float inflation(float half) const { return 0.5F * half * half * acceleration; }
+};
+
+/// Takes from `work.open` what planes between the hulls of two bodies prove. Exact geometry at one
+/// time gives their directions, and each serves for all sub-intervals around it. True: a contact
+/// settles the search.
+bool dividePairs(SimdSearch& search);
 
 }  // namespace swept::detail

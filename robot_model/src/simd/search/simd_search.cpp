@@ -17,127 +17,103 @@ namespace {
 /// m. Intervals whose inflation is below this gain nothing from halving that the exact tier does
 /// not do better.
 constexpr float kFinestInflation = 1e-3F;
-/// Halvings after the first block, and sub-intervals in one generation, at most.
-constexpr int kMostGenerations = 6;
-constexpr std::size_t kMostItems = 256;
+/// Halvings after the first block, and sub-intervals in one level of these, at most.
+constexpr int kMostLevels = 6;
+constexpr std::size_t kMostIntervals = 256;
 
 void forgetOpen(SimdBlock& block) {
   for (const std::uint32_t pair : block.open) block.openLanes[pair] = block.finalLanes[pair] = 0;
   block.open.clear();
 }
 
-/// Suspects of one motion that the oracle is asked about, at most: each costs more than a block.
+/// Likely contacts of one motion that the oracle is asked about, at most: each costs more than a
+/// block.
 constexpr int kMostLikelyContacts = 4;
 /// Points of a link that exact geometry is asked about, of those that seem to be in an obstacle.
 constexpr std::int32_t kMostPoints = 2;
 
 class MotionSearch {
  public:
-  MotionSearch(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal, SimdScratch& scratch)
-      : model_(motion.model()), motion_(motion), oracle_(oracle), goal_(goal), scratch_(scratch) {
-    for (const Row& row : scratch.bounds[0].acceleration)
-      for (const float value : row.lane)
-        answer_.acceleration = std::max(answer_.acceleration, value);
-  }
+  explicit MotionSearch(SimdSearch& search)
+      : search_(search),
+        model_(search.motion.model()),
+        oracle_(search.oracle),
+        contacts_(search.contacts),
+        work_(search.work),
+        scratch_(search.scratch) {}
 
-  SimdAnswer run() {
+  void run() {
     SimdBlock& block = scratch_.block;
     block.mode = SimdMode::Motion;
-    for (auto* items : {&scratch_.next, &scratch_.rest}) items->clear();
-    for (auto* pairs : {&scratch_.nextArena, &scratch_.restArena}) pairs->clear();
+    work_.open.clear();
+    work_.next.clear();
     forgetOpen(block);
-    if (first()) return contact();
+    if (first()) return;
     collect();
-    for (int generation = 0; !scratch_.next.empty() && !tooMany(); ++generation) {
-      std::swap(scratch_.now, scratch_.next);
-      std::swap(scratch_.arena, scratch_.nextArena);
-      scratch_.next.clear();
-      scratch_.nextArena.clear();
-      forgetBehind(scratch_.now);
-      last_ = generation + 1 >= kMostGenerations || scratch_.now.size() > kMostItems / 2 ||
-              answer_.intervals >= scratch_.mostIntervals;
-      for (std::size_t i = 0; i < scratch_.now.size() && !tooMany(); i += kLanes) {
-        if (examine(i)) return contact();
+    for (int level = 0; !work_.next.intervals.empty() && !tooMany(); ++level) {
+      std::swap(work_.now, work_.next);
+      work_.next.clear();
+      forgetBehind(work_.now);
+      const std::size_t count = work_.now.intervals.size();
+      last_ = level + 1 >= kMostLevels || count > kMostIntervals / 2 || search_.isSpent();
+      for (std::size_t i = 0; i < count && !tooMany(); i += kLanes) {
+        if (examine(i)) return;
         collect();
       }
     }
-    if (tooMany()) {
-      answer_.kind = SimdAnswer::Kind::TooMany;
-      return answer_;
-    }
-    forgetBehind(scratch_.rest);
-    if (!scratch_.rest.empty() && dividePairs(motion_, oracle_, goal_, scratch_, answer_))
-      return contact();
-    if (!scratch_.rest.empty()) {
-      answer_.kind = SimdAnswer::Kind::Open;
-    } else {
-      const bool met = answer_.horizon <= 1.0F;
-      answer_.kind = met ? SimdAnswer::Kind::Contact : SimdAnswer::Kind::Free;
-    }
-    return answer_;
+    if (tooMany()) return;
+    forgetBehind(work_.open);
+    if (!work_.open.intervals.empty() && dividePairs(search_)) return;
+    work_.everything = false;
+    if (work_.open.intervals.empty()) work_.provenUntil = std::min(contacts_.horizon(), 1.0);
   }
 
  private:
-  SimdAnswer contact() {
-    answer_.kind = SimdAnswer::Kind::Contact;
-    return answer_;
-  }
-
-  bool tooMany() const {
-    return scratch_.nextArena.size() + scratch_.restArena.size() > scratch_.mostWaiting;
-  }
+  bool tooMany() const { return work_.next.pairs.size() + work_.open.pairs.size() > kMostWaiting; }
 
   double timeOf(int lane) const { return static_cast<double>(scratch_.block.time.lane[lane]); }
+  double halfOf(int lane) const { return static_cast<double>(scratch_.block.half.lane[lane]); }
 
-  void forgetBehind(std::vector<SimdScratch::Item>& items) const {
-    std::erase_if(items, [this](const SimdScratch::Item& item) {
-      return item.time - item.half >= answer_.horizon;
+  void forgetBehind(OpenWork& work) const {
+    std::erase_if(work.intervals, [this](const OpenInterval& interval) {
+      return interval.begin >= contacts_.horizon();
     });
   }
 
   /// Lanes that begin no earlier than a contact.
   std::uint32_t lanesBehind() const {
-    const SimdBlock& block = scratch_.block;
     std::uint32_t lanes = 0;
+    if (!contacts_.any()) return lanes;
     for (int lane = 0; lane < kLanes; ++lane)
-      if (block.time.lane[lane] - block.half.lane[lane] >= answer_.horizon) lanes |= 1U << lane;
+      if (timeOf(lane) - halfOf(lane) >= contacts_.horizon()) lanes |= 1U << lane;
     return lanes;
   }
 
-  /// Whether the search is over with this contact.
-  bool decides(int lane) {
-    answer_.horizon = std::min(answer_.horizon, scratch_.block.time.lane[lane]);
-    return goal_ == SimdGoal::Verdict;
-  }
-
-  /// Walks until it is through or the oracle has confirmed a contact that decides. Otherwise the
-  /// walk is repeated for what lies before the contact, without looking for more; and a claim that
-  /// is not confirmed is not made a second time.
+  /// Walks until it is through or the oracle has confirmed a contact that settles the search.
+  /// Otherwise the walk is repeated for what lies before the contact, without looking for more; and
+  /// a claim that is not confirmed is not made a second time.
   template <typename Walk>
   bool walk(const Walk& walkAll) {
     SimdBlock& block = scratch_.block;
     block.likelyContact = {};
     block.contactLanes = lanesBehind();
-    block.stopAtContact = contacts_;
+    block.stopAtContact = seeksContacts_;
     const std::uint32_t behind = block.contactLanes;
     if (walkAll()) {
       const int lane = std::countr_zero(block.contactLanes & ~behind);
-      const bool confirmed = oracle_.isContact(block.contacts[lane], timeOf(lane));
-      if (confirmed && decides(lane)) return true;
-      contacts_ = confirmed;
+      seeksContacts_ = oracle_.isContact(block.contacts[lane], timeOf(lane));
+      if (contacts_.settle()) return true;
       block.contactLanes = lanesBehind();
       block.stopAtContact = false;
       walkAll();
       return false;
     }
-    if (!contacts_ || block.likelyContact.lane < 0 || likelyContacts_ == kMostLikelyContacts)
+    if (!seeksContacts_ || block.likelyContact.lane < 0 || likelyContacts_ == kMostLikelyContacts)
       return false;
     ++likelyContacts_;
-    const bool confirmed =
-        isInside(block.likelyContact) ||
-        oracle_.look(block.likelyContact.pair, timeOf(block.likelyContact.lane), 0.0).kind ==
-            ExactAnswer::Kind::Contact;
-    return confirmed && decides(block.likelyContact.lane);
+    if (!isInside(block.likelyContact))
+      oracle_.look(block.likelyContact.pair, timeOf(block.likelyContact.lane), 0.0);
+    return contacts_.settle();
   }
 
   /// Some point of the link's surface in an obstacle.
@@ -157,8 +133,8 @@ class MotionSearch {
       block.time.lane[lane] = (2.0F * static_cast<float>(lane) + 1.0F) / (2.0F * kLanes);
       block.half.lane[lane] = 1.0F / (2.0F * kLanes);
     }
-    answer_.intervals += kLanes;
-    motion_.place(model_.allBodies);
+    search_.examined += kLanes;
+    search_.motion.place(model_.allBodies);
     return walk([&] { return walkWorld(model_, scratch_) || walkSelf(model_, scratch_); });
   }
 
@@ -176,46 +152,48 @@ class MotionSearch {
 
   void collectLane(int lane, int parts) {
     const SimdBlock& block = scratch_.block;
-    const float time = block.time.lane[lane];
-    const float half = block.half.lane[lane];
-    if (time - half >= answer_.horizon) return;
-    const bool fine = last_ || 0.5F * half * half * answer_.acceleration < kFinestInflation;
-    const std::size_t rest = scratch_.restArena.size();
-    const std::size_t next = scratch_.nextArena.size();
+    const double begin = timeOf(lane) - halfOf(lane);
+    const double end = timeOf(lane) + halfOf(lane);
+    if (begin >= contacts_.horizon()) return;
+    const bool fine = last_ || search_.inflation(block.half.lane[lane]) < kFinestInflation;
+    OpenWork& open = work_.open;
+    OpenWork& next = work_.next;
+    const std::size_t firstOpen = open.pairs.size();
+    const std::size_t firstNext = next.pairs.size();
     for (const std::uint32_t pair : block.open) {
       if ((block.openLanes[pair] >> lane & 1U) == 0) continue;
       const bool final = fine || (block.finalLanes[pair] >> lane & 1U) != 0;
-      (final ? scratch_.restArena : scratch_.nextArena).push_back(pair);
+      (final ? open : next).pairs.push_back(pair);
     }
-    if (scratch_.restArena.size() > rest)
-      scratch_.rest.push_back({time, half, rest, scratch_.restArena.size() - rest});
-    const std::size_t count = scratch_.nextArena.size() - next;
+    if (open.pairs.size() > firstOpen)
+      open.intervals.push_back({begin, end, firstOpen, open.pairs.size() - firstOpen});
+    const std::size_t count = next.pairs.size() - firstNext;
     if (count == 0) return;
-    const float part = half / static_cast<float>(parts);
+    const double length = (end - begin) / parts;
     for (int i = 0; i < parts; ++i) {
-      const float middle = time - half + part * static_cast<float>(2 * i + 1);
-      if (middle - part < answer_.horizon) scratch_.next.push_back({middle, part, next, count});
+      const double at = begin + i * length;
+      if (at < contacts_.horizon()) next.intervals.push_back({at, at + length, firstNext, count});
     }
   }
 
   /// Up to eight of the current sub-intervals, each with its own pairs.
   bool examine(std::size_t from) {
     SimdBlock& block = scratch_.block;
-    const std::size_t count = std::min<std::size_t>(kLanes, scratch_.now.size() - from);
+    const std::vector<OpenInterval>& intervals = work_.now.intervals;
+    const std::size_t count = std::min<std::size_t>(kLanes, intervals.size() - from);
     scratch_.wanted.clear();
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       // Lanes not in use repeat the first, and nothing is asked of them.
-      const SimdScratch::Item& item = scratch_.now[from + (lane < count ? lane : 0)];
-      block.time.lane[lane] = item.time;
-      block.half.lane[lane] = item.half;
+      const OpenInterval& interval = intervals[from + (lane < count ? lane : 0)];
+      block.time.lane[lane] = static_cast<float>(interval.middle());
+      block.half.lane[lane] = static_cast<float>(interval.half());
       if (lane >= count) continue;
-      for (std::size_t i = item.first; i < item.first + item.count; ++i) {
-        const std::uint32_t pair = scratch_.arena[i];
+      for (const std::uint32_t pair : work_.now.pairsOf(interval)) {
         if (scratch_.wantedLanes[pair] == 0) scratch_.wanted.push_back(pair);
         scratch_.wantedLanes[pair] |= static_cast<std::uint8_t>(1U << lane);
       }
     }
-    answer_.intervals += static_cast<int>(count);
+    search_.examined += static_cast<int>(count);
     std::ranges::sort(scratch_.wanted);
     place();
     const bool contact = walk([&] { return askAll(); });
@@ -263,25 +241,34 @@ class MotionSearch {
     scratch_.bodies.clear();
     for (const int body : model_.allBodies)
       if (scratch_.bodyWanted[body] != 0) scratch_.bodies.push_back(body);
-    motion_.place(scratch_.bodies);
+    search_.motion.place(scratch_.bodies);
   }
 
+  SimdSearch& search_;
   const SimdModel& model_;
-  SimdMotion& motion_;
   ExactOracle& oracle_;
-  const SimdGoal goal_;
-  bool contacts_ = true;  ///< looked for
+  const ConfirmedContacts& contacts_;
+  ProofWork& work_;
   SimdScratch& scratch_;
-  SimdAnswer answer_;
+  bool seeksContacts_ = true;
   int likelyContacts_ = 0;
   bool last_ = false;
 };
 
 }  // namespace
 
-SimdAnswer searchMotion(SimdMotion& motion, ExactOracle& oracle, SimdGoal goal,
-                        SimdScratch& scratch) {
-  return MotionSearch(motion, oracle, goal, scratch).run();
+void SimdTier::prove(ProofWork& work) {
+  if (!motion_.model().usable || mostIntervals_ <= 0 || !motion_.compile()) return;
+  SimdSearch search{.motion = motion_,
+                    .oracle = oracle_,
+                    .contacts = contacts_,
+                    .work = work,
+                    .scratch = scratch_,
+                    .mostIntervals = mostIntervals_};
+  for (const Row& row : scratch_.bounds[0].acceleration)
+    for (const float value : row.lane) search.acceleration = std::max(search.acceleration, value);
+  MotionSearch(search).run();
+  effort_.lanes += search.examined;
 }
 
 void searchStates(const SimdModel& model, SimdMode mode, SimdContacts contacts,
@@ -299,11 +286,10 @@ void searchStates(const SimdModel& model, SimdMode mode, SimdContacts contacts,
   if (!walkWorld(model, scratch)) walkSelf(model, scratch);
 }
 
-void takeOpen(int lane, SimdScratch& scratch) {
-  const SimdBlock& block = scratch.block;
-  scratch.restArena.clear();
+void takeOpen(int lane, const SimdBlock& block, std::vector<std::uint32_t>& pairs) {
+  pairs.clear();
   for (const std::uint32_t pair : block.open)
-    if ((block.openLanes[pair] >> lane & 1U) != 0) scratch.restArena.push_back(pair);
+    if ((block.openLanes[pair] >> lane & 1U) != 0) pairs.push_back(pair);
 }
 
 }  // namespace swept::detail
