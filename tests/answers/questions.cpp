@@ -306,10 +306,10 @@ void askMotions(const Site& site, Workspace*, Random& random, Answer& answer) {
   for (const MotionCertificate& certificate : certificates) put(answer, certificate);
 }
 
-void askByEither(const Site& site, Workspace* workspace, Random& random, Answer& answer) {
+void askBothQueries(const Site& site, Workspace* workspace, Random& random, Answer& answer) {
   const Ends motion = asked(anyMotion(site, random), answer);
-  const MotionQuery query = anyQuery(random);
-  put(answer, site.checker->certifyMotion(motion.from, motion.to, *workspace, query));
+  for (const MotionQuery query : {MotionQuery::VerdictOnly, MotionQuery::FirstContact})
+    put(answer, site.checker->certifyMotion(motion.from, motion.to, *workspace, query));
 }
 
 ClearanceQuery anyClearance(Random& random, Answer& answer) {
@@ -510,7 +510,7 @@ constexpr std::array kKinds{
     Kind{"no_motion", 0.004, About::Scene, true, askMotion<kContact, noMotion>},
     Kind{"touching", 0.03, About::Scene, false, askTouching},
     Kind{"motions", 0.006, About::Scene, true, askMotions},
-    Kind{"either", 0.01, About::Scene, true, askByEither},
+    Kind{"both", 0.01, About::Scene, true, askBothQueries},
     Kind{"motion_clearance", 0.008, About::Scene, false, askMotionClearance},
     Kind{"path_clearance", 0.0025, About::Scene, false, askPathClearance},
     Kind{"path", 0.003, About::Scene, true, askPath},
