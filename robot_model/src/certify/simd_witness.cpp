@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/simd_witness.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "swept/core/distance.hpp"
+#include "swept/core/sphere_cover.hpp"
 
 namespace swept::detail {
 
@@ -24,6 +27,25 @@ Vector3d nearestOf(const CheckerModel& model, PairQuery& query, int geometry,
   return found.upper > 0.0 ? Vector3d(point + found.pointB) : point;
 }
 
+/// Whether a ball that is known to be inside the geometry has the point (m, model frame) in it.
+bool isInInnerBall(const CheckerModel& model, PairQuery& query, int geometry,
+                   const Vector3d& point) {
+  const std::shared_ptr<const SphereCover>& cover = model.robotGeometry[geometry].cover;
+  if (cover == nullptr) return false;
+  const Eigen::Isometry3d& world_from_shape = query.pose(geometry);
+  const Vector3d local =
+      world_from_shape.linear().transpose() * (point - world_from_shape.translation());
+  const auto holds = [&local](const CoverBall& ball, float radius) {
+    const auto inside = static_cast<double>(radius);
+    return inside > 0.0 && (ball.center.cast<double>() - local).squaredNorm() <= inside * inside;
+  };
+  return std::ranges::any_of(cover->inner,
+                             [&](const CoverBall& ball) { return holds(ball, ball.radius); }) ||
+         std::ranges::any_of(cover->nodes, [&](const SphereCover::Node& node) {
+           return holds(node.ball, node.inside);
+         });
+}
+
 /// The single-precision point is in both links, or in one and by a rounding off the surface of the
 /// other. So the point of either that is nearest to it may be in the other.
 std::optional<ContactPoints> pointsOfLinks(const CheckerModel& model, PairQuery& query,
@@ -31,6 +53,8 @@ std::optional<ContactPoints> pointsOfLinks(const CheckerModel& model, PairQuery&
   const auto near = [&pair](const ContactPoints& points) {
     return (points.b - points.a).norm() <= pair.margin;
   };
+  if (isInInnerBall(model, query, pair.a, point) && isInInnerBall(model, query, pair.b, point))
+    return ContactPoints{point, point};
   ContactPoints points;
   points.a = nearestOf(model, query, pair.a, point);
   points.b = nearestOf(model, query, pair.b, points.a);
