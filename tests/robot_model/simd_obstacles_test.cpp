@@ -27,6 +27,7 @@ HWY_AFTER_NAMESPACE();
 #include <map>
 
 #include "lane_targets.hpp"
+#include "rounding/error_model.hpp"
 #include "simd_robots.hpp"
 #include "swept/core/axis_frame.hpp"
 #include "swept/core/distance.hpp"
@@ -111,7 +112,7 @@ Scene sceneOf(Random& random, Kind kind) {
   scene.world_from_shape = random.pose(offset);
   const WorldGeometry geometry = worldGeometry(scene.shape, scene.world_from_shape);
   scene.reach = scene.world_from_shape.translation().norm() + 8.0 * scene.size;
-  scene.slack = 32.0 * kSingle * (scene.reach + geometry.magnitude);
+  scene.slack = obstacleRounding(scene.reach, geometry.magnitude);
   scene.world = compileObstacles({geometry}, scene.reach, true);
   return scene;
 }
@@ -175,8 +176,7 @@ std::array<double, kLanes> laneDistances(const Scene& scene, const Segments& seg
   return distances;
 }
 
-/// What the walks add to every radius for the roundings of squares and roots.
-constexpr double kOutward = 1.0 + 2e-6;
+constexpr double kOutward = kBallOutward;
 
 struct Tally {
   int apart = 0;     ///< segments that do not meet the obstacle

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "rounding/error_model.hpp"
 #include "simd/compile/obstacles.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/placed_ball.hpp"
@@ -238,7 +239,7 @@ struct FieldAnswer {
 HWY_INLINE FieldAnswer askField(const SimdField& field, const Segment& segment, const F8& radius,
                                 Lanes wanted) {
   const V3 x = inFrame(field, segment.x, true);
-  const F8 length = root(dot(segment.g, segment.g)) * set(1.0F + 1e-6F);
+  const F8 length = root(dot(segment.g, segment.g)) * set(kLengthOutward);
   FieldAnswer answer;
   answer.middle = clearance(field, x, radius + length, wanted);
   const F8 room = answer.middle - radius;
@@ -253,7 +254,7 @@ HWY_INLINE FieldAnswer askField(const SimdField& field, const Segment& segment, 
   const F8 part = (room + rest) / larger(length, set(1e-20F));
   const F8 ahead = clearance(field, along(x, part, g), radius + rest, open) - radius;
   const F8 behind = clearance(field, along(x, -part, g), radius + rest, open) - radius;
-  answer.apart |= open & above(smaller(ahead, behind), rest * set(1.0F + 1e-6F));
+  answer.apart |= open & above(smaller(ahead, behind), rest * set(kLengthOutward));
   answer.worthQuery &= ~answer.apart;
   return answer;
 }
