@@ -258,6 +258,42 @@ TEST(SimdObstacles, PointsAreAsFarAsTheyAre) {
   }
 }
 
+/// Beside the edge of a flat ellipsoid: semi-axes that are longer by a slack would take the surface
+/// there outwards by a small part of that.
+TEST(SimdObstacles, NoBoundIsAboveTheDistanceFromAFlatEllipsoid) {
+  for (const std::int64_t target : lane_test::laneTargets()) {
+    const OnTarget on(target);
+    Random random(34);
+    int proven = 0;
+    for (int round = 0; round < 2000; ++round) {
+      const Ellipsoid shape{{1.0, 1.0, random.scale(1e-7, 1e-4)}};
+      Scene scene;
+      scene.size = 1.0;
+      scene.shape = shape;
+      scene.world_from_shape = random.pose(0.0);
+      scene.reach = 1.1;
+      scene.world =
+          compileObstacles({worldGeometry(scene.shape, scene.world_from_shape)}, scene.reach, true);
+      Segments points;
+      points.g.fill(Vector3d::Zero());
+      for (Vector3d& point : points.x) {
+        const double way = random.uniform(-std::numbers::pi, std::numbers::pi);
+        const double out = 1.0 + random.uniform(-1.0, 1.0) * random.scale(1e-8, 1e-5);
+        const double up = random.scale(1e-8, 1e-4);
+        point = asSingle(scene.world_from_shape *
+                         Vector3d(out * std::cos(way), out * std::sin(way), up));
+      }
+      const auto bounds = laneDistances(scene, points);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double exact = exactDistance(scene, points.x[lane], points.g[lane]);
+        ASSERT_LE(bounds[lane], exact * kOutward) << round << ", semi-axis " << shape.semiAxes.z();
+        proven += bounds[lane] > 0.0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(proven, 3000);
+  }
+}
+
 /// Motion along a face costs nothing: the bound of a segment beside a box is that of a point.
 TEST(SimdObstacles, SlidingAlongAFaceIsExact) {
   Scene scene;

@@ -100,9 +100,10 @@ class ObstacleCompiler {
     SimdEllipsoid ellipsoid;
     assignFrame(geometry_->world_from_shape.inverse(), ellipsoid);
     for (int i = 0; i < 3; ++i) {
-      ellipsoid.semiAxes[i] = singleAbove(shape.semiAxes[i] + slack_);
-      ellipsoid.inverse[i] = 1.0F / ellipsoid.semiAxes[i];
+      ellipsoid.semiAxes[i] = singleAbove(shape.semiAxes[i]);
+      ellipsoid.inverse[i] = 1.0F / singleAbove(shape.semiAxes[i] + slack_);
     }
+    ellipsoid.slack = singleAbove(slack_);
     result_.ellipsoids.push_back(ellipsoid);
   }
 

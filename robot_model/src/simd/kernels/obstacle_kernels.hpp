@@ -112,7 +112,8 @@ HWY_INLINE F8 ellipsoidSquared(const SimdEllipsoid& shape, const Segment& segmen
     const V3 axis = set3(shape.axes[i]);
     x[i] = dot(axis, segment.x) + set(shape.offset[i]);
     g[i] = dot(axis, segment.g);
-    const F8 gap = positive(absolute(x[i]) - absolute(g[i]) - set(shape.semiAxes[i]));
+    const F8 gap =
+        positive(absolute(x[i]) - absolute(g[i]) - set(shape.semiAxes[i]) - set(shape.slack));
     box = multiplyAdd(gap, gap, box);
   }
   const V3 scale = set3(shape.inverse);
@@ -127,7 +128,7 @@ HWY_INLINE F8 ellipsoidSquared(const SimdEllipsoid& shape, const Segment& segmen
   const V3 support = {n.x * set(shape.semiAxes[0]), n.y * set(shape.semiAxes[1]),
                       n.z * set(shape.semiAxes[2])};
   const F8 at = dot(n, V3{x[0], x[1], x[2]}) - absolute(dot(n, V3{g[0], g[1], g[2]}));
-  return larger(square(positive(at - root(dot(support, support)))), box);
+  return larger(square(positive(at - root(dot(support, support)) - set(shape.slack))), box);
 }
 
 /// Bytes of words in memory.
