@@ -234,8 +234,8 @@ class ExactRobot {
     const int body = model.robotGeometry[geometry].body;
     Digits most = -Digits(1e30);
     for (int i = 0; i < hull.count; ++i) {
-      const Exact3 point =
-          exact(lanes.hulls->inBody[static_cast<std::size_t>(kLanes * hull.first + i)]);
+      const int index = kLanes * hull.first + i;
+      const Exact3 point = exact(lanes.hulls->inBody[static_cast<std::size_t>(index)]);
       const Exact3 there = at(seen, 1, body, 0, point) + s * velocity(seen, body, 0, point);
       most = std::max<Digits>(most, dot(n, there));
     }
@@ -697,7 +697,7 @@ Digits kernelDistance(const ExactObstacle& obstacle, const Exact3& x, const Exac
       const ExactParts parts = partsOf(y, h);
       const Digits beyond = positive(abs(parts.axial) - parts.beyond - Digits(round().halfLength));
       const Digits outside = positive(parts.radial - Digits(round().radius));
-      const Digits around = sqrt(beyond * beyond + outside * outside);
+      Digits around = sqrt(beyond * beyond + outside * outside);
       if (kind.kind == ObstacleKind::Cylinder) return around;
       const auto& cone = std::get<Cone>(obstacle.shape);
       const Digits height = 2 * Digits(cone.halfLength);
@@ -710,7 +710,7 @@ Digits kernelDistance(const ExactObstacle& obstacle, const Exact3& x, const Exac
     case ObstacleKind::Planes:
     case ObstacleKind::Slab: {
       const LanePlane& plane = obstacle.world.planes[kind.first];
-      const auto& half = std::get_if<HalfSpace>(&obstacle.shape);
+      const auto* half = std::get_if<HalfSpace>(&obstacle.shape);
       const Exact3 normal =
           exact(half != nullptr ? half->normal : std::get<Plane>(obstacle.shape).normal);
       const Digits offset(half != nullptr ? half->offset : std::get<Plane>(obstacle.shape).offset);
@@ -893,8 +893,7 @@ TEST(ErrorModel, Fields) {
                   (Digits(cell[k]) + Digits(0.5)) * Digits(field.cell);
             }
             if (!within) continue;
-            const auto index =
-                static_cast<std::size_t>((cell[2] * count[1] + cell[1]) * count[0] + cell[0]);
+            const int index = (cell[2] * count[1] + cell[1]) * count[0] + cell[0];
             const std::uint32_t byte = field.cells[index / 4] >> (8 * (index % 4)) & 0xFFU;
             best = std::max<Digits>(best, Digits(byte) * Digits(field.step) - norm(off));
           }

@@ -114,7 +114,7 @@ inline Digits pi() {
 
 /// The motion's way of a cyclic value: which way round, the doubles say.
 inline Digits cyclicWay(double from, double to) {
-  const Digits way = Digits(to) - Digits(from);
+  Digits way = Digits(to) - Digits(from);
   if (std::abs(to - from) <= std::numbers::pi) return way;
   return way - 2 * pi() * round(way / (2 * pi()));
 }
@@ -162,7 +162,7 @@ inline ExactPose jointPose(const detail::KinematicModel& model, const detail::Mo
         model.cyclic[body.variable] != 0 ? Digits(a[0]) + t * cyclicWay(a[0], b[0]) : straight(0);
     return Digits(body.multiplier) * own + Digits(body.offset);
   };
-  const ExactPose joint = exact(body.parent_from_joint);
+  ExactPose joint = exact(body.parent_from_joint);
   switch (body.type) {
     case JointType::Revolute:
     case JointType::Continuous:
