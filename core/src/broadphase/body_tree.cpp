@@ -11,6 +11,7 @@
 
 #include "broadphase/world_box.hpp"
 #include "bv/box_pair.hpp"
+#include "geometry/error_model.hpp"
 #include "geometry/nearest_rotation.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
@@ -45,8 +46,7 @@ double halfArea(const Aabb& box) {
 double gap(const Aabb& a, const Aabb& b) {
   const Vector3d apart = (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Vector3d::Zero());
   const double length = std::hypot(apart.x(), apart.y(), apart.z());
-  constexpr double kShrink = 1.0 - 8.0 * std::numeric_limits<double>::epsilon();
-  const double bound = length * kShrink - std::numeric_limits<double>::min();
+  const double bound = length * detail::kDistanceShrink - std::numeric_limits<double>::min();
   return bound > 0.0 ? bound : 0.0;  // NaN gives 0: nothing is proven
 }
 

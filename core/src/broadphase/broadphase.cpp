@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/error_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
@@ -33,9 +34,8 @@ double boxDistance(const Aabb& a, const Aabb& b) {
     apart |= static_cast<int>(length > 0.0L);
     sum += length * length;
   }
-  constexpr double kShrink = 1.0 - 8.0 * std::numeric_limits<double>::epsilon();
-  const long double bound =
-      std::sqrt(sum) * kShrink - static_cast<long double>(std::numeric_limits<double>::min());
+  const long double bound = std::sqrt(sum) * detail::kDistanceShrink -
+                            static_cast<long double>(std::numeric_limits<double>::min());
   constexpr double kMost = std::numeric_limits<double>::max();
   constexpr double kLeast = std::numeric_limits<double>::denorm_min();
   if (apart == 0) return 0.0;

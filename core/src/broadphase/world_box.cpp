@@ -6,6 +6,7 @@
 #include <span>
 
 #include "bvh/wide_bvh.hpp"
+#include "geometry/error_model.hpp"
 
 namespace swept::detail {
 namespace {
@@ -13,16 +14,11 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-/// The box of `center` +- `half`, both in the world. Lemma: a coordinate of the centre is a sum of
-/// four products or terms, off by at most 4u of the sum of their magnitudes (u = epsilon / 2), that
-/// is of `scale`; a half extent comes from at most ten operations on non-negative terms, off by at
-/// most 10u of itself; the last sum rounds by u of its result. Together less than 16u (scale +
-/// half), plus what underflows.
+/// The box of `center` +- `half`, both in the world; `scale`: the sum of the magnitudes of what a
+/// coordinate of the centre is made of.
 Aabb grown(const Vector3d& center, const Vector3d& half, const Vector3d& scale) {
-  const Vector3d reach =
-      (half + 16.0 * kEpsilon * (scale + half)).array() + 16.0 * std::numeric_limits<double>::min();
+  const Vector3d reach = (half + kWorldBoxRounding * (scale + half)).array() +
+                         16.0 * std::numeric_limits<double>::min();
   return {center - reach, center + reach};
 }
 
@@ -113,7 +109,7 @@ TreeBox treeBox(const WideBvh& bvh) {
   const Vector3d center = bounds.center();
   const Vector3d half = (bounds.upper - center).cwiseMax(center - bounds.lower);
   // Each difference rounds by at most half an epsilon of its result.
-  return {center, half + kEpsilon * half};
+  return {center, half + 2.0 * kRoundoff * half};
 }
 
 Aabb worldBox(const Shape& shape, const Isometry3d& world_from_shape, BoxFit fit) {

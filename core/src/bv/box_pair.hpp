@@ -5,17 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/error_model.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
-
-/// Rounding allowed for in volume tests, per metre of coordinate magnitude (the sum of the absolute
-/// values of all numbers that enter).
-///
-/// Lemma: a projection computed below has fewer than 20 roundings of 1.1e-16 of that magnitude
-/// each, and axes or a rotation that are orthonormal only up to 1e-14 change it by at most as much
-/// again.
-inline constexpr double kVolumeRounding = 2.0 * tolerance::kSupportRounding;
 
 /// m; far more than products that underflow lose together, each at most the least denormal.
 inline constexpr double kVolumeUnderflow = 1e-300;

@@ -7,6 +7,7 @@
 
 #include "bv/extents.hpp"
 #include "bv/principal_axes.hpp"
+#include "geometry/error_model.hpp"
 
 namespace swept::detail {
 
@@ -52,7 +53,7 @@ Matrix3d turned(const Matrix3d& axes) {
 
 /// Lemma: p - origin rounds by half an epsilon of the coordinates, whose 1-norms are at most `far`
 /// for both, and the projections by at most three more of that size; likewise that of the centre.
-/// 16 epsilons of `far` cover them.
+/// kTurnedBoxRounding of `far` covers them.
 OrientedBox along(const Matrix3d& wanted, const BallsInBox& balls, const Vector3d& origin,
                   double far) {
   const Matrix3d axes = inSinglePrecision(wanted);
@@ -62,7 +63,7 @@ OrientedBox along(const Matrix3d& wanted, const BallsInBox& balls, const Vector3
   const Vector3d lower = start + extents.lower, upper = start + extents.upper;
   const Vector3d center = inSinglePrecision(Vector3d(axes * (0.5 * (lower + upper))));
   const Vector3d middle = axes.transpose() * center;
-  const double slack = 16.0 * std::numeric_limits<double>::epsilon() * far + balls.radius;
+  const double slack = kTurnedBoxRounding * far + balls.radius;
   OrientedBox box;
   box.center = origin + center;
   for (int j = 0; j < 3; ++j) {
@@ -115,7 +116,7 @@ OrientedBox alignedBox(const Aabb& bounds, const Vector3d& origin) {
   box.center = origin + center;
   for (int i = 0; i < 3; ++i) {
     // The differences from the origin, and those from the centre, round once each.
-    const double slack = 4.0 * std::numeric_limits<double>::epsilon() * far[i];
+    const double slack = kStraightBoxRounding * far[i];
     box.half[i] = aboveInSingle(std::max(upper[i] - center[i], center[i] - lower[i]) + slack);
   }
   return box;

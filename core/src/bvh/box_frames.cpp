@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bvh/box_frames.hpp"
 
+#include "geometry/error_model.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,7 +63,7 @@ double extentAlong(const OrientedBox& box, const Vector3d& along) {
 // of offsets and entries 5 sqrt(2) u m each for the errors of either factor, and 3 u m for
 // themselves; own extents a_m . n = w_m + 5 u; the other's, whose entries w . (column) are off by
 // 16 u: with the sums 26 u m more. With the boxes' 8 u m that is 53 u m before division by the
-// length, and 2 u m for the last differences. 96 u m covers each.
+// length, and 2 u m for the last differences. kBoxRounding covers each.
 //
 // What is done in double precision, before coordinates are relative to the node's origin, rounds by
 // 32 * 2^-53 of the 1-norms of all coordinates. A linear part that deviates from a rotation by s
@@ -72,7 +74,7 @@ BoxFrames::BoxFrames(const Eigen::Isometry3d& first_from_second, double reach)
   const double skew = (linear.transpose() * linear - Matrix3d::Identity()).cwiseAbs().maxCoeff();
   const double magnitude = reach + translation.cwiseAbs().sum();
   usable_ = skew < kMostSkew && magnitude > 1e-12 && magnitude < 1e12;
-  rounding = (32.0 * 0x1p-53 + 4.0 * skew) * magnitude;
+  rounding = (kFrameDifference + 4.0 * skew) * magnitude;
   perMetre = kBoxRounding + 8.0 * skew;
 }
 

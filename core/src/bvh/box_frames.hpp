@@ -4,12 +4,9 @@
 #include <Eigen/Geometry>
 
 #include "bvh/wide_bvh.hpp"
+#include "geometry/error_model.hpp"
 
 namespace swept::detail {
-
-/// What single precision can add to a gap between two boxes, per metre of their sizes and distance;
-/// the lemma is in box_frames.cpp.
-inline constexpr double kBoxRounding = 96.0 * 0x1p-24;
 
 /// How boxes of one frame relate to boxes of another, and what rounding can do to a gap.
 class BoxFrames {

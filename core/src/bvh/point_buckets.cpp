@@ -6,6 +6,7 @@
 
 #include "bvh/box_fit.hpp"
 #include "bvh/wide_bvh.hpp"
+#include "geometry/error_model.hpp"
 
 namespace swept::detail {
 
@@ -27,8 +28,8 @@ void makeNode(const PointBuckets& buckets, std::int32_t bucket, WideNode& node) 
     far = std::max(far, points[point].lpNorm<Eigen::Infinity>() + radius[lane]);
     node.child[lane] = ~static_cast<std::int32_t>(first + point);
   }
-  const double slack = far < kLargest ? 2.0 * std::numeric_limits<double>::epsilon() * far
-                                      : std::numeric_limits<double>::infinity();
+  const double slack =
+      far < kLargest ? kBucketRounding * far : std::numeric_limits<double>::infinity();
   std::array<double, WideNode::kLanes> size{};
   for (int i = 0; i < 3; ++i) {
     for (std::size_t lane = 0; lane < WideNode::kLanes; ++lane) {

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -14,23 +13,20 @@
 
 #include "clearance_grid/build_field.hpp"
 #include "clearance_grid/grid_bounds.hpp"
+#include "geometry/error_model.hpp"
 #include "geometry/point_text.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
 using detail::ClearanceField;
+using detail::kGridRounding;
 using Eigen::Vector3d;
 
 namespace {
 
 /// Coordinates (m) whose squares are far from overflowing.
 constexpr double kFar = 1e150;
-/// Lemma: a coordinate from the origin is rounded once, by up to an ulp of itself and the origin;
-/// what follows by at most a dozen of the largest number in it: the distance from W, a value, or
-/// the distance from the middle of a cell where that is not larger than the value. Middles and
-/// values are exact, products of two numbers of at most 24 bits. W's corners were rounded twice.
-constexpr double kRounding = 32.0 * 0x1p-53;
 
 /// x, y and z, in two vector registers; z is in both places of its own. Queries do not branch: what
 /// is asked for is as good as random, and a wrong guess takes as long as all the rest.
@@ -60,7 +56,7 @@ struct ClearanceGrid::Data {
   /// m^2, of a bound on the distance: `rounding` is still to be taken off. Of points that are not
   /// far.
   double squaredBound(const Vector3d& point) const;
-  double rounding(double size) const { return rounding_ + kRounding * size; }
+  double rounding(double size) const { return rounding_ + kGridRounding * size; }
   double farClearance(const Vector3d& point) const;
   detail::GridView view() const;
 
@@ -143,7 +139,7 @@ ClearanceGrid::Data::Data(std::shared_ptr<const ClearanceField> of)
   last_ = Lanes::of(4.0 * blocks) - Lanes::all(1.0);
   const Vector3d size = 4.0 * voxel * blocks;
   box = {field->origin, field->origin + size};
-  rounding_ = kRounding * (field->origin.lpNorm<1>() + size.lpNorm<1>() + 255.0 * cellSteps_);
+  rounding_ = kGridRounding * (field->origin.lpNorm<1>() + size.lpNorm<1>() + 255.0 * cellSteps_);
 }
 
 /// m, not negative; Lemma 1 of ClearanceField, for the nearest voxel and its cell. The middle of
@@ -178,7 +174,7 @@ detail::GridView ClearanceGrid::Data::view() const {
           voxelSteps_,
           halfDiagonal_,
           rounding_,
-          kRounding,
+          kGridRounding,
           static_cast<double>(cellRow_),
           static_cast<double>(cellLayer_),
           static_cast<double>(blockRow_),
@@ -202,7 +198,7 @@ double ClearanceGrid::Data::farClearance(const Vector3d& point) const {
   const Vector3d at = point - field->origin;
   const double beyond =
       (at - at.cwiseMax(field->lower).cwiseMin(field->upper)).lpNorm<Eigen::Infinity>();
-  return beyond * (1.0 - kRounding);
+  return beyond * (1.0 - kGridRounding);
 }
 
 namespace {
@@ -317,7 +313,7 @@ bool ClearanceGrid::isFarther(const Vector3d& center, double radius) const {
   const double size = center.lpNorm<1>();
   if (!(size < kFar)) return data_->farClearance(center) > radius;
   const double asked = radius + data_->rounding(size);
-  return data_->squaredBound(center) > asked * asked * (1.0 + kRounding);
+  return data_->squaredBound(center) > asked * asked * (1.0 + kGridRounding);
 }
 
 double ClearanceGrid::voxel() const {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "continuous/corner_paths.hpp"
+#include "geometry/error_model.hpp"
 #include "narrowphase/exact_sign.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
@@ -71,7 +72,6 @@ using detail::TwoDoubles;
 using detail::VertexFace;
 using Eigen::Vector3d;
 
-constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2.0;
 /// Products of six coordinates have to stay in range.
 constexpr double kLeastSize = 1e-40;
 constexpr double kGreatestSize = 1e40;
@@ -126,9 +126,9 @@ class ImpactSearch {
   /// `size` of the paths; all lengths in one unit.
   ImpactSearch(const CornerPaths& paths, double size, double separation, double tolerance)
       : paths_(paths), size_(size) {
-    threshold_ = (separation + 32.0 * kRounding * size) * (1.0 + 16.0 * kRounding);
+    threshold_ = (separation + detail::kImpactRounding * size) * (1.0 + detail::kImpactShare);
     tolerance_ = std::max(tolerance, tolerance::kImpact * size);
-    contact_ = separation + tolerance_ - 64.0 * kRounding * size;
+    contact_ = separation + tolerance_ - detail::kImpactContact * size;
     aim_ = separation + 0.5 * tolerance_;
   }
 
@@ -223,8 +223,9 @@ bool ImpactSearch<Features>::separatedByPlane(const Instant& from, const Instant
 
   const double reachE = startE.cwiseAbs().cwiseMax(endE.cwiseAbs()).maxCoeff();
   const double reachF = startF.cwiseAbs().cwiseMax(endF.cwiseAbs()).maxCoeff();
-  const double rounding = 256.0 * kRounding * size_ * (size_ * (reachE + reachF) + reachE * reachF);
-  const double error = 64.0 * kRounding * reachE * reachF;
+  const double rounding =
+      detail::kImpactVolume * size_ * (size_ * (reachE + reachF) + reachE * reachF);
+  const double error = detail::kImpactArea * reachE * reachF;
   const double ends[2] = {threshold_ * (first.norm() + error), threshold_ * (last.norm() + error)};
   const double halfway = threshold_ * (middle.norm() + error);
   const std::array<double, 4> lengths{ends[0], ends[0] + halfway, halfway + ends[1], ends[1]};
@@ -246,7 +247,7 @@ bool ImpactSearch<Features>::separatedByRefinedPlane(const Instant& from, const 
   const double side = cubic[0].high < 0.0 ? -1.0 : 1.0;
   bool all = true;
   for (int k = 0; k < 4; ++k) {
-    all &= side * cubic[k].high > (lengths[k] + rounding) * (1.0 + 16.0 * kRounding);
+    all &= side * cubic[k].high > (lengths[k] + rounding) * (1.0 + detail::kImpactShare);
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "continuous/deforming_tree.hpp"
+#include "geometry/error_model.hpp"
 
 namespace swept::detail {
 
@@ -33,14 +34,6 @@ struct MovingTree {
 /// `margin` has to contain kMeetingRounding times the largest coordinate.
 void findMeetingPairs(const MovingTree& a, const MovingTree& b, bool same, float margin,
                       std::vector<OpenBlocks>& open, std::vector<MeetingPair>& pairs);
-
-/// Relative (no unit). Lemma: corners are off by u M, with u = 2^-24 and M the largest coordinate,
-/// and so are the boxes. An axis that keeps boxes of rounded corners apart by 3 u M, one rounding
-/// of a sum included, keeps the triangles apart. For a vector n of norm up to 1.001, so 1-norm up
-/// to 1.74, n . p is off by 1.74 u M for the corner and by 3.1 * 1.74 u M for three roundings; the
-/// difference of two by twice that and 2 * 1.74 u M more, 18 u M in all. Whatever n is: where it
-/// comes from needs no proof.
-inline constexpr double kMeetingRounding = 32.0 * 0x1p-24;
 
 /// m. From this margin on, which is where coordinates may exceed 5e17, boxes alone are compared:
 /// products could leave single precision. Below it none does that counts.

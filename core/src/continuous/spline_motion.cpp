@@ -7,6 +7,7 @@
 #include <string>
 
 #include "continuous/motion_input.hpp"
+#include "geometry/error_model.hpp"
 #include "swept/core/continuous/motions.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
@@ -89,9 +90,8 @@ Longest longestWithin(const Curve& curve, double from, double to) {
     divide(before, to > from ? from / to : 1.0, nullptr, &part);
   }
   const Longest found = longest(part);
-  constexpr double kRounding = 1e-13;
-  return {std::min(whole.position, found.position + kRounding * whole.position),
-          std::min(whole.rotation, found.rotation + kRounding * whole.rotation)};
+  return {std::min(whole.position, found.position + detail::kCurveRounding * whole.position),
+          std::min(whole.rotation, found.rotation + detail::kCurveRounding * whole.rotation)};
 }
 
 Matrix3d exponential(const Vector3d& turn) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "geometry/convex_combination.hpp"
+#include "geometry/error_model.hpp"
 #include "geometry/point_text.hpp"
 #include "geometry/quickhull.hpp"
 #include "geometry/small_ball.hpp"
@@ -34,11 +35,8 @@ struct Selection {
   /// Drops a point that is this far from some combination of kept ones, or keeps it if that is too
   /// far.
   void consider(std::size_t point, double distance) {
-    // Coordinates relative to an inner point, a weighted sum of three and the norm of the rest:
-    // fewer than 20 roundings of half an epsilon on terms of at most 4.
-    constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
     if (distance <= tolerance::kHull)
-      error = std::max(error, distance + kRounding);
+      error = std::max(error, distance + detail::kHullRounding);
     else
       kept[point] = true;
   }
@@ -264,8 +262,7 @@ ConvexHull ConvexHull::of(std::span<const Eigen::Vector3d> points) {
   data->supportPoints = std::make_shared<detail::SupportPoints>(data->vertices, scale);
   data->ball = detail::smallBall(data->vertices);
   data->error = selection.error / scale;
-  data->extent = data->extent * (1.0 + 8.0 * std::numeric_limits<double>::epsilon()) +
-                 std::numeric_limits<double>::min();
+  data->extent = data->extent * detail::kLengthUp + std::numeric_limits<double>::min();
   return ConvexHull(std::move(data));
 }
 

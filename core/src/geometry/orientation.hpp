@@ -4,7 +4,8 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "geometry/error_model.hpp"
 
 /// On which side of a plane through three points a fourth one lies, exactly (Shewchuk 1997,
 /// "Adaptive precision floating-point arithmetic and fast robust geometric predicates": expansions,
@@ -81,10 +82,7 @@ class OrientedPlane {
  public:
   OrientedPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
       : anchor_(a), normal_((b - a).cross(c - a)) {
-    // Six products of three factors with fewer than 8 roundings of half an epsilon each, and no
-    // coordinate difference exceeds 2.
-    bound_ = 64.0 * std::numeric_limits<double>::epsilon() * (b - a).cwiseAbs().maxCoeff() *
-             (c - a).cwiseAbs().maxCoeff();
+    bound_ = kOrientationRounding * (b - a).cwiseAbs().maxCoeff() * (c - a).cwiseAbs().maxCoeff();
   }
   /// Proportional to the distance from the plane, positive ahead of it.
   double height(const Eigen::Vector3d& p) const { return normal_.dot(p - anchor_); }

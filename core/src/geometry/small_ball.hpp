@@ -5,15 +5,15 @@
 #include <limits>
 #include <span>
 
+#include "geometry/error_model.hpp"
 #include "swept/core/bounding_sphere.hpp"
 
 namespace swept::detail {
 
 /// Upper bound of a length that was computed with fewer than 16 rounded operations on non-negative
-/// terms: each costs at most half an epsilon, and the last term covers results that underflow.
+/// terms; the last term covers results that underflow.
 inline double aboveRounding(double length) {
-  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-  return length * (1.0 + 8.0 * kEpsilon) + std::numeric_limits<double>::min();
+  return length * kLengthUp + std::numeric_limits<double>::min();
 }
 
 /// Contains `points` whatever `center` is: the radius is measured, not inferred.

@@ -4,7 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+
+#include "geometry/error_model.hpp"
 
 namespace swept::detail {
 
@@ -25,7 +26,6 @@ enum class Crossing : std::uint8_t {
 /// coordinates of the two corners it is off by less than 8 u * 6 s t, u = 2^-53.
 inline Crossing rayCrossing(const Eigen::Vector3d& direction, const Eigen::Vector3d& a,
                             const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  constexpr double kRelative = 32.0 * std::numeric_limits<double>::epsilon();
   constexpr double kUnderflow = 1e-300;
   const double sizeA = a.cwiseAbs().maxCoeff();
   const double sizeB = b.cwiseAbs().maxCoeff();
@@ -33,15 +33,16 @@ inline Crossing rayCrossing(const Eigen::Vector3d& direction, const Eigen::Vecto
 
   // Wholly behind the origin.
   const double ahead = std::max({direction.dot(a), direction.dot(b), direction.dot(c)});
-  if (ahead < -kRelative * std::max({sizeA, sizeB, sizeC}) - kUnderflow) return Crossing::Miss;
+  if (ahead < -kCrossingRounding * std::max({sizeA, sizeB, sizeC}) - kUnderflow)
+    return Crossing::Miss;
 
   const Eigen::Vector3d bc = b.cross(c);
   const double sideBC = direction.dot(bc);
   const double sideCA = direction.dot(c.cross(a));
   const double sideAB = direction.dot(a.cross(b));
-  const double errorBC = kRelative * sizeB * sizeC + kUnderflow;
-  const double errorCA = kRelative * sizeC * sizeA + kUnderflow;
-  const double errorAB = kRelative * sizeA * sizeB + kUnderflow;
+  const double errorBC = kCrossingRounding * sizeB * sizeC + kUnderflow;
+  const double errorCA = kCrossingRounding * sizeC * sizeA + kUnderflow;
+  const double errorAB = kCrossingRounding * sizeA * sizeB + kUnderflow;
   const bool positive = sideBC > errorBC || sideCA > errorCA || sideAB > errorAB;
   const bool negative = sideBC < -errorBC || sideCA < -errorCA || sideAB < -errorAB;
   if (positive && negative) return Crossing::Miss;

@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "geometry/error_model.hpp"
 #include "narrowphase/by_coordinates.hpp"
 #include "narrowphase/convex.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept::detail {
-
-/// Relative. What a slab may be narrower than the distance that it is to prove: a quarter of what
-/// pairRounding() allows for.
-inline constexpr double kSlab = 0.25 * tolerance::kSupportRounding;
 
 /// What a closed form says about two cores. Everything in a's frame.
 struct CoreGap {

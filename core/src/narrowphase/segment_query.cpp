@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "bvh/any_near.hpp"
+#include "geometry/error_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
@@ -15,11 +15,8 @@ namespace swept {
 namespace {
 
 using detail::anyNear;
+using detail::kSegmentRounding;
 using Eigen::Vector3d;
-
-/// Of the coordinates: more than what differences of them, dot products with vectors of about unit
-/// length and the square roots here are off by.
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 Vector3d nearestOnEdge(const Vector3d& p, const Vector3d& from, const Vector3d& edge) {
   const double length = edge.squaredNorm();
@@ -67,7 +64,7 @@ bool isTriangleFarther(const Corners& corners, const LineSegment& segment, doubl
   const double squaredLength = segment.half.squaredNorm();
   double size = segment.center.lpNorm<1>() + segment.half.lpNorm<1>() + radius;
   for (const Vector3d& corner : corners) size = std::max(size, corner.lpNorm<1>());
-  const double beyond = radius + 2.0 * kRounding * size;
+  const double beyond = radius + 2.0 * kSegmentRounding * size;
   Vector3d p = segment.center;
   for (int round = 0; round < kMostRounds; ++round) {
     const Vector3d q = nearestOn(corners, p);
@@ -124,7 +121,7 @@ bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radiu
     const double grown = radius + cloud.radius(static_cast<std::size_t>(index));
     const Vector3d y = segment.center - point;
     const double along = std::clamp(-y.dot(segment.half) * inverse, -1.0, 1.0);
-    const double most = grown + kRounding * (size + point.lpNorm<1>() + radius);
+    const double most = grown + kSegmentRounding * (size + point.lpNorm<1>() + radius);
     return !((y + along * segment.half).squaredNorm() > most * most);
   });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/error_model.hpp"
 #include "narrowphase/exact_sign.hpp"
 
 namespace swept::detail {
@@ -108,16 +109,16 @@ TrianglePair::TrianglePair(const TriangleCorners& a, const TriangleCorners& b) {
 /// within 3.01 u |n| r of its exact value for the rounded corner, and that within u |n| r of the
 /// one for the corner itself: the rounded gap is within (2 * 4.01 u |n| r + u |gap|) of the true
 /// one, that is within 14 u |n| size + u |gap|. |n| itself is computed within 3 u, the division
-/// rounds by u. 24 u size and 8 u of the gap therefore cover everything. Underflow loses less than
-/// 1e-320 of a dot product, which is far below the slack since |n| >= 1e-100 and size >= 1e-30.
+/// rounds by u. kTriangleGap and kTriangleGapShare therefore cover everything. Underflow loses less
+/// than 1e-320 of a dot product, which is far below the slack since |n| >= 1e-100 and size >=
+/// 1e-30.
 double separationAlong(const TrianglePair& pair, const Vector3d& n) {
-  constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2.0;
   const double length = n.norm();
   if (!(length >= 1e-100 && length <= 1e100)) return -std::numeric_limits<double>::infinity();
   const double mostP = std::max({n.dot(pair.p[0]), n.dot(pair.p[1]), n.dot(pair.p[2])});
   const double leastQ = std::min({n.dot(pair.q[0]), n.dot(pair.q[1]), n.dot(pair.q[2])});
   const double gap = (leastQ - mostP) / length;
-  return gap - 24.0 * kRounding * pair.size - 8.0 * kRounding * std::abs(gap);
+  return gap - kTriangleGap * pair.size - kTriangleGapShare * std::abs(gap);
 }
 
 double bestSeparation(const TrianglePair& pair, const Vector3d& towards) {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "rounding/error_model.hpp"
+
 namespace swept::detail {
 
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kOutward = 1.0 + 1e-9;
 
 /// Additions that take as long as what one joint does to two balls: in any direction; in one.
 constexpr std::int64_t kReachWork = 10;
@@ -31,7 +31,7 @@ void ChainBounds::setBox(const JointBox& box, const LinkChain::Place& place) {
   place_ = &place;
   for (std::size_t j = 0; j < half_.size(); ++j) {
     const ChainJoint& joint = chain_.joints()[j];
-    half_[j] = joint.scale * box.half(joint.variable) * kOutward;
+    half_[j] = joint.scale * box.half(joint.variable) * kChainOutward;
     chord_[j] = joint.slides ? half_[j] : std::min(half_[j], 2.0);
   }
 }
@@ -66,7 +66,7 @@ double ChainBounds::approach(const Ball& a, const Ball& b) {
   std::ranges::fill(shares_, 0.0);
   for (std::size_t j = 0; j < count; ++j)
     shares_[chain_.joints()[j].variable] += j < best ? effectA_[j].any : effectB_[j].any;
-  return least * kOutward;
+  return least * kChainOutward;
 }
 
 ChainBounds::Effect ChainBounds::effect(std::size_t j, const Vector3d& n, const Ball& ball,
@@ -115,7 +115,7 @@ double ChainBounds::approachAlong(const Vector3d& n, const Ball& a, const Ball& 
   }
   std::ranges::fill(shares_, 0.0);
   for (std::size_t j = 0; j < count; ++j) shares_[chain_.joints()[j].variable] += bestCost_[j];
-  return least * kOutward;
+  return least * kChainOutward;
 }
 
 }  // namespace swept::detail

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinematics/motion_model.hpp"
+#include "rounding/error_model.hpp"
 
 namespace swept::detail {
 
@@ -22,7 +23,7 @@ struct JointBox {
   /// No value is farther from the middle, rounding included.
   double half(std::size_t k) const {
     const double m = middle(k);
-    return std::max(upper[k] - m, m - lower[k]) * (1.0 + 1e-15);
+    return std::max(upper[k] - m, m - lower[k]) * kHalfRangeOutward;
   }
 };
 

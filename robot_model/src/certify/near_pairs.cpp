@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "rounding/error_model.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -17,7 +19,7 @@ Aabb boxOf(const WorldGeometry& geometry) {
   Vector3d half = Vector3d::Constant(std::numeric_limits<double>::infinity());
   if (geometry.halfExtents.allFinite())
     half = (world_from_box.linear().cwiseAbs() * geometry.halfExtents).array() +
-           1e-12 * geometry.magnitude;
+           kWorldBoxShare * geometry.magnitude;
   return {center - half, center + half};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kinematics/nested_motion_bounds.hpp"
+#include "rounding/error_model.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 
@@ -14,9 +15,6 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-/// Velocities and travel bounds carry a relative rounding far below this.
-constexpr double kVelocityRounding = 1e-12;
 
 /// Share of the motion tolerance left to the distance query, and to stopping before the tolerance.
 constexpr double kQueryShare = 1.0 / 16.0;
@@ -268,7 +266,8 @@ ApproachBound PairQuery::approach(const GeometryPair& pair, double half, double 
   double acceleration = this->bound(pair.motionBoundA).acceleration;
   if (pair.motionBoundB >= 0) acceleration += this->bound(pair.motionBoundB).acceleration;
   bound.curvature = 0.5 * half * half * acceleration * (1.0 + kVelocityRounding);
-  bound.required = separation + rounding(pair) + kVelocityRounding * bound.travel;
+  bound.required =
+      separation + rounding(pair) + velocityRounding(transformsOf(model_, pair)) * bound.travel;
   return bound;
 }
 

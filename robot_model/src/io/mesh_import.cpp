@@ -12,6 +12,7 @@
 #include <new>
 #include <utility>
 
+#include "rounding/error_model.hpp"
 #include "swept/robot_model/foreign_text.hpp"
 
 namespace swept::detail {
@@ -50,14 +51,13 @@ class Place {
   Place of(const aiNode& node) const {
     // Each entry is made of a unit quaternion, a scale and a translation in some 30 roundings, all
     // of them together as one matrix.
-    constexpr double kNodeError = 64.0 * kRounding;
     Place own = *this;
     const Eigen::Matrix4d matrix = toEigen(node.mTransformation);
     if (matrix.isIdentity(0.0)) return own;
     own.file_from_node_ = file_from_node_ * matrix;
     own.reach_ += stretch_ * matrix.topRightCorner<3, 1>().norm();
     own.stretch_ *= matrix.topLeftCorner<3, 3>().norm();
-    own.steps_ += kNodeError;
+    own.steps_ += kNodeRoundings * kSingle;
     return own;
   }
   Eigen::Vector3d operator()(const aiVector3D& v) const {
@@ -67,12 +67,11 @@ class Place {
   double error(double distance) const { return steps_ * (stretch_ * distance + reach_); }
 
  private:
-  static constexpr double kRounding = 0x1p-24;  ///< of single precision
   Eigen::Matrix4d file_from_node_ = Eigen::Matrix4d::Identity();
   /// What is at a distance of d from the node's origin is no farther from the file's than stretch_
   /// d + reach_, whatever cancels. The Frobenius norm is no less than what a matrix stretches by.
   double stretch_ = 1.0, reach_ = 0.0;
-  double steps_ = 1.0 * kRounding;  ///< of that; at first for the coordinates themselves
+  double steps_ = kSingle;  ///< of that; at first for the coordinates themselves
 };
 
 void appendMesh(const aiMesh& mesh, const Place& place, MeshFileContent& content) {

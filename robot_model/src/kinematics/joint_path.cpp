@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "rounding/error_model.hpp"
+
 namespace swept::detail {
 
 void linearizePart(const JointPath& path, double t, double half, std::span<JointMotion> joints) {
@@ -26,20 +28,16 @@ void StraightPath::interpolate(double t, std::span<double> q) const {
 
 namespace {
 
-/// Of the time, for which the ends of neighbouring intervals may round apart.
-constexpr double kOutward = 1.0 + 1e-12;
-constexpr double kTimeRounding = 0x1p-50;
-
 /// By t' with t = begin + width t'.
 void rescale(double begin, double width, JointMotion& joint) {
   joint.anchor = width > 0.0 ? (joint.anchor - begin) / width : 0.0;
   joint.rate *= width;
   joint.spin *= width;
   joint.angleRate *= width;
-  joint.speed *= width * kOutward;
-  joint.spinSpeed *= width * kOutward;
-  joint.acceleration *= width * width * kOutward;
-  joint.spinAcceleration *= width * width * kOutward;
+  joint.speed *= width * kArithmeticOutward;
+  joint.spinSpeed *= width * kArithmeticOutward;
+  joint.acceleration *= width * width * kArithmeticOutward;
+  joint.spinAcceleration *= width * width * kArithmeticOutward;
 }
 
 }  // namespace

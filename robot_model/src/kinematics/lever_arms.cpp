@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "kinematics/nested_motion_bounds.hpp"
+#include "rounding/error_model.hpp"
 
 namespace swept::detail {
 
 namespace {
 
 using Eigen::Vector3d;
-
-/// Bounds are computed in doubles; this covers the roundings of their few operations.
-constexpr double kOutward = 1.0 + 1e-12;
 
 /// Where a point can be while the joints beyond vary: within `radius` of an axis through the
 /// frame's origin and between `low` and `high` along it, and within `ball` of the origin.
@@ -48,7 +46,7 @@ ReachableSet inParent(const ReachableSet& set, const Eigen::Isometry3d& parent_f
                       const Vector3d& parentAxis) {
   const Vector3d direction = parent_from_joint.linear() * set.axis;
   // Of nearly parallel axes the cosine says next to nothing.
-  const double tilt = parentAxis.cross(direction).norm() * kOutward;
+  const double tilt = parentAxis.cross(direction).norm() * kArithmeticOutward;
   ReachableSet result;
   result.axis = parentAxis;
   result.ball = parent_from_joint.translation().norm() + set.ball;
@@ -115,7 +113,7 @@ double spanOf(const KinematicModel& model, int body, ReachableSet set, const Ran
     span = std::max(span, set.ball);
     detours += current.fixedChain.detour(current.parent_from_joint);
   }
-  return (span + detours) * kOutward;
+  return (span + detours) * kArithmeticOutward;
 }
 
 /// Goes inwards and shows each joint's body, the arm of the ball's points (m) about its axis, and
@@ -128,7 +126,7 @@ void visitArms(const KinematicModel& model, int body, const Vector3d& center, do
     const MovingBody& current = model.bodies[i];
     const double arm = current.type == JointType::Floating ? set.ball : set.radius;
     sweepByJoint(current, rangeOf(i), set);
-    visit(i, arm * kOutward + radius, set.ball * kOutward + radius);
+    visit(i, arm * kArithmeticOutward + radius, set.ball * kArithmeticOutward + radius);
     set = inParent(set, current.parent_from_joint, axisOf(model.bodies[current.parent]));
   }
 }
@@ -142,8 +140,6 @@ Range atRest(int /*body*/) {
 /// vector is placed as a point is, but for the translations.
 void addGrowths(const KinematicModel& model, int slide, std::span<const int> path,
                 std::vector<RestArms::Growth>& growths) {
-  // Of axes that are parallel, rounding says that they are nearly so.
-  constexpr double kRounding = 1e-14;
   ReachableSet set{axisOf(model.bodies[slide]), 0.0, 1.0, 1.0, 1.0};
   auto joint = static_cast<std::size_t>(std::ranges::find(path, slide) - path.begin());
   for (int i = slide; joint-- > 0;) {
@@ -154,7 +150,7 @@ void addGrowths(const KinematicModel& model, int slide, std::span<const int> pat
     const MovingBody& body = model.bodies[i];
     const double share = body.type == JointType::Floating ? 1.0 : set.radius;
     if (turns(body.type) || slidesFreely(body.type))
-      growths.push_back({joint, slide, share * kOutward + kRounding});
+      growths.push_back({joint, slide, share * kArithmeticOutward + kParallelShare});
     sweepByJoint(body, atRest(i), set);
   }
 }
@@ -215,12 +211,8 @@ RestArms restArms(const KinematicModel& model, int body, const Vector3d& center,
 PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const int> path,
                                   std::span<const double> arms, std::size_t first,
                                   std::span<const JointMotion> motion) {
-  // Lemma: with joint rates r_k, accelerations b_k and W_k a bound on the angular velocity of body
-  // k relative to the reference,
-  //   p'' = sum_k b_k dp/dq_k + r_k [ 2 w_{k-1} x dp/dq_k + r_k d2p/dq_k2 ],
-  // hence |p''| <= sum_k rho_k (|b_k| + |r_k| (2 W_{k-1} + |r_k|)) for rotations and
-  // |b_k| + 2 |r_k| W_{k-1} for translations. A joint with both translates first, then rotates
-  // about its moved origin.
+  // L3 of ERROR_MODEL.md. A joint that both slides and turns slides first, then turns about its
+  // moved origin.
   //
   // Planar and floating joints beyond path[i] carry the ball away from its axis. Each sum is made
   // anew: a difference of large sums would lose what is small.
@@ -240,7 +232,7 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
     const MovingBody& body = model.bodies[path[i]];
     const JointMotion& joint = motion[path[i]];
     if (i == first || joint.maxTranslation != 0.0) maxTranslation = slidBeyond(i);
-    const double arm = arms[i] + maxTranslation * kOutward;
+    const double arm = arms[i] + maxTranslation * kArithmeticOutward;
     bound.speed += joint.speed + joint.spinSpeed * arm;
     bound.acceleration += 2.0 * joint.speed * turning + joint.acceleration;
     bound.acceleration +=
@@ -257,8 +249,8 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
     previousRate = joint.spinSpeed;
     previousTurns = turnsToo;
   }
-  bound.speed *= kOutward;
-  bound.acceleration *= kOutward;
+  bound.speed *= kArithmeticOutward;
+  bound.acceleration *= kArithmeticOutward;
   return bound;
 }
 

@@ -10,6 +10,7 @@
 #include "kinematics/joint_path.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
+#include "rounding/error_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -75,9 +76,8 @@ MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& l
     rates.angularAcceleration += rates.angularSpeed * joint.spinSpeed + joint.spinAcceleration;
     rates.angularSpeed += joint.spinSpeed;
   }
-  constexpr double kOutward = 1.0 + 1e-12;
-  rates.angularSpeed *= kOutward;
-  rates.angularAcceleration *= kOutward;
+  rates.angularSpeed *= detail::kArithmeticOutward;
+  rates.angularAcceleration *= detail::kArithmeticOutward;
   return rates;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "rounding/error_model.hpp"
 #include "swept/core/axis_frame.hpp"
 #include "swept/core/tolerances.hpp"
 
@@ -19,8 +20,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-/// Relative. A value, its way to another one and the sum of both round by four parts in 2^53.
-constexpr double kValueRounding = 8.0 * 0x1p-53;
 
 /// Product of two quaternions x, y, z, w, as given and summed in the order that OMPL's
 /// SO3StateSpace has: between opposite orientations its rounding decides which way round is taken.
@@ -95,9 +94,6 @@ Isometry3d heldTransform(const Robot& robot, const Joint& joint, const Eigen::Ve
   return jointTransform(body, motion, 0.0);
 }
 
-/// rad. A held angle of so much rounds by what is allowed for one transform.
-constexpr double kAngleOfTransform = 10.0;
-
 /// With one joint more, which is held; its frame and its child's are `joint` and `child`.
 FixedJointChain withHeldJoint(FixedJointChain fixedChain, const Robot& robot, const Joint& held,
                               const Eigen::VectorXd& reference, const Isometry3d& joint,
@@ -111,7 +107,7 @@ FixedJointChain withHeldJoint(FixedJointChain fixedChain, const Robot& robot, co
   double value = std::abs(reference[source.firstVariable + (planar ? 2 : 0)]);
   if (held.mimic) value = std::abs(held.mimic->multiplier) * value + std::abs(held.mimic->offset);
   if (held.type == JointType::Prismatic) fixedChain.farthest = std::max(fixedChain.farthest, value);
-  if (turns(held.type) || planar) fixedChain.transforms += value / kAngleOfTransform;
+  if (turns(held.type) || planar) fixedChain.transforms += value / kOrdinary;
   return fixedChain;
 }
 
@@ -232,9 +228,6 @@ int addObstacleFrames(KinematicModel& model, std::size_t count) {
 }
 
 namespace {
-
-/// Up to so many radians, or times the largest translation, that is part of kRoundingPerJoint.
-constexpr double kOrdinary = 10.0;
 
 bool compileFloating(const double* from, const double* to, JointMotion& motion) {
   const Vector3d start(from[0], from[1], from[2]);

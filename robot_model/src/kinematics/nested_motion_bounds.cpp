@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "kinematics/nested_motion_bounds.hpp"
 
+#include "rounding/error_model.hpp"
+
 namespace swept::detail {
 
 namespace {
-
-/// Of sums of so many positive terms as a robot has joints, and of what they are made of.
-constexpr double kOutward = 1.0 + 1e-11;
-/// The same, per joint.
-constexpr double kRounding = 8.0 * 0x1p-53;
 
 /// V(r) and d of the lemma, for r the parent of path[first].
 struct Around {
@@ -52,7 +49,7 @@ void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,
                         std::span<PointMotionBound> bounds) {
   keepAround(model, path, motion, bounds);
   bounds[path.size()] = {};
-  const double rounding = kRounding * static_cast<double>(path.size() + 1);
+  const double rounding = kNestedRoundings * static_cast<double>(path.size() + 1);
   double maxTranslation = 0.0;  // of the joints beyond
   double carried = 0.0;         // sum of w beyond
   double driven = 0.0;          // of 2 V w + e
@@ -61,7 +58,7 @@ void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,
     const JointMotion& joint = motion[path[i]];
     const Around around = aroundOf(bounds[i]);
     // Planar and floating joints farther out carry the ball away from this axis.
-    const double arm = arms[i] + maxTranslation * kOutward;
+    const double arm = arms[i] + maxTranslation * kNestedOutward;
     const double own =
         (joint.spinSpeed * joint.spinSpeed + joint.spinAcceleration) * arm + joint.acceleration;
     const double moved = joint.spinSpeed * arm + joint.speed;
@@ -69,7 +66,7 @@ void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,
     const double error =
         rounding * (driven + own + 2.0 * (around.turning + around.excess) * carried);
     speed += moved;
-    bounds[i] = {speed * kOutward, (std::max(0.0, sum) + error) * kOutward};
+    bounds[i] = {speed * kNestedOutward, (std::max(0.0, sum) + error) * kNestedOutward};
     carried += moved;
     driven += 2.0 * around.turning * moved + own;
     maxTranslation += joint.maxTranslation;

@@ -8,6 +8,7 @@
 
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
+#include "rounding/error_model.hpp"
 
 namespace swept::detail {
 
@@ -20,7 +21,7 @@ inline double boundTogether(const KinematicModel& model, const MovingBody& body,
   const double cosine = std::abs(inParentFrame.dot(model.bodies[body.parent].axis));
   return std::sqrt(parentRate * parentRate + rate * rate +
                    2.0 * parentRate * rate * std::min(1.0, cosine)) *
-         (1.0 + 1e-12);
+         kArithmeticOutward;
 }
 
 /// What pointMotionBound says, relative to all of a ball's ancestors together: bounds[first], with

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "rounding/error_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
@@ -29,7 +30,8 @@ WorldBody occupiedBody(std::string name, const OccupancyMap& map,
   }
   if (centers.empty()) return body;
   // Corners and centres of the cubes are rounded.
-  const double radius = 0.5 * std::sqrt(3.0) * map.resolution + 1e-15 * (reach + map.resolution);
+  const double radius =
+      0.5 * std::sqrt(3.0) * map.resolution + detail::kPointShare * (reach + map.resolution);
   body.parts.push_back({PointCloud::build(centers, radius), world_from_map});
   return body;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/pair_model.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/meeting_rows.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "swept/core/sphere_cover.hpp"
@@ -31,7 +32,7 @@ class CoverCompiler {
       // What places a shape in its body is rounded in double alone.
       const LeverArms& levers = geometry.levers;
       const double span = std::max(levers.spanAtRest, kSingle * geometry.magnitude);
-      simd_.reach = std::max(simd_.reach, static_cast<float>(span) * 1.00001F);
+      simd_.reach = std::max(simd_.reach, static_cast<float>(span) * kReachOutward);
       simd_.farther = std::max(simd_.farther, levers.span - levers.spanAtRest);
     }
     rootOfGeometry_.assign(model_.robotGeometry.size(), -1);
@@ -102,7 +103,7 @@ class CoverCompiler {
     for (int i = 0; i < 3; ++i) node.center[i] = static_cast<float>(center[i]);
     int which = 0;
     const Vector3d single(node.center[0], node.center[1], node.center[2]);
-    node.radius = static_cast<float>(farthest(single, which)) * 1.000001F;
+    node.radius = static_cast<float>(farthest(single, which)) * kRootOutward;
     node.beyond = node.radius;
     return node;
   }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "model/pair_model.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/single.hpp"
 
 namespace swept::detail {
@@ -57,7 +58,7 @@ class BoxTree {
   static Entry entryOf(const WorldGeometry& geometry, double reach, double extra,
                        std::int32_t child) {
     const Eigen::Isometry3d world_from_box = geometry.box_from_world.inverse();
-    const double slack = 32.0 * kSingle * (reach + geometry.magnitude + extra) + extra;
+    const double slack = obstacleRounding(reach + geometry.magnitude, extra) + extra;
     Entry entry;
     entry.child = child;
     entry.center = world_from_box.translation();

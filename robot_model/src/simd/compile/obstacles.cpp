@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "model/pair_model.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/obstacle_tree.hpp"
 #include "simd/compile/single.hpp"
 
@@ -28,11 +29,7 @@ class ObstacleCompiler {
 
   void add(const WorldGeometry& geometry) {
     geometry_ = &geometry;
-    // Lemma: a coordinate a . x + d of a point in a frame of the obstacle is computed from
-    // components of a, x and d that are off by kSingle of |x| <= reach and |d| <= magnitude each,
-    // in at most eight roundings; so it is off by less than 32 kSingle of their sum. Each set is
-    // grown by that.
-    slack_ = 32.0 * kSingle * (reach_ + geometry.magnitude);
+    slack_ = obstacleRounding(reach_, geometry.magnitude);  // L8: each set is grown by that
     // Of a box no square is taken but of what lies outside it.
     if (!(geometry.magnitude < kLargestSquared)) return addBox();
     std::visit([&](const auto& shape) { addShape(shape); }, geometry.shape);
@@ -103,9 +100,10 @@ class ObstacleCompiler {
     SimdEllipsoid ellipsoid;
     assignFrame(geometry_->world_from_shape.inverse(), ellipsoid);
     for (int i = 0; i < 3; ++i) {
-      ellipsoid.semiAxes[i] = singleAbove(shape.semiAxes[i] + slack_);
-      ellipsoid.inverse[i] = 1.0F / ellipsoid.semiAxes[i];
+      ellipsoid.semiAxes[i] = singleAbove(shape.semiAxes[i]);
+      ellipsoid.inverse[i] = 1.0F / singleAbove(shape.semiAxes[i] + slack_);
     }
+    ellipsoid.slack = singleAbove(slack_);
     result_.ellipsoids.push_back(ellipsoid);
   }
 
@@ -148,7 +146,7 @@ class ObstacleCompiler {
     LanePlane plane;
     assign(normal, plane.normal);
     plane.offset = static_cast<float>(offset);
-    plane.slack = singleAbove(slack_ + 2.0 * kSingle * std::abs(offset));
+    plane.slack = singleAbove(slack_ + kOffsetRoundings * kSingle * std::abs(offset));
     result_.planes.push_back(plane);
   }
 

@@ -51,12 +51,15 @@ struct SimdRound {
   float offset = 0.0F;  ///< m
 };
 
-/// { x : sum of ((axes[i] . x + offset[i]) / semiAxes[i])^2 <= 1 }
+/// { x : sum of ((axes[i] . x + offset[i]) / semiAxes[i])^2 <= 1 }, and what is nearer than the
+/// slack. Longer semi-axes would not do: beside the edge of a flat one they take its surface
+/// outwards by next to nothing.
 struct SimdEllipsoid {
   float axes[3][3];   ///< unit
   float offset[3];    ///< m
   float semiAxes[3];  ///< m
   float inverse[3];   ///< 1/m, of the semi-axes; near to them is enough
+  float slack;        ///< m
 };
 
 /// { x : normal . x <= offset + slack for all of a range of planes }, or, of a slab,

@@ -13,7 +13,4 @@ struct alignas(32) Row {
   float lane[kLanes];
 };
 
-/// Unit roundoff of single precision.
-inline constexpr double kSingle = 0x1p-24;
-
 }  // namespace swept::detail

@@ -7,6 +7,7 @@
 
 #include "model/pair_model.hpp"
 #include "robot/joint_types.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/cover_compile.hpp"
 #include "simd/compile/single.hpp"
 #include "swept/core/axis_frame.hpp"
@@ -71,7 +72,7 @@ Matrix3d bodyFromLane(const MovingBody& body) {
 float cosineBetween(const MovingBody& body, const MovingBody& parent) {
   if (!turns(body.type) || !turns(parent.type)) return -1.0F;
   const Vector3d inParent = body.parent_from_joint.linear() * body.axis;
-  return static_cast<float>(std::min(1.0, std::abs(inParent.dot(parent.axis)) + 1e-6));
+  return static_cast<float>(std::min(1.0, std::abs(inParent.dot(parent.axis)) + kCosineError));
 }
 
 SimdBody laneBody(const MovingBody& body, const MovingBody& parent,
@@ -106,7 +107,7 @@ void addBodies(const std::vector<MovingBody>& moving, SimdModel& simd) {
   }
   std::size_t deepest = 0;
   for (const auto& path : ancestors) deepest = std::max(deepest, path.size());
-  simd.rounding = static_cast<float>(32.0 * kSingle * static_cast<double>(deepest + 4));
+  simd.rounding = static_cast<float>(frameRounding(deepest));
   simd.bodies = SharedArray(std::move(bodies));
   simd.bodyFromLane = SharedArray(std::move(fromLane));
   simd.parentLaneFromParent = SharedArray(std::move(laneFromParent));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/pair_model.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/simd_bodies.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/compile/simd_references.hpp"
@@ -158,7 +159,7 @@ std::vector<SimdRootRow> compileRootRows(const SimdModel& simd) {
     }
     SimdRootRow& row = rows[at];
     row.radii.lane[lane] = radiusOf(pair.bodyA) + radiusOf(pair.bodyB);
-    row.keep.lane[lane] = (simd.margin + pair.extra) * (1.0F + 1e-6F);
+    row.keep.lane[lane] = (simd.margin + pair.extra) * kMarginOutward;
     row.pairs[lane] = static_cast<std::int32_t>(i);
     row.checked |= 1U << lane;
   }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/pair_model.hpp"
-#include "simd/compile/row.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/single.hpp"
 #include "swept/core/clearance_grid.hpp"
 #include "swept/core/segment_query.hpp"
@@ -84,10 +84,9 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, SimdFie
   lane.inverse = 1.0F / lane.cell;
   lane.step = field->step;
   lane.fineStep = field->fineStep;
-  // Lemma: beside the coordinates, the middle of a cell, its distance and that to W are rounded, of
-  // numbers below the reach and the size of all. And a larger W is as good.
+  // L10 of ERROR_MODEL.md. A larger W is as good.
   const double size = reach_ + geometry.magnitude + 255.0 * static_cast<double>(field->step);
-  lane.slack = singleAbove(2.0 * slack + 64.0 * kSingle * size);
+  lane.slack = singleAbove(fieldRounding(slack, size));
   lane.cells = field->cells.data();
   lane.bricks = field->bricks.data();
   lane.voxels = field->voxels.data();

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <variant>
 
+#include "rounding/error_model.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -22,7 +24,7 @@ struct Grown {
 
 /// Corners of a polygon around a circle across z.
 void addCircle(double radius, double z, std::vector<Vector3d>& points) {
-  const double outer = radius / std::cos(std::numbers::pi / kSides) * (1.0 + 1e-12);
+  const double outer = radius / std::cos(std::numbers::pi / kSides) * kArithmeticOutward;
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kSides;
     points.emplace_back(outer * std::cos(angle), outer * std::sin(angle), z);
@@ -78,12 +80,12 @@ void SimdHulls::add(const Shape& shape, const Eigen::Isometry3d& body_from_shape
   hull.first = static_cast<std::int32_t>(points.size());
   hull.growsByAll = growsByAll;
   hull.firstArm = static_cast<std::int32_t>(arms.size());
-  for (const double arm : armsOfPath.arms) arms.push_back(static_cast<float>(arm * (1.0 + 1e-6)));
+  for (const double arm : armsOfPath.arms) arms.push_back(static_cast<float>(arm * kArmOutward));
   hull.firstGrowth = static_cast<std::int32_t>(growths.size());
   hull.growthCount = static_cast<std::int32_t>(armsOfPath.growths.size());
   for (const RestArms::Growth& growth : armsOfPath.growths)
     growths.push_back({static_cast<std::int32_t>(growth.joint), growth.slide,
-                       static_cast<float>(growth.share * (1.0 + 1e-6))});
+                       static_cast<float>(growth.share * kArmOutward)});
   hull.count = static_cast<std::int32_t>(grown.points.size());
   if (grown.radius > 0.0) hull.radius = std::nextafter(static_cast<float>(grown.radius), 1e30F);
   hull.ofGeometry = grown.ofGeometry;

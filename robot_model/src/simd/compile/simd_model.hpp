@@ -205,7 +205,7 @@ struct SimdModel {
   bool slides = false;                      ///< some joint does not only turn
   bool floats = false;                      ///< some joint is floating
   float margin = 0.0F;                      ///< m, the least of all pairs
-  float rounding = 0.0F;                    ///< relative, of positions; see lane_motion.cpp
+  float rounding = 0.0F;                    ///< relative, of positions; see frameRounding()
   float reach = 0.0F;    ///< m, see LeverArms::spanAtRest: the largest, but for what slides
   double farther = 0.0;  ///< m, how much farther prismatic joints reach within their limits
   std::shared_ptr<const PairSeparationTables> tables;  ///< all that were built

@@ -7,6 +7,7 @@
 
 #include "model/pair_model.hpp"
 #include "robot/joint_types.hpp"
+#include "rounding/error_model.hpp"
 
 namespace swept::detail {
 
@@ -65,7 +66,7 @@ class ReferenceCompiler {
       for (std::size_t i = 0; i < arms.size(); ++i) {
         SimdCarried& joint = joints[simd_.ancestors[body][i]];
         joint.bodies.push_back(static_cast<int>(body));
-        joint.arms.push_back(static_cast<float>(arms[i] * (1.0 + 1e-6)));
+        joint.arms.push_back(static_cast<float>(arms[i] * kArmOutward));
       }
     }
     std::vector<std::int32_t> indexOf(simd_.bodies.size(), -1);
@@ -117,12 +118,12 @@ class ReferenceCompiler {
     for (std::size_t i = 0; i < path.size(); ++i) {
       const int step = reference.slot[path[i]];
       if (step < 0) continue;
-      setIn(reference.arms, step, levers.arms[i] * (1.0 + 1e-6));
+      setIn(reference.arms, step, levers.arms[i] * kArmOutward);
       setIn(reference.carried, step, 1.0);
     }
     for (const RestArms::Growth& growth : levers.growths) {
       const int step = reference.slot[path[growth.joint]];
-      if (step >= 0) setIn(sharesOf(growth.slide, reference), step, growth.share * (1.0 + 1e-6));
+      if (step >= 0) setIn(sharesOf(growth.slide, reference), step, growth.share * kArmOutward);
     }
   }
 

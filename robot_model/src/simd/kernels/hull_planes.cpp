@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "rounding/error_model.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/placed_ball.hpp"
 #include "simd/kernels/simd_bounds.hpp"
@@ -57,22 +58,22 @@ HWY_INLINE Reach reachOf(const SimdHulls& hulls, const SimdHull& hull, const V3&
   reach.before = before + (offset - shift);
   reach.after = after + (offset + shift);
   if (hull.radius > 0.0F) {
-    const F8 grown = set(hull.radius * (1.0F + 1e-5F)) * (set(1.0F) + root(dot(swept, swept)));
+    const F8 grown = set(hull.radius * kExtraOutward) * (set(1.0F) + root(dot(swept, swept)));
     reach.before = reach.before + grown;
     reach.after = reach.after + grown;
   }
   return reach;
 }
 
-/// How far an obstacle reaches along n, at most: Lemma: its support function, of which single
-/// precision takes less than 1e-6 of the sizes in it.
+/// How far an obstacle reaches along n, at most: its support function, and what single precision
+/// takes of it (L11 of ERROR_MODEL.md).
 F8 reachOf(const SimdBox& box, const V3& n) {
   F8 sum = set(0.0F);
   for (int i = 0; i < 3; ++i) {
     const F8 share = dot(n, set3(box.axes[i]));
     const float sizes = std::abs(box.offset[i]) + box.half[i];
     sum = subtractProduct(sum, share, set(box.offset[i]));
-    sum = multiplyAdd(absolute(share), set(box.half[i]), sum) + set(1e-6F * sizes);
+    sum = multiplyAdd(absolute(share), set(box.half[i]), sum) + set(kSupportShare * sizes);
   }
   return sum;
 }
@@ -84,8 +85,8 @@ F8 reachOf(const SimdRound& round, ObstacleKind kind, const V3& n) {
   F8 reach = multiplyAdd(along, set(round.halfLength), dot(n, set3(round.center)));
   F8 across = set(round.radius);
   if (kind == ObstacleKind::Cylinder)
-    across = across * root(larger(set(1.0F) - along * along, set(0.0F)) + set(1e-6F));
-  return reach + across + set(2e-6F * far);
+    across = across * root(larger(set(1.0F) - along * along, set(0.0F)) + set(kSupportShare));
+  return reach + across + set(2.0F * kSupportShare * far);
 }
 
 F8 reachOf(const SimdObstacles& obstacles, const SimdObstacle& obstacle, const V3& n) {
@@ -108,9 +109,9 @@ class DividedPair {
     float acceleration = accelerationOfPoints(model, reference_, source_.geometry, scratch);
     if (self_) acceleration += accelerationOfPoints(model, reference_, source_.other, scratch);
     // Two rounded positions, and as much for what is computed of them here.
-    const float margin = (model.margin + model.extraOf(pair)) * (1.0F + 1e-6F);
+    const float margin = (model.margin + model.extraOf(pair)) * kMarginOutward;
     required_ = (set(4.0F * scratch.rounding + margin) + inflation(half_, acceleration)) *
-                set(1.0F + 4e-6F);
+                set(kPairOutward);
   }
 
   /// By planes across a direction that is fixed in the frame of the first body, then of the other.

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "rounding/error_model.hpp"
 #include "simd/compile/obstacles.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/placed_ball.hpp"
@@ -111,7 +112,8 @@ HWY_INLINE F8 ellipsoidSquared(const SimdEllipsoid& shape, const Segment& segmen
     const V3 axis = set3(shape.axes[i]);
     x[i] = dot(axis, segment.x) + set(shape.offset[i]);
     g[i] = dot(axis, segment.g);
-    const F8 gap = positive(absolute(x[i]) - absolute(g[i]) - set(shape.semiAxes[i]));
+    const F8 gap =
+        positive(absolute(x[i]) - absolute(g[i]) - set(shape.semiAxes[i]) - set(shape.slack));
     box = multiplyAdd(gap, gap, box);
   }
   const V3 scale = set3(shape.inverse);
@@ -126,7 +128,7 @@ HWY_INLINE F8 ellipsoidSquared(const SimdEllipsoid& shape, const Segment& segmen
   const V3 support = {n.x * set(shape.semiAxes[0]), n.y * set(shape.semiAxes[1]),
                       n.z * set(shape.semiAxes[2])};
   const F8 at = dot(n, V3{x[0], x[1], x[2]}) - absolute(dot(n, V3{g[0], g[1], g[2]}));
-  return larger(square(positive(at - root(dot(support, support)))), box);
+  return larger(square(positive(at - root(dot(support, support)) - set(shape.slack))), box);
 }
 
 /// Bytes of words in memory.
@@ -238,7 +240,7 @@ struct FieldAnswer {
 HWY_INLINE FieldAnswer askField(const SimdField& field, const Segment& segment, const F8& radius,
                                 Lanes wanted) {
   const V3 x = inFrame(field, segment.x, true);
-  const F8 length = root(dot(segment.g, segment.g)) * set(1.0F + 1e-6F);
+  const F8 length = root(dot(segment.g, segment.g)) * set(kLengthOutward);
   FieldAnswer answer;
   answer.middle = clearance(field, x, radius + length, wanted);
   const F8 room = answer.middle - radius;
@@ -253,7 +255,7 @@ HWY_INLINE FieldAnswer askField(const SimdField& field, const Segment& segment, 
   const F8 part = (room + rest) / larger(length, set(1e-20F));
   const F8 ahead = clearance(field, along(x, part, g), radius + rest, open) - radius;
   const F8 behind = clearance(field, along(x, -part, g), radius + rest, open) - radius;
-  answer.apart |= open & above(smaller(ahead, behind), rest * set(1.0F + 1e-6F));
+  answer.apart |= open & above(smaller(ahead, behind), rest * set(kLengthOutward));
   answer.worthQuery &= ~answer.apart;
   return answer;
 }

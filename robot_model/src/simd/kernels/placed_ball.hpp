@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "rounding/error_model.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/simd_scratch.hpp"
@@ -17,17 +18,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 
-/// Of the square of a distance within which balls meet: beyond, its roundings may count.
-constexpr float kMeeting = 1.0F - 1e-5F;
-
 /// Points x + s g, |s| <= 1.
 struct Segment {
   V3 x;
   V3 g;
 };
 
-/// Square of the least |y + s h|, |s| <= 1. Lemma: s is off by at most ds = 8 kSingle |y| / |h|,
-/// and |y + s h|^2 by |h|^2 ds^2 more than the least, so the distance by less than 8 kSingle |y|.
+/// Square of the least |y + s h|, |s| <= 1. L8 of ERROR_MODEL.md: for what s is off, the distance
+/// is off by less than 8 kSingle |y|.
 HWY_INLINE F8 nearestSquared(const V3& y, const V3& h) {
   const F8 length = larger(dot(h, h), set(1e-30F));
   const F8 s = smaller(larger(-(dot(y, h) / length), set(-1.0F)), set(1.0F));
@@ -44,7 +42,7 @@ HWY_INLINE float accelerationOf(const SimdReference& reference, const SimdBounds
 
 /// m; half^2 / 2 of an acceleration, outward by more than the roundings.
 HWY_INLINE F8 inflation(const F8& half, float acceleration) {
-  return half * half * set(acceleration * (0.5F + 1e-6F));
+  return half * half * set(acceleration * kHalfOutward);
 }
 
 /// Its centre.

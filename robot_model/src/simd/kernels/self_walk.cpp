@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simd/kernels/self_walk.hpp"
 
+#include "rounding/error_model.hpp"
 #include "simd/kernels/state_walk.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -82,7 +83,7 @@ class SelfWalk {
     turning_ = moving_ && reference.body != 0;
     if (turning_) angular_ = half_ * load3(block_.states[reference.body].angular);
     // Both balls' positions are rounded.
-    extra_ = set(2.0F * scratch_.rounding + (model_.margin + bodies.extra) * (1.0F + 1e-6F));
+    extra_ = set(2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward);
     if (moving_)
       extra_ = extra_ + inflation(half_, accelerationOf(reference, bounds, bodies.bodyA) +
                                              accelerationOf(reference, bounds, bodies.bodyB));
@@ -99,7 +100,7 @@ class SelfWalk {
     const V3 between = atB.x - atA.x;
     V3 by = atB.g - atA.g;
     if (turning_) by = addCross(by, between, angular_);  // - angular x between
-    const F8 radius = (set(a.radius + b.radius) + extra_) * set(1.0F + 4e-6F);
+    const F8 radius = (set(a.radius + b.radius) + extra_) * set(kPairOutward);
     return ~above(nearestSquared(between, by), radius * radius) & kAllLanes;
   }
 

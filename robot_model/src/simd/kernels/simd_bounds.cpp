@@ -5,12 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "rounding/error_model.hpp"
+
 namespace swept::detail {
 
 namespace {
-
-/// Of the sums, per joint: each takes a few roundings of doubles.
-constexpr double kRounding = 8.0 * 0x1p-53;
 
 /// V and d of the lemma, per body.
 void boundTurning(const SimdModel& model, SimdScratch& scratch) {
@@ -33,8 +32,8 @@ void boundTurning(const SimdModel& model, SimdScratch& scratch) {
 }
 
 void addAccelerations(const SimdJointMotion& joint, std::size_t at, SimdScratch& scratch) {
-  scratch.turned[at] = (scratch.turned[at] + joint.spinAcceleration) * kOutward;
-  scratch.slid[at] = (scratch.slid[at] + joint.acceleration) * kOutward;
+  scratch.turned[at] = (scratch.turned[at] + joint.spinAcceleration) * kBoundOutward;
+  scratch.slid[at] = (scratch.slid[at] + joint.acceleration) * kBoundOutward;
 }
 
 /// What boundSteps does, for the joints of a path from the index `first` on alone: `turned` and
@@ -48,11 +47,11 @@ void boundPath(const SimdModel& model, const std::vector<int>& path, std::size_t
     float next = before + joint.spin;
     if (i > first && model.bodies[path[i]].cosine >= 0.0F)
       next = std::min(next, start + scratch.together[path[i]]);
-    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
-    scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
+    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kBoundOutward;
+    scratch.slid[i] = 2.0F * joint.speed * before * kBoundOutward;
     if (scratch.curved) addAccelerations(joint, i, scratch);
     start = before;
-    before = next * kOutward;
+    before = next * kBoundOutward;
   }
 }
 
@@ -68,7 +67,7 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch) {
   auto& [turning, excess, carried, driven, slid] = scratch.nested;
   std::ranges::fill(carried, 0.0);
   std::ranges::fill(driven, 0.0);
-  const double rounding = kRounding * static_cast<double>(model.bodies.size());
+  const double rounding = kNestedRoundings * static_cast<double>(model.bodies.size());
   for (std::size_t at = model.bodies.size(); at-- > 1;) {
     const SimdCarried& joint = model.carried[at];
     const auto spin = static_cast<double>(scratch.motion[at].spin);
@@ -91,7 +90,7 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch) {
         const double error = rounding * (driven[body] + own + 2.0 * largest * carried[body]);
         const int slot = model.references[joint.around].slot[body];
         scratch.bounds[joint.around].acceleration[slot / kLanes].lane[slot % kLanes] =
-            kOutward * static_cast<float>(std::max(0.0, sum) + error);
+            kBoundOutward * static_cast<float>(std::max(0.0, sum) + error);
       }
       const double moved = spin * arm + speed;
       carried[body] += moved;
@@ -121,7 +120,7 @@ float accelerationOfPoints(const SimdModel& model, int index, int geometry, Simd
   }
   // One rounding for each term, and what the last products round.
   const auto terms = static_cast<float>(path.size() * (hull.growsByAll ? 2 : 1) + hull.growthCount);
-  return sum * (kOutward + 0x1p-22F * terms);
+  return sum * (kBoundOutward + kBoundPerTerm * terms);
 }
 
 }  // namespace swept::detail

@@ -3,16 +3,14 @@
 
 #include <algorithm>
 
+#include "rounding/error_model.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 
 namespace swept::detail {
 
-/// More than what the few roundings of a bound can take away.
-inline constexpr float kOutward = 1.0F + 4e-6F;
-
 /// Bounds on the angular velocity of each step's body relative to the reference, and what comes of
-/// it for the arms: `turning`, `turned` and `slid` of the scratch. The lemma is boundMotion's.
+/// it for the arms: `turning`, `turned` and `slid` of the scratch. By L3 of ERROR_MODEL.md.
 inline void boundSteps(const SimdReference& reference, SimdScratch& scratch) {
   float* turning = scratch.turning.data();
   for (std::size_t i = 0; i < reference.steps.size(); ++i) {
@@ -24,9 +22,9 @@ inline void boundSteps(const SimdReference& reference, SimdScratch& scratch) {
       const float start = step.grandparent < 0 ? 0.0F : turning[step.grandparent];
       next = std::min(next, start + scratch.together[step.body]);
     }
-    turning[i] = next * kOutward;
-    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kOutward;
-    scratch.slid[i] = 2.0F * joint.speed * before * kOutward;
+    turning[i] = next * kBoundOutward;
+    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kBoundOutward;
+    scratch.slid[i] = 2.0F * joint.speed * before * kBoundOutward;
   }
 }
 

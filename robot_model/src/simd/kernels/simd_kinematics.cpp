@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "rounding/error_model.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/simd_bounds.hpp"
 #include "swept/core/simd_dispatch.hpp"
@@ -18,10 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
 
-/// Lemma: for |angle| <= 128, both are within 2^-22 of the sine and cosine. The multiple k of pi/2
-/// is below 2^7; the parts of pi/2 have 8, 12 and 24 bits, so that k times the first two is exact,
-/// what is left is at most pi/4 (1 + 2^-10) and off by less than 2^-24; the series are cut where
-/// the next term is below 2^-27, and rounding in their evaluation adds less than 2^-23.
+/// For |angle| <= 128, both are within kSineError of the sine and cosine: L6 of ERROR_MODEL.md. The
+/// parts of pi/2 have 8, 12 and 24 bits.
 HWY_INLINE void sineCosine(const F8& angle, F8& sine, F8& cosine) {
   const F8 k = nearest(angle * set(0.636619772F));
   F8 r = subtractProduct(angle, k, set(1.5703125F));
@@ -175,8 +174,8 @@ HWY_INLINE void boundAll(const SimdModel& model, SimdScratch& scratch) {
     if (joint.cosine < 0.0F) continue;
     const float spin = scratch.motion[body].spin;
     const float previous = scratch.motion[joint.parent].spin;
-    scratch.together[body] = kOutward * std::sqrt(previous * previous + spin * spin +
-                                                  2.0F * previous * spin * joint.cosine);
+    scratch.together[body] = kBoundOutward * std::sqrt(previous * previous + spin * spin +
+                                                       2.0F * previous * spin * joint.cosine);
   }
   if (!model.carried.empty()) return boundCarried(model, scratch);
   for (std::size_t k = 0; k < model.references.size(); ++k) {
@@ -199,7 +198,8 @@ HWY_INLINE void boundAll(const SimdModel& model, SimdScratch& scratch) {
       }
       // One rounding for each term, and what the last products round.
       const float outward =
-          kOutward + 0x1p-22F * static_cast<float>(steps * (1 + reference.growths.size()));
+          kBoundOutward +
+          kBoundPerTerm * static_cast<float>(steps * (1 + reference.growths.size()));
       store(sum * set(outward), scratch.bounds[k].acceleration[r]);
     }
   }

@@ -5,18 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "rounding/error_model.hpp"
 #include "simd/kernels/simd_kinematics.hpp"
 #include "swept/core/axis_frame.hpp"
 
 namespace swept::detail {
 
 namespace {
-
-/// rad; what sines and cosines are good for.
-constexpr double kFarthest = 100.0;
-
-/// More than the rounding of a double to single precision.
-constexpr double kOutward = 1.0 + 2.0 * kSingle;
 
 /// Of the lane frame of a body in that of its parent, and of what a floating joint is turned by
 /// before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the axis.
@@ -34,14 +29,10 @@ constexpr double kOutward = 1.0 + 2.0 * kSingle;
   }
 }
 
-/// What the error of a whole motion depends on.
+/// What the error of a whole motion depends on; the reach is added at the end.
 struct Extent {
-  double largestAngle = 0.0;  ///< rad
-  double spins = 0.0;         ///< rad per unit t, of all joints
-  double speeds = 0.0;        ///< m per unit t, of all joints
-  double slid = 0.0;          ///< m, of all joints
-  double slideError = 0.0;    ///< m, likewise
-  bool withinLimits = true;   ///< all joints that only turn
+  MotionExtent motion;
+  bool withinLimits = true;  ///< all joints that only turn
 };
 
 /// rad. Beyond, the rounding of 2 pi shows in what is left of an angle when turns are taken off.
@@ -59,11 +50,11 @@ bool addTurn(double angle, double rate, double spin, double travel, SimdJointMot
   angle = nearZero(angle);
   lane.angle = static_cast<float>(angle);
   lane.angleRate = static_cast<float>(rate);
-  lane.spin = static_cast<float>(spin * kOutward);
+  lane.spin = static_cast<float>(spin * kSingleOutward);
   const double reached = std::abs(angle) + travel;
-  extent.largestAngle = std::max(extent.largestAngle, reached);
-  extent.spins += spin;
-  return reached <= kFarthest;  // not if it is no number
+  extent.motion.largestAngle = std::max(extent.motion.largestAngle, reached);
+  extent.motion.spins += spin;
+  return reached <= kLargestTurn;  // not if it is no number
 }
 
 /// Slides are written in the parent's frame.
@@ -88,11 +79,11 @@ bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::siz
   // The largest of several may leave out what is no number: a walk must never see it.
   if (!std::isfinite(joint.maxTranslation + joint.high - joint.low + joint.speed)) return false;
   setSlides(model, body, index, joint, lane);
-  lane.speed = static_cast<float>(joint.speed * kOutward);
-  extent.speeds += joint.speed;
-  lane.slid = static_cast<float>(joint.slid() * kOutward);
-  extent.slid += joint.slid();
-  extent.slideError += joint.slideError;
+  lane.speed = static_cast<float>(joint.speed * kSingleOutward);
+  extent.motion.speeds += joint.speed;
+  lane.slid = static_cast<float>(joint.slid() * kSingleOutward);
+  extent.motion.slid += joint.slid();
+  extent.motion.slideError += joint.slideError;
   const bool floating = body.type == JointType::Floating;
   if (floating) compileFloating(body, joint, lane);
   const double rate = floating ? joint.spinSpeed : joint.angleRate;
@@ -145,8 +136,8 @@ bool isLinear(const JointMotion& joint) {
 }
 
 void setAccelerations(const JointMotion& joint, SimdJointMotion& lane) {
-  lane.acceleration = static_cast<float>(joint.acceleration * kOutward);
-  lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kOutward);
+  lane.acceleration = static_cast<float>(joint.acceleration * kSingleOutward);
+  lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kSingleOutward);
 }
 
 /// Those of any path, as it is over the whole motion.
@@ -172,18 +163,12 @@ bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
   return true;
 }
 
-/// Lemma: a rotation is off by at most 32 kSingle (1 + a / 8) more than its parent's, a the largest
-/// angle: 4 kSingle a from the angle, 5 kSingle from the sine and cosine, and two products with
-/// three terms each. A position is off by the sum of these times what lies beyond, at most the
-/// reach at rest and what is slid, plus its own sums; a velocity by as much times the sum of the
-/// spins, of which half an interval counts at most a half. What is slid takes points as much
-/// farther from the obstacles' frames as well.
+/// L6 and L7 of ERROR_MODEL.md.
 bool setRounding(const SimdModel& model, const Extent& extent, SimdScratch& scratch) {
   scratch.withinLimits = extent.withinLimits;
-  const double reach = model.reach + extent.slid;
-  const double relative = static_cast<double>(model.rounding) * (1.0 + extent.largestAngle / 8.0);
-  const double rounding = relative * (reach * (1.0 + 0.5 * extent.spins) + 0.5 * extent.speeds) +
-                          64.0 * kSingle * extent.slid + extent.slideError;
+  MotionExtent whole = extent.motion;
+  whole.reach = model.reach + whole.slid;
+  const double rounding = motionRounding(static_cast<double>(model.rounding), whole);
   scratch.rounding = static_cast<float>(rounding);
   return rounding < 1.0;
 }
@@ -247,9 +232,9 @@ SimdJointMotion SimdMotion::localMotion(std::size_t body) const {
   setAccelerations(joint, own);
   own.angle = static_cast<float>(nearZero(joint.angle));
   own.angleRate = static_cast<float>(joint.angleRate);
-  own.spin = static_cast<float>(joint.spinSpeed * kOutward);
-  own.speed = static_cast<float>(joint.speed * kOutward);
-  own.slid = static_cast<float>(joint.slid() * kOutward);
+  own.spin = static_cast<float>(joint.spinSpeed * kSingleOutward);
+  own.speed = static_cast<float>(joint.speed * kSingleOutward);
+  own.slid = static_cast<float>(joint.slid() * kSingleOutward);
   if (slides(model_.bodies[body].kind))
     setSlides(model_, kinematics_.bodies[body], body, joint, own);
   return own;
@@ -273,9 +258,9 @@ bool compileSimdStates(const SimdModel& model, const KinematicModel& kinematics,
         states.subspan((lane < count ? lane : 0) * dimension, dimension);
     Extent own;
     if (!addStraight(model, kinematics, q, q, scratch, own)) return false;
-    extent.largestAngle = std::max(extent.largestAngle, own.largestAngle);
-    extent.slid = std::max(extent.slid, own.slid);
-    extent.slideError = std::max(extent.slideError, own.slideError);
+    extent.motion.largestAngle = std::max(extent.motion.largestAngle, own.motion.largestAngle);
+    extent.motion.slid = std::max(extent.motion.slid, own.motion.slid);
+    extent.motion.slideError = std::max(extent.motion.slideError, own.motion.slideError);
     extent.withinLimits &= own.withinLimits;
     for (std::size_t i = 1; i < model.bodies.size(); ++i) {
       scratch.block.angle[i].lane[lane] = scratch.motion[i].angle;

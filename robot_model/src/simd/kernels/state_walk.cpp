@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "rounding/error_model.hpp"
 #include "simd/kernels/self_walk.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -81,13 +82,13 @@ class StateWalk {
     const SimdBodyPair& bodies = model_.bodyPairs[bodyPair];
     states_.a = &block_.states[bodies.bodyA];
     states_.b = &block_.states[bodies.bodyB];
-    extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra) * (1.0F + 1e-6F);
+    extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward;
   }
 
   /// Of eight pairs of balls, those that are not proven apart. Radii are sums, `keep` is beyond
   /// these, rounding included.
   HWY_INLINE static Lanes notApart(const F8& squared, const F8& radii, const F8& keep) {
-    const F8 radius = (radii + keep) * set(1.0F + 4e-6F);
+    const F8 radius = (radii + keep) * set(kPairOutward);
     return ~above(squared, radius * radius) & kAllLanes;
   }
 

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "rounding/error_model.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/field_walk.hpp"
 #include "simd/kernels/obstacle_kernels.hpp"
@@ -104,7 +105,7 @@ class WorldWalk {
 
   /// m; more than what rounding of squares and roots takes away.
   HWY_INLINE F8 inflated(const SimdNode& node) const {
-    return (set(node.radius) + extra_) * set(1.0F + 2e-6F);
+    return (set(node.radius) + extra_) * set(kBallOutward);
   }
 
   /// Obstacles whose boxes meet the box around all lanes.
@@ -209,7 +210,7 @@ class WorldWalk {
   /// the node has several pieces of geometry.
   float extraOf(const SimdNode& node, std::int32_t obstacle, std::int32_t pair) const {
     const float extra = node.geometry >= 0 ? model_.extras[pair] : model_.obstacleExtras[obstacle];
-    return extra * (1.0F + 1e-5F);
+    return extra * kExtraOutward;
   }
 
   /// Looks at balls inside the link, in the lane in which it is deepest in the obstacle.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/pair_model.hpp"
+#include "rounding/error_model.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/solid_depth.hpp"
 
@@ -41,7 +42,6 @@ PairSeparationTable::InnerBall innerBall(const SimdNode& node) {
   return {{node.center[0], node.center[1], node.center[2]}, node.inside};
 }
 
-// The centre's rounding and those of its pose are far below 1e-6 of its coordinates.
 PairSeparationTable::InnerBall innerBallAround(const PairModel& model, const SimdModel& simd,
                                                int geometry, const Eigen::Vector3d& center) {
   const RobotGeometry& body = model.robotGeometry[static_cast<std::size_t>(geometry)];
@@ -51,7 +51,8 @@ PairSeparationTable::InnerBall innerBallAround(const PairModel& model, const Sim
                                   (simd.bodyFromLane[static_cast<std::size_t>(body.body)] * center);
   const double depth = solidDepth(body.shape, inShape);
   const double magnitude = center.norm() + inShape.norm();
-  ball.inside = static_cast<float>(std::max(0.0, (depth - 1e-6 * magnitude) * (1.0 - 1e-6)));
+  ball.inside = static_cast<float>(
+      std::max(0.0, (depth - kInnerBallShare * magnitude) * (1.0 - kInnerBallShare)));
   return ball;
 }
 
@@ -76,7 +77,7 @@ void PairProof::choose(const PairSeparationTable::Geometries& pair) {
   geometryA_ = pair.a;
   geometryB_ = pair.b;
   margin_ = pair.margin;
-  slack_ = margin_ + 1e-5 * static_cast<double>(simd_.reach);
+  slack_ = margin_ + kTableShare * static_cast<double>(simd_.reach);
   stopped_ = {-1, -1};
   meetingOfA_ = meetingOfB_ = {};
   guess_.setZero();

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/pair_model.hpp"
+#include "rounding/error_model.hpp"
 
 namespace swept::detail {
 
@@ -16,10 +17,6 @@ using Eigen::Vector3d;
 
 /// Along each joint, of a table for one and for two.
 constexpr std::array<int, 3> kCells{1, 1024, 192};
-/// rad. Single precision tells cells apart on ranges up to this.
-constexpr double kWidest = 32.0;
-/// rad. A float, with the index of its part, is far less off: on the widest range by 2e-5.
-constexpr double kValueRounding = 4e-5;
 
 }  // namespace
 
@@ -57,7 +54,8 @@ bool TableMotion::setAxes(int coarseness) {
       upper = std::numbers::pi;
       lower = -upper;
     }
-    const bool fits = turns(body.type) && lower >= -kWidest && upper <= kWidest && upper > lower;
+    const bool fits =
+        turns(body.type) && lower >= -kTableWidest && upper <= kTableWidest && upper > lower;
     if (!fits) return false;
     // All turns are like the first.
     const int most = kCells[path_.size()] / (path_.size() == 2 ? coarseness : 1);
@@ -106,7 +104,7 @@ TableMotion::Place TableMotion::placeOf(const Parts& parts) const {
   Place place;
   for (std::size_t k = 0; k < path_.size(); ++k) {
     middle[k] = low_[k] + 0.5 * step_[k] * (parts.begin[k] + parts.end[k]);
-    place.half[k] = 0.5 * step_[k] * (parts.end[k] - parts.begin[k]) + kValueRounding;
+    place.half[k] = 0.5 * step_[k] * (parts.end[k] - parts.begin[k]) + kTableValueError;
   }
   place.bodies =
       pose(pathA_, middle.data()).inverse() * pose(pathB_, middle.data() + pathA_.size());
@@ -121,7 +119,7 @@ double TableMotion::travelTo(const Parts& parts, int i, int j, const Levers& lev
   double sum = 0.0;
   for (std::size_t k = 0; k < path_.size(); ++k) {
     const int twice = std::abs(2 * part[k] + 1 - parts.begin[k] - parts.end[k]);
-    sum += (0.5 * step_[k] * (twice + 1) + kValueRounding) * levers[k];
+    sum += (0.5 * step_[k] * (twice + 1) + kTableValueError) * levers[k];
   }
   return sum * (1.0 + 1e-9);
 }
