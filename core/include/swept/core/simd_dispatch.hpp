@@ -5,7 +5,6 @@
 /// Highway's own library does the same (HWY_EXPORT, HWY_DYNAMIC_DISPATCH). But it measures the
 /// processor's clock when it is loaded, with an instruction (`rdtscp`) that valgrind does not know
 /// on every processor, and such a program ends before `main`. So swept uses only Highway's headers.
-/// used.
 #pragma once
 
 #include <hwy/targets.h>
