@@ -5,11 +5,11 @@
 
 #include <numbers>
 
-#include "lane_targets.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -125,7 +125,7 @@ class Robots {
 /// The errors of where a ball's centre is and of the half way that it moves are together within the
 /// motion's rounding, for the longest sub-intervals and at the ends of motions.
 TEST(SimdKinematics, PositionsAndVelocitiesAreWithinTheRoundingBound) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Robots robots(11);
     double worst = 0.0;
@@ -206,7 +206,7 @@ class Turntable {
 };
 
 TEST(SimdKinematics, SinesAndCosinesAreWithinTheirBound) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Turntable table;
     Random random(12);
@@ -262,4 +262,4 @@ TEST(SimdKinematics, FarTurnsAndWhatIsNoNumberAreRefused) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

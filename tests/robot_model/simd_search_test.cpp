@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "lane_targets.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -187,4 +187,4 @@ TEST(SimdSearch, ALinkThatTouchesAnObstacleIsNotProvenApart) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test
