@@ -16,17 +16,17 @@ using Eigen::Vector3d;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// The box of `center` +- `half`, both in the world. Lemma: a coordinate of the centre is a sum of
-/// four products or terms, off by at most 4u of the sum of their magnitudes (u = epsilon / 2), that
-/// is of `scale`; a half extent comes from at most ten operations on non-negative terms, off by at
-/// most 10u of itself; the last sum rounds by u of its result. Together less than 16u (scale +
-/// half), plus what underflows.
+/// four products or terms, off by at most 4u of the sum of their magnitudes (u = epsilon / 2),
+/// which is 4u of `scale`. A half extent comes from at most ten operations on non-negative terms,
+/// off by at most 10u of itself. The last sum rounds by u of its result. Together this is less than
+/// 16u (scale + half), plus underflow.
 Aabb grown(const Vector3d& center, const Vector3d& half, const Vector3d& scale) {
   const Vector3d reach =
       (half + 16.0 * kEpsilon * (scale + half)).array() + 16.0 * std::numeric_limits<double>::min();
   return {center - reach, center + reach};
 }
 
-/// Extents of the turned shape along the world's axes, which are the rows of the rotation.
+/// Extents of the rotated shape along the world's axes, which are the rows of the rotation.
 class Placed {
  public:
   Placed(const Isometry3d& world_from_shape, BoxFit fit) : pose_(world_from_shape), fit_(fit) {}
@@ -42,7 +42,7 @@ class Placed {
     return aroundOrigin((capsule.halfLength * absolute().col(2)).array() + capsule.radius);
   }
   Aabb operator()(const Cone& cone) const {
-    // The apex and the base's rim, each on its side.
+    // The apex and the rim of the base, each on its side.
     const Vector3d apex = cone.halfLength * pose_.linear().col(2);
     const Vector3d rim = cone.radius * radial();
     const Aabb base = around(pose_.translation() - apex, rim, scaleOf(apex));
@@ -87,7 +87,7 @@ class Placed {
     const Vector3d scale = absolute() * box.middle.cwiseAbs() + pose_.translation().cwiseAbs();
     return grown(pose_ * box.middle, absolute() * box.half, scale);
   }
-  /// Points that may be off by `error`, in the local frame.
+  /// Box of points that may be off by `error`, in the local frame.
   Aabb ofPoints(std::span<const Vector3d> points, double error) const {
     Vector3d lower = pose_ * points.front(), upper = lower;
     Vector3d largest = points.front().cwiseAbs();
