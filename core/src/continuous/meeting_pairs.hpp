@@ -14,7 +14,7 @@ struct MeetingPair {
   std::uint32_t second;  ///< likewise; the larger one of two of one tree
 };
 
-/// A pair of blocks still to be looked at.
+/// A pair of blocks that has yet to be tested.
 struct OpenBlocks {
   std::uint32_t first, second;
   std::uint8_t firstLevel, secondLevel;
@@ -22,28 +22,28 @@ struct OpenBlocks {
 
 struct MovingTree {
   const TreeOrder* order;
-  const DeformingFrame* start;  ///< null: only the end is of interest
+  const DeformingFrame* start;  ///< null: only the end matters
   const DeformingFrame* end;
 };
 
-/// Appends all pairs of triangles that come within `margin` (m) of each other, and others for which
-/// no proof to the contrary was found. `same`: the two trees are one; of pairs with a common vertex
-/// only those of two marked triangles are appended. `open` is scratch.
+/// Appends all pairs of triangles that come within `margin` (m) of each other, and others without a
+/// proof that they do not. `same`: the two trees are one; of pairs with a common vertex only those
+/// of two marked triangles are appended. `open` is scratch.
 ///
-/// `margin` has to contain kMeetingRounding times the largest coordinate.
+/// `margin` must include kMeetingRounding times the largest coordinate.
 void findMeetingPairs(const MovingTree& a, const MovingTree& b, bool same, float margin,
                       std::vector<OpenBlocks>& open, std::vector<MeetingPair>& pairs);
 
 /// Relative (no unit). Lemma: corners are off by u M, with u = 2^-24 and M the largest coordinate,
-/// and so are the boxes. An axis that keeps boxes of rounded corners apart by 3 u M, one rounding
-/// of a sum included, keeps the triangles apart. For a vector n of norm up to 1.001, so 1-norm up
-/// to 1.74, n . p is off by 1.74 u M for the corner and by 3.1 * 1.74 u M for three roundings; the
-/// difference of two by twice that and 2 * 1.74 u M more, 18 u M in all. Whatever n is: where it
-/// comes from needs no proof.
+/// and so are the boxes. An axis that separates boxes of rounded corners by 3 u M, one rounding of
+/// a sum included, separates the triangles. For a vector n of norm up to 1.001, so 1-norm up to
+/// 1.74, n . p is off by 1.74 u M for the corner and by 3.1 * 1.74 u M for three roundings; the
+/// difference of two is off by twice that and 2 * 1.74 u M more, 18 u M in all. This holds for any
+/// n, wherever it comes from.
 inline constexpr double kMeetingRounding = 32.0 * 0x1p-24;
 
-/// m. From this margin on, which is where coordinates may exceed 5e17, boxes alone are compared:
-/// products could leave single precision. Below it none does that counts.
+/// m. From this margin on, where coordinates may exceed 5e17, only boxes are compared: products
+/// could leave single precision. Below it, no relevant product does.
 inline constexpr float kMostMargin = 1e12F;
 
 }  // namespace swept::detail
