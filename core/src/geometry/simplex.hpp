@@ -19,7 +19,7 @@ struct Simplex {
 
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
   bool contains(const Eigen::Vector3d& difference) const;
-  /// No weight is negative or no number.
+  /// Whether no weight is negative or NaN.
   bool hasShares() const;
 
   /// Drops the vertices that do not support the point of the simplex nearest to the origin, sets
