@@ -26,11 +26,11 @@ void StraightPath::interpolate(double t, std::span<double> q) const {
 
 namespace {
 
-/// Of the time, for which the ends of neighbouring intervals may round apart.
+/// Relative to the time: the ends of neighbouring intervals may round apart by it.
 constexpr double kOutward = 1.0 + 1e-12;
 constexpr double kTimeRounding = 0x1p-50;
 
-/// By t' with t = begin + width t'.
+/// The derivative by t' with t = begin + width t'.
 void rescale(double begin, double width, JointMotion& joint) {
   joint.anchor = width > 0.0 ? (joint.anchor - begin) / width : 0.0;
   joint.rate *= width;

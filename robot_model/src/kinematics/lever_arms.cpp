@@ -12,11 +12,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Bounds are computed in doubles; this covers the roundings of their few operations.
+/// Bounds are computed in doubles; this factor covers the rounding of their few operations.
 constexpr double kOutward = 1.0 + 1e-12;
 
-/// Where a point can be while the joints beyond vary: within `radius` of an axis through the
-/// frame's origin and between `low` and `high` along it, and within `ball` of the origin.
+/// The possible positions of a point while the joints beyond vary: within `radius` of an axis
+/// through the frame's origin and between `low` and `high` along it, and within `ball` of the
+/// origin.
 struct ReachableSet {
   Vector3d axis;
   double radius;
@@ -42,12 +43,12 @@ Vector3d axisOf(const MovingBody& body) {
 }
 
 /// The set in the parent's frame, as a set of revolution about that frame's own axis. A disc of the
-/// old set with centre c is within |c across| + radius of the new axis; both coordinates are convex
+/// old set with centre c is within |c across| + radius of the new axis. Both coordinates are convex
 /// in c, so the two end discs decide.
 ReachableSet inParent(const ReachableSet& set, const Eigen::Isometry3d& parent_from_joint,
                       const Vector3d& parentAxis) {
   const Vector3d direction = parent_from_joint.linear() * set.axis;
-  // Of nearly parallel axes the cosine says next to nothing.
+  // For nearly parallel axes the cosine has hardly any digits.
   const double tilt = parentAxis.cross(direction).norm() * kOutward;
   ReachableSet result;
   result.axis = parentAxis;
@@ -100,7 +101,7 @@ ReachableSet setOf(const MovingBody& body, const Vector3d& center) {
   return {first, (center - along * first).norm(), along, along, center.norm()};
 }
 
-/// m; see LeverArms::span. The set of the points goes inwards with the frames that are passed.
+/// m; see LeverArms::span. The set of the points moves inwards with the frames that are passed.
 template <typename RangeOf>
 double spanOf(const KinematicModel& model, int body, ReachableSet set, const RangeOf& rangeOf) {
   double span = set.ball;
@@ -118,8 +119,8 @@ double spanOf(const KinematicModel& model, int body, ReachableSet set, const Ran
   return (span + detours) * kOutward;
 }
 
-/// Goes inwards and shows each joint's body, the arm of the ball's points (m) about its axis, and
-/// how far (m) they get from the origin of its joint frame.
+/// Walks inwards and passes on each joint's body, the lever arm of the ball's points (m) about its
+/// axis, and their largest distance (m) from the origin of its joint frame.
 template <typename RangeOf, typename Visit>
 void visitArms(const KinematicModel& model, int body, const Vector3d& center, double radius,
                const RangeOf& rangeOf, const Visit& visit) {
@@ -137,12 +138,12 @@ Range atRest(int /*body*/) {
   return {0.0, 0.0};
 }
 
-/// Lemma: of what a slide s along u adds to a point, s times the part of u across an axis is across
-/// that. In the frame of the axis u is in the set that joints between the two turn it through: a
-/// vector is placed as a point is, but for the translations.
+/// Lemma: a slide by s along u adds to a point s times the component of u orthogonal to an axis,
+/// orthogonally to that axis. In the frame of the axis, u is in the set of its rotations by the
+/// joints between the two: a vector is placed like a point, without the translations.
 void addGrowths(const KinematicModel& model, int slide, std::span<const int> path,
                 std::vector<RestArms::Growth>& growths) {
-  // Of axes that are parallel, rounding says that they are nearly so.
+  // For parallel axes, rounding reports nearly parallel ones.
   constexpr double kRounding = 1e-14;
   ReachableSet set{axisOf(model.bodies[slide]), 0.0, 1.0, 1.0, 1.0};
   auto joint = static_cast<std::size_t>(std::ranges::find(path, slide) - path.begin());
@@ -222,8 +223,8 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
   // |b_k| + 2 |r_k| W_{k-1} for translations. A joint with both translates first, then rotates
   // about its moved origin.
   //
-  // Planar and floating joints beyond path[i] carry the ball away from its axis. Each sum is made
-  // anew: a difference of large sums would lose what is small.
+  // Planar and floating joints beyond path[i] carry the ball away from its axis. Each sum is
+  // computed anew: a difference of large sums would lose small terms.
   const auto slidBeyond = [&](std::size_t i) {
     double slid = 0.0;
     for (std::size_t k = path.size(); --k > i;) slid += motion[path[k]].maxTranslation;

@@ -5,7 +5,7 @@ namespace swept::detail {
 
 namespace {
 
-/// Of sums of so many positive terms as a robot has joints, and of what they are made of.
+/// Factor for sums of as many positive terms as a robot has joints, and for their terms.
 constexpr double kOutward = 1.0 + 1e-11;
 /// The same, per joint.
 constexpr double kRounding = 8.0 * 0x1p-53;
