@@ -17,7 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// m. Far below where squares overflow in single precision: an infinite one would be apart.
+/// m. Far below where squares overflow in single precision: an infinite square would count as
+/// apart.
 constexpr double kLargestSquared = 1e15;
 
 class ObstacleCompiler {
@@ -33,7 +34,7 @@ class ObstacleCompiler {
     // in at most eight roundings; so it is off by less than 32 kSingle of their sum. Each set is
     // grown by that.
     slack_ = 32.0 * kSingle * (reach_ + geometry.magnitude);
-    // Of a box no square is taken but of what lies outside it.
+    // For a box, only the part outside it is squared.
     if (!(geometry.magnitude < kLargestSquared)) return addBox();
     std::visit([&](const auto& shape) { addShape(shape); }, geometry.shape);
   }
@@ -79,7 +80,7 @@ class ObstacleCompiler {
     return result_.obstacles.back();
   }
 
-  /// The box that contains the geometry; for a box that is the box.
+  /// The box that contains the geometry; for a box, the box itself.
   void addBox() {
     const bool isBox = std::holds_alternative<Box>(geometry_->shape);
     addBox(geometry_->box_from_world, geometry_->halfExtents,
@@ -95,7 +96,7 @@ class ObstacleCompiler {
     result_.boxes.push_back(box);
   }
 
-  /// Thin, in the triangle's own plane, along its longest side.
+  /// A thin box in the triangle's own plane, along its longest side.
   void addTriangle(const Triangle& triangle);
 
   void addEllipsoid(const Ellipsoid& shape) {
@@ -136,7 +137,7 @@ class ObstacleCompiler {
     const double along = slant > 0.0 ? cone.radius / slant : 0.0;
     round.across = static_cast<float>(across);
     round.along = static_cast<float>(along);
-    // The side goes through the apex, at height halfLength on the axis.
+    // The side passes through the apex, at height halfLength on the axis.
     round.offset = singleAbove(along * cone.halfLength + slack_);
   }
 
@@ -163,7 +164,7 @@ class ObstacleCompiler {
 
 constexpr std::size_t kMostPlanes = 32;
 
-/// Directions of faces, the largest ones first, none twice.
+/// Directions of faces, the largest ones first, without duplicates.
 std::vector<Vector3d> faceNormals(const ConvexHull& hull) {
   constexpr double kSame = 1.0 - 1e-6;
   std::vector<Vector3d> scaled;
@@ -184,7 +185,7 @@ std::vector<Vector3d> faceNormals(const ConvexHull& hull) {
   return normals;
 }
 
-/// The set is the intersection of half-spaces that touch the hull, whatever their normals.
+/// The set is the intersection of half-spaces that touch the hull, for any normals.
 void ObstacleCompiler::addHull(const ConvexHull& hull) {
   const std::vector<Vector3d> normals = faceNormals(hull);
   if (normals.size() < 4) return addBox();
@@ -207,7 +208,7 @@ void ObstacleCompiler::addTriangle(const Triangle& triangle) {
     if (side.squaredNorm() > longest.squaredNorm()) longest = side;
   }
   const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  // Any orthonormal axes will do: the box is around the corners as they are in them.
+  // Any orthonormal axes will do: the box is around the corners in these axes.
   const Vector3d first = longest.norm() > 0.0 ? longest.normalized() : Vector3d::UnitX();
   Vector3d third = normal - normal.dot(first) * first;
   third = third.norm() > 1e-9 * longest.squaredNorm() ? third.normalized() : first.unitOrthogonal();

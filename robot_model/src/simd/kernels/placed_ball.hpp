@@ -17,7 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 
-/// Of the square of a distance within which balls meet: beyond, its roundings may count.
+/// Relative to the square of the distance within which balls meet: beyond it, roundings could
+/// matter.
 constexpr float kMeeting = 1.0F - 1e-5F;
 
 /// Points x + s g, |s| <= 1.
@@ -42,7 +43,7 @@ HWY_INLINE float accelerationOf(const SimdReference& reference, const SimdBounds
   return slot < 0 ? 0.0F : bounds.acceleration[slot / kLanes].lane[slot % kLanes];
 }
 
-/// m; half^2 / 2 of an acceleration, outward by more than the roundings.
+/// m; half^2 / 2 of an acceleration, rounded up by more than the roundings.
 HWY_INLINE F8 inflation(const F8& half, float acceleration) {
   return half * half * set(acceleration * (0.5F + 1e-6F));
 }
@@ -66,7 +67,7 @@ HWY_INLINE Segment segmentOf(const SimdRoot& ball, bool moving) {
   return {load3(ball.at), load3(ball.by)};
 }
 
-/// Eight points of a link as they are in one lane.
+/// Eight points of a link in one lane.
 template <typename Eight>
 HWY_INLINE V3 placedAt(const SimdBodyState& state, int lane, const Eight& eight) {
   const auto entry = [lane](const Row& row) { return set(row.lane[lane]); };

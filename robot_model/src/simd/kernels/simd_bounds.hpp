@@ -8,11 +8,12 @@
 
 namespace swept::detail {
 
-/// More than what the few roundings of a bound can take away.
+/// Factor that exceeds the few roundings of a bound.
 inline constexpr float kOutward = 1.0F + 4e-6F;
 
-/// Bounds on the angular velocity of each step's body relative to the reference, and what comes of
-/// it for the arms: `turning`, `turned` and `slid` of the scratch. The lemma is boundMotion's.
+/// Bounds on the angular velocity of each step's body relative to the reference, and the resulting
+/// factors of the lever arms: `turning`, `turned` and `slid` of the scratch. The lemma is
+/// boundMotion's.
 inline void boundSteps(const SimdReference& reference, SimdScratch& scratch) {
   float* turning = scratch.turning.data();
   for (std::size_t i = 0; i < reference.steps.size(); ++i) {
@@ -30,12 +31,12 @@ inline void boundSteps(const SimdReference& reference, SimdScratch& scratch) {
   }
 }
 
-/// What the joints' own accelerations add to that.
+/// The contribution of the joints' own accelerations.
 void addAccelerations(const SimdReference& reference, SimdScratch& scratch);
 
-/// SimdScratch::bounds from SimdModel::carried, in time proportional to the number of arms: of
-/// every body relative to each of its ancestors that is a reference. The lemma is that of
-/// nestedMotionBounds, with what boundMotion has of joints.
+/// SimdScratch::bounds from SimdModel::carried, in time proportional to the number of lever arms:
+/// for every body relative to each of its ancestors that is a reference. The lemma is that of
+/// nestedMotionBounds, with boundMotion's data of the joints.
 void boundCarried(const SimdModel& model, SimdScratch& scratch);
 
 /// m per unit t squared; bounds the acceleration of every point of the geometry relative to the

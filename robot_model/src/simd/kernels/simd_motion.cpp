@@ -12,14 +12,15 @@ namespace swept::detail {
 
 namespace {
 
-/// rad; what sines and cosines are good for.
+/// rad; range in which the sines and cosines are accurate.
 constexpr double kFarthest = 100.0;
 
 /// More than the rounding of a double to single precision.
 constexpr double kOutward = 1.0 + 2.0 * kSingle;
 
-/// Of the lane frame of a body in that of its parent, and of what a floating joint is turned by
-/// before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the axis.
+/// The frame of a body here relative to that of its parent, and the rotation applied to a floating
+/// joint before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the
+/// axis.
 [[gnu::always_inline]] inline void compileFloating(const MovingBody& body, const JointMotion& joint,
                                                    SimdJointMotion& lane) {
   Eigen::Matrix3d toAxis = Eigen::Matrix3d::Identity();
@@ -34,7 +35,7 @@ constexpr double kOutward = 1.0 + 2.0 * kSingle;
   }
 }
 
-/// What the error of a whole motion depends on.
+/// The data that the error of a whole motion depends on.
 struct Extent {
   double largestAngle = 0.0;  ///< rad
   double spins = 0.0;         ///< rad per unit t, of all joints
@@ -44,15 +45,15 @@ struct Extent {
   bool withinLimits = true;   ///< all joints that only turn
 };
 
-/// rad. Beyond, the rounding of 2 pi shows in what is left of an angle when turns are taken off.
+/// rad. Beyond it, the rounding of 2 pi shows when turns are subtracted from an angle.
 constexpr double kLargestAngle = 1e6;
 
-/// rad. The same turn, near 0 where the angle is large.
+/// rad. The same rotation, near 0 if the angle is large.
 double nearZero(double angle) {
   return std::abs(angle) > 4.0 ? std::remainder(angle, 2.0 * std::numbers::pi) : angle;
 }
 
-/// `travel`: rad, no less than what the angle is off its value at the anchor.
+/// `travel`: rad, upper bound on the difference of the angle from its value at the anchor.
 bool addTurn(double angle, double rate, double spin, double travel, SimdJointMotion& lane,
              Extent& extent) {
   if (!(std::abs(angle) <= kLargestAngle)) return false;
@@ -63,7 +64,7 @@ bool addTurn(double angle, double rate, double spin, double travel, SimdJointMot
   const double reached = std::abs(angle) + travel;
   extent.largestAngle = std::max(extent.largestAngle, reached);
   extent.spins += spin;
-  return reached <= kFarthest;  // not if it is no number
+  return reached <= kFarthest;  // false for NaN
 }
 
 /// Slides are written in the parent's frame.
@@ -80,12 +81,12 @@ bool addTurn(double angle, double rate, double spin, double travel, SimdJointMot
   }
 }
 
-/// Any joint that does not only turn.
+/// For any joint that does not only turn.
 bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::size_t index,
               const JointMotion& joint, SimdJointMotion& lane, Extent& extent) {
   const MovingBody& body = kinematics.bodies[index];
   if (!(joint.largestAngle <= kLargestAngle)) return false;
-  // The largest of several may leave out what is no number: a walk must never see it.
+  // The largest of several may drop a NaN: a walk must never see it.
   if (!std::isfinite(joint.maxTranslation + joint.high - joint.low + joint.speed)) return false;
   setSlides(model, body, index, joint, lane);
   lane.speed = static_cast<float>(joint.speed * kOutward);
@@ -104,8 +105,9 @@ bool isWithin(const MovingBody& body, double low, double high) {
   return (low >= body.lower && high <= body.upper) || body.type == JointType::Continuous;
 }
 
-/// A joint that only turns, at a constant rate: of a straight path, from its ends. What exact
-/// geometry has to know besides would take a tenth of the time of a motion that is soon proven.
+/// For a joint that only turns, at a constant rate: from the ends of a straight path. The
+/// additional data for exact geometry would take a tenth of the time of a motion that is soon
+/// proven.
 bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
                      std::span<const double> from, std::span<const double> to,
                      SimdJointMotion& lane, Extent& extent) {
@@ -113,7 +115,7 @@ bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
   const double end = to[body.variable];
   const bool cyclic = kinematics.cyclic[body.variable] != 0;
   const double angle = body.multiplier * begin + body.offset;
-  // The shorter way from a small angle to a large one is small, and rounds as the large one does.
+  // The shorter way from a small angle to a large one is small, but rounds as the large one does.
   if (!(std::abs(body.multiplier * end) <= kLargestAngle)) return false;
   const double rate = body.multiplier * (cyclic ? cyclicDifference(begin, end) : end - begin);
   if (!addTurn(angle, rate, std::abs(rate), std::abs(rate), lane, extent)) return false;
@@ -122,7 +124,7 @@ bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
   return true;
 }
 
-/// The joints of a straight path, or of a state that stays, and what their error depends on.
+/// The joints of a straight path, or of a state that stays, and the data of their error.
 bool addStraight(const SimdModel& model, const KinematicModel& kinematics,
                  std::span<const double> from, std::span<const double> to, SimdScratch& scratch,
                  Extent& extent) {
@@ -139,7 +141,7 @@ bool addStraight(const SimdModel& model, const KinematicModel& kinematics,
   return true;
 }
 
-/// What it is at the anchor says what it is everywhere.
+/// Its data at the anchor is valid everywhere.
 bool isLinear(const JointMotion& joint) {
   return joint.hasConstantRates() && joint.anchor == 0.0;
 }
@@ -149,7 +151,7 @@ void setAccelerations(const JointMotion& joint, SimdJointMotion& lane) {
   lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kOutward);
 }
 
-/// Those of any path, as it is over the whole motion.
+/// The joints of any path, over the whole motion.
 bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
                std::span<const JointMotion> joints, SimdScratch& scratch, Extent& extent) {
   for (std::size_t i = 1; i < joints.size(); ++i) {
@@ -172,12 +174,12 @@ bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
   return true;
 }
 
-/// Lemma: a rotation is off by at most 32 kSingle (1 + a / 8) more than its parent's, a the largest
-/// angle: 4 kSingle a from the angle, 5 kSingle from the sine and cosine, and two products with
-/// three terms each. A position is off by the sum of these times what lies beyond, at most the
-/// reach at rest and what is slid, plus its own sums; a velocity by as much times the sum of the
-/// spins, of which half an interval counts at most a half. What is slid takes points as much
-/// farther from the obstacles' frames as well.
+/// Lemma: a rotation is off by at most 32 kSingle (1 + a / 8) more than its parent's, with a the
+/// largest angle: 4 kSingle a from the angle, 5 kSingle from the sine and cosine, and two products
+/// with three terms each. A position is off by the sum of these times the length beyond, at most
+/// the reach at rest plus the slides, plus its own sums. A velocity is off by as much times the sum
+/// of the spins, of which half an interval counts at most a half. The slides also move points that
+/// much farther from the obstacles' frames.
 bool setRounding(const SimdModel& model, const Extent& extent, SimdScratch& scratch) {
   scratch.withinLimits = extent.withinLimits;
   const double reach = model.reach + extent.slid;
@@ -188,7 +190,7 @@ bool setRounding(const SimdModel& model, const Extent& extent, SimdScratch& scra
   return rounding < 1.0;
 }
 
-/// Takes over the larger bounds.
+/// Takes the larger bounds.
 void widen(const SimdJointMotion& other, SimdJointMotion& motion) {
   motion.spin = std::max(motion.spin, other.spin);
   motion.speed = std::max(motion.speed, other.speed);
@@ -240,7 +242,7 @@ void SimdMotion::linearizeLanes() {
   boundMotion(model_, scratch_);
 }
 
-/// Of a joint whose rate changes, in the interval that `joints` is about.
+/// For a joint whose rate changes, in the interval of `joints`.
 SimdJointMotion SimdMotion::localMotion(std::size_t body) const {
   const JointMotion& joint = joints_[body];
   SimdJointMotion own;
