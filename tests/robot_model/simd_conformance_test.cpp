@@ -58,7 +58,7 @@ World sparseWorld() {
   return world;
 }
 
-/// The checker, and the same without the lane tier.
+/// The checker, and the same without the SIMD tier.
 struct Tiers {
   std::shared_ptr<const CheckerModel> lanes;
   CheckerModel exact;

@@ -16,7 +16,7 @@
 #include "simd/tables/pair_separation_tables.hpp"
 #include "swept/core/axis_frame.hpp"
 
-/// Random robots for tests of the lane tier, and their kinematics once more in extended precision.
+/// Random robots for tests of the SIMD tier, and their kinematics once more in extended precision.
 namespace swept::simd_test {
 
 class Random {

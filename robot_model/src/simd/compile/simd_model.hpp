@@ -205,7 +205,7 @@ struct SimdModel {
   SharedArray<std::vector<int>> ancestors;  ///< per body, itself included, root first
   bool slides = false;                      ///< some joint does not only turn
   bool floats = false;                      ///< some joint is floating
-  float margin = 0.0F;                      ///< m, the least of all pairs
+  float margin = 0.0F;                      ///< relative, of positions; see simd_motion.cpp
   float rounding = 0.0F;                    ///< relative, of positions; see lane_motion.cpp
   float reach = 0.0F;    ///< m, see LeverArms::spanAtRest: the largest, without slides
   double farther = 0.0;  ///< m, how much farther prismatic joints reach within their limits
