@@ -7,8 +7,8 @@
 
 namespace swept::detail {
 
-/// Draws what `Sampler` draws, in the default floating-point environment. Has no random numbers of
-/// its own: seeds give the states that they give to `Sampler`.
+/// Draws the states of `Sampler` in the default floating-point environment. It has no random
+/// numbers of its own: a seed gives the same states as for `Sampler`.
 template <typename Sampler>
 class DefaultSampler final : public Sampler {
  public:

@@ -16,8 +16,8 @@
 #include "swept/core/floating_point_environment.hpp"
 namespace swept::detail {
 
-/// A whole group's space. OMPL registers projections of its own, or none, whenever a space is set
-/// up; the group's comes after them.
+/// The space of a whole group. OMPL registers its own projections, or none, whenever a space is set
+/// up; the group's projection is registered after them.
 template <typename Space>
 class GroupSpace : public Space {
  public:
@@ -25,11 +25,11 @@ class GroupSpace : public Space {
   void setProjection(ompl::base::ProjectionEvaluatorPtr projection) {
     projection_ = std::move(projection);
   }
-  /// Of the group, by name.
+  /// The projection of the group, by name.
   void setVariables(std::vector<std::string> variables) { variables_ = std::move(variables); }
   const std::vector<std::string>& variables() const { return variables_; }
   ///@{
-  /// The space's own, in the default environment.
+  /// The functions of the space itself, in the default environment.
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override {
     if (inForeignEnvironment()) {
       return inDefaultEnvironment([&] { return Space::distance(a, b); });
@@ -68,7 +68,7 @@ class GroupSpace : public Space {
   }
 
  private:
-  /// Of a space that is made of several, put together as OMPL does.
+  /// The extent of a space that consists of several, combined as OMPL does.
   ompl::base::StateSamplerPtr sampler() const {
     if constexpr (std::is_same_v<Space, ompl::base::CompoundStateSpace>) {
       const auto all = std::make_shared<DefaultSampler<ompl::base::CompoundStateSampler>>(this);

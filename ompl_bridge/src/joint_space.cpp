@@ -74,7 +74,7 @@ double JointSpace::getMaximumExtent() const {
 bool JointSpace::satisfiesBounds(const ob::State* state) const {
   const double* values = state->as<StateType>()->values;
   for (std::size_t i = 0; i < weights_.size(); ++i) {
-    // What is no number passes, as it does in OMPL's own space: no checker calls it valid.
+    // NaN passes, as it does in OMPL's own space: no checker calls it valid.
     if (!isWithin(values[i], bounds_.low[i], bounds_.high[i]) && !std::isnan(values[i]))
       return false;
   }

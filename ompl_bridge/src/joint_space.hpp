@@ -10,7 +10,8 @@ namespace swept::detail {
 /// Joints with limits, each with a factor in the distance.
 class JointSpace : public ompl::base::RealVectorStateSpace {
  public:
-  /// What allocState gives: its values lie behind it, so that reading them is one jump, not two.
+  /// The result of allocState: its values follow it in memory, so that reading them needs one jump,
+  /// not two.
   class JointState final : public StateType {
    public:
     explicit JointState(const JointSpace& space) : space_(&space) {}
@@ -25,12 +26,12 @@ class JointSpace : public ompl::base::RealVectorStateSpace {
   const std::vector<double>& weights() const { return weights_; }
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
   double getMaximumExtent() const override;
-  /// As far beyond the bounds as isWithin() has it: the limit in single precision is a state, too.
-  /// Samples and enforceBounds() stay within the bounds themselves.
+  /// Accepts values as far beyond the bounds as isWithin(): the limit in single precision is a
+  /// state, too. Samples and enforceBounds() stay within the bounds themselves.
   bool satisfiesBounds(const ompl::base::State* state) const override;
-  /// Of ranges times weights, as in OMPL's compound spaces: planners make radii of it.
+  /// From ranges times weights, as in OMPL's compound spaces: planners derive radii from it.
   double getMeasure() const override;
-  /// Its distances, and deviations, are those of the space: a joint's divided by its weight.
+  /// Its distances and deviations are those of the space: a joint's is divided by its weight.
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;

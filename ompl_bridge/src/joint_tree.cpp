@@ -35,7 +35,7 @@ float squaredToBox(const std::vector<float>& box, const std::vector<float>& poin
 
 }  // namespace
 
-/// From the leaf that the point is in outwards.
+/// From the leaf with the point outwards.
 class JointTree::Cells::Walk {
  public:
   Walk(const Cells& tree, const double* values) : tree_(tree), point_(tree.weighted(values)) {
@@ -53,14 +53,14 @@ class JointTree::Cells::Walk {
 
   void run() { visit(0, squaredToBox(tree_.cells_[0].box, point_)); }
 
-  /// No point that is nearer than `distance` has a squared distance above this.
+  /// No point nearer than `distance` has a squared distance above this.
   float limitOf(double distance) const {
     const double most = (distance + absolute_) * relative_;
     const double squared = most * most * relative_;
     return squared < static_cast<double>(kMost) ? static_cast<float>(squared) : kMost;
   }
 
-  /// Of a point with this squared distance; the nearest one has none above.
+  /// For a point with this squared distance: the nearest point has none above.
   float limitOfNearest(float squared) const {
     return limitOf(std::sqrt(static_cast<double>(squared)) * relative_ + absolute_);
   }
@@ -68,7 +68,7 @@ class JointTree::Cells::Walk {
   float limit_ = kMost;
 
  private:
-  /// Of points of a leaf. `least`: the least of the squared distances.
+  /// For points of a leaf. `least`: the least of the squared distances.
   virtual void look(const std::uint32_t* indices, std::span<const float> squared, float least) = 0;
 
   void visit(std::size_t index, float squared) {
@@ -200,8 +200,8 @@ void JointTree::Cells::add(const double* values, std::uint32_t index) {
   if (cells_[at].indices.size() > cells_[at].capacity) divide(at);
 }
 
-/// At the median along the longest side. Where half of the points and more are at one place, the
-/// leaf stays, and may hold more.
+/// Divides at the median along the longest side. If at least half of the points are at one place,
+/// the leaf stays, and may hold more.
 void JointTree::Cells::divide(std::size_t index) {
   Cell full = std::move(cells_[index]);
   const std::size_t count = full.indices.size();

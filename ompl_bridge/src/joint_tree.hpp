@@ -29,7 +29,7 @@ class JointTree::Cells {
     std::vector<std::uint32_t> indices;  ///< of a leaf
     std::size_t capacity = 0;            ///< of a leaf, before it is divided
     int axis = 0;
-    float middle = 0.0F;         ///< below the first child is, from it on the second
+    float middle = 0.0F;         ///< the first child is below it, the second from it on
     std::uint32_t children = 0;  ///< the first of two; 0: a leaf
   };
   class Walk;

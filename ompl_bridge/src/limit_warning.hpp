@@ -9,7 +9,8 @@
 
 namespace swept::detail {
 
-/// To OMPL's console: `of: elbow is 2.000002 rad, 2e-06 beyond its limit 2: taken to the limit`.
+/// Prints to OMPL's console: `of: elbow is 2.000002 rad, 2e-06 beyond its limit 2: taken to the
+/// limit`.
 inline void warnOfLimit(const TakenToLimit& taken, const std::string& of) {
   OMPL_WARN("%s: %s", of.c_str(), limitRemark(taken).c_str());
 }

@@ -14,9 +14,10 @@
 namespace swept {
 namespace {
 
-// Up to which t the motion to the state `q` there is proven, given that all before freeUntil is.
-// Planners take the way to the last valid state for valid without asking. As a motion of its own it
-// is looked at at other times than the whole was, and right before a contact that may decide.
+// The largest t up to which the motion to the state `q` there is proven; all before freeUntil is.
+// Planners assume without a check that the way to the last valid state is valid. As a separate
+// motion it is examined at other times than the whole was, and right before a contact that may
+// change the answer.
 double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, double freeUntil,
                   std::span<double> q) {
   constexpr double kLeastStep = 1.0 / 1024.0;  // of the way, doubled each time
@@ -27,7 +28,7 @@ double lastProven(const Checker& checker, WorkspacePool::Scratch& scratch, doubl
     // Not the space's interpolate: it takes orientations closer than 1e-4 rad for equal and would
     // leave the certified motion by that much.
     checker.interpolate(scratch.from, scratch.to, t, q);
-    // As the state's conversion will do: it is certified as it will be.
+    // As the state's conversion will do: it is certified in the converted form.
     takeToLimits(checker.robot(), checker.group(), q);
     const MotionCertificate certificate =
         checker.certifyMotion(scratch.from, q, scratch.workspace, MotionQuery::VerdictOnly);
@@ -58,7 +59,7 @@ void CertifiedMotionValidator::setChecker(std::shared_ptr<const Checker> checker
   checker_ = std::move(checker);
 }
 
-// The counters are plain integers of OMPL's base class, which other threads may be raising too.
+// The counters are plain integers of OMPL's base class, and other threads may increment them, too.
 bool CertifiedMotionValidator::count(bool free) const {
   std::atomic_ref<unsigned int>(free ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);
   return free;

@@ -6,7 +6,7 @@
 
 namespace swept::detail {
 
-/// For messages. Not as std::to_string has it, in which 1e-9 is a zero.
+/// For messages. std::to_string would print 1e-9 as zero.
 inline std::string numberText(double value) {
   std::ostringstream out;
   out << value;

@@ -120,8 +120,8 @@ PoseGoal::PoseGoal(const ob::SpaceInformationPtr& si, const std::shared_ptr<cons
   requireSensible(options);
   requireTarget();
   setThreshold(1.0);
-  // Not by the base's constructor: the thread uses the members of this class. It begins in the
-  // environment of who starts it.
+  // Not in the base's constructor: the thread uses the members of this class. It begins in the
+  // environment of the thread that starts it.
   inDefaultEnvironment([this] { startSampling(); });
 }
 
@@ -133,7 +133,8 @@ InverseKinematicsOptions PoseGoal::search() const {
   return {kInside * options_.positionTolerance, kInside * options_.orientationTolerance};
 }
 
-// A search of no steps refuses what sample() must not throw for, which would end the program.
+// A search of no steps refuses here what sample() must not throw for, since that would end the
+// program.
 void PoseGoal::requireTarget() {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return requireTarget(); });

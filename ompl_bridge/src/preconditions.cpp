@@ -23,7 +23,7 @@ namespace {
 
 namespace ob = ompl::base;
 
-/// Not derived ones, which may interpolate in another way, or hold other states than they say.
+/// Not derived spaces: they may interpolate differently, or hold other states than they declare.
 template <typename... Spaces>
 bool isOneOf(const ob::StateSpace& space) {
   return ((typeid(space) == typeid(Spaces)) || ...);
@@ -39,7 +39,7 @@ bool interpolatesAsCertified(const ob::StateSpace& space) {
                  ob::SE2StateSpace, ob::SE3StateSpace>(space);
 }
 
-/// Those that makeStateSpace built the space for; null: somebody else built it.
+/// The variables for which makeStateSpace built the space; null: somebody else built it.
 const std::vector<std::string>* variablesOf(const ob::StateSpace& space) {
   if (const auto* joints = dynamic_cast<const GroupSpace<JointSpace>*>(&space))
     return &joints->variables();
@@ -57,7 +57,7 @@ std::vector<std::string> variablesOf(const Robot& robot, const Group& group) {
 }
 
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space) {
-  // CForest's paths are of a space that passes everything on to the one that it was given.
+  // CForest's paths have a space that forwards everything to the one that it was given.
   if (const auto* wrapper = dynamic_cast<const ob::CForestStateSpaceWrapper*>(&space)) {
     const auto& si = wrapper->getCForestInstance()->getSpaceInformation();
     return requireSpaceOf(checker, *si->getStateSpace());
@@ -72,7 +72,8 @@ void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space)
   makeStateSpace(checker.robot(), checker.group())->computeSignature(wanted);
   space.computeSignature(given);
   if (given != wanted) throw std::invalid_argument(refused);
-  // A left and a right arm have the same layout. Whoever built a space by hand says whose it is.
+  // A left and a right arm have the same layout. Whoever built a space by hand must know whose it
+  // is.
   const std::vector<std::string>* variables = variablesOf(space);
   if (variables != nullptr && *variables != variablesOf(checker.robot(), checker.group()))
     throw std::invalid_argument(refused + ": it is of another group's variables");

@@ -14,11 +14,11 @@ namespace swept::detail {
 /// Names of a group's variables, in its order.
 std::vector<std::string> variablesOf(const Robot& robot, const Group& group);
 
-/// States are cast to what makeStateSpace lays out, so another space would be read as garbage; and
-/// what is certified is the motion that its spaces interpolate. Throws std::invalid_argument unless
-/// `space` has that layout, is of the same variables if makeStateSpace built it, and has OMPL's own
-/// spaces or makeStateSpace's in it: not ones derived from them, nor Dubins', Reeds and Shepp's, or
-/// constrained ones.
+/// States are cast to the layout of makeStateSpace, so another space would be read as garbage; and
+/// the certified motion is the interpolation of its spaces. Throws std::invalid_argument unless
+/// `space` has that layout, has the same variables if makeStateSpace built it, and consists of
+/// OMPL's own spaces or makeStateSpace's: not of spaces derived from them, nor of Dubins', Reeds
+/// and Shepp's, or constrained ones.
 void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space);
 
 /// The checker itself. Throws std::invalid_argument for null or as above.

@@ -18,7 +18,7 @@
 namespace swept {
 namespace {
 
-/// Plans in the default environment, so that OMPL's own arithmetic gives the same path, too.
+/// Plans in the default environment, so that OMPL's own arithmetic also gives the same path.
 class Setup final : public ompl::geometric::SimpleSetup {
  public:
   using SimpleSetup::SimpleSetup;
@@ -65,15 +65,15 @@ void setChecker(const ompl::base::SpaceInformation& si, std::shared_ptr<const Ch
         "setChecker: the space information has neither a swept::ValidityChecker nor a "
         "swept::CertifiedMotionValidator");
   }
-  // What one refuses, the other one does, too: the first call throws, or none.
+  // If one refuses, the other does, too: the first call throws, or none.
   if (states != nullptr) states->setChecker(checker);
   if (motions != nullptr) motions->setChecker(std::move(checker));
 }
 
 namespace {
 
-/// A configuration as a state of the space. What is a hair beyond the space's bounds, which may be
-/// narrower than the robot's limits, is taken to them.
+/// A configuration as a state of the space. Values slightly beyond the space's bounds, which may be
+/// narrower than the robot's limits, are moved to them.
 ompl::base::ScopedState<> stateOf(const ompl::base::StateSpacePtr& space, const Checker& checker,
                                   std::span<const double> configuration, const char* of) {
   const Robot& robot = checker.robot();

@@ -8,8 +8,8 @@ namespace swept::detail {
 /// Points in a block, which holds their first coordinates, then their second, and so on.
 constexpr std::size_t kBlock = 16;
 
-/// Squared distances of `count` points in blocks from `point`, into `squared`, which has room for
-/// whole blocks; what follows the points is +infinity. Returns the least.
+/// Squared distances of `count` points in blocks from `point`. Writes them to `squared`, which has
+/// room for whole blocks; the rest after the points becomes +infinity. Returns the least.
 float squaredDistances(const float* blocks, std::size_t count, const float* point,
                        std::size_t dimension, float* squared);
 

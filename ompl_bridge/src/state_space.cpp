@@ -136,7 +136,7 @@ std::string nameOf(const Robot& robot, const JointRun& run) {
   return first + ".." + robot.joints()[run.joints.back()].name;
 }
 
-/// Of what the options name: that it is there, and can have what is asked for.
+/// Checks the names in the options: that they exist, and can have these settings.
 void requireOptions(const Robot& robot, const Group& group, const StateSpaceOptions& options) {
   for (const auto& [name, limits] : options.limits) {
     const std::optional<int> index = robot.findVariable(name);

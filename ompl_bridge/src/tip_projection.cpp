@@ -36,7 +36,7 @@ class TipPosition : public ob::ProjectionEvaluator {
   StateConversion conversion_;
 };
 
-/// Not OMPL's own for one and two values, which fails an assertion of its grids.
+/// OMPL's own projection for one and two values fails an assertion of its grids.
 class FirstValues : public ob::ProjectionEvaluator {
  public:
   explicit FirstValues(const ob::StateSpace& space) : ProjectionEvaluator(&space) {}
@@ -51,7 +51,7 @@ class FirstValues : public ob::ProjectionEvaluator {
 
 std::optional<InverseKinematics> tipOf(const Robot& robot, const Group& group) {
   if (group.tipLink < 0) return std::nullopt;
-  // Compiled at once; what is kept of the robot is not looked at again.
+  // Compiled at once; the rest of the robot is not used again.
   const std::shared_ptr<const Robot> borrowed(std::shared_ptr<const Robot>(), &robot);
   try {
     return InverseKinematics(borrowed, group.name, robot.links()[group.tipLink].name);

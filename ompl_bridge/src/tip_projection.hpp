@@ -7,9 +7,9 @@
 
 namespace swept::detail {
 
-/// What planners of the KPIECE family keep their grids over: the position (m) of the group's tip
-/// or, for a group without one that it moves, its first two values. Planners infer the size of the
-/// cells. Joints outside the group stand at their default values.
+/// The space for the grids of planners of the KPIECE family: the position (m) of the group's tip
+/// or, if the group moves no tip, its first two values. Planners infer the size of the cells.
+/// Joints outside the group have their default values.
 ompl::base::ProjectionEvaluatorPtr makeProjection(const ompl::base::StateSpace& space,
                                                   const Robot& robot, const Group& group);
 

@@ -68,8 +68,8 @@ double ValidityChecker::clearance(const ompl::base::State* state, ompl::base::St
   return clearance(state);
 }
 
-// Steps that would be enough if the clearance were linear, and a little more. Its gradient is that
-// of the nearest or deepest pair alone, which may be another one after each step.
+// The steps would be enough if the clearance were linear, with some to spare. Its gradient is only
+// that of the nearest or deepest pair, which may change after each step.
 bool ValidityChecker::findValid(const ompl::base::State* state,
                                 ompl::base::State* validState) const {
   constexpr int kSteps = 30;

@@ -13,11 +13,11 @@ namespace swept {
 /// Grows to the largest number of leases held at once and allocates nothing after that.
 class WorkspacePool {
  public:
-  /// What one call needs for itself.
+  /// Memory for one call.
   struct Scratch {
     explicit Scratch(const Checker& checker);
     Workspace workspace;
-    /// Of the size of a configuration of the group.
+    /// Has the size of a configuration of the group.
     std::vector<double> from, to, proven, gradient;
   };
   struct Return {
@@ -34,11 +34,11 @@ class WorkspacePool {
   void giveBack(Scratch* scratch) noexcept;
 
   const Checker& checker_;
-  /// The last one returned, whose memory is warm, or null: for a single thread no lock is taken.
+  /// The last workspace returned, whose memory is warm, or null: a single thread takes no lock.
   std::atomic<Scratch*> first_ = nullptr;
-  std::mutex mutex_;  ///< guards what follows
+  std::mutex mutex_;  ///< guards the following members
   std::vector<std::unique_ptr<Scratch>> all_;
-  std::vector<Scratch*> idle_;  ///< the others; the last one returned is leased first
+  std::vector<Scratch*> idle_;  ///< the other idle ones; the last one returned is leased first
 };
 
 }  // namespace swept

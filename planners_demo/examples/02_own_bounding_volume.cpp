@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bounding volume of one's own, a ball, in the library's hierarchies. Exits 0 if the distance of
-// two meshes comes out as that of the library's own query.
+// Your own bounding volume, a ball, in the library's hierarchies. Exits 0 if it gives the same
+// distance of two meshes as the library's own query.
 #include <cmath>
 #include <iostream>
 

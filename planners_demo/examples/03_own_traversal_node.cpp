@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A traversal node of one's own: which balls of a cloud touch a surface. The library's recursion
-// walks the two hierarchies. Exits 0 if its own query, ball by ball, finds the same.
+// Your own traversal node: which balls of a cloud touch a surface. The library's recursion walks
+// the two hierarchies. Exits 0 if a loop over all balls finds the same.
 #include <iostream>
 #include <set>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A motion of one's own: a pendulum that swings by a sine, and when it hits a wall. Exits 0 if that
-// is when the pendulum's angle says.
+// Your own motion: a pendulum that swings by a sine, and the time when it hits a wall. Exits 0 if
+// that agrees with the pendulum's angle.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -11,7 +11,7 @@
 using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
-/// Turns about y through the origin by `amplitude` sin(pi t).
+/// Rotates about y through the origin by `amplitude` sin(pi t).
 class Pendulum : public swept::Motion {
  public:
   explicit Pendulum(double amplitude) : Motion(Vector3d::Zero()), amplitude_(amplitude) {}
@@ -22,12 +22,13 @@ class Pendulum : public swept::Motion {
   swept::Twist velocity(double t) const override {
     return {Vector3d::Zero(), amplitude_ * kPi * std::cos(kPi * t) * Vector3d::UnitY()};
   }
-  /// Its reference point, the hinge, stands still. No part of the motion is faster than the whole.
+  /// The reference point, the hinge, stands still. The bounds for the whole motion hold for each
+  /// part.
   swept::MotionRates rates(double /*from*/, double /*to*/) const override {
     const double fastest = std::abs(amplitude_) * kPi * (1.0 + 1e-15);
     return {0.0, 0.0, fastest, fastest * kPi * (1.0 + 1e-15)};
   }
-  /// Sine, cosine and the rotation's entries are known to a few ulps each.
+  /// Sine, cosine and the rotation's entries are accurate to a few ulps each.
   double rounding(double reach) const override {
     return 1e-14 * (1.0 + std::abs(amplitude_) * kPi) * reach;
   }

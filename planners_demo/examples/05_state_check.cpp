@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is a state of a robot free in a scene? What touches what, where, and how far off is the nearest?
+// Is a state of a robot free in a scene? What touches what, where, and how far is the nearest body?
 //   example_05_state_check MODELS
-// Exits 0 if distance and place of the bodies that are named agree with clearance and contact.
+// Exits 0 if the distance and place of the named bodies agree with clearance and contact.
 #include <cmath>
 #include <iostream>
 

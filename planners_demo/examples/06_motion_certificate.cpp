@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is a whole motion between two states free, and how far does it keep away? If it is not: until
-// when is it, and what does it hit?
+// Is a whole motion between two states free, and what is its least clearance? If it is not free:
+// until when is it, and what does it hit?
 //   example_06_motion_certificate MODELS
-// Exits 0 if the states on the motions, looked at one by one, agree.
+// Exits 0 if the states on the motions, checked one by one, agree.
 #include <cmath>
 #include <iostream>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a depth camera saw as a body of the world, and the next cloud in its place, while whoever
-// has the checker of the cloud before may go on with it.
+// The points of a depth camera as a body of the world, and the next cloud in its place, while
+// others may go on with the checker of the earlier cloud.
 //   example_08_cloud MODELS
-// Exits 0 if a point that is new in the way is what the motion runs into.
+// Exits 0 if the motion runs into a new point in its way.
 #include <iostream>
 
 #include "swept/robot_model/checker.hpp"
@@ -12,7 +12,8 @@
 
 using Eigen::Isometry3d;
 
-constexpr double kRadius = 0.015;  // m, that each point stands for: the gaps between points, noise
+constexpr double kRadius =
+    0.015;  // m, radius of the ball that each point stands for: gaps between points, noise
 
 int main(int argc, char** argv) try {
   const std::string models = argc > 1 ? argv[1] : "models";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When does a surface that deforms first touch another one? A sheet, held at its rim, sags onto a
-// table, frame by frame; between frames its vertices go straight. Exits 0 if that is the frame, and
-// the time in it, that follow by hand.
+// When does a deforming surface first touch another one? A sheet, held at its rim, sags onto a
+// table, frame by frame; between frames its vertices move straight. Exits 0 if the frame, and the
+// time in it, agree with a calculation by hand.
 #include <cmath>
 #include <iostream>
 
@@ -27,7 +27,7 @@ std::vector<Vector3d> sheet(int frame) {
 }
 
 int main() {
-  std::vector<Eigen::Vector3i> triangles;  // of each cell of the grid two
+  std::vector<Eigen::Vector3i> triangles;  // two per cell of the grid
   for (int i = 0; i < 20; ++i)
     for (int j = 0; j < 20; ++j) {
       const int k = 21 * i + j;

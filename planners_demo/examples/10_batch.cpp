@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many states, and many motions, at once and on all processors: a roadmap's vertices and edges.
+// Many states, and many motions, at once on all processors: a roadmap's vertices and edges.
 //   example_10_batch MODELS
-// Exits 0 if one thread that asks one by one gets the same answers.
+// Exits 0 if one thread that checks them one by one gets the same answers.
 #include <algorithm>
 #include <iostream>
 #include <random>
@@ -10,7 +10,7 @@
 
 constexpr std::size_t kStates = 2000;
 
-// States follow each other in one array.
+// States are consecutive in one array.
 std::vector<double> randomStates(const swept::Robot& robot, const swept::Group& group) {
   std::mt19937 random(1);
   std::vector<double> states;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A gripper picks up a can, carries it and lets go of it: each makes a new version of the checker.
+// A gripper picks up a can, carries it and releases it: each step makes a new version of the
+// checker.
 //   example_11_attach MODELS
-// Exits 0 if the can meets a rail when its way says so, and is put where the arm has turned it.
+// Exits 0 if the can meets a rail when its path says so, and is placed where the arm has turned it.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -31,7 +32,7 @@ int main(int argc, char** argv) try {
       "can", "hand", can, hand_from_can, {"finger_left", "finger_right"});
   right &= carry.checkState(grasp, workspace) == swept::Verdict::Free;
 
-  // The first joint turns. The can's middle goes round on a circle, its side reaches y = 0.19 m.
+  // The first joint turns. The can's middle moves on a circle; its side reaches y = 0.19 m.
   std::vector<double> turned = grasp;
   turned[0] = 1.2;  // rad
   const auto full = carry.certifyMotion(grasp, turned, workspace);
@@ -42,7 +43,8 @@ int main(int argc, char** argv) try {
   right &= empty.verdict == swept::Verdict::Free && full.verdict == swept::Verdict::Collision;
   right &= full.freeUntil <= touch && touch < full.freeUntil + 0.01;
 
-  // Let go half-way: where the can is becomes a body of the world. Then the fingers open.
+  // Released half-way: the can at its present place becomes a body of the world. Then the fingers
+  // open.
   std::vector<double> there = grasp;
   there[0] = 0.3;
   const swept::WorldBody put = carry.detachedBody("can", there);

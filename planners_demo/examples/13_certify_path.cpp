@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A path that another planner has made: is it free, and the proof in a file that anybody can check.
-// Needs no OMPL.
+// A path from another planner: is it free? Writes the proof to a file that anybody can check. Needs
+// no OMPL.
 //   example_13_certify_path MODELS
-// Exits 0 if the path is proven, and the proof does not hold for a world with one body more.
+// Exits 0 if the path is proven, and the proof does not hold for a world with one more body.
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -10,7 +10,7 @@
 #include "swept/proofs/path_proof.hpp"
 #include "swept/robot_model/path_file.hpp"
 
-/// By a planner of one's own, or of ROS (.yaml): here as a table of its joints, in any order.
+/// From your own planner, or from ROS (.yaml): here as a table of its joints, in any order.
 std::filesystem::path plannedPath() {
   const auto file = std::filesystem::temp_directory_path() / "swept_example_path.csv";
   std::ofstream(file) << "joint2,joint1,joint3,joint4,joint5,joint6,joint7\n"
@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
   std::cout << path.size() << " states, " << toString(certificate.verdict()) << '\n';
   if (certificate.verdict() != swept::Verdict::Free) return 1;
 
-  // Planes that prove it, with robot and world: whoever has the file needs nothing else.
+  // Planes that prove it, with robot and world: the file needs nothing else to be checked.
   const auto file = std::filesystem::temp_directory_path() / "swept_example_proof.json";
   const swept::WrittenProof written = swept::writeProof(file, checker, path, certificate);
   if (!written.isWritten()) return 1;
@@ -45,7 +45,7 @@ int main(int argc, char** argv) try {
   std::cout << "proof holds: " << proof.planes << " planes, every pair keeps more than "
             << proof.clearance << " m\n";
 
-  // It is about this world alone.
+  // The proof is about this world alone.
   const auto other = checker.withBody({.name = "shelf", .parts = world->bodies().front().parts});
   const swept::CheckedProof elsewhere = swept::verifyProof(file, other);
   std::cout << "in another world: " << elsewhere.refusal << '\n';

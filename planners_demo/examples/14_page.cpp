@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A page of a path, in one HTML file that any browser opens: robot and world, the motions to play,
-// what is proven about them, and what the robot looks like. Needs no OMPL.
+// what is proven about them, and the robot's visual meshes. Needs no OMPL.
 //   example_14_page MODELS
-// Exits 0 if the page says of the path what the checker says.
+// Exits 0 if the page and the checker agree about the path.
 #include <filesystem>
 #include <iostream>
 
@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
       std::make_shared<const swept::World>(swept::World::load(models + "/scenes/narrow_slot.yaml"));
   const auto checker = std::make_shared<const swept::Checker>(robot, "arm", world);
 
-  // The URDF's <visual> elements: the page can show them in place of what is proven.
+  // The URDF's <visual> elements: the page can show them instead of the checked shapes.
   swept::PageOptions options;
   options.title = "my planner";
   options.facts = {{"planning time", "12 ms"}};

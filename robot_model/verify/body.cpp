@@ -87,7 +87,7 @@ int Body::build(std::size_t first, std::size_t last, std::vector<Vector3d>& cent
   (upper - lower).maxCoeff(&axis);
   const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
   const std::size_t middle = first + (last - first) / 2;
-  // By the index where centres are equal: every machine builds the same tree.
+  // By the index if centres are equal: every machine builds the same tree.
   std::nth_element(begin, order.begin() + static_cast<std::ptrdiff_t>(middle),
                    order.begin() + static_cast<std::ptrdiff_t>(last),
                    [&](std::size_t a, std::size_t b) {

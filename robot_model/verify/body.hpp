@@ -26,7 +26,8 @@ struct Element {
   std::vector<Disc> discs = {};
   std::optional<Ellipsoid> ellipsoid = {};
   double radius = 0.0;
-  double size = 0.0;  ///< m: what coordinates were computed from, added up; 0: from nothing else
+  double size = 0.0;  ///< m: sum of the sizes of the terms that coordinates were computed from; 0:
+                      ///< only themselves
 };
 
 /// The points x with normal . x = offset, or <= offset if `solid`. m.
@@ -34,17 +35,18 @@ struct Flat {
   Eigen::Vector3d normal;  ///< unit
   double offset;
   bool solid;
-  double size = 0.0;  ///< m: what the offset was computed from, added up
+  double size = 0.0;  ///< m: sum of the sizes of the terms that the offset was computed from
 };
 
-/// Triangles of which the closed components enclose something. m, in the frame of the body.
+/// Triangles whose closed components enclose something. m, in the frame of the body.
 struct Surface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// A set of convex elements in a tree: node 0 holds all of them, every inner node the two halves of
-/// what it holds, split in the middle along the longest side of the box of their centres.
+/// A set of convex elements in a tree: node 0 holds all of them. The children of an inner node hold
+/// half of its elements each, split in the middle along the longest side of the box of their
+/// centres.
 class Body {
  public:
   /// A point of an element with the element's radius.
@@ -56,8 +58,8 @@ class Body {
   struct Node {
     std::size_t first, last;  ///< elements [first, last)
     int left = -1, right = -1;
-    /// Of the topmost nodes, which are asked most: what their elements are made of, without what
-    /// comes twice. Of the others empty.
+    /// For the topmost nodes, which are used most: the points of their elements, without
+    /// duplicates. Empty for the others.
     std::vector<Ball> balls = {};
     std::vector<Element> round = {};  ///< elements with discs or ellipsoids
   };
@@ -73,11 +75,11 @@ class Body {
   const std::vector<Flat>& flats() const { return flats_; }
   const std::vector<Surface>& solids() const { return solids_; }
 
-  /// max of direction . x over what a node holds. `direction` need not be a unit vector.
+  /// max of direction . x over the elements of a node. `direction` need not be a unit vector.
   double support(int node, const Eigen::Vector3d& direction) const;
-  /// m. No point of an element is farther from the body's origin, but for rounding.
+  /// m. Upper bound on the distance of all elements' points from the body's origin, up to rounding.
   double reach() const { return reach_; }
-  /// m. Of elements and flats, what their coordinates are made of: they round relative to that. At
+  /// m. Size of the terms in the coordinates of elements and flats: rounding is relative to it. At
   /// least reach().
   double size() const { return size_; }
 

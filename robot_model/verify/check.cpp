@@ -12,8 +12,8 @@
 namespace swept::verify {
 namespace {
 
-/// rad or m. How far beyond a limit a state may be: 1e-5, and what such a decimal rounds by. What
-/// is proven is proven of the state as it is.
+/// rad or m. How far beyond a limit a state may be: 1e-5, and the rounding of such a decimal. The
+/// proof is about the state as it is.
 constexpr double kLimit = 1.000001e-5;
 const std::string kChanged = ": is not as it was when the path was certified";
 
@@ -68,7 +68,7 @@ class ProofCheck {
     if (segments.size() + 1 != states_.size())
       throw Refusal("proof, segments: " + std::to_string(segments.size()) + ", and " +
                     std::to_string(states_.size()) + " states");
-    // Changed states first: otherwise what follows from them would be named.
+    // Changed states first: otherwise the message would name consequences of them.
     for (std::size_t i = 0; i < segments.size(); ++i) requireStates(segments, i);
     for (std::size_t i = 0; i < segments.size(); ++i) checkSegment(segments[i], i);
     summary_.segments = segments.size();
@@ -79,7 +79,7 @@ class ProofCheck {
   }
 
  private:
-  /// What the file says beside states and proof: whoever drives the robot goes by it.
+  /// The file's claims besides states and proof: users of the robot rely on them.
   void requireSameClaims() const {
     compareDigests(at(at(proof_, "digests", "proof"), "claims", "digests"), claimDigests(path_),
                    "path file,");
@@ -106,7 +106,7 @@ class ProofCheck {
            stateDigest(states[i], states[i + 1]);
   }
 
-  /// Names the state that two segments have in common, if neither fits.
+  /// Names the state that two segments share, if neither matches.
   void requireStates(const Json& segments, std::size_t i) const {
     if (statesFit(segments, i)) return;
     const bool next = i + 1 < segments.size() && !statesFit(segments, i + 1);
@@ -125,7 +125,7 @@ class ProofCheck {
       if (k >= proofs.size() || at(proofs[k], "a", place) != a.name() ||
           at(proofs[k], "b", place) != b.name())
         throw Refusal(place + ": there is no proof of this pair in its place");
-      // What does not prove the pair is named more exactly than what was changed.
+      // A failed proof of a pair is named more exactly than a changed one.
       summary_.add(checkPair(model_, motion, pairs_[k], proofs[k], place));
       if (at(proofs[k], "digest", place) != pairDigest(proofs[k])) throw Refusal(place + kChanged);
       if (i == 0) requireNotEnclosed(model_, motion, pairs_[k], proofs[k], place);
@@ -163,7 +163,7 @@ Json digestsOf(const Json& model) {
       const Json& name = at(item, "name", kind);
       if (!name.is_string()) throw Refusal(std::string(kind) + ": a name is not a text");
       Json& digest = digests[kind][name.get<std::string>()];
-      // Of two, the second one's digest would stand for both.
+      // Of two with the same name, the second one's digest would stand for both.
       if (!digest.is_null())
         throw Refusal(std::string(kind) + ": there are two of the name " + name.dump());
       digest = digestOf(item.dump());

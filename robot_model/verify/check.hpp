@@ -8,21 +8,23 @@
 
 namespace swept::verify {
 
-/// Names what `model` has, with a digest of each: `joints`, `bodies` and, together, `rules` (all
-/// else).
+/// Names of the parts of `model`, with a digest of each: `joints`, `bodies` and, together, `rules`
+/// (everything else).
 Json digestsOf(const Json& model);
-/// Of what a path file has beside its states, its proof and where its model comes from: `claims`.
+/// Digest of the content of a path file besides its states, its proof and the source of its model:
+/// `claims`.
 Json claimDigests(const Json& path);
-/// Of the two states of a segment.
+/// Digest of the two states of a segment.
 std::string stateDigest(const Json& from, const Json& to);
-/// Of what proves a pair of bodies apart during a segment, without its own `digest`.
+/// Digest of the proof that a pair of bodies stays apart during a segment, without its own
+/// `digest`.
 std::string pairDigest(Json pair);
 
-/// That a model is the one that a proof is about. Throws Refusal, which names what is not.
+/// Checks that a proof is about this model. Throws Refusal, which names the difference.
 void requireSameModel(const Json& proof, const Json& model);
 
 /// Checks the proof of a path file against a model of its robot and world. Throws Refusal, which
-/// names the place, at the first thing that is wrong.
+/// names the place, at the first error.
 Summary checkProof(const Json& path, const Json& model);
 
 }  // namespace swept::verify

@@ -19,8 +19,8 @@ Vector3d pointOf(const Element& element) {
   return element.discs.empty() ? element.ellipsoid->center : element.discs.front().center;
 }
 
-/// A point of each part of a body that hangs together: elements with a point in common do, and
-/// all of them are on the same side of a surface that none of them meets.
+/// A point of each connected part of a body: elements with a common point are connected, and all of
+/// them are on the same side of a surface that none of them meets.
 std::vector<Vector3d> pointsOf(const Body& body) {
   std::vector<std::size_t> above(body.elements().size());
   std::iota(above.begin(), above.end(), std::size_t{0});
@@ -63,7 +63,7 @@ void requireNotEnclosed(const Model& model, const Motion& motion, PairToProve pa
   const Body& a = model.bodies[static_cast<std::size_t>(pair.a)];
   const Body& b = model.bodies[static_cast<std::size_t>(pair.b)];
   if (a.solids().empty() && b.solids().empty()) return;
-  // Of a body without nodes nobody has looked at the intervals.
+  // The intervals of a body without nodes were not checked.
   const bool onePlane = !b.nodes().empty() && proof["intervals"][0][2].is_array();
   if (onePlane) return;
   const PairMotion start(model, motion, pair, 0.0, 0.0);

@@ -33,13 +33,13 @@ std::vector<Number> decoded(const std::string& text, const std::string& where) {
           ? -1
           : EVP_DecodeBlock(bytes.data(), reinterpret_cast<const unsigned char*>(text.data()),
                             static_cast<int>(text.size()));
-  // What fills the last four characters counts as zeros.
+  // Padding in the last four characters counts as zeros.
   std::size_t padding = 0;
   while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
   const std::size_t size = length < 0 ? 0 : static_cast<std::size_t>(length) - padding;
   if (length < 0 || size % sizeof(Number) != 0) throw Refusal(where + " is not base64 of numbers");
   std::vector<Number> numbers(size / sizeof(Number));
-  // Of no numbers the address may be null, which memcpy must not be given.
+  // Without numbers the address may be null, which memcpy must not get.
   if (size > 0) std::memcpy(numbers.data(), bytes.data(), size);
   return numbers;
 }

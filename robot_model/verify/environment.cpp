@@ -23,8 +23,7 @@ class Environment {
 
 }  // namespace
 
-// Arithmetic stays between the two changes: it is in `work`, of which the compiler knows nothing
-// here.
+// Arithmetic stays between the two changes: it is in `work`, which the compiler does not know here.
 void inDefaultEnvironment(const std::function<void()>& work) {
   const Environment environment;
   work();

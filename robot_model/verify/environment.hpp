@@ -5,8 +5,8 @@
 
 namespace swept::verify {
 
-/// Calls `work` in the default floating-point environment, of which the terms for rounding speak:
-/// to nearest, and denormals are what they are. The caller's environment comes back afterwards,
+/// Calls `work` in the default floating-point environment, which the rounding terms assume:
+/// rounding to nearest, with denormal numbers. The caller's environment is restored afterwards,
 /// also after an exception.
 void inDefaultEnvironment(const std::function<void()>& work);
 

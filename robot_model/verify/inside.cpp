@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Relative to the lengths that a product is made of: nearer to zero, its sign is not trusted.
+/// Relative to the lengths in a product: nearer to zero, its sign is not trusted.
 constexpr double kDoubt = 1e-10;
-/// m^3. Nor is it of products that have underflowed, or could have.
+/// m^3. Signs of products that have underflowed, or could have, are not trusted either.
 constexpr double kLeastVolume = 1e-290;
 constexpr int kRays = 32;
 
@@ -38,8 +38,8 @@ class Joined {
 
 struct Edge {
   std::vector<int> triangles;
-  std::size_t left = 0;  ///< of those, without loose ones
-  int net = 0;           ///< passed one way, less the other way, by what is left
+  std::size_t left = 0;  ///< number of these without loose ones
+  int net = 0;           ///< passes one way minus passes the other way, without loose ones
 };
 using Edges = std::map<std::pair<int, int>, Edge>;
 
@@ -56,8 +56,8 @@ Edges edgesOf(const Surface& surface) {
   return edges;
 }
 
-/// Triangles with an edge that no other has, and then those that have one without them: they are
-/// part of nothing closed, as a sheet that touches a solid is not.
+/// Triangles with an edge that no other has, and then those that have one without them. They are
+/// part of nothing closed, like a sheet that touches a solid.
 std::vector<bool> looseTriangles(const Surface& surface, Edges& edges) {
   std::vector<bool> loose(surface.triangles.size(), false);
   std::vector<const Edge*> pending;
@@ -91,7 +91,8 @@ int orientation(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 Crossing crossing(const Vector3d& ray, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const int ab = orientation(ray, a, b), bc = orientation(ray, b, c), ca = orientation(ray, c, a);
   if ((ab > 0 || bc > 0 || ca > 0) && (ab < 0 || bc < 0 || ca < 0)) return Crossing::None;
-  // The line passes inside the triangle or too near to an edge; the other way it does not count.
+  // The line passes inside the triangle or too near to an edge; in the other direction it does not
+  // count.
   if (std::max({ray.dot(a), ray.dot(b), ray.dot(c)}) < 0.0) return Crossing::None;
   const int volume = orientation(a, b, c);
   if (ab == 0 || bc == 0 || ca == 0 || volume == 0) return Crossing::Doubtful;
@@ -142,7 +143,8 @@ Enclosure::Enclosure(const Surface& surface)
 }
 
 Side Enclosure::sideAlong(const Vector3d& ray, const Vector3d& point) const {
-  std::map<int, std::pair<int, int>> crossed;  // per component: number, and outward less inward
+  std::map<int, std::pair<int, int>>
+      crossed;  // per component: number of crossings, and outward minus inward
   for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
     const std::array<int, 3>& triangle = surface_.triangles[i];
     const auto corner = [&](std::size_t k) -> Vector3d {

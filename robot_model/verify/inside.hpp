@@ -11,16 +11,17 @@ namespace swept::verify {
 
 enum class Side { Outside, Inside, Unknown };
 
-/// The closed components of a surface, which has to outlive it. Triangles with an edge in common
-/// are of one component; those that hang on a solid, or have a border, are of none that is closed.
+/// The closed components of a surface, which must outlive this. Triangles with a common edge belong
+/// to one component. Triangles that hang on a solid, or have a border, belong to no closed
+/// component.
 class Enclosure {
  public:
   explicit Enclosure(const Surface& surface);
 
-  /// Where a point (m, in the surface's frame) lies: whether a ray from it to infinity crosses a
-  /// closed component, out and in not cancelling each other (or, where its triangles are not
-  /// oriented alike, an odd number of times). Rays that come near an edge are replaced by others;
-  /// Unknown: all of them do.
+  /// The position of a point (m, in the surface's frame): whether the crossings of a ray from it to
+  /// infinity with a closed component do not cancel (or, if its triangles are not oriented alike,
+  /// are odd in number). Rays that come near an edge are replaced by others; Unknown: all of them
+  /// do.
   Side sideOf(const Eigen::Vector3d& point) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace swept::verify {
 
-/// What a proof, or a part of one, says.
+/// The content of a proof, or of a part of one.
 struct Summary {
   std::size_t segments = 0;
   std::size_t pairs = 0;      ///< of bodies, each over the whole path
@@ -21,7 +21,7 @@ struct Summary {
   /// m. Least of all proven distances; infinity: there is no pair.
   double clearance = std::numeric_limits<double>::infinity();
   ///@{
-  /// m. Of pairs with the world, and of pairs of two bodies of the robot.
+  /// m. The same for pairs with the world, and for pairs of two bodies of the robot.
   double clearanceWorld = std::numeric_limits<double>::infinity();
   double clearanceSelf = std::numeric_limits<double>::infinity();
   ///@}

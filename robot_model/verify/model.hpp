@@ -14,13 +14,13 @@
 
 #include "body.hpp"
 
-/// Checks the proof that a path file carries. Nothing here searches, and nothing is shared with the
-/// library that found the proof; README.md says what is trusted.
+/// Checks the proof in a path file. Nothing here searches, and nothing is shared with the library
+/// that found the proof; README.md says what is trusted.
 namespace swept::verify {
 
 using Json = nlohmann::ordered_json;
 
-/// What is wrong with a path file, and where: `segment 2, hand - shelf, 0.25 to 0.5: ...`.
+/// The error in a path file, and its place: `segment 2, hand - shelf, 0.25 to 0.5: ...`.
 class Refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -28,9 +28,9 @@ class Refusal : public std::runtime_error {
 
 enum class JointKind : std::uint8_t { Fixed, Revolute, Prismatic, Planar, Floating };
 
-/// The child's frame in the parent's: parent_from_joint, then what the values say. A revolute joint
-/// turns about `axis`, a prismatic one slides along it, a planar one slides across it and turns
-/// about it.
+/// The child's frame in the parent's: parent_from_joint, then the motion by the values. A revolute
+/// joint turns about `axis`, a prismatic one slides along it, a planar one slides orthogonally to
+/// it and turns about it.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::Fixed;
@@ -49,11 +49,11 @@ struct Joint {
 struct Variable {
   std::string name;
   double lower, upper;  ///< rad or m
-  bool cyclic;          ///< goes the shorter way round
+  bool cyclic;          ///< takes the shorter way round
 };
 
-/// A robot, what it carries, and its world, as far as motions of one group are concerned. Links,
-/// what is attached to them and bodies of the world are all `bodies`; the robot's come first.
+/// The data of a robot, its attached bodies and its world that motions of one group need. Links,
+/// attached bodies and bodies of the world are all `bodies`; the robot's come first.
 struct Model {
   std::vector<std::string> links;  ///< parents first
   std::vector<Joint> joints;       ///< parents first
@@ -63,15 +63,15 @@ struct Model {
   std::vector<int> linkOf;  ///< per body: the link that it moves with; -1: the world
   /// Pairs of bodies, by index, smaller first, that may touch, and who says so.
   std::map<std::pair<int, int>, std::string> allowed;
-  /// Likewise, links that a joint connects and that are not to touch all the same.
+  /// Likewise, links that a joint connects and that must stay apart all the same.
   std::set<std::pair<int, int>> asked;
   double margin = 0.0;  ///< m
-  /// m, of pairs of two bodies of the robot, and of pairs with the world; `margin` where the file
-  /// has no other.
+  /// m, of pairs of two bodies of the robot, and of pairs with the world; `margin` if the file has
+  /// no other.
   double selfMargin = 0.0, worldMargin = 0.0;
   std::vector<double> paddings;  ///< m, per body
   bool withWorld(int a, int b) const { return linkOf[a] < 0 || linkOf[b] < 0; }
-  /// m: what a pair has to keep.
+  /// m: the distance that a pair must keep.
   double marginOf(int a, int b) const {
     return (withWorld(a, b) ? worldMargin : selfMargin) + paddings[a] + paddings[b];
   }
@@ -80,7 +80,7 @@ struct Model {
 /// Reads the `model` of a path file. Throws Refusal.
 Model readModel(const Json& json);
 
-/// Of a link, what a shape is made of. Throws Refusal. `frame` is body_from_shape.
+/// The parts of a link's shape. Throws Refusal. `frame` is body_from_shape.
 struct ShapeParts {
   std::vector<Element> elements;
   std::vector<Flat> flats;
@@ -95,7 +95,7 @@ Eigen::Vector3d readVector(const Json& json, const std::string& where);
 /// `json[key]`, a vector of length 1.
 Eigen::Vector3d readUnit(const Json& json, const char* key, const std::string& where);
 double readNumber(const Json& json, const std::string& where);
-/// `json[key]`. Throws Refusal when it is not there.
+/// `json[key]`. Throws Refusal if it is missing.
 const Json& at(const Json& json, const char* key, const std::string& where);
 
 }  // namespace swept::verify

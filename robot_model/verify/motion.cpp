@@ -77,7 +77,7 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
       const double start = joint.multiplier * from[0] + joint.offset;
       const double change =
           joint.multiplier * (cyclic ? shorterWay(from[0], to[0]) : to[0] - from[0]);
-      // The shorter way from a small angle to a large one is small, and an offset may leave little
+      // The shorter way from a small angle to a large one is small, and an offset may cancel most
       // of a large value.
       const double made =
           std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
@@ -150,10 +150,10 @@ Placed Motion::at(int link, int reference, double t) const {
 }
 
 /// A point's acceleration is the sum over all pairs of joints of the second derivatives of its
-/// place, times both rates. For two joints, of which the one nearer to the reference turns about
-/// a, it is a x (what the other one alone makes of the point): no longer than the other's rate
-/// times the point's distance from the other's origin, or than its rate if it slides. If the nearer
-/// one slides, it is zero.
+/// position, times both rates. For two joints, of which the one nearer to the reference turns about
+/// a, the derivative is a x (the point's derivative by the other joint alone). It is at most the
+/// other's rate times the point's distance from the other's origin, or its rate if it slides. If
+/// the nearer one slides, it is zero.
 Bounds Motion::bounds(int link, int reference, double reach) const {
   Bounds bounds;
   bounds.extent = reach;

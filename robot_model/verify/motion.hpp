@@ -9,22 +9,22 @@
 
 namespace swept::verify {
 
-/// Where a link is at one time, and how it moves: its point p has velocity linear + angular x p.
-/// All in one reference frame, per unit of time.
+/// Pose and velocity of a link at one time: its point p has velocity linear + angular x p. All in
+/// one reference frame, per unit of time.
 struct Placed {
   Eigen::Isometry3d reference_from_link = Eigen::Isometry3d::Identity();
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
 
-/// What holds for all points of a link within `reach` of its origin, over a whole motion. `extent`
-/// and `turn` count what lengths and angles are made of, not what is left of that: offsets may take
-/// back most of it, and the rest rounds as the whole does.
+/// Bounds for all points of a link within `reach` of its origin, over a whole motion. `extent` and
+/// `turn` count the sizes of the terms of lengths and angles, not of the sums: offsets may cancel
+/// most of them, and the rest rounds like the whole.
 struct Bounds {
   double acceleration = 0.0;  ///< m per unit of time squared, relative to the reference frame
   double extent = 0.0;        ///< m, at least the distance from the origin of the reference frame
   double turn = 0.0;          ///< rad: largest angles and twice all that is turned, added up
-  double spin = 0.0;          ///< rad: all that is turned, added up
+  double spin = 0.0;          ///< rad: sum of all rotations
   int joints = 0;
 };
 

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "lane_targets.hpp"
 #include "reference_distance.hpp"
+#include "simd_targets.hpp"
 
 namespace swept::detail {
 namespace {
@@ -73,7 +73,7 @@ WideNode emptyNode(const Vector3d& origin) {
 /// Every instruction set that is compiled and that this machine has, one after the other.
 class BoxBounds : public testing::TestWithParam<std::int64_t> {
  private:
-  lane_test::OnTarget on_{GetParam()};
+  simd_test::OnTarget on_{GetParam()};
 };
 
 /// The squares of gaps below 1e-22 m are no normal numbers in single precision, and rounded up the
@@ -398,7 +398,7 @@ TEST_P(BoxBounds, ARayOfNoNumbersHits) {
   EXPECT_EQ(boxesHit(node, Vector3d::Ones(), nowhere), 7u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, BoxBounds, testing::ValuesIn(lane_test::laneTargets()),
+INSTANTIATE_TEST_SUITE_P(Targets, BoxBounds, testing::ValuesIn(simd_test::simdTargets()),
                          [](const auto& target) {
                            return std::string(hwy::TargetName(target.param));
                          });

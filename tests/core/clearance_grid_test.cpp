@@ -9,8 +9,8 @@
 
 #include "clearance_grid_samples.hpp"
 #include "heap_counter.hpp"
-#include "lane_targets.hpp"
 #include "message_of.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/clearance_field.hpp"
 
 namespace swept {
@@ -316,8 +316,8 @@ TEST(ClearanceGrid, ManyAtOnceAreTheSameBitForBit) {
         if (i % 5 == 0) points.back() = grid.box().center() + 1e6 * test::unitVector(random);
         if (i % 50 == 0) points.back().y() = i % 100 == 0 ? 1e200 : std::nan("");
       }
-      for (const std::int64_t target : lane_test::laneTargets()) {
-        const lane_test::OnTarget on(target);
+      for (const std::int64_t target : simd_test::simdTargets()) {
+        const simd_test::OnTarget on(target);
         std::vector<double> bounds(points.size(), -1.0);
         grid.clearances(points, bounds);
         for (std::size_t i = 0; i < points.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "deforming_samples.hpp"
-#include "lane_targets.hpp"
+#include "simd_targets.hpp"
 
 namespace swept {
 namespace {
@@ -208,7 +208,7 @@ TEST(DeformingMesh, CopiesAreTheirOwn) {
 
 class DeformingMeshTargets : public testing::TestWithParam<std::int64_t> {
  private:
-  lane_test::OnTarget on_{GetParam()};
+  simd_test::OnTarget on_{GetParam()};
 };
 
 TEST_P(DeformingMeshTargets, FindTheSame) {
@@ -227,7 +227,7 @@ TEST_P(DeformingMeshTargets, FindTheSame) {
   EXPECT_GT(later, 40U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, DeformingMeshTargets, testing::ValuesIn(lane_test::laneTargets()),
+INSTANTIATE_TEST_SUITE_P(Targets, DeformingMeshTargets, testing::ValuesIn(simd_test::simdTargets()),
                          [](const auto& target) {
                            return std::string(hwy::TargetName(target.param));
                          });

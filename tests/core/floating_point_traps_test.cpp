@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lane_targets.hpp"
 #include "pair_samples_all.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/signed_distance.hpp"
 
@@ -39,14 +39,14 @@ class TrappedPair : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(TrappedPair, AnswersWithoutNaN) {
   Sampler sampler(31 + static_cast<unsigned>(GetParam()));
-  const std::vector<std::int64_t> targets = lane_test::laneTargets();
+  const std::vector<std::int64_t> targets = simd_test::simdTargets();
   int apart = 0;
   int all = 0;
   for (std::size_t other = 0; other < kNames.size(); ++other) {
     for (int i = 0; i < 40; ++i) {
       const Pair p = sampler.pair(GetParam(), other, i);
       SCOPED_TRACE(std::string(kNames[other]) + " " + std::to_string(i));
-      const lane_test::OnTarget on(targets[static_cast<std::size_t>(i) % targets.size()]);
+      const simd_test::OnTarget on(targets[static_cast<std::size_t>(i) % targets.size()]);
       const FloatingPointTraps traps;
       apart += distance(p.a, p.b, p.a_from_b).lower > 0.0 ? 1 : 0;
       (void)signedDistance(p.a, p.b, p.a_from_b);

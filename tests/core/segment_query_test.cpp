@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "cover_samples.hpp"
-#include "lane_targets.hpp"
+#include "simd_targets.hpp"
 
 namespace swept {
 namespace {
@@ -119,8 +119,8 @@ void check(const Set& set, const Vector3d& offset, std::mt19937& random, Counts&
     }
     const double truth = bruteForce(set, segment);
     const double atCenter = bruteForce(set, {segment.center});
-    for (const std::int64_t target : lane_test::laneTargets()) {
-      const lane_test::OnTarget on(target);
+    for (const std::int64_t target : simd_test::simdTargets()) {
+      const simd_test::OnTarget on(target);
       judge(set, segment, truth, atCenter, offset.norm(), counts);
       if (testing::Test::HasFatalFailure()) return;
     }
@@ -130,7 +130,7 @@ void check(const Set& set, const Vector3d& offset, std::mt19937& random, Counts&
 /// On every instruction set that is compiled and that this machine has.
 class Clearance : public testing::TestWithParam<std::int64_t> {
  private:
-  lane_test::OnTarget on_{GetParam()};
+  simd_test::OnTarget on_{GetParam()};
 };
 class SegmentQueryOnTarget : public Clearance {};
 
@@ -209,7 +209,7 @@ TEST(SegmentQuery, ProvesWhatIsTrueAboutTriangles) {
     const Vector3d offset = Vector3d::Constant(i % 3 == 0 ? 10.0 : 0.0);
     check(triangles(random, offset), offset, random, counts);
   }
-  const auto targets = static_cast<int>(lane_test::laneTargets().size());
+  const auto targets = static_cast<int>(simd_test::simdTargets().size());
   EXPECT_GT(counts.proven, 3000 * targets);
   EXPECT_GT(counts.refuted, 3000 * targets);
   EXPECT_EQ(counts.missed, 0);
@@ -222,7 +222,7 @@ TEST(SegmentQuery, ProvesWhatIsTrueAboutPoints) {
     const Vector3d offset = Vector3d::Constant(i % 3 == 0 ? 10.0 : 0.0);
     check(points(random, offset, i % 2 == 0 ? 0.05 : 0.0), offset, random, counts);
   }
-  const auto targets = static_cast<int>(lane_test::laneTargets().size());
+  const auto targets = static_cast<int>(simd_test::simdTargets().size());
   EXPECT_GT(counts.proven, 3000 * targets);
   EXPECT_GT(counts.refuted, 3000 * targets);
   EXPECT_GT(counts.touching, 50 * targets);
@@ -270,8 +270,8 @@ TEST_P(SegmentQueryOnTarget, NoNumberProvesNothing) {
 std::string nameOf(const testing::TestParamInfo<std::int64_t>& target) {
   return hwy::TargetName(target.param);
 }
-INSTANTIATE_TEST_SUITE_P(Targets, Clearance, testing::ValuesIn(lane_test::laneTargets()), nameOf);
-INSTANTIATE_TEST_SUITE_P(Targets, SegmentQueryOnTarget, testing::ValuesIn(lane_test::laneTargets()),
+INSTANTIATE_TEST_SUITE_P(Targets, Clearance, testing::ValuesIn(simd_test::simdTargets()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Targets, SegmentQueryOnTarget, testing::ValuesIn(simd_test::simdTargets()),
                          nameOf);
 
 }  // namespace

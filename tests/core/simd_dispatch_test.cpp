@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "lane_targets.hpp"
+#include "simd_targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd_dispatch_test.cpp"  // compiled once for each instruction set
@@ -42,15 +42,15 @@ static_assert((HWY_DISABLED_TARGETS & kScalableVectors) == kScalableVectors,
 SWEPT_DISPATCH_TABLE(compiledFor);
 
 TEST(SimdDispatch, GoesToTheSetThatIsWanted) {
-  for (const std::int64_t target : lane_test::laneTargets()) {
-    const lane_test::OnTarget on(target);
+  for (const std::int64_t target : simd_test::simdTargets()) {
+    const simd_test::OnTarget on(target);
     EXPECT_EQ(SWEPT_DISPATCH(compiledFor)(), target);
   }
 }
 
 TEST(SimdDispatch, GoesToTheBestSetOfTheProcessor) {
   // Highway gives better ones smaller bits.
-  EXPECT_EQ(SWEPT_DISPATCH(compiledFor)(), lane_test::laneTargets().front());
+  EXPECT_EQ(SWEPT_DISPATCH(compiledFor)(), simd_test::simdTargets().front());
 }
 
 #if HWY_ARCH_X86

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lane_targets.hpp"
 #include "models_under_test.hpp"
 #include "random_motions.hpp"
+#include "simd_targets.hpp"
 
 namespace {
 
@@ -22,7 +22,7 @@ class TrappedRobot : public testing::TestWithParam<Model> {};
 
 TEST_P(TrappedRobot, AnswersWithoutNaN) {
   std::array<int, 3> seen{};
-  const std::vector<std::int64_t> targets = swept::lane_test::laneTargets();
+  const std::vector<std::int64_t> targets = swept::simd_test::simdTargets();
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Scenario scenario = clutterScenario(filesOf(GetParam()), seed);
     const Checker& checker = *scenario.checker;
@@ -33,7 +33,7 @@ TEST_P(TrappedRobot, AnswersWithoutNaN) {
       const auto [start, goal] = motions.next();
       const std::vector<double> from = scenario.groupOf(start);
       const std::vector<double> to = scenario.groupOf(goal);
-      const swept::lane_test::OnTarget on(targets[static_cast<std::size_t>(i) % targets.size()]);
+      const swept::simd_test::OnTarget on(targets[static_cast<std::size_t>(i) % targets.size()]);
       const FloatingPointTraps traps;
       ++seen[static_cast<std::size_t>(checker.certifyMotion(from, to, workspace).verdict)];
       (void)checker.checkState(from, workspace);

@@ -26,7 +26,7 @@
 #include "swept/robot_model/world.hpp"
 #include "table_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -425,4 +425,4 @@ TEST(CurvedMotions, NoPointAcceleratesMoreThanItsBounds) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -47,7 +47,7 @@ HWY_AFTER_NAMESPACE();
 
 #include "exact_motion.hpp"
 #include "kinematics/lever_arms.hpp"
-#include "lane_targets.hpp"
+#include "simd_targets.hpp"
 #include "rounding/error_model.hpp"
 #include "simd/kernels/hull_planes.hpp"
 #include "simd/kernels/simd_bounds.hpp"
@@ -72,10 +72,10 @@ using Eigen::Vector3d;
 using exact_test::Digits;
 using exact_test::Exact3;
 using exact_test::ExactPose;
-using lane_test::ChainOptions;
-using lane_test::laneTargets;
-using lane_test::OnTarget;
-using lane_test::Random;
+using simd_test::ChainOptions;
+using simd_test::laneTargets;
+using simd_test::OnTarget;
+using simd_test::Random;
 using enum JointType;
 
 using exact_test::exact;
@@ -94,7 +94,7 @@ class Worst {
   ~Worst() {
     std::string row = "| " + what_ + " |";
     const bool once = shares_.contains(kAnyTarget);
-    for (const std::int64_t target : laneTargets()) {
+    for (const std::int64_t target : simdTargets()) {
       const double share = shares_[once ? kAnyTarget : target];
       EXPECT_LE(share, 1.0) << what_ << ", " << hwy::TargetName(target);
       EXPECT_GE(share, least_) << what_ << ": no error is worth the bound";
@@ -157,12 +157,12 @@ class ExactRobot {
 
   ExactRobot(Random& random, int round) {
     const bool zigzag = round % 6 == 5;
-    model = lane_test::robotOf(random, zigzag ? zigzagOf(random) : chainOf(random, round));
+    model = simd_test::robotOf(random, zigzag ? zigzagOf(random) : chainOf(random, round));
     addHulls(random);
     // Long turns and slides are where single precision is worst, short ones where it is used.
     const double turn = random.scale(0.01, 40.0);
-    from = lane_test::configuration(random, model.kinematics, turn, random.scale(1e-3, 1e2));
-    to = lane_test::configuration(random, model.kinematics, turn, random.scale(1e-3, 1e2));
+    from = simd_test::configuration(random, model.kinematics, turn, random.scale(1e-3, 1e2));
+    to = simd_test::configuration(random, model.kinematics, turn, random.scale(1e-3, 1e2));
     if (zigzag) {
       // Every joint has the same sine and cosine, and these the same error.
       const double angle = random.uniform(0.1, 1.5);
@@ -183,7 +183,7 @@ class ExactRobot {
     }
     addObstacle(random);
     addPairs();
-    lanes = lane_test::simdModelOf(model);
+    lanes = simd_test::simdModelOf(model);
   }
 
   /// False: the motion is left to double precision.
@@ -192,7 +192,7 @@ class ExactRobot {
     scratch->block.time = time;
     scratch->block.half = half;
     scratch->block.mode = SimdMode::Motion;
-    if (!lane_test::StraightSimdMotion(lanes, model.kinematics, from, to, *scratch).compile())
+    if (!simd_test::StraightSimdMotion(lanes, model.kinematics, from, to, *scratch).compile())
       return false;
     placeBodies(lanes, scratch->motion, lanes.allBodies, scratch->block);
     return true;
@@ -267,7 +267,7 @@ class ExactRobot {
  private:
   /// In the balls that they have so far.
   void addHulls(Random& random) {
-    lane_test::changeGeometry(model, [&](std::vector<RobotGeometry>& all) {
+    simd_test::changeGeometry(model, [&](std::vector<RobotGeometry>& all) {
       for (RobotGeometry& geometry : all) {
         const CoverBall& ball = geometry.cover->nodes.front().ball;
         std::vector<Vector3d> points;
@@ -289,7 +289,7 @@ class ExactRobot {
     pose.translation() =
         rounded(around[0][1][static_cast<std::size_t>(last.body)] * exact(last.center)) +
         (gap + turned.cwiseAbs().dot(sides)) * towards;
-    model.worldGeometry.push_back(lane_test::worldGeometry(Box{sides}, pose));
+    model.worldGeometry.push_back(simd_test::worldGeometry(Box{sides}, pose));
     GeometryPair pair;
     pair.a = static_cast<int>(model.robotGeometry.size()) - 1;
     model.pairs.push_back(pair);
@@ -305,7 +305,7 @@ class ExactRobot {
       const int bodyA = model.robotGeometry[pair.a].body, bodyB = model.robotGeometry[pair.b].body;
       if (bodyA == bodyB) continue;
       pair.self = true;
-      pair.reference = lane_test::commonAncestor(model.kinematics, bodyA, bodyB);
+      pair.reference = simd_test::commonAncestor(model.kinematics, bodyA, bodyB);
       model.pairs.push_back(pair);
     }
   }
@@ -372,7 +372,7 @@ TEST(ErrorModel, FramesAndMotions) {
   Worst capsules("ways beside half^2 A / 2 (L5: kHalfOutward)", 0.2);
   Worst accelerations("accelerations (L5: kBoundOutward)", 0.9);
   int taken = 0;
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     const auto grow = SWEPT_DISPATCH(inflate);
     for (const auto& robot : robots()) {
@@ -414,7 +414,7 @@ TEST(ErrorModel, FramesAndMotions) {
       }
     }
   }
-  EXPECT_GT(taken, static_cast<int>(laneTargets().size() * robots().size()) / 2);
+  EXPECT_GT(taken, static_cast<int>(simdTargets().size() * robots().size()) / 2);
 }
 
 /// L13: the same places and velocities in double precision, and the bounds there.
@@ -479,7 +479,7 @@ TEST(ErrorModel, Planes) {
     const Digits before = robot->reachOfHull(0, unit, -half);
     const Digits after = robot->reachOfHull(0, unit, half);
     const Digits gap = -std::max<Digits>(before, after) - robot->reachOfObstacle(Digits(-1) * unit);
-    for (const std::int64_t target : laneTargets()) {
+    for (const std::int64_t target : simdTargets()) {
       const OnTarget on(target);
       if (!robot->compile()) continue;
       const auto divides = [&](float margin) {
@@ -538,7 +538,7 @@ TEST(ErrorModel, SinesAndCosines) {
   geometry.cover = cover;
   geometry.levers = leverArms(model.kinematics, 1, Vector3d::UnitX(), 0.1);
   model.robotGeometry = SharedArray(std::vector<RobotGeometry>{geometry});
-  const SimdModel lanes = lane_test::simdModelOf(model);
+  const SimdModel lanes = simd_test::simdModelOf(model);
   SimdScratch scratch(lanes);
   SimdBlock& block = scratch.block;
   block.mode = SimdMode::States;
@@ -558,7 +558,7 @@ TEST(ErrorModel, SinesAndCosines) {
       s[static_cast<std::size_t>(lane)] = sin(Digits(angles.lane[lane]));
       c[static_cast<std::size_t>(lane)] = cos(Digits(angles.lane[lane]));
     }
-    for (const std::int64_t target : laneTargets()) {
+    for (const std::int64_t target : simdTargets()) {
       const OnTarget on(target);
       block.angle[1] = angles;
       placeBodies(lanes, scratch.motion, lanes.allBodies, block);
@@ -579,8 +579,8 @@ TEST(ErrorModel, TableValues) {
     ChainOptions options;
     options.types = {Revolute};
     options.mimics = 0.0;
-    const CheckerModel model = lane_test::robotOf(random, options);
-    const SimdModel lanes = lane_test::simdModelOf(model);
+    const CheckerModel model = simd_test::robotOf(random, options);
+    const SimdModel lanes = simd_test::simdModelOf(model);
     const double width = random.chance(0.5) ? random.uniform(kTableWidest, 2.0 * kTableWidest)
                                             : random.scale(1.0, kTableWidest);
     const double lower = random.uniform(-kTableWidest, kTableWidest - width);
@@ -607,10 +607,10 @@ TEST(ErrorModel, TableValues) {
       scratch.block.half.lane[lane] = half;
       scratch.block.time.lane[lane] = 1.0F - half;
     }
-    for (const std::int64_t target : laneTargets()) {
+    for (const std::int64_t target : simdTargets()) {
       const OnTarget on(target);
       ASSERT_TRUE(
-          lane_test::StraightSimdMotion(lanes, model.kinematics, from, to, scratch).compile());
+          simd_test::StraightSimdMotion(lanes, model.kinematics, from, to, scratch).compile());
       placeBodies(lanes, scratch.motion, lanes.allBodies, scratch.block);
       for (int lane = 0; lane < kLanes; ++lane) {
         const Digits rate = Digits(to[0]) - Digits(from[0]);
@@ -648,7 +648,7 @@ ExactObstacle obstacleOf(Random& random, const Shape& shape, double size) {
   obstacle.shape = shape;
   obstacle.size = size;
   obstacle.world_from_shape = random.pose(size * std::array{0.0, 1.0, 1e2}[random.below(3)]);
-  const WorldGeometry geometry = lane_test::worldGeometry(shape, obstacle.world_from_shape);
+  const WorldGeometry geometry = simd_test::worldGeometry(shape, obstacle.world_from_shape);
   obstacle.magnitude = geometry.magnitude;
   obstacle.reach = obstacle.world_from_shape.translation().norm() + 3.0 * size;
   obstacle.world = compileObstacles({geometry}, obstacle.reach, true);
@@ -818,7 +818,7 @@ TEST(ErrorModel, Obstacles) {
             kernelDistance(obstacle, inLane(x, lane), inLane(g, lane));
         way[static_cast<std::size_t>(lane)] = by.norm();
       }
-      for (const std::int64_t target : laneTargets()) {
+      for (const std::int64_t target : simdTargets()) {
         const OnTarget on(target);
         Row squared;
         SWEPT_DISPATCH(measureSquared)(obstacle.world, x, g, squared);
@@ -861,7 +861,7 @@ TEST(ErrorModel, Fields) {
         const Vector3d at = obstacle.world_from_shape * random.vector(1.5 * size);
         for (int k = 0; k < 3; ++k) x[k].lane[lane] = static_cast<float>(at[k]);
       }
-      for (const std::int64_t target : laneTargets()) {
+      for (const std::int64_t target : simdTargets()) {
         const OnTarget on(target);
         Row q[3], inside[3], value, whole;
         SWEPT_DISPATCH(placeInGrid)(field, x, q);

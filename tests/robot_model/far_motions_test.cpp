@@ -17,9 +17,9 @@
 namespace swept {
 namespace {
 
-using lane_test::Random;
-using lane_test::Real;
-using lane_test::Vector;
+using simd_test::Random;
+using simd_test::Real;
+using simd_test::Vector;
 
 std::string three(const Eigen::Vector3d& v) {
   std::ostringstream text;
@@ -138,7 +138,7 @@ Vector middleAt(const detail::KinematicModel& model, const Robot& robot,
   const std::size_t last = robot.links().size() - 1;
   const Eigen::Vector3d inLink =
       robot.links()[last].collision.front().link_from_shape.translation();
-  return lane_test::exactPoint(model, from, to, t, model.bodyOfLink[last], 0, inLink.cast<Real>());
+  return simd_test::exactPoint(model, from, to, t, model.bodyOfLink[last], 0, inLink.cast<Real>());
 }
 
 TEST(FarMotions, WhatThePathTouchesIsNeverMissed) {

@@ -20,7 +20,7 @@ namespace swept::far_test {
 
 using Digits = boost::multiprecision::cpp_bin_float_50;
 using Exact = std::array<Digits, 3>;
-using lane_test::Random;
+using simd_test::Random;
 using test::joint;
 
 inline constexpr double kRadius = 0.0625;  // m, of the robot's ball and of the one beside it

@@ -9,7 +9,7 @@
 #include "kinematics/lever_arms.hpp"
 #include "simd_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::JointMotion;
@@ -133,4 +133,4 @@ TEST(MotionArms, AreTheSameWithinAnyLimits) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -7,7 +7,7 @@
 
 #include "simd_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using enum JointType;
@@ -67,4 +67,4 @@ TEST(NestedTravels, AreNeverLessAndHardlyMoreThanOneByOne) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

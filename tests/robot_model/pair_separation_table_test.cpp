@@ -10,7 +10,7 @@
 
 #include "simd_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::PairSeparationTable;
@@ -132,4 +132,4 @@ TEST(PairSeparationTable, SaysOfABoxWhatItsPartsSay) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "lane_targets.hpp"
 #include "simd/kernels/simd_bounds.hpp"
 #include "simd/kernels/simd_kinematics.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::kLanes;
@@ -278,7 +278,7 @@ Real sampleOf(Random& random, const Interval& interval) {
 
 /// Taylor's capsule, with the segment as the lanes have it: where it is and where it ends.
 TEST(SimdBounds, CentresStayWithinTheInflationOfTheirSegments) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Random random(22);
     Real tightest = 0;
@@ -358,4 +358,4 @@ TEST(SimdBounds, RelativeSegmentsBoundTheDistanceOfTwoCentres) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -9,7 +9,7 @@
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::kLanes;
@@ -117,4 +117,4 @@ TEST(SimdCarried, BoundsHoldAndAreHardlyMoreThanThoseOfFewBodies) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

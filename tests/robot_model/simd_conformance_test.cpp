@@ -3,15 +3,15 @@
 
 #include "certify/motion_check.hpp"
 #include "certify/state_check.hpp"
-#include "lane_targets.hpp"
 #include "model_robots.hpp"
 #include "models_dir.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/world.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -58,7 +58,7 @@ World sparseWorld() {
   return world;
 }
 
-/// The checker, and the same without the lane tier.
+/// The checker, and the same without the SIMD tier.
 struct Tiers {
   std::shared_ptr<const CheckerModel> lanes;
   CheckerModel exact;
@@ -276,7 +276,7 @@ class SimdConformance : public testing::TestWithParam<Case> {};
 TEST_P(SimdConformance, EveryTargetAgreesWithExactGeometry) {
   const Tiers tiers = compile(GetParam());
   ASSERT_TRUE(tiers.lanes->simd.usable);
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Random random(51);
     Conformance conformance(tiers, GetParam().margin);
@@ -307,7 +307,7 @@ INSTANTIATE_TEST_SUITE_P(Models, SimdConformance, testing::ValuesIn(kCases), [](
 /// What cannot be checked is not free on any target.
 TEST(SimdConformanceInput, WhatIsNoNumberIsNeverProven) {
   const Tiers tiers = compile(kCases[3]);
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     WorkspaceData workspace(*tiers.lanes);
     const std::vector<double> rest(tiers.lanes->kinematics.dimension, 0.01);
@@ -328,4 +328,4 @@ TEST(SimdConformanceInput, WhatIsNoNumberIsNeverProven) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "certify/motion_check.hpp"
-#include "lane_targets.hpp"
 #include "model_robots.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/robot_model/robot.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -209,7 +209,7 @@ TEST(SimdGrazing, NoContactIsEverPassedOver) {
       const double depth = random.scale(1e-8, 1e-3);
       if (!stage.placeObstacle(random, depth)) continue;
       ++contacts;
-      for (const std::int64_t target : laneTargets()) {
+      for (const std::int64_t target : simdTargets()) {
         const OnTarget on(target);
         const auto found = stage.certify(true, MotionQuery::VerdictOnly);
         ASSERT_NE(found.verdict, Verdict::Free) << "round " << round << ", depth " << depth;
@@ -249,4 +249,4 @@ TEST(SimdGrazing, AGapAboveTheToleranceIsNeverUndecided) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

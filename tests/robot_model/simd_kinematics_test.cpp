@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -45,4 +46,4 @@ TEST(SimdKinematics, FarTurnsAndWhatIsNoNumberAreRefused) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -5,7 +5,7 @@
 #include "swept/core/distance.hpp"
 #include "table_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::RobotGeometry;
@@ -105,4 +105,4 @@ TEST(SimdMeeting, CellsInContactHaveOne) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

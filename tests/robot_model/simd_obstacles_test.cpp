@@ -26,9 +26,10 @@ HWY_AFTER_NAMESPACE();
 #include <limits>
 #include <map>
 
-#include "lane_targets.hpp"
+#include "simd_targets.hpp"
 #include "rounding/error_model.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/axis_frame.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/simd_dispatch.hpp"
@@ -40,9 +41,9 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using lane_test::OnTarget;
-using lane_test::Random;
-using lane_test::worldGeometry;
+using simd_test::OnTarget;
+using simd_test::Random;
+using simd_test::worldGeometry;
 
 enum class Kind {
   Ball,
@@ -207,7 +208,7 @@ void compare(Random& random, const Scene& scene, bool moving, Tally& tally) {
 }
 
 TEST(SimdObstacles, NoBoundIsAboveTheDistance) {
-  for (const std::int64_t target : lane_test::laneTargets()) {
+  for (const std::int64_t target : simd_test::simdTargets()) {
     const OnTarget on(target);
     Random random(31);
     for (int kind = 0; kind < kKinds; ++kind) {
@@ -237,7 +238,7 @@ TEST(SimdObstacles, NoBoundIsAboveTheDistance) {
 
 /// Of points, the kernels of these kinds give the distance, less what rounding is allowed for.
 TEST(SimdObstacles, PointsAreAsFarAsTheyAre) {
-  for (const std::int64_t target : lane_test::laneTargets()) {
+  for (const std::int64_t target : simd_test::simdTargets()) {
     const OnTarget on(target);
     Random random(32);
     for (const Kind kind :
@@ -261,7 +262,7 @@ TEST(SimdObstacles, PointsAreAsFarAsTheyAre) {
 /// Beside the edge of a flat ellipsoid: semi-axes that are longer by a slack would take the surface
 /// there outwards by a small part of that.
 TEST(SimdObstacles, NoBoundIsAboveTheDistanceFromAFlatEllipsoid) {
-  for (const std::int64_t target : lane_test::laneTargets()) {
+  for (const std::int64_t target : simd_test::simdTargets()) {
     const OnTarget on(target);
     Random random(34);
     int proven = 0;
@@ -311,7 +312,7 @@ TEST(SimdObstacles, SlidingAlongAFaceIsExact) {
 
 /// No distance is shown where a coordinate is no number.
 TEST(SimdObstacles, NothingIsShownForWhatIsNoNumber) {
-  for (const std::int64_t target : lane_test::laneTargets()) {
+  for (const std::int64_t target : simd_test::simdTargets()) {
     const OnTarget on(target);
     Random random(33);
     int shown = 0;

@@ -3,15 +3,15 @@
 
 #include <utility>
 
-#include "lane_targets.hpp"
 #include "simd/kernels/hull_planes.hpp"
 #include "simd/kernels/simd_kinematics.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/axis_frame.hpp"
 #include "swept/core/distance.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -296,4 +296,4 @@ TEST(SimdPlanes, NothingIsProvenAcrossNoDirection) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

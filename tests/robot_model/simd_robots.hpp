@@ -16,8 +16,8 @@
 #include "simd/tables/pair_separation_tables.hpp"
 #include "swept/core/axis_frame.hpp"
 
-/// Random robots for tests of the lane tier, and their kinematics once more in extended precision.
-namespace swept::lane_test {
+/// Random robots for tests of the SIMD tier, and their kinematics once more in extended precision.
+namespace swept::simd_test {
 
 class Random {
  public:
@@ -301,4 +301,4 @@ inline detail::WorldGeometry worldGeometry(const Shape& shape,
   return geometry;
 }
 
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -6,11 +6,12 @@
 #include <limits>
 #include <optional>
 
-#include "lane_targets.hpp"
+#include "simd_targets.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::CheckerModel;
@@ -195,4 +196,4 @@ TEST(SimdSearch, ALinkThatTouchesAnObstacleIsNotProvenApart) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "certify/state_check.hpp"
-#include "lane_targets.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/kernels/self_walk.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd/search/simd_search.hpp"
+#include "simd_targets.hpp"
 #include "table_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::SimdMode;
@@ -143,7 +143,7 @@ class BothWalks {
 
 /// What covers prove they prove in either, pair by pair; tables may be asked less.
 TEST(SimdState, ProvesWhatEightStatesDo) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Random random(82);
     int open = 0;
@@ -182,7 +182,7 @@ TEST(SimdState, ProvesWhatEightStatesDo) {
 }
 
 TEST(SimdState, VerdictsAreThoseOfManyStatesAndOfExactGeometry) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Random random(83);
     int asked = 0;
@@ -225,7 +225,7 @@ TEST(SimdState, VerdictsAreThoseOfManyStatesAndOfExactGeometry) {
 
 /// Margins that the balls around two bodies keep by a hair, or not.
 TEST(SimdState, NoMarginIsMissedByAHair) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Random random(84);
     int asked = 0;
@@ -287,4 +287,4 @@ TEST(SimdState, NoMarginIsMissedByAHair) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

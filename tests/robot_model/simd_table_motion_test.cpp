@@ -6,7 +6,7 @@
 #include "simd/tables/table_motion.hpp"
 #include "table_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::SimdBodyPair;
@@ -107,4 +107,4 @@ TEST(SimdTableMotion, PointsComeNoNearerThanBounded) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

@@ -9,7 +9,7 @@
 #include "swept/core/distance.hpp"
 #include "table_robots.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 namespace {
 
 using detail::SimdBodyPair;
@@ -316,4 +316,4 @@ TEST(SimdTable, NothingIsKnownOutsideTheLimitsOrOfWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

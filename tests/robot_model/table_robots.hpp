@@ -14,7 +14,7 @@
 #include "swept/robot_model/world.hpp"
 
 /// Robots for tests of joint tables.
-namespace swept::lane_test {
+namespace swept::simd_test {
 
 using detail::CheckerModel;
 using detail::PairSeparationTable;
@@ -188,4 +188,4 @@ class Poses {
   const int joints_;
 };
 
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test

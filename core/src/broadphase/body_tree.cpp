@@ -59,7 +59,8 @@ Isometry3d relative(const Isometry3d& world_from_a, const Isometry3d& world_from
   return a_from_b;
 }
 
-/// m. No point of the shape is farther from its origin; constant time, unlike the ball of a mesh.
+/// m. Upper bound on the distance of the shape's points from its origin; constant time, unlike the
+/// ball of a mesh.
 double extentOf(const Shape& shape) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape))
     return mesh->hull().extent() + mesh->hull().error();
@@ -206,13 +207,13 @@ BodyTree::LocalBox BodyTree::localBox(const Shape& shape) {
     const detail::TreeBox box = detail::treeBox(*bvh);
     return {box.middle, box.half, 0.0};
   }
-  // The middle and half of a box, as they round, leave out less than the margin of apart().
+  // The rounding of a box's middle and half loses less than the margin of apart().
   const Aabb box = boundingBox(shape);
   return {box.center(), 0.5 * box.upper - 0.5 * box.lower, 0.0};
 }
 
 /// True only if one of 15 axes separates the boxes by more than the radii and rounding. Gaps along
-/// edge axes come times a length of at most 1, which errs towards false; so does NaN.
+/// edge axes are scaled by a length of at most 1, which errs towards false; so does NaN.
 bool BodyTree::apart(const LocalBox& a, const LocalBox& b, const Isometry3d& a_from_b) {
   detail::BoxPair pair;
   pair.rotation = a_from_b.linear();
@@ -243,18 +244,18 @@ BodyTree::Hit BodyTree::collides(const Shape& shape, const Isometry3d& given) co
       result = {contact, body.id};
     return contact == Contact::Touching;
   });
-  // Without a finite pose nothing is proven, not even about no body at all.
+  // Without a finite pose nothing is proven, not even for an empty tree.
   if (result.status == Contact::Separate && !world_from_shape.matrix().allFinite())
     result.status = Contact::Unknown;
   return result;
 }
 
-/// Lemma: with rotations orthonormal to a few epsilon the computed pose of b in a differs from the
-/// true one by a turn of at most k and a shift of at most k |t|, t the offset of the origins and k
-/// = tolerance::kRoundingPerJoint (90 epsilon, for about 30 operations). A point y of either body,
-/// told from a's origin, thus moves by at most k (|y| + 2 |t|); told from b's origin, k (|x| +
-/// |t|). The distance changes by no more than the most that the points of one of the two bodies
-/// move.
+/// Lemma: with rotations orthonormal to a few epsilon, the computed pose of b in a differs from the
+/// true one by a rotation of at most k and a translation of at most k |t|. Here t is the offset of
+/// the origins and k = tolerance::kRoundingPerJoint (90 epsilon, for about 30 operations). A point
+/// y of either body, in coordinates from a's origin, thus moves by at most k (|y| + 2 |t|); in
+/// coordinates x from b's origin, by at most k (|x| + |t|). The distance changes by no more than
+/// the largest movement of a point of one of the two bodies.
 void BodyTree::measure(const Body& body, const Shape& shape, double shapeExtent,
                        const Isometry3d& world_from_shape, double tolerance, Nearest& best) const {
   DistanceOptions options;
@@ -288,7 +289,7 @@ void BodyTree::descend(std::size_t index, const Aabb& box, const Shape& shape, d
       std::pair{leftFirst ? left : right, leftFirst ? gapLeft : gapRight},
       std::pair{leftFirst ? right : left, leftFirst ? gapRight : gapLeft}};
   for (const auto& [child, bound] : children) {
-    // What is left out is at least as far as the points known: the bound needs no update.
+    // Everything left out is at least as far as the known points: the bound needs no update.
     if (bound >= best.upper || best.upper <= 0.0) continue;
     descend(child, box, shape, shapeExtent, world_from_shape, tolerance, best);
   }

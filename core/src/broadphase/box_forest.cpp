@@ -33,8 +33,8 @@ void BoxForest::number(const BoxTree& tree) {
     places_[tree.owner(slot)] = {mover & 1U, slot & kSlotBits};
 }
 
-/// The bounds make the work of building a constant per box that was moved, but for a logarithm, and
-/// that of a search at most twice what it is in trees just built.
+/// The bounds keep the building work per moved box constant, up to a logarithm, and the work of a
+/// search at most twice that in newly built trees.
 void BoxForest::tidy(std::span<const FloatBox> boxes) {
   gathered_.clear();
   if (movers_.live() > 64 + settled_.live() / 8 || settled_.slots() > 64 + 2 * settled_.live()) {

@@ -13,15 +13,14 @@
 namespace swept::detail {
 
 /// Boxes by number in two trees: most in one, and those that left their places since it was built
-/// in a small one that is cheap to build again (the idea of log-structured merge trees: O'Neil,
-/// Cheng, Gawlick, O'Neil 1996). The boxes themselves are the caller's and come along as `boxes`,
-/// by number.
+/// in a small one that is cheap to rebuild (the idea of log-structured merge trees: O'Neil, Cheng,
+/// Gawlick, O'Neil 1996). The caller owns the boxes and passes them as `boxes`, by number.
 class BoxForest {
  public:
   void insert(std::uint32_t owner, const FloatBox& box);
   void move(std::uint32_t owner, const FloatBox& box);
   void erase(std::uint32_t owner);
-  /// To be called after changes: builds what has become slow to search.
+  /// Call it after changes: rebuilds a tree that has become slow to search.
   void tidy(std::span<const FloatBox> boxes);
   /// Of these boxes only, and in order.
   void build(std::span<const std::uint32_t> owners, std::span<const FloatBox> boxes);

@@ -20,7 +20,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, BoxBlock::kLanes>;
 
-/// Bit i: the box in lane i meets `box`; never for a lane without one.
+/// Bit i: the box in lane i meets `box`; never set for an empty lane.
 HWY_INLINE std::uint32_t lanesHit(const BoxBlock& block, const FloatBox& box) {
   const Tag tag;
   std::uint32_t hits = 0;
@@ -44,7 +44,7 @@ void FindOverlaps(const BoxTree& tree, const FloatBox& box, std::vector<std::uin
   struct Open {
     std::uint32_t level, block;
   };
-  // A block leaves at most seven others of its level behind.
+  // A block leaves at most seven other blocks of its level to visit.
   std::array<Open, BoxTree::kMostLevels * BoxBlock::kLanes> stack;
   std::size_t depth = 0;
   if (tree.levels() > 0) stack[depth++] = {static_cast<std::uint32_t>(tree.levels() - 1), 0};

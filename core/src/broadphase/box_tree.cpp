@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLanes = BoxBlock::kLanes;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-/// Half of the largest coordinate that `build` tells from others: sums and differences stay finite.
+/// Half of the largest coordinate that `build` distinguishes: sums and differences stay finite.
 constexpr float kFarthest = 1e37F;
 constexpr std::uint32_t kSizeClasses = 64;
 
@@ -31,7 +31,7 @@ float largestExtent(const FloatBox& box) {
   return largest;
 }
 
-/// Powers of four above the usual size; boxes up to it are all alike.
+/// Size class in powers of four above the usual size; all boxes up to that size are alike.
 std::uint32_t fourfold(float extent, float usual) {
   const float ratio = extent / usual;
   if (!(ratio >= 4.0F)) return 0;
@@ -62,7 +62,7 @@ FloatBox BoxBlock::bounds() const {
   for (int k = 0; k < 3; ++k) {
     float least = kInfinity, most = -kInfinity;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      // In this order a NaN changes nothing.
+      // In this order of arguments a NaN changes nothing.
       least = lower[k][lane] < least ? lower[k][lane] : least;
       most = upper[k][lane] > most ? upper[k][lane] : most;
     }
@@ -88,7 +88,7 @@ void BoxTree::makeRoomFor(std::size_t slots) {
     const bool isNew = level >= height_ && level > 0;
     if (levels_[level].size() < count) levels_[level].resize(count, BoxBlock::empty());
     if (isNew) {
-      // The tree so far hangs below the first lane of its new top.
+      // The tree built so far hangs below the first lane of its new top.
       levels_[level][0].set(0, levels_[level - 1][0].bounds());
     }
     height_ = std::max(height_, level + 1);
@@ -140,7 +140,7 @@ bool BoxTree::hasRoom(Slot slot, const FloatBox& box) const {
 }
 
 /// A few large boxes among small ones would make large blocks of them all, so the sizes are kept
-/// apart. The median tells what is small.
+/// apart. The median decides what is small.
 void BoxTree::classify() {
   const std::size_t middle = items_.size() / 2;
   std::nth_element(
@@ -152,13 +152,13 @@ void BoxTree::classify() {
     item.sizeClass = kSizeClasses - 1 - fourfold(largestExtent(item.box), usual);
 }
 
-/// Halves at the median of the widest axis, where blocks of the highest level possible meet. The
-/// depth is that of the tree in bits, whatever the boxes.
+/// Halves at the median of the widest axis, at the boundary of the highest possible block level.
+/// The depth is the tree's number of bits, whatever the boxes.
 void BoxTree::arrange(std::size_t first, std::size_t last) {
   if ((last - 1) / kLanes == first / kLanes) return;
   std::size_t chunk = kLanes;
   while ((last - 1) / (chunk * kLanes) != first / (chunk * kLanes)) chunk *= kLanes;
-  // The multiple of the chunk that is nearest to the middle, strictly inside.
+  // The multiple of the chunk nearest to the middle, strictly inside.
   std::size_t cut = (first + (last - first) / 2 + chunk / 2) / chunk * chunk;
   if (cut >= last) cut -= chunk;
   if (cut <= first) cut += chunk;

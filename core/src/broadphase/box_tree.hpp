@@ -12,8 +12,8 @@
 
 namespace swept::detail {
 
-/// Eight boxes, one a lane, in the layout that the vector kernels read. A lane without a box holds
-/// NaN, which overlaps nothing.
+/// Eight boxes, one per lane, in the layout that the SIMD kernels read. An empty lane holds NaN,
+/// which overlaps nothing.
 struct alignas(64) BoxBlock {
   static constexpr std::uint32_t kLanes = 8;
   std::array<std::array<float, kLanes>, 3> lower;  ///< m
@@ -21,16 +21,16 @@ struct alignas(64) BoxBlock {
 
   FloatBox box(std::size_t lane) const;
   void set(std::size_t lane, const FloatBox& box);
-  FloatBox bounds() const;  ///< of the lanes that hold a box; upside down if there is none
+  FloatBox bounds() const;  ///< of the lanes that hold a box; lower above upper if there is none
   static BoxBlock empty();
 };
 
 /// Boxes in an eight-wide tree without pointers: lane l of block b on one level bounds block
 /// 8 b + l of the level below. The lowest level holds the boxes, in slots.
 ///
-/// `build` puts near boxes of like size side by side. After that a box may move about its place;
-/// one that goes farther is to be erased and appended, behind the sorted ones, until the next
-/// `build`.
+/// `build` puts near boxes of similar size side by side. Afterwards a box may move around its
+/// place. If it moves farther, erase and append it; it is then behind the sorted ones until the
+/// next `build`.
 class BoxTree {
  public:
   using Slot = std::uint32_t;
@@ -41,7 +41,7 @@ class BoxTree {
   void move(Slot slot, const FloatBox& box);
   void erase(Slot slot);
   void clear();
-  /// Of the boxes `boxes[owner]`, m, in slots of any order.
+  /// Builds the tree of the boxes `boxes[owner]`, m, in slots of any order.
   void build(std::span<const std::uint32_t> owners, std::span<const FloatBox> boxes);
 
   void ownBySlot() { std::iota(owners_.begin(), owners_.end(), 0U); }
@@ -77,7 +77,7 @@ class BoxTree {
   void makeRoomFor(std::size_t slots);
 
   std::array<std::vector<BoxBlock>, kMostLevels> levels_;
-  std::vector<FloatBox> limits_;  ///< m, of each sorted block: how far its boxes may move
+  std::vector<FloatBox> limits_;  ///< m, per sorted block: how far its boxes may move
   std::vector<std::uint32_t> owners_;
   std::vector<Item> items_;  // scratch of `build`
   std::size_t height_ = 0, live_ = 0, sorted_ = 0;

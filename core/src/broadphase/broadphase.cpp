@@ -10,7 +10,7 @@
 namespace swept {
 namespace {
 
-/// m. Of two intervals; finite ones that are farther apart than a double holds are infinitely so.
+/// m. Gap of two intervals; infinite if finite ones are farther apart than a double holds.
 double gap(double lowerA, double upperA, double lowerB, double upperB) {
   if (lowerA > upperB) return lowerA - upperB;
   if (lowerB > upperA) return lowerB - upperA;
@@ -20,9 +20,9 @@ double gap(double lowerA, double upperA, double lowerB, double upperB) {
 }  // namespace
 
 /// Differences and the final rounding to double are off by half an epsilon each, the long sums and
-/// the root by less. Each step is monotonous in the gaps and so is the result: a box within
-/// another is not nearer, whatever the rounding. Doubles that differ do so by the least denormal at
-/// least, and so do boxes that do not overlap.
+/// the root by less. Each step is monotonic in the gaps, and so is the result: a box within another
+/// is not nearer, whatever the rounding. Different doubles differ by at least the least denormal,
+/// so boxes that do not overlap have a positive distance.
 double boxDistance(const Aabb& a, const Aabb& b) {
   if (detail::inForeignEnvironment() || detail::inForeignPrecision()) {
     return inDefaultEnvironment([&] { return boxDistance(a, b); });

@@ -9,7 +9,7 @@
 
 namespace swept::detail {
 
-/// Axis-aligned box in single precision, around one in double: half the memory to look through.
+/// Axis-aligned box in single precision around one in double: half the memory to read.
 struct FloatBox {
   std::array<float, 3> lower;  ///< m
   std::array<float, 3> upper;  ///< m
@@ -23,7 +23,8 @@ struct FloatBox {
     }
     return apart == 0;
   }
-  /// In either precision. Without branches: nearly always true for a box that moved a little.
+  /// For boxes of either precision. Without branches: nearly always true for a box that moved a
+  /// little.
   template <typename Box>
   bool contains(const Box& box) const {
     int inside = 1;
@@ -35,7 +36,7 @@ struct FloatBox {
   }
 };
 
-/// A float that is not above x, which is no NaN.
+/// A float that is at most x. x is not NaN.
 ///
 /// Lemma: for |x| within the range of floats, f = fl(x) is off by at most u |f| (1 + u) plus half
 /// the least denormal, u = 2^-24; the product and the difference below round by at most u of
@@ -48,12 +49,12 @@ inline float floatBelow(double x) {
   return f - (0x1p-22F * std::abs(f) + std::numeric_limits<float>::min());
 }
 
-/// A float that is not below x, which is no NaN.
+/// A float that is at least x. x is not NaN.
 inline float floatAbove(double x) {
   return -floatBelow(-x);
 }
 
-/// Contains the box, which has no NaN.
+/// A box that contains `box`, which has no NaN.
 inline FloatBox floatBox(const Aabb& box) {
   FloatBox result;
   for (int k = 0; k < 3; ++k) {

@@ -13,7 +13,8 @@ using Pair = BroadphaseScratch::Pair;
 
 constexpr std::size_t kLanes = BoxBlock::kLanes;
 
-/// m^2. Of the box to each lane. Where infinite coordinates give no number the gap counts as none.
+/// m^2. Squared distance of the box to each lane. Where infinite coordinates give NaN, the gap
+/// counts as zero.
 using LaneDistances = std::array<float, kLanes>;
 LaneDistances squaredDistances(const FloatBox& box, const BoxBlock& block) {
   LaneDistances squared{};
@@ -29,8 +30,8 @@ LaneDistances squaredDistances(const FloatBox& box, const BoxBlock& block) {
   return squared;
 }
 
-/// m^2. Lemma: if a squared distance of floats, as it rounds, is above this, then `boxDistance` of
-/// any boxes within those is above the threshold (m).
+/// m^2. Lemma: if a rounded squared distance of floats is above this, then `boxDistance` of any
+/// boxes within those is above the threshold (m).
 ///
 /// The differences, squares and sums of floats are off by less than 8 u of the result, u = 2^-24,
 /// and by less than 4 times the least denormal where they underflow; `boxDistance` is below the
@@ -44,8 +45,8 @@ float enough(double threshold) {
   return static_cast<float>(squared) + std::numeric_limits<float>::min();
 }
 
-/// The nearest pairs so far are a heap with the last of them on top, and what is farther than that
-/// is not looked at.
+/// The nearest pairs so far are a heap with the last of them on top. Pairs farther than that are
+/// skipped.
 class PairSearch {
  public:
   PairSearch(const Pair& after, double bound, std::size_t most, bool among,
@@ -84,8 +85,8 @@ class PairSearch {
     return !(block.lower[0][lane] <= block.upper[0][lane]);
   }
 
-  /// Opens the higher one of two blocks, or both. Nearest first: then what comes later is mostly
-  /// too far. As deep as the trees are high, together.
+  /// Opens the higher one of two blocks, or both, nearest first: later ones are then mostly too
+  /// far. The depth is at most the sum of the trees' heights.
   void meet(const Node& a, const Node& b) {
     ++looked_;
     if (a.level == 0 && b.level == 0) return meetBoxes(a, b);

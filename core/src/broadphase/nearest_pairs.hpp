@@ -10,7 +10,7 @@
 
 namespace swept::detail {
 
-/// A box and its handle; in a cache line of its own, since boxes are looked at in any order.
+/// A box and its handle in a cache line of their own, since boxes are read in any order.
 struct alignas(64) PlacedBox {
   Aabb box;  ///< m
   BoxHandle owner;
@@ -23,8 +23,8 @@ struct PlacedForest {
 };
 
 /// The first pairs after `after` that are nearer than `bound` (m), at most `most` of them, in their
-/// order. `b` null: the pairs of a's boxes among themselves. Memory is that of the result. Returns
-/// the number of pairs of blocks that were looked at.
+/// order. `b` null: pairs among a's own boxes. Uses memory for the result only. Returns the number
+/// of pairs of blocks that were tested.
 std::size_t findNearestPairs(const PlacedForest& a, const PlacedForest* b,
                              const BroadphaseScratch::Pair& after, double bound, std::size_t most,
                              std::vector<BroadphaseScratch::Pair>& pairs);

@@ -25,7 +25,7 @@ void sortByDigit(const std::vector<PairKey>& from, int shift, std::vector<PairKe
   for (const PairKey key : from) to[next[digit(key)]++] = key;
 }
 
-/// What is in one of the two sorted lists only.
+/// The elements of only one of two sorted lists.
 void symmetricDifference(const std::vector<PairKey>& keys, const std::vector<PairKey>& changes,
                          std::vector<PairKey>& result) {
   result.clear();
@@ -42,7 +42,7 @@ void symmetricDifference(const std::vector<PairKey>& keys, const std::vector<Pai
   result.insert(result.end(), from, keys.end());
 }
 
-/// Keeps one of what is there an odd number of times.
+/// Keeps one of each element that occurs an odd number of times.
 void cancelTwins(std::vector<PairKey>& keys) {
   std::size_t kept = 0;
   for (const PairKey key : keys) {
@@ -78,7 +78,7 @@ void PairSet::toggle(std::vector<PairKey>& keys, int bits) {
   cancelTwins(keys);
   symmetricDifference(changed_, keys, scratch_);
   changed_.swap(scratch_);
-  // The root balances the work of keeping the short list against that of keeping the long one.
+  // The root balances the work for the short list against that for the long one.
   const double few = 32.0 + 4.0 * std::sqrt(static_cast<double>(sorted_.size()));
   if (static_cast<double>(changed_.size()) <= few) return;
   symmetricDifference(sorted_, changed_, scratch_);

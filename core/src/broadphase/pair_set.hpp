@@ -15,21 +15,22 @@ inline PairKey pairKey(std::uint32_t a, std::uint32_t b) {
   return a < b ? PairKey{a} << 32 | b : PairKey{b} << 32 | a;
 }
 
-/// Sorts by the lowest bits of both halves, at least: so many of the lower and of the upper one.
+/// Sorts by at least this many of the lowest bits of the lower and of the upper half.
 void sortPairs(std::vector<PairKey>& keys, int lowerBits, int upperBits,
                std::vector<PairKey>& scratch);
 
-/// Sorted pairs under changes. What changed lately is kept beside as a short sorted list, so that
-/// one change does not move all that is behind it.
+/// Sorted pairs under changes. Recent changes are kept separately as a short sorted list, so that
+/// one change does not move everything behind it.
 class PairSet {
  public:
-  /// Each key that was in goes out and the other way round; one named twice stays. Sorts `keys`,
-  /// both halves of which are below 2^bits.
+  /// Toggles each key: one that is in goes out and vice versa. A key named twice stays. Sorts
+  /// `keys`, whose halves are both below 2^bits.
   void toggle(std::vector<PairKey>& keys, int bits);
-  /// `sorted`: strictly ascending; what it held before is given back in it.
+  /// `sorted`: strictly ascending; receives the previous content.
   void replace(std::vector<PairKey>& sorted);
 
-  /// The set is `sorted` but for `changed`, whose keys are in exactly if they are not in `sorted`.
+  /// The set is `sorted`, corrected by `changed`: a key in `changed` is in the set exactly if it is
+  /// not in `sorted`.
   const std::vector<PairKey>& sorted() const { return sorted_; }
   const std::vector<PairKey>& changed() const { return changed_; }
   std::size_t bytes() const;

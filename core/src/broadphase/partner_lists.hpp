@@ -11,14 +11,14 @@
 
 namespace swept::detail {
 
-/// For each box those that are near it. Both boxes of a pair list each other and know where, so
-/// that a pair goes away in constant time even if one of the two is near everything.
+/// For each box, the list of boxes near it. Both boxes of a pair list each other and store the
+/// position, so a pair is removed in constant time even if one of the two is near everything.
 class PartnerLists {
  public:
   struct Partner {
     std::uint32_t box : 31;
-    std::uint32_t overlaps : 1;  ///< the boxes themselves, not only their surroundings
-    std::uint32_t mate;          ///< where in the partner's list this box is
+    std::uint32_t overlaps : 1;  ///< whether the boxes themselves overlap, not only their rooms
+    std::uint32_t mate;          ///< position of this box in the partner's list
   };
 
   /// Lists are those of boxes 0 ... count - 1; new ones are empty.
@@ -27,7 +27,7 @@ class PartnerLists {
     return {arena_.data() + lists_[box].offset, lists_[box].count};
   }
 
-  /// Requests for memory that will be read soon: where the list is, then the list.
+  /// Prefetch memory that will be read soon: the list's header, then the list.
   void prefetchPlace(std::uint32_t box) const { hwy::Prefetch(&lists_[box]); }
   void prefetch(std::uint32_t box) const { hwy::Prefetch(arena_.data() + lists_[box].offset); }
 
@@ -36,7 +36,7 @@ class PartnerLists {
     push(a, {b & kBoxBits, overlap, atB});
     push(b, {a & kBoxBits, overlap, atA});
   }
-  /// The last of the list takes the place of the removed one.
+  /// The last entry of the list takes the place of the removed one.
   void remove(std::uint32_t box, std::uint32_t position) {
     const Partner gone = at(box, position);
     drop(box, position);
@@ -49,7 +49,7 @@ class PartnerLists {
   }
 
   void clear();
-  /// For empty lists: room for so many partners of each box, side by side.
+  /// For empty lists: reserves space for this many partners of each box, side by side.
   void reserve(std::span<const std::uint32_t> counts);
   std::size_t bytes() const;
 

@@ -9,19 +9,18 @@
 
 namespace swept::detail {
 
-/// How far a room reaches ahead, in steps like the last one. More means fewer boxes that leave
-/// theirs, and more near ones to look at.
+/// How many steps like the last one a room reaches ahead. More means fewer boxes that leave their
+/// rooms, and more near boxes to test.
 inline constexpr double kStepsAhead = 20.0;
 /// In parts of the steps ahead, to all sides: for turns.
 inline constexpr double kStepsAside = 1.0 / 16.0;
 /// In parts of the box's largest extent: no room grows by more.
 inline constexpr double kMostRoom = 0.25;
 
-/// The room of a box that was just moved from `before`: that for some steps more of the kind, or
-/// none if these are as long as the box is large. Contains the box.
-///
-/// `number` spreads the steps over half of the range: boxes that start together should not all
-/// leave their rooms together.
+/// The room of a box that just moved from `before`: it has space for some more such steps, or none
+/// if a step is as long as the box is large. Contains the box.
+/// `number` spreads the number of steps over half of the range: boxes that start together should
+/// not all leave their rooms together.
 inline FloatBox roomFor(const Aabb& before, const Aabb& box, std::uint32_t number) {
   double step = 0.0, sum = 0.0;
   for (int k = 0; k < 3; ++k) {

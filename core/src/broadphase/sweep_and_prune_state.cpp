@@ -13,14 +13,14 @@ namespace {
 
 using detail::PairKey;
 
-/// Boxes between the request for memory and its use.
+/// Number of boxes between prefetching memory and using it.
 constexpr std::size_t kAhead = 8;
 
-/// Fewer are all in the cache.
+/// For fewer boxes, everything is in the cache.
 constexpr std::size_t kManyBoxes = 5000;
 
-/// As Aabb::overlaps(), of boxes without a NaN, but without branches: whether near boxes overlap is
-/// anyone's guess, where in a tree most boxes are kept apart by the first axis.
+/// Like Aabb::overlaps(), for boxes without NaN and without branches. Whether near boxes overlap is
+/// unpredictable; in a tree the first axis separates most boxes.
 bool overlap(const Aabb& a, const Aabb& b) {
   int meets = 1;
   for (int k = 0; k < 3; ++k) {
@@ -30,7 +30,7 @@ bool overlap(const Aabb& a, const Aabb& b) {
   return meets != 0;
 }
 
-/// It may lie across two cache lines.
+/// It may cross two cache lines.
 void prefetch(const Aabb& box) {
   hwy::Prefetch(&box);
   hwy::Prefetch(reinterpret_cast<const char*>(&box + 1) - 1);
@@ -73,7 +73,7 @@ std::vector<BoxHandle> SweepAndPrune::State::add(std::span<const Aabb> boxes) {
   handles.reserve(boxes.size());
   left_.clear();
   for (const Aabb& box : boxes) {
-    // If it is one of ours, it is the only one, and its memory may go elsewhere with the number.
+    // If it is one of our own boxes, it is the only one, and its memory may move with the number.
     const Aabb bounded = boundedOrEverywhere(box);
     handles.push_back(handles_.take());
     left_.push_back(takeNumber(handles.back()));
@@ -117,9 +117,9 @@ void SweepAndPrune::State::stage(Number number, const Aabb& box) {
   placed_[number].box = moved;
 }
 
-/// Calls `act` for each number in order, a while after it has asked for the memory of its partners
-/// but those to be skipped: these may be anywhere, and waiting for them would take most of the
-/// time.
+/// Calls `act` for each number in order, some time after prefetching the memory of its partners,
+/// except of those to be skipped: these may be anywhere, and waiting for them would take most of
+/// the time.
 template <typename Skip, typename Act>
 void SweepAndPrune::State::forEach(std::span<const Number> numbers, const Skip& skip,
                                    const Act& act) {
@@ -153,7 +153,7 @@ void SweepAndPrune::State::look(Number number, const Skip& skip) {
 
 void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes) {
   handles_.require(handles, boxes);
-  // In the order of the numbers, if that spares memory; of twins the last one has the last word.
+  // In the order of the numbers, if that saves memory; of duplicates the last one counts.
   keys_.clear();
   for (std::size_t i = 0; i < handles.size(); ++i)
     keys_.push_back(PairKey{numbers_[handles[i]]} << 32 | i);
@@ -185,7 +185,8 @@ void SweepAndPrune::State::update(std::span<const BoxHandle> handles, std::span<
 
 void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
   detail::Handles::requireAsMany(handles_.live(), boxes.size());
-  // Which of the boxes a handle's is; itself if none is free, which spares a look.
+  // Which of the boxes belongs to a handle; the handle itself if none is free, which saves a
+  // look-up.
   const bool dense = handles_.live() == handles_.end();
   counts_.resize(dense ? 0 : handles_.end());
   std::uint32_t next = 0;
@@ -215,7 +216,7 @@ void SweepAndPrune::State::updateAll(std::span<const Aabb> boxes) {
 /// Finds the partners of boxes in new rooms.
 void SweepAndPrune::State::settle() {
   forest_.tidy(rooms_);
-  // In the order of the trees, so that searches find in the cache what the last ones needed.
+  // In the order of the trees, so that a search finds in the cache what the last one needed.
   keys_.clear();
   for (const Number number : left_) keys_.push_back(PairKey{forest_.rank(number)} << 32 | number);
   if (placed_.size() > kManyBoxes) detail::sortPairs(keys_, 0, forest_.rankBits(), scratch_);
@@ -231,8 +232,8 @@ void SweepAndPrune::State::link(Number a, Number b) {
   if (overlaps) toggled_.push_back(key(a, b));
 }
 
-/// Partners out of reach do not overlap, and have been looked at: the pairs do not change with
-/// them.
+/// Partners out of reach do not overlap and have been tested: removing them does not change the
+/// pairs.
 void SweepAndPrune::State::relink(Number number) {
   kept_.clear();
   kept_.insert(number);
@@ -249,7 +250,7 @@ void SweepAndPrune::State::relink(Number number) {
     if (!kept_.contains(other)) link(number, other);
 }
 
-/// Numbers are slots of the tree from then on.
+/// From then on numbers are slots of the tree.
 void SweepAndPrune::State::renumber() {
   left_.clear();
   for (Number number = 0; number < placed_.size(); ++number)
@@ -270,7 +271,7 @@ void SweepAndPrune::State::renumber() {
   forest_.ownBySlot();
 }
 
-/// Everything from the boxes and their rooms.
+/// Rebuilds everything from the boxes and their rooms.
 void SweepAndPrune::State::rebuild() {
   renumber();
   keys_.clear();

@@ -15,11 +15,11 @@
 
 namespace swept {
 
-/// Between calls: each box is in its room; partners are all whose rooms overlap, and know whether
-/// they themselves do; these are the pairs.
+/// Between calls, each box is in its room. Partners are all pairs whose rooms overlap, with a flag
+/// whether the boxes themselves do; the flagged ones are the pairs.
 ///
-/// Within, boxes go by numbers, which `rebuild` gives out in the order of the tree: near boxes then
-/// share cache lines and pages, whatever the order of their handles.
+/// Internally, boxes have numbers, which `rebuild` assigns in the order of the tree. Near boxes
+/// then share cache lines and pages, whatever the order of their handles.
 class SweepAndPrune::State {
  public:
   using Number = std::uint32_t;
@@ -68,7 +68,7 @@ class SweepAndPrune::State {
   detail::BoxForest forest_;
   detail::PartnerLists partners_;
   detail::PairSet pairs_;
-  // Of the change at work.
+  // Data of the current change.
   std::vector<Number> changed_, left_, found_;
   std::vector<detail::PairKey> toggled_, keys_, scratch_;
   std::vector<std::uint32_t> counts_;

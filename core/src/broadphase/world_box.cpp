@@ -22,7 +22,7 @@ Aabb grown(const Vector3d& center, const Vector3d& half, const Vector3d& scale) 
   return {center - reach, center + reach};
 }
 
-/// Extents of the turned shape along the world's axes, which are the rows of the rotation.
+/// Extents of the rotated shape along the world's axes, which are the rows of the rotation.
 class Placed {
  public:
   Placed(const Isometry3d& world_from_shape, BoxFit fit) : pose_(world_from_shape), fit_(fit) {}
@@ -38,7 +38,7 @@ class Placed {
     return aroundOrigin((capsule.halfLength * absolute().col(2)).array() + capsule.radius);
   }
   Aabb operator()(const Cone& cone) const {
-    // The apex and the base's rim, each on its side.
+    // The apex and the rim of the base, each on its side.
     const Vector3d apex = cone.halfLength * pose_.linear().col(2);
     const Vector3d rim = cone.radius * radial();
     const Aabb base = around(pose_.translation() - apex, rim, scaleOf(apex));
@@ -83,7 +83,7 @@ class Placed {
     const Vector3d scale = absolute() * box.middle.cwiseAbs() + pose_.translation().cwiseAbs();
     return grown(pose_ * box.middle, absolute() * box.half, scale);
   }
-  /// Points that may be off by `error`, in the local frame.
+  /// Box of points that may be off by `error`, in the local frame.
   Aabb ofPoints(std::span<const Vector3d> points, double error) const {
     Vector3d lower = pose_ * points.front(), upper = lower;
     Vector3d largest = points.front().cwiseAbs();

@@ -11,19 +11,19 @@ namespace swept::detail {
 
 /// How much work a box is worth.
 enum class BoxFit {
-  Quick,  ///< constant time for meshes and clouds: the box around their own box, turned
-  Tight,  ///< of every vertex or point
+  Quick,  ///< constant time for meshes and clouds: the box around their own box, rotated
+  Tight,  ///< around every vertex or point
 };
 
-/// The box that a hierarchy keeps around all it holds, in the shape's frame: constant time.
+/// The box that a hierarchy keeps around its content, in the shape's frame: constant time.
 struct TreeBox {
   Eigen::Vector3d middle;  ///< m
   Eigen::Vector3d half;    ///< m, rounded outward
 };
 TreeBox treeBox(const WideBvh& bvh);
 
-/// Box of the placed shape, rounded outward. Infinite for planes and half-spaces; a pose that is
-/// not finite gives a box that is not.
+/// Box of the placed shape, rounded outward. Infinite for planes and half-spaces; not finite for a
+/// non-finite pose.
 Aabb worldBox(const Shape& shape, const Eigen::Isometry3d& world_from_shape, BoxFit fit);
 
 }  // namespace swept::detail

@@ -39,7 +39,7 @@ Aabb Aabb::fit(std::span<const Vector3d> points) {
   if (points.empty()) return {Vector3d::Constant(NAN), Vector3d::Constant(NAN)};
   Vector3d lower = points.front();
   Vector3d upper = points.front();
-  Vector3d zero = Vector3d::Zero();  // becomes NaN with the first coordinate that is not finite
+  Vector3d zero = Vector3d::Zero();  // becomes NaN with the first non-finite coordinate
   for (const Vector3d& p : points) {
     for (int k = 0; k < 3; ++k) {
       lower[k] = std::min(lower[k], p[k]);

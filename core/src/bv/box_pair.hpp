@@ -10,19 +10,19 @@
 
 namespace swept::detail {
 
-/// m; far more than products that underflow lose together, each at most the least denormal.
+/// m; far more than the loss of underflowing products together, each at most the least denormal.
 inline constexpr double kVolumeUnderflow = 1e-300;
 
-/// m^2; squares, and sums of some, keep their digits down to here.
+/// m^2; above this, squares and sums of some keep their digits.
 inline constexpr double kLeastSquare = 1e-290;
 
-/// m; what a gap may be off by, where the absolute values of all numbers that enter add up to `sum`
-/// (m).
+/// m; possible error of a gap, where `sum` (m) is the sum of the absolute values of all numbers
+/// involved.
 inline double volumeMargin(double sum) {
   return kVolumeRounding * sum + kVolumeUnderflow;
 }
 
-/// What a lower bound loses to the rounding of its own last operations, and to the lengths of axes.
+/// Loss of a lower bound by the rounding of its own last operations, and by the lengths of axes.
 inline constexpr double kBoundShrink = 1.0 - kVolumeRounding;
 
 /// Two boxes, seen along the axes of the first.
@@ -53,8 +53,8 @@ inline double gapAlongB(const BoxPair& p, int k) {
          std::abs(p.rotation(1, k)) * p.halfA[1] - std::abs(p.rotation(2, k)) * p.halfA[2];
 }
 
-/// m; gap along axis i of the first x axis j of the second box, which need not be a unit vector:
-/// times its length.
+/// m; gap along axis i of the first x axis j of the second box, times the length of this axis,
+/// which need not be 1.
 inline double gapAlongEdges(const BoxPair& p, int i, int j) {
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
   const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -92,15 +92,15 @@ inline double provenSquare(double gap, double margin) {
   return proven > 0.0 ? proven * proven : 0.0;
 }
 
-/// m; 0 for what is not a finite positive number, or so small that it has lost digits.
+/// m; 0 unless it is a finite positive number large enough to have kept its digits.
 inline double boundFromSquare(double squared) {
   if (!(squared > kLeastSquare)) return 0.0;
   const double bound = kBoundShrink * std::sqrt(squared);
   return bound < std::numeric_limits<double>::infinity() ? bound : 0.0;
 }
 
-/// m^2; squared lower bound on the distance. The vector between two points has, along each of three
-/// orthonormal axes, at least the component of the gap there: the squares add up.
+/// m^2; squared lower bound on the distance. Along each of three orthonormal axes, the vector
+/// between two points has at least the component of the gap: the squares add up.
 inline double squaredFaceBound(const BoxPair& p) {
   double alongA = 0.0;
   double alongB = 0.0;
@@ -113,14 +113,14 @@ inline double squaredFaceBound(const BoxPair& p) {
 
 /// m^2; squared lower bound from the nine edge axes.
 inline double squaredEdgeBound(const BoxPair& p) {
-  // The length of the axis is about a sine; below this it is not known well enough to divide by.
+  // The length of the axis is about a sine; below this it is too inaccurate to divide by.
   constexpr double kLeastSquared = 1e-6;
   double best = 0.0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       const double square = provenSquare(gapAlongEdges(p, i, j), p.margin);
       if (!(square > best * 1e-6)) continue;
-      // Not by the cosine: the axes of b may be longer than one.
+      // Do not use the cosine: the axes of b may be longer than one.
       const double across = p.rotation((i + 1) % 3, j), along = p.rotation((i + 2) % 3, j);
       const double squaredLength = across * across + along * along + kVolumeRounding;
       if (squaredLength < kLeastSquared) continue;

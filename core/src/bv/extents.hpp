@@ -9,8 +9,8 @@
 
 namespace swept::detail {
 
-/// m^2, of a box with edges of these lengths (m): what boxes around the same points are compared
-/// by.
+/// m^2, half the surface of a box with edges of these lengths (m). It compares boxes around the
+/// same points.
 inline double halfSurface(const Eigen::Vector3d& edges) {
   return edges[0] * edges[1] + edges[1] * edges[2] + edges[2] * edges[0];
 }
@@ -29,7 +29,7 @@ struct Extents {
 inline Extents extentsAlong(std::span<const Eigen::Vector3d> points, const Eigen::Matrix3d& axes) {
   const Eigen::Vector3d origin = points.front();
   Extents e{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  double zero = 0.0;  // a product with zero keeps what is not finite
+  double zero = 0.0;  // a product with zero keeps non-finite values
   for (const Eigen::Vector3d& p : points) {
     const double x = p[0] - origin[0];
     const double y = p[1] - origin[1];

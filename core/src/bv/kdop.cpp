@@ -57,8 +57,8 @@ struct Interval {
   double upper;
 };
 
-/// What `direction` . p can be over the polytope: a direction is the sum of its components along
-/// the three of a frame, each within its slab; the best frame counts.
+/// Range of `direction` . p over the polytope: a direction is the sum of its components along the
+/// three directions of a frame, each within its slab; the best frame counts.
 template <int K>
 Interval rangeAlong(const KDop<K>& dop, const Vector3d& direction) {
   Interval best{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -102,9 +102,9 @@ detail::BoxPair pairOf(const KDop<K>& a, const KDop<K>& b, const Isometry3d& a_f
   return p;
 }
 
-/// m; proven lower bound on the distance of `a` to `b` bounded again in a's frame, squared; 0 when
-/// no slab of a separates them. b's points are rotation * p + translation. The squares of the gaps
-/// along orthogonal slabs add up.
+/// m^2; proven lower bound on the squared distance of `a` to `b`, which is bounded again in a's
+/// frame; 0 if no slab of a separates them. b's points are rotation * p + translation. The squares
+/// of the gaps along orthogonal slabs add up.
 template <int K>
 double squaredSlabBound(const KDop<K>& a, const KDop<K>& b, const Eigen::Matrix3d& rotation,
                         const Vector3d& translation, double margin) {
@@ -125,7 +125,7 @@ double squaredSlabBound(const KDop<K>& a, const KDop<K>& b, const Eigen::Matrix3
   return best;
 }
 
-/// m^2; the better of the two ways round.
+/// m^2; the better of the two orders.
 template <int K>
 double squaredBound(const KDop<K>& a, const KDop<K>& b, const Isometry3d& a_from_b, double margin) {
   const Eigen::Matrix3d rotation = a_from_b.linear();
@@ -148,7 +148,7 @@ KDop<K> KDop<K>::fit(std::span<const Vector3d> points) {
   dop.upper.fill(NAN);
   if (points.empty()) return dop;
   for (int k = 0; k < kSlabs; ++k) dop.lower[k] = dop.upper[k] = along(k, points.front());
-  double zero = 0.0;  // becomes NaN with the first coordinate that is not finite
+  double zero = 0.0;  // becomes NaN with the first non-finite coordinate
   for (const Vector3d& p : points) {
     zero += 0.0 * p[0] + 0.0 * p[1] + 0.0 * p[2];
     for (int k = 0; k < kSlabs; ++k) {

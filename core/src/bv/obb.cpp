@@ -80,7 +80,7 @@ std::array<Vector3d, 16> cornersOf(const Obb& a, const Obb& b) {
   return corners;
 }
 
-/// As many points of a large set are enough to choose axes by.
+/// This many points of a large set are enough to choose axes.
 constexpr std::size_t kSample = 64;
 
 std::span<const Vector3d> sampleOf(std::span<const Vector3d> points,
@@ -90,7 +90,7 @@ std::span<const Vector3d> sampleOf(std::span<const Vector3d> points,
   return buffer;
 }
 
-/// Of the candidates the axes whose box has the least surface.
+/// The candidate axes whose box has the least surface.
 Matrix3d chooseAxes(std::span<const Vector3d> points) {
   // Principal axes of few points depend on how the surface is cut into triangles more than on its
   // shape; the first triangle's axes fit flat pieces.

@@ -24,7 +24,7 @@ Vector3d anyAcross(const Vector3d& unit) {
 }  // namespace
 
 Matrix3d scatterOf(std::span<const Vector3d> points) {
-  // Relative to a point of the set, so that distant sets keep their digits.
+  // Coordinates are relative to a point of the set, so that distant sets keep their digits.
   const Vector3d origin = points.front();
   double x = 0.0, y = 0.0, z = 0.0;
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
@@ -81,7 +81,7 @@ Matrix3d frameAlong(const Vector3d& first, const Vector3d& second) {
   axes.col(0) = first / std::sqrt(squaredFirst);
   Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
   double squared = across.squaredNorm();
-  // What is left of a nearly parallel vector is mostly rounding and not across.
+  // The rest of a nearly parallel vector is mostly rounding and not orthogonal.
   if (!isUsable(squared) || !(squared > 1e-12 * second.squaredNorm())) {
     across = anyAcross(axes.col(0));
     squared = across.squaredNorm();

@@ -20,7 +20,7 @@ constexpr double kAccuracy = 1e-3;
 /// m. Shorter directions lose digits of their length, whose square underflows.
 constexpr double kShortest = 1e-145;
 
-/// The point of the difference (second rectangle minus first) that lies least far along `n`.
+/// The point of the difference (second rectangle minus first) that is least far along `n`.
 Vector3d supportAgainst(const RectanglePair& p, const Vector3d& n) {
   const double first = std::copysign(p.halfB.x(), n.dot(p.firstAxis));
   const double second = std::copysign(p.halfB.y(), n.dot(p.secondAxis));
@@ -31,9 +31,9 @@ Vector3d supportAgainst(const RectanglePair& p, const Vector3d& n) {
 }
 
 /// m; GJK (Gilbert, Johnson, Keerthi 1988) on the difference of the rectangles. Returns the largest
-/// gap proven along any direction tried: the least of n . w over the difference is reached at the
-/// support point, whatever n is, so the bound does not depend on the search going well. Ends when
-/// it exceeds `enough`, when the rectangles are known to come within the radii, or on convergence.
+/// gap proven along any direction tried. The least n . w over the difference is at the support
+/// point, whatever n is, so the bound is valid even if the search goes badly. Ends when the bound
+/// exceeds `enough`, when the rectangles are known to come within the radii, or on convergence.
 double rectangleGap(const RectanglePair& p, double enough) {
   Simplex simplex;
   Vector3d n = p.offset;

@@ -35,20 +35,20 @@ struct Ball {
   double radius;  ///< m
 };
 
-/// Rectangle in the plane of the first two axes; before anything is reached, ends before it begins.
+/// Rectangle in the plane of the first two axes. Empty at first: its ends are before its starts.
 struct Rectangle {
   Vector2d lower = Vector2d::Constant(std::numeric_limits<double>::infinity());
   Vector2d upper = Vector2d::Constant(-std::numeric_limits<double>::infinity());
   double radius = 0.0;  ///< m
   double height = 0.0;  ///< m, along the third axis
 
-  /// m; how far the rectangle may end before the ball's foot point.
+  /// m; how far the rectangle may end before the foot point of the ball.
   double reach(const Ball& ball) const {
     const double room = radius - ball.radius;
     const double z = ball.at.z() - height;
     return std::sqrt(std::max(0.0, room * room - z * z));
   }
-  /// Moves the edges out until they reach a ball beyond them.
+  /// Moves the edges out until they reach the balls beyond them.
   void reachAlong(const Ball& ball) {
     const Vector3d& p = ball.at;
     if (p[0] >= lower[0] && p[0] <= upper[0] && p[1] >= lower[1] && p[1] <= upper[1]) return;
@@ -58,7 +58,7 @@ struct Rectangle {
       upper[k] = std::max(upper[k], p[k] - near);
     }
   }
-  /// Where all balls are reached from anywhere between two edges, puts both in the middle.
+  /// If all balls are reached from anywhere between two edges, puts both edges in the middle.
   void close() {
     for (int k = 0; k < 2; ++k) {
       if (lower[k] > upper[k]) lower[k] = upper[k] = 0.5 * (lower[k] + upper[k]);

@@ -15,7 +15,7 @@
 namespace swept::detail {
 
 /// Visits the primitives whose boxes are not proven to be farther than `radius` from the segment,
-/// about the nearest first, until `stop` is true of one. Returns whether it was.
+/// roughly nearest first, until `stop` is true for one. Returns whether it was.
 template <typename Stop>
 bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, const Stop& stop) {
   PendingBoxes pending;
@@ -26,7 +26,7 @@ bool anyNear(const WideBvh& bvh, const LineSegment& segment, double radius, cons
       continue;
     }
     if (bvh.isBucket(top)) {
-      // Balls are tested as quickly as boxes around them.
+      // Testing balls is as quick as testing boxes around them.
       const auto [first, last] = bvh.pointsOf(top);
       for (std::int32_t point = first; point < last; ++point) {
         if (stop(point)) return true;

@@ -23,7 +23,7 @@ using Lanes = hn::Vec<Tag>;
 /// is less by e or more. Sizes do not tell: two small parts of larger bodies may be this near.
 constexpr double kUnderflow = 5e-23;
 
-/// What one call needs of the other box, the same for all lanes.
+/// Data of the other box for one call, the same for all lanes.
 struct Other {
   float center[3];   ///< m, in the first frame, from the node's origin
   float axes[3][3];  ///< [j]: axis j, in the first frame
@@ -50,7 +50,7 @@ HWY_INLINE Other prepare(const WideNode& node, const BoxFrames& frames, const Or
   return other;
 }
 
-/// One box a lane, and how the other lies in it.
+/// One box per lane, and the pose of the other box relative to it.
 struct Boxes {
   Lanes half[3];
   Lanes offset[3];   ///< of the other's centre, in the first frame
@@ -86,7 +86,7 @@ HWY_INLINE void place(const WideNode& node, std::size_t at, const Other& other, 
   }
 }
 
-/// The largest bound so far, and along what, in the frame of the own axes.
+/// The largest bound so far, and its direction, in the frame of the own axes.
 struct Best {
   Lanes bound;
   Lanes along[3];
@@ -97,7 +97,7 @@ struct FaceGaps {
   Lanes gap[3];
   Lanes positive[3];
 
-  /// Distance that they prove together, or the largest of them if none is positive.
+  /// The distance that they prove together, or the largest gap if none is positive.
   HWY_INLINE Lanes together() {
     const auto zero = hn::Zero(Tag());
     for (int i = 0; i < 3; ++i) positive[i] = hn::Max(gap[i], zero);
@@ -141,7 +141,7 @@ HWY_INLINE void faceBounds(const Boxes& boxes, const Other& other, Best& best) {
   }
 }
 
-/// Not larger than 1 / sqrt(x) but for its own rounding, however rough the approximation: Newton's
+/// At most 1 / sqrt(x) up to its own rounding, however rough the approximation: Newton's
 /// step x (3 - d x^2) / 2 approaches 1 / sqrt(d) from below, from either side.
 HWY_INLINE Lanes reciprocalRoot(Lanes d) {
   const Tag tag;
@@ -150,13 +150,13 @@ HWY_INLINE Lanes reciprocalRoot(Lanes d) {
   return hn::Mul(halved, hn::NegMulAdd(hn::Mul(d, rough), rough, hn::Set(tag, 3.0F)));
 }
 
-/// The largest of the bounds of the nine edge axes, too. In the frame of the own axes, axis i x the
+/// The largest bound with the nine edge axes included. In the frame of the own axes, axis i x the
 /// other's axis j has the components (next) -turn[last][j] and (last) turn[next][j].
 template <bool directed>
 HWY_INLINE void edgeBounds(const Boxes& boxes, const Other& other, Best& best) {
   const Tag tag;
   const auto rounding = hn::Set(tag, other.rounding);
-  // More than 1: what the rounded square of a cosine may exceed the true one by.
+  // More than 1: bound on how far the rounded square of a cosine may exceed the true one.
   const auto one = hn::Set(tag, 1.0F + 2e-6F);
   for (int i = 0; i < 3; ++i) {
     const int next = i == 2 ? 0 : i + 1;
@@ -184,7 +184,7 @@ HWY_INLINE void edgeBounds(const Boxes& boxes, const Other& other, Best& best) {
   }
 }
 
-/// `directions`: null, or where the components go.
+/// `directions`: null, or receives the components.
 template <bool directed>
 HWY_INLINE void lowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& box,
                             float enough, float* lower, BoxDirections* directions) {
@@ -222,7 +222,7 @@ void DirectedBounds(const WideNode& node, const BoxFrames& frames, const Oriente
 }
 
 /// A ray misses a box if one of these separates them: an axis of the box that it starts beyond and
-/// does not turn back on, or the cross product of one with its direction.
+/// does not turn back on, or the cross product of an axis with its direction.
 std::uint32_t Hit(const WideNode& node, const Eigen::Vector3d& origin,
                   const Eigen::Vector3d& direction) {
   const Tag tag;

@@ -11,15 +11,15 @@
 namespace swept::detail {
 
 /// Lower bounds on the distance between each of the node's boxes (in the first frame) and `other`
-/// (in the second): the largest that the fifteen axes of the separating axis test give (Gottschalk,
-/// Lin, Manocha 1996), the three face axes of a box taken together. Not positive where no axis
-/// separates: the less, the deeper the boxes overlap. May stop early, with smaller bounds that are
-/// larger than `enough`. Lanes not in use hold anything.
+/// (in the second). Each is the largest from the fifteen axes of the separating axis test
+/// (Gottschalk, Lin, Manocha 1996), with the three face axes of a box combined. It is not positive
+/// if no axis separates, and less the deeper the boxes overlap. The search may stop early with
+/// smaller bounds that are larger than `enough`. Unused lanes are undefined.
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower);
 
-/// Along which a positive bound of each lane was found: of any length and either sense, in the
-/// first frame. In single precision: a proposal, which boxGap() makes a proof of.
+/// Directions of the positive bounds, per lane: of any length and either sign, in the first frame.
+/// They are in single precision and only proposals; boxGap() proves them.
 struct alignas(32) BoxDirections {
   std::array<WideNode::Row, 3> component;
 
@@ -27,7 +27,7 @@ struct alignas(32) BoxDirections {
     return {component[0][lane], component[1][lane], component[2][lane]};
   }
 };
-/// The same, and where.
+/// The same, with directions.
 void boxLowerBounds(const WideNode& node, const BoxFrames& frames, const OrientedBox& other,
                     float enough, std::array<float, WideNode::kLanes>& lower,
                     BoxDirections& directions);

@@ -9,13 +9,13 @@
 
 namespace swept::detail {
 
-/// Not smaller than `value` >= 0; cheaper than the next float.
+/// A float that is at least `value` >= 0; cheaper to compute than the next float.
 inline float aboveInSingle(double value) {
   return static_cast<float>(value * (1.0 + 1.2e-7)) + std::numeric_limits<float>::min();
 }
 
-/// Sums that give the second moments of points about their mean. They add up, so that a node's take
-/// no second look at its primitives.
+/// Sums that give the second moments of points about their mean. They are additive, so a node's
+/// sums need no second pass over its primitives.
 struct Moments {
   double count = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -36,10 +36,10 @@ struct BallsInBox {
   const Aabb& bounds;
 };
 
-// Of each: the centre is a float from `origin`, as WideNode::set needs it.
+// Each box has a centre that is a float from `origin`, as WideNode::set needs.
 
-/// Along the principal axes of `scatter`, the same turned, or those of the frame: the box of least
-/// surface. Of three points: along the triangle's.
+/// Along the principal axes of `scatter`, the same rotated by 45 degrees, or those of the frame:
+/// the box of least surface. For three points: along the triangle's axes.
 OrientedBox fitOrientedBox(const BallsInBox& balls, const Eigen::Matrix3d& scatter,
                            const Eigen::Vector3d& origin);
 /// Along `axes`, orthonormal columns, or those of the frame: the box of less surface.

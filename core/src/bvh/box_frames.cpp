@@ -37,7 +37,7 @@ double sumOf(const std::array<float, 3>& half) {
   return static_cast<double>(half[0]) + half[1] + half[2];
 }
 
-/// m, times the length of `along`. How far the box reaches from its centre.
+/// m, times the length of `along`: how far the box reaches from its centre.
 double extentAlong(const OrientedBox& box, const Vector3d& along) {
   double extent = 0.0;
   for (int j = 0; j < 3; ++j) {
@@ -65,10 +65,10 @@ double extentAlong(const OrientedBox& box, const Vector3d& along) {
 // 16 u: with the sums 26 u m more. With the boxes' 8 u m that is 53 u m before division by the
 // length, and 2 u m for the last differences. kBoxRounding covers each.
 //
-// What is done in double precision, before coordinates are relative to the node's origin, rounds by
-// 32 * 2^-53 of the 1-norms of all coordinates. A linear part that deviates from a rotation by s
-// (entries of R^T R - 1) changes gaps by at most 8 s m, and its inverse by transposition the
-// distance of the frames by 4 s of these 1-norms.
+// Operations in double precision, before coordinates are relative to the node's origin, round by 32
+// * 2^-53 of the 1-norms of all coordinates. A linear part that deviates from a rotation by s
+// (entries of R^T R - 1) changes gaps by at most 8 s m, and its inverse by transposition changes
+// the distance of the frames by 4 s of these 1-norms.
 BoxFrames::BoxFrames(const Eigen::Isometry3d& first_from_second, double reach)
     : linear(first_from_second.linear()), translation(first_from_second.translation()) {
   const double skew = (linear.transpose() * linear - Matrix3d::Identity()).cwiseAbs().maxCoeff();

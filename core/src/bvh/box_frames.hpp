@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// How boxes of one frame relate to boxes of another, and what rounding can do to a gap.
+/// The pose of boxes of one frame relative to boxes of another, and the rounding of a gap.
 class BoxFrames {
  public:
   BoxFrames() = default;  ///< not usable
@@ -16,15 +16,15 @@ class BoxFrames {
   /// the largest 1-norms of the points of both sides' primitives.
   BoxFrames(const Eigen::Isometry3d& first_from_second, double reach);
 
-  /// False where single precision cannot tell: coordinates outside [1e-12, 1e12] m, or a linear
-  /// part that is not a rotation. No gap is to be relied on then.
+  /// False if single precision is not enough: coordinates outside [1e-12, 1e12] m, or a linear part
+  /// that is not a rotation. Gaps are then not reliable.
   bool usable() const { return usable_; }
   BoxFrames inverse() const;
 
   Eigen::Matrix3d linear;
   Eigen::Vector3d translation;  ///< m, of the second frame's origin in the first
-  /// m; a computed gap may exceed the true one by this, and by `perMetre` times the sizes of the
-  /// two boxes and their distance.
+  /// m; a computed gap may exceed the true one by this plus `perMetre` times the sizes of the two
+  /// boxes and their distance.
   double rounding = 0.0;
   double perMetre = 0.0;
 
@@ -32,13 +32,13 @@ class BoxFrames {
   bool usable_ = false;
 };
 
-/// What a pair of boxes is apart along a direction.
+/// The separation of a pair of boxes along a direction.
 struct BoxGap {
   double value = 0.0;  ///< m, proven separation along `direction`; not positive: none found
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, first frame, towards `other`
 };
-/// The best of the fifteen axes of the separating axis test, the three face axes of a box taken
-/// together.
+/// The best of the fifteen axes of the separating axis test, with the three face axes of a box
+/// combined.
 BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other);
 /// `along`: in the first frame, of any length and either sense.
 BoxGap boxGap(const OrientedBox& box, const BoxFrames& frames, const OrientedBox& other,

@@ -24,7 +24,7 @@ void requireUsable(const PrimitivePoints& primitives) {
          " primitives; allowed: as many, or none");
 }
 
-/// Each primitive once, whatever a rule did to the items.
+/// Whether each primitive occurs once, whatever a rule did to the items.
 void requireAll(const std::vector<int>& order) {
   std::vector<bool> found(order.size(), false);
   for (const int primitive : order) {

@@ -33,7 +33,7 @@ std::string stateMessage(std::string_view call, BvhState state,
   throw std::invalid_argument("BvhModel::" + std::string(call) + ": " + what);
 }
 
-/// Appends what `made` makes of each. The old memory stays until all are there: it may be theirs.
+/// Appends `made` of each element. The old memory stays until the end: the elements may be in it.
 template <typename Item, typename Make>
 void appendTo(std::vector<Item>& to, std::span<const Item> items, const Make& made) {
   if (to.capacity() - to.size() >= items.size()) {
@@ -212,7 +212,8 @@ void ModelGeometry::overwrite(std::string_view call, std::size_t first,
   }
   for (std::size_t i = 0; i < positions.size(); ++i) requireFinite(call, first + i, positions[i]);
   const auto to = vertices_.begin() + static_cast<std::ptrdiff_t>(first);
-  // Positions of ours that are to move on are read from behind, before they are overwritten.
+  // If the new positions are our own vertices, they are read from the end, before they are
+  // overwritten.
   const bool isBefore = std::less<>()(positions.data(), vertices_.data() + first);
   if (isBefore)
     std::copy_backward(positions.begin(), positions.end(),

@@ -20,8 +20,9 @@ HWY_INLINE Lanes dot(const Lanes (&a)[3], const Lanes (&b)[3]) {
   return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
 }
 
-/// Of what lies around a point: `away` makes the least distance of its coordinates along an axis of
-/// the boxes from the middle plane out of the axis and the point's own such distance.
+/// For a set of points around `center`: `away` gives the least distance of the set from a box's
+/// middle plane across an axis. Its arguments are the axis and the distance of `center` from that
+/// plane.
 template <typename Away>
 HWY_INLINE std::uint32_t within(const WideNode& node, const float* center, const Away& away,
                                 float most, float* squared) {

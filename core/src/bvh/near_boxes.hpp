@@ -15,12 +15,12 @@ struct NearSegment {
   std::array<float, 3> half;    ///< m
 };
 
-/// m^2, the least normal number of single precision. Where squares underflow, the sums below are
-/// off by less.
+/// m^2, the least normal number of single precision. If squares underflow, the sums below are off
+/// by less than this.
 inline constexpr double kNormalSquare = 0x1p-126;
 
-// Of each: bit i of the result says that box i is in use and that its square is not above `most`
-// (m^2), or no number. Lanes not in use hold anything.
+// In each function, bit i of the result says that box i is in use and that its square is at most
+// `most` (m^2), or NaN. Unused lanes are undefined.
 
 /// Squared distances (m^2) of a point from the boxes of a node, in single precision: fewer than
 /// twelve roundings of coordinates relative to the node's origin.

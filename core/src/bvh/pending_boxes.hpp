@@ -8,19 +8,19 @@
 
 namespace swept::detail {
 
-/// Boxes of a WideBvh that a walk still has to look at: depth first, those of a node the nearest
+/// Boxes of a WideBvh that a walk has yet to visit: depth first, and within a node the nearest
 /// first. Begins with the root.
 class PendingBoxes {
  public:
   struct Box {
-    float squared;       ///< m^2, what the walk goes by
+    float squared;       ///< m^2, sort key of the walk
     std::int32_t child;  ///< as in WideNode
   };
 
   PendingBoxes() { stack_[0] = {0.0F, 0}; }
 
   bool isEmpty() const { return count_ == 0; }
-  /// The boxes pushed until the next one is popped are those of one node.
+  /// The boxes pushed until the next pop belong to one node.
   Box pop() { return stack_[first_ = --count_]; }
   void push(const Box& box) {
     int at = count_++;  // the nearest on top
@@ -29,7 +29,7 @@ class PendingBoxes {
   }
 
  private:
-  // Each level leaves at most seven siblings behind.
+  // Each level leaves at most seven siblings to visit.
   std::array<Box, (WideNode::kLanes - 1) * WideBvh::kMaxDepth + 1> stack_;
   int count_ = 1;
   int first_ = 0;

@@ -10,7 +10,7 @@
 
 namespace swept::detail {
 
-/// Lemma: the offset of a point from the origin, a point of the bucket too, rounds by half an
+/// Lemma: the origin is a point of the bucket, too. The offset of a point from it rounds by half an
 /// epsilon of the coordinates, and in single precision by 2^-24 of itself, or by less than the
 /// least normal number, which aboveInSingle adds.
 void makeNode(const PointBuckets& buckets, std::int32_t bucket, WideNode& node) {

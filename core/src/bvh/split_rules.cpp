@@ -48,7 +48,7 @@ Centers centersOf(std::span<const SplitItem> items) {
   for (const SplitItem& item : items) {
     const Vector3d center = item.center();
     centers.bounds.include(center, center);
-    // Sharing before summing: a sum of large coordinates must not overflow.
+    // Divides before summing: a sum of large coordinates must not overflow.
     sum += share * center;
   }
   centers.mean = sum;
@@ -76,7 +76,7 @@ struct Bins {
   }
 };
 
-/// The first bin of the right side; 0 when no cut between bins parts the items.
+/// First bin of the right side; 0 if no cut between bins separates the items.
 int cheapestCut(std::span<const SplitItem> items, const Bins& bins) {
   std::array<Bounds, kBins> boxes;
   std::array<int, kBins> counts{};
@@ -154,7 +154,7 @@ std::size_t SurfaceAreaSplit::operator()(std::span<SplitItem> items) const {
   const int axis = centers.longestAxis;
   const double length = centers.bounds.upper[axis] - centers.bounds.lower[axis];
   const Bins bins{axis, centers.bounds.lower[axis], kBins / length};
-  // Equal centres, and extents so small or large that the scale is not a number.
+  // For equal centres, and extents so small or large that the scale is not finite.
   if (!(length > 0.0) || !(bins.perLength > 0.0) || !(bins.perLength < kInfinity)) return 0;
   const int cut = cheapestCut(items, bins);
   if (cut == 0) return 0;

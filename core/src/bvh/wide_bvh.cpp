@@ -36,7 +36,7 @@ Aabb boundsOf(const PrimitivePoints& primitives, const Run& run) {
   return withBalls(box, *std::max_element(radii.begin(), radii.end()));
 }
 
-/// Of every node of a tree.
+/// Bounds of every node of a tree.
 std::vector<Aabb> boundsOf(const TreeTopology& tree, const PrimitivePoints& primitives) {
   std::vector<Aabb> bounds(tree.nodes.size());
   for (std::size_t i = bounds.size(); i-- > 0;) {  // children follow their parents
@@ -69,7 +69,7 @@ class BoxFitter {
     return moments;
   }
 
-  /// Of one primitive.
+  /// Bounds of one primitive.
   OrientedBox fit(int primitive, const Vector3d& origin) const {
     const Run run{primitive, 1};
     return fit(run, boundsOf(primitives_, run), moments(primitive), origin);
@@ -113,7 +113,7 @@ class Collapse {
   const OrientedBox& rootBox() const { return rootBox_; }
 
  private:
-  /// Of the binary tree, or a single primitive.
+  /// A node of the binary tree, or a single primitive.
   struct Lane {
     std::size_t node;
     int primitive;  ///< -1: it is a node
@@ -173,8 +173,8 @@ class Collapse {
     return true;
   }
 
-  /// Replaces the leaf of the fewest primitives by these, if there is room. Other leaves become
-  /// nodes of their own.
+  /// Replaces the leaf with the fewest primitives by these primitives, if there is room. Other
+  /// leaves become nodes of their own.
   bool unfoldSmallest(Lanes& lanes) const {
     int smallest = -1;
     for (int i = 0; i < lanes.count; ++i) {
@@ -198,13 +198,13 @@ class Collapse {
   OrientedBox rootBox_;
 };
 
-/// Fits the boxes of a tree anew, children before their parents.
+/// Refits the boxes of a tree, children before their parents.
 class Refit {
  public:
   Refit(std::vector<WideNode>& nodes, const PrimitivePoints& primitives, const Vector3d& middle)
       : nodes_(nodes), primitives_(primitives), fitter_(primitives, middle) {}
 
-  /// What lies below a node or a lane.
+  /// The range of primitives below a node or a lane.
   struct Below {
     Run run;
     Aabb bounds;
@@ -237,7 +237,7 @@ class Refit {
     return {run, boundsOf(primitives_, run), fitter_.moments(primitive)};
   }
 
-  /// Primitives below a node follow each other.
+  /// Primitives below a node are contiguous.
   static Below together(const Below& a, const Below& b) {
     Below both{{std::min(a.run.first, b.run.first), a.run.count + b.run.count},
                {a.bounds.lower.cwiseMin(b.bounds.lower), a.bounds.upper.cwiseMax(b.bounds.upper)},

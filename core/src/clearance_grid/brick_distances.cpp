@@ -16,8 +16,8 @@ namespace {
 
 using Mask = Voxels::Mask;
 
-/// The least of either row's values, the other row's grown by a gap. All are read before any is
-/// written: what the compiler makes vectors of without asking whether the two overlap.
+/// The minimum of either row's values, the other row's values grown by a gap. Everything is read
+/// before anything is written, so that the compiler vectorises without testing for overlap.
 template <std::size_t kCount>
 void lowerRow(SquaredGap* to, const SquaredGap* from, SquaredGap gap) {
   std::array<SquaredGap, kCount> least;
@@ -29,8 +29,8 @@ void lowerRow(SquaredGap* to, const SquaredGap* from, SquaredGap gap) {
   std::copy_n(least.data(), kCount, to);
 }
 
-/// Distances of the voxels of blocks from the marked ones of the blocks around. Beyond these
-/// anything may be, so no distance is larger than that to their border.
+/// Distances of the voxels of blocks from the marked voxels of the surrounding blocks. Space beyond
+/// these is unknown, so no distance is larger than that to their border.
 class BrickDistances {
  public:
   BrickDistances(const Voxels& voxels, ClearanceField& field)
@@ -69,7 +69,7 @@ class BrickDistances {
   static constexpr std::size_t kWindow = 12;  ///< voxels: three blocks
   static constexpr double kMost = 5.5;
 
-  /// Blocks that are not empty, those around them, and those where the window cut the shape.
+  /// Blocks that are not empty, the blocks around them, and those where the window cut the shape.
   std::vector<std::uint8_t> findNear() const {
     const auto [nx, ny, nz] = field_.blocks;
     std::vector<std::uint8_t> near(static_cast<std::size_t>(nx) * ny * nz, 0);
@@ -152,12 +152,12 @@ class BrickDistances {
     }
   }
 
-  /// From the middle of a voxel of the middle block to one of the window, along one axis.
+  /// From the centre of a voxel of the middle block to a voxel of the window, along one axis.
   static SquaredGap gapTo(std::size_t voxel, std::size_t inWindow) {
     return gapSquared(std::abs(static_cast<int>(inWindow) - 4 - static_cast<int>(voxel)));
   }
 
-  /// Of the window, from the middle of a voxel.
+  /// Distances in the window, from the centre of a voxel.
   static SquaredGap toBorder(int x, int y, int z) {
     const auto along = [](int i) { return 2 * std::min(4 + i, 7 - i) + 1; };
     const int least = std::min({along(x), along(y), along(z)});

@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 
 /// m. Finer voxels than this are not worth their memory.
 constexpr double kFinestVoxel = 0.003;
-/// Four times what Voxels allows for rounding, relative to the coordinates.
+/// Four times the allowance of Voxels for rounding, relative to the coordinates.
 constexpr double kVoxelRoundings = 8e-12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// m, side of voxels such that not too many are to be marked.
+/// m, side of voxels such that not too many must be marked.
 double sideFor(const TriangleMesh& mesh, const Aabb& window) {
   constexpr double kMostMarks = 8e6;
   double area = 0.0;
@@ -45,7 +45,7 @@ double sideFor(const PointCloud& cloud) {
 
 /// m; at least `side`, and such that there are not many more cells.
 double voxelSide(const Vector3d& size, double least, std::size_t cells) {
-  constexpr double kFewest = 1000.0;  // whatever the side, some are beyond the shape
+  constexpr double kFewest = 1000.0;  // whatever the side, some cells are beyond the shape
   double side = std::max(kFinestVoxel, least);
   const auto along = [&](int i) { return std::ceil(size[i] / (2.0 * side)) + 4.0; };
   const double most = std::max(static_cast<double>(cells), kFewest);
@@ -59,12 +59,12 @@ Voxels layOut(const Aabb& box, const Aabb& window, double least, std::size_t cel
   const Vector3d lower = box.lower.cwiseMax(window.lower);
   const Vector3d upper = box.upper.cwiseMin(window.upper);
   const double reach = std::max(box.lower.lpNorm<1>(), box.upper.lpNorm<1>());
-  // Far out, rounding would reach over several voxels of the finest kind.
+  // Far out, rounding would cover several voxels of the finest kind.
   const double side = voxelSide(upper - lower, std::max(least, kVoxelRoundings * reach), cells);
   field.voxel = static_cast<float>(side);
   field.origin = lower - Vector3d::Constant(2.0 * side);
   for (int i = 0; i < 3; ++i) {
-    // A layer of cells beyond the shape's own box: W, or nothing where the window cut it.
+    // A layer of cells beyond the shape's own box (W), or none where the window cut it.
     field.blocks[i] = static_cast<int>(std::ceil((upper[i] - lower[i]) / (4.0 * side))) + 1;
     field.lower[i] = box.lower[i] < lower[i] ? -kInfinity : 0.0;
     field.upper[i] = box.upper[i] > upper[i] ? kInfinity : 4.0 * side * field.blocks[i];

@@ -10,13 +10,13 @@
 
 namespace swept::detail {
 
-/// `window` (m, shape's frame) meets the box of what is given; `cells`: not many more.
+/// `window` (m, shape's frame) meets the shape's box; `cells`: approximate maximum.
 std::shared_ptr<const ClearanceField> buildField(const TriangleMesh& mesh, const Aabb& window,
                                                  std::size_t cells);
 std::shared_ptr<const ClearanceField> buildField(const PointCloud& cloud, const Aabb& window,
                                                  std::size_t cells);
 
-/// m; contains all that the field of it is made from.
+/// m; contains everything that its field is made from.
 Aabb fieldBox(const TriangleMesh& mesh);
 Aabb fieldBox(const PointCloud& cloud);
 

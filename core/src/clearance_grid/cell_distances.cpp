@@ -42,7 +42,7 @@ class CellDistances {
   }
 
   void store(ClearanceField& field) const {
-    // What no value says of is at least this far.
+    // Cells without a value are at least this far.
     const GapSteps steps(2.0 * static_cast<double>(field.voxel), kFarthestGap - 0.5);
     field.step = steps.step();
     field.cells.assign(squared_.size() / 4 + 1, 0);
@@ -62,7 +62,7 @@ class CellDistances {
     }
   }
 
-  /// Gaps to what is marked, and to where the window cut the shape.
+  /// Gaps to marked cells, and to where the window cut the shape.
   void spreadAlongX() {
     const int count = count_[0];
     for (std::size_t row = 0; row < squared_.size(); row += count) {
@@ -77,8 +77,8 @@ class CellDistances {
     }
   }
 
-  /// The least of what the cells of each line along an axis have, plus the square of the gap to
-  /// them. Lines that are neighbours along x are done together.
+  /// The minimum over the cells of each line along an axis of their value plus the square of the
+  /// gap to them. Neighbouring lines along x are processed together.
   void spreadAlong(int axis) {
     const int nx = count_[0];
     const int count = count_[axis];

@@ -25,11 +25,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Coordinates (m) whose squares are far from overflowing.
+/// m. Coordinates whose squares are far from overflowing.
 constexpr double kFar = 1e150;
 
-/// x, y and z, in two vector registers; z is in both places of its own. Queries do not branch: what
-/// is asked for is as good as random, and a wrong guess takes as long as all the rest.
+/// x, y and z, in two vector registers; z is in both places of its own. Queries do not branch: the
+/// points are as good as random, and a wrong branch prediction takes as long as everything else.
 struct Lanes {
   Eigen::Array2d xy;
   Eigen::Array2d z;
@@ -53,7 +53,7 @@ struct Lanes {
 struct ClearanceGrid::Data {
   explicit Data(std::shared_ptr<const ClearanceField> of);
 
-  /// m^2, of a bound on the distance: `rounding` is still to be taken off. Of points that are not
+  /// m^2, of a bound on the distance; `rounding` must still be subtracted. For points that are not
   /// far.
   double squaredBound(const Vector3d& point) const;
   double rounding(double size) const { return rounding_ + kGridRounding * size; }
@@ -87,7 +87,7 @@ struct ClearanceGrid::Data {
 
 namespace {
 
-/// Numbers from 0 to 2^31 rounded to the nearest whole one, which is then in the lowest bits too.
+/// Rounds numbers from 0 to 2^31 to the nearest whole one, which is then in the lowest bits too.
 class Whole {
  public:
   explicit Whole(const Lanes& numbers) : shifted_(numbers + Lanes::all(kShift)) {}
@@ -104,7 +104,7 @@ class Whole {
   Lanes shifted_;
 };
 
-/// The number, or 0 where that is larger. As std::max with a constant it may become a branch.
+/// The number, or 0 if that is larger. std::max with a constant may become a branch.
 inline double positive(double number) {
   return 0.5 * (number + std::abs(number));
 }
@@ -142,8 +142,8 @@ ClearanceGrid::Data::Data(std::shared_ptr<const ClearanceField> of)
   rounding_ = kGridRounding * (field->origin.lpNorm<1>() + size.lpNorm<1>() + 255.0 * cellSteps_);
 }
 
-/// m, not negative; Lemma 1 of ClearanceField, for the nearest voxel and its cell. The middle of
-/// the cell is half a voxel's diagonal away from that of the voxel.
+/// m, not negative; Lemma 1 of ClearanceField for the nearest voxel and its cell. The centre of the
+/// cell is half a voxel's diagonal away from that of the voxel.
 inline double ClearanceGrid::Data::within(const Lanes& q) const {
   const Lanes scaled = q * inverse_ - Lanes::all(0.5);
   const Whole nearest(scaled.within(Lanes::all(0.0), last_));
@@ -192,7 +192,7 @@ double ClearanceGrid::Data::squaredBound(const Vector3d& point) const {
   return (at - q).squaredNorm() + inside * inside;
 }
 
-/// Squares may overflow. NaN, and what is infinite, is nowhere.
+/// Squares may overflow. NaN and infinite coordinates are not inside.
 double ClearanceGrid::Data::farClearance(const Vector3d& point) const {
   if (!point.allFinite()) return 0.0;
   const Vector3d at = point - field->origin;
@@ -205,8 +205,9 @@ namespace {
 
 constexpr std::size_t kFewestCells = 1000;
 constexpr std::size_t kMostCells = std::size_t{1} << 27;
-constexpr double kLargestCoordinate = 1e30;  // m; above, voxels are no numbers of single precision
-constexpr double kLargestBeyond = 1e40;      // m, out of the window; voxels grow with that too
+constexpr double kLargestCoordinate =
+    1e30;  // m; beyond, voxels are not representable in single precision
+constexpr double kLargestBeyond = 1e40;  // m, outside the window; voxels grow with that too
 
 void requireUsable(const ClearanceGridOptions& options) {
   std::ostringstream message;
@@ -304,7 +305,7 @@ void ClearanceGrid::clearances(std::span<const Vector3d> points, std::span<doubl
   for (; first < points.size(); ++first) bounds[first] = clearance(points[first]);
 }
 
-/// As squares, whose own rounding is small beside that of the rest.
+/// Compares squares, whose own rounding is small beside that of the rest.
 bool ClearanceGrid::isFarther(const Vector3d& center, double radius) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, radius] { return isFarther(center, radius); });

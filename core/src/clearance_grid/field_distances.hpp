@@ -6,7 +6,7 @@
 
 namespace swept::detail {
 
-// Of each: `field` has its grid, and the voxels are those of it.
+// In each function, `field` has its grid, and the voxels belong to that grid.
 
 /// Fills in the values of the cells.
 void measureCells(const Voxels& voxels, ClearanceField& field);

@@ -23,19 +23,19 @@ HWY_INLINE Words whole(Lanes number) {
   return hn::DemoteTo(WordTag(), number);
 }
 
-/// Byte `of` of words, from the lowest.
+/// Byte `of` of each word, from the lowest.
 HWY_INLINE Lanes byteOf(const std::uint32_t* words, Words word, Words of) {
   const hn::RebindToUnsigned<WordTag> tag;
   const auto found = hn::BitCast(
       tag, hn::GatherIndex(WordTag(), reinterpret_cast<const std::int32_t*>(words), word));
-  // Up and down again: where SSE4 shifts right by 0, Highway converts 2^32 to an integer, which is
-  // an invalid operation to whoever traps these.
+  // Shifts up and down again: for a right shift by 0 on SSE4, Highway converts 2^32 to an integer,
+  // which is an invalid operation for programs that trap these.
   const auto above = hn::BitCast(tag, hn::AndNot(of, hn::Set(WordTag(), 3)));
   const auto byte = hn::ShiftRight<24>(hn::Shl(found, hn::ShiftLeft<3>(above)));
   return hn::PromoteTo(Tag(), hn::BitCast(WordTag(), byte));
 }
 
-/// Products and sums are rounded one by one, as where there is one point.
+/// Rounds products and sums one by one, as in the query for one point.
 HWY_INLINE Lanes squaredNorm(Lanes x, Lanes y, Lanes z) {
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }

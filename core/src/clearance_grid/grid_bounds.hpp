@@ -7,7 +7,7 @@
 
 namespace swept::detail {
 
-/// A ClearanceField as queries in double precision read it.
+/// A ClearanceField in the form that queries in double precision read.
 struct GridView {
   std::array<double, 3> origin;  ///< m
   std::array<double, 3> lower;   ///< m, from the origin, of W
@@ -29,11 +29,11 @@ struct GridView {
   const std::uint32_t* voxels;
 };
 
-/// As many points at once.
+/// The number of points per call.
 inline constexpr std::size_t kGridLanes = 8;
 
-/// What ClearanceGrid::clearance() gives for eight points, the coordinates of which follow each
-/// other (m), bit for bit; none of them is far, nor no number.
+/// The results of ClearanceGrid::clearance() for eight points, whose coordinates (m) are stored one
+/// after the other, bit for bit. No point is far or NaN.
 void gridBounds(const GridView& grid, const double* points, double* bounds);
 
 }  // namespace swept::detail

@@ -9,7 +9,7 @@
 
 namespace swept::detail {
 
-/// Cells, as far as their values reach.
+/// Range of the values, in cells.
 inline constexpr int kFarthestGap = 20;
 /// Twice a gap in cells, squared: gaps are whole or half cells, so sums of these are exact.
 using SquaredGap = std::int16_t;
@@ -21,10 +21,10 @@ constexpr SquaredGap gapSquared(int k) {
   return k == 0 ? SquaredGap{0} : static_cast<SquaredGap>((2 * k - 1) * (2 * k - 1));
 }
 
-/// Steps that are not above the root of a squared gap, by more than roundings.
+/// Steps that are at most the root of a squared gap, even after rounding.
 class GapSteps {
  public:
-  /// `side`: m, of cells or voxels; `most`: of those, a gap.
+  /// `side`: m, of cells or voxels; `most`: largest gap in these.
   GapSteps(double side, double most) : units_(kUnknownGap + 1) {
     step_ = static_cast<float>(side * most / 255.0);
     for (int value = 0; value <= kUnknownGap; ++value) {

@@ -17,7 +17,8 @@ constexpr Mask kLastX = kFirstX << 3;
 constexpr Mask kFirstY = 0x000F000F000F000F;
 constexpr Mask kLastY = kFirstY << 12;
 
-/// Cells in the floods: marked, or on one side of the surface or the other, or not yet seen.
+/// States of cells in the flood fills: marked, on one side of the surface or the other, or not yet
+/// seen.
 constexpr std::uint8_t kUnseen = 0, kMarked = 1, kOutside = 2, kInside = 3;
 
 /// With the neighbours within the block.
@@ -28,8 +29,8 @@ Mask grown(Mask mask) {
 
 }  // namespace
 
-/// The cells of a grid, x first, with a layer of others around them: whatever a cell, its
-/// neighbours are there.
+/// The cells of a grid, x first, with a layer of other cells around them, so that every cell has
+/// all its neighbours.
 class CellGrid {
  public:
   explicit CellGrid(const std::array<int, 3>& blocks) {
@@ -43,7 +44,7 @@ class CellGrid {
   std::size_t size() const { return steps_[2] * count_[2]; }
   const std::array<std::size_t, 3>& steps() const { return steps_; }
 
-  /// Bits 0, 1, 2 of `which`: its place in the block along x, y, z.
+  /// Bits 0, 1, 2 of `which`: the cell's place in the block along x, y, z.
   std::size_t cellOf(std::size_t block, int which) const {
     const std::size_t x = 2 * (block % blocks_[0]) + 1 + (which & 1);
     const std::size_t y = 2 * (block / blocks_[0] % blocks_[1]) + 1 + (which >> 1 & 1);
@@ -81,13 +82,13 @@ Voxels::Voxels(const Vector3d& origin, double side, const std::array<int, 3>& bl
     : origin_(origin),
       side_(side),
       inverse_(1.0 / side),
-      // Above all rounding of points computed between corners, and of encloses().
+      // More than all rounding of points computed between corners, and of encloses().
       slack_(1e-12 * (reach + origin.lpNorm<1>()) + 1e-9 * side),
       blocks_(blocks) {
   known_.assign(static_cast<std::size_t>(blocks[0]) * blocks[1] * blocks[2], kEmpty);
 }
 
-/// Voxels that a box meets; false: none.
+/// The voxels that a box meets; false: none.
 bool Voxels::voxelsOf(const Vector3d& lower, const Vector3d& upper, Eigen::Array3i& first,
                       Eigen::Array3i& last) const {
   for (int i = 0; i < 3; ++i) {
@@ -111,8 +112,8 @@ void Voxels::set(int x, int y, int z) {
   masks_[known_[block]] |= Mask{1} << (x % 4 + 4 * (y % 4) + 16 * (z % 4));
 }
 
-/// Lemma: a voxel that meets the triangle is not wholly on one side of its plane, nor wholly
-/// outside one of its sides. All voxels where the normal is zero.
+/// Lemma: a voxel that meets the triangle is neither wholly on one side of its plane nor wholly
+/// outside one of its sides. If the normal is zero, all voxels are marked.
 void Voxels::markVoxels(const Eigen::Array3i& first, const Eigen::Array3i& last,
                         const Vector3d& normal, const std::array<Vector3d, 3>& corners) {
   const double half = 0.5 * side_ + slack_;
@@ -155,14 +156,15 @@ void Voxels::mark(const Vector3d& center, double radius) {
   }
 }
 
-/// Halved until a piece spans few voxels, or where it has no plane to tell them apart two each way.
+/// Halves the triangle until a piece spans few voxels, or two along each axis if it has no plane to
+/// separate them.
 void Voxels::mark(const std::array<Vector3d, 3>& corners) {
   const Vector3d sides[3] = {corners[1] - corners[0], corners[2] - corners[1],
                              corners[0] - corners[2]};
   Vector3d normal = sides[0].cross(sides[1]);
   const double longest =
       std::max({sides[0].squaredNorm(), sides[1].squaredNorm(), sides[2].squaredNorm()});
-  // Where rounding leaves no direction there is no plane to tell voxels apart.
+  // If rounding leaves no direction, there is no plane to separate voxels.
   normal = normal.norm() > 1e-3 * longest ? normal.normalized() : Vector3d::Zero();
   struct Piece {
     std::array<Vector3d, 3> corners;
@@ -198,8 +200,8 @@ void Voxels::mark(const std::array<Vector3d, 3>& corners) {
 }
 
 /// Lemma: two cells (or voxels) that share a face and that no triangle meets are on the same side
-/// of every closed component. So one point tells for a whole region of cells, and a voxel that
-/// touches such a region belongs to it. What is not reached this way counts as inside.
+/// of every closed component. So one point decides for a whole region of cells, and a voxel that
+/// touches such a region belongs to it. Cells that are not reached in this way count as inside.
 void Voxels::fill(const TriangleMesh& mesh) {
   const CellGrid grid(blocks_);
   std::vector<std::uint8_t> cells(grid.size(), kUnseen);
@@ -270,7 +272,7 @@ Mask Voxels::reached(std::size_t block, const std::vector<Mask>& outside) const 
 void Voxels::fillBlocks(const CellGrid& grid, const std::vector<std::uint8_t>& cells) {
   std::vector<Mask> outside(known_.size(), 0);
   for (std::size_t block = 0; block < known_.size(); ++block) {
-    // The cells of an empty one are on the same side.
+    // The cells of an empty block are on the same side.
     if (known_[block] == kEmpty) {
       if (cells[grid.cellOf(block, 0)] == kOutside) outside[block] = kFull;
       continue;

@@ -14,7 +14,7 @@ namespace swept::detail {
 
 class CellGrid;
 
-/// What triangles and points meet, as voxels, in blocks of 4 x 4 x 4. A cell is an eighth of a
+/// The voxels that triangles and points meet, in blocks of 4 x 4 x 4. A cell is an eighth of a
 /// block: 2 x 2 x 2 voxels.
 class Voxels {
  public:
@@ -22,16 +22,16 @@ class Voxels {
   using Mask = std::uint64_t;
   static constexpr Mask kFull = ~Mask{0};
 
-  /// `reach`: m, no coordinate of what is marked is larger.
+  /// `reach`: m, upper bound on the coordinates of everything that is marked.
   Voxels(const Eigen::Vector3d& origin, double side, const std::array<int, 3>& blocks,
          double reach);
 
-  /// Lemma: every point of the triangle within the grid is in a marked voxel, and so is what is
+  /// Lemma: every point of the triangle within the grid is in a marked voxel, and so is every point
   /// within rounding of it.
   void mark(const std::array<Eigen::Vector3d, 3>& corners);
   void mark(const Eigen::Vector3d& center, double radius);
 
-  /// Marks what closed components enclose, and perhaps small pockets between triangles.
+  /// Marks the space that closed components enclose, and possibly small pockets between triangles.
   void fill(const TriangleMesh& mesh);
 
   double side() const { return side_; }                      ///< m, of a voxel

@@ -19,7 +19,7 @@ namespace swept {
 
 namespace {
 
-/// An interval and the pairs that are open in it: [begin, end) of the workspace's.
+/// An interval, and the range [begin, end) of the workspace's pairs that are open in it.
 struct Interval {
   double from;
   double to;
@@ -48,19 +48,19 @@ using detail::Side;
 using detail::SliceDescent;
 using Eigen::Isometry3d;
 
-/// Share of the tolerance left to distances.
+/// Share of the tolerance that distances may use.
 constexpr double kQueryShare = 1.0 / 16.0;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Contacts are looked for as exactly as this share of the tolerance: an interval before one that
-/// is as long as that is short (less than two thirds; see isShort()).
+/// Contacts are located to this share of the tolerance: an interval of that length before a contact
+/// is short (less than two thirds; see isShort()).
 constexpr double kContactShare = 0.6;
 
 /// In units of t. Shorter intervals have no middle.
 constexpr double kShortest = 1e-15;
 
-/// Quick to find, if not the least: what moves node by node has bounds of its own anyway.
+/// Quick to compute, though not the smallest: moving nodes have their own bounds anyway.
 BoundingSphere ballAround(const Side& side, const Shape& shape) {
   if (side.isConvex()) return boundingSphere(shape);
   const detail::OrientedBox& box = side.bvh->rootBox();
@@ -75,7 +75,7 @@ bool areFinite(const ContinuousOptions& options) {
          std::isfinite(options.timeTolerance);
 }
 
-/// The earliest intervals first, each with what is left open of the one it is part of.
+/// Intervals in order of time, each with the open pairs of the interval that it is a part of.
 class TimeSearch {
  public:
   TimeSearch(const Shape& a, const Motion& motionA, const Shape& b, const Motion& motionB,
@@ -116,12 +116,12 @@ class TimeSearch {
   }
 
  private:
-  /// True: there is nothing more to find out.
+  /// True: the query is finished.
   bool decidedAtStart() {
     const Isometry3d world_from_a = detail::rigidPose(motionA_.at(0.0));
     const Isometry3d a_from_b = world_from_a.inverse() * detail::rigidPose(motionB_.at(0.0));
     if (!world_from_a.matrix().allFinite() || !a_from_b.matrix().allFinite()) return true;
-    // Whether they touch without a margin is decided exactly; a distance only says how far apart.
+    // Touching without a margin is decided exactly; a distance only says how far apart they are.
     const bool exact = !(options_.margin > 0.0);
     if (exact && collide(shapeA_, shapeB_, a_from_b) != Contact::Touching) return false;
     DistanceOptions options;
@@ -170,10 +170,10 @@ class TimeSearch {
     }
   }
 
-  /// After a contact at the middle: looks for an earlier one.
+  /// After a contact at the middle: searches an earlier one.
   void bracket(const Interval& interval, const MotionSlice& slice, const SliceDescent& descent) {
     waiting_.clear();
-    // The approach shrinks with the interval at least in proportion.
+    // The approach shrinks at least in proportion to the interval.
     if (isShort(slice.middle - interval.from, 0.5 * descent.approach())) {
       stopAt(interval.from);
       return;
@@ -186,7 +186,7 @@ class TimeSearch {
     push({interval.from, result_.contactBy, interval.end, open_.size()});
   }
 
-  /// Goes on with what is not proven of an interval.
+  /// Continues with the unproven part of an interval.
   void divide(const Interval& interval, const MotionSlice& slice, const SliceDescent& descent) {
     if (isShort(interval.to - interval.from, descent.approach())) {
       stopAt(interval.from);
@@ -203,7 +203,7 @@ class TimeSearch {
                                     : before.from;
     after.from =
         proven.after < 1.0 ? std::max(middle, middle + proven.after * half - kShortest) : after.to;
-    // Of an interval that ends with a contact the pair is known.
+    // If an interval ends with a contact, its pair is known.
     const bool ends = contact_ && interval.to == result_.contactBy;
     if (descent.nearest() && !ends && proven.after > 0.0) {
       LeafContact::Range range = rangeOf(slice, descent);
@@ -218,8 +218,8 @@ class TimeSearch {
     push(before);
   }
 
-  /// Thin things can be in contact and apart again within one short interval. All that is left of
-  /// it is pairs of leaves.
+  /// Thin things can touch and part again within one short interval. All that is left of it is
+  /// pairs of leaves.
   bool lookThrough(const Interval& interval, const MotionSlice& slice,
                    const SliceDescent& descent) {
     LeafContact::Range range = rangeOf(slice, descent);
@@ -237,7 +237,7 @@ class TimeSearch {
     return found;
   }
 
-  /// A flat body can be through a surface within one short interval: what comes after is apart from
+  /// A flat body can pass through a surface within one short interval: afterwards it is apart from
   /// the surface, and inside.
   void lookInside(double t) {
     if (contact_ && t >= result_.contactBy) return;
@@ -270,13 +270,13 @@ class TimeSearch {
     if (interval.from < interval.to) waiting_.push_back(interval);
   }
 
-  /// `approach`: m, in half of it. The first contact may lie behind the middle of an interval and
-  /// is found in that of the next one then: both together are as long as is asked for.
+  /// `approach`: m, in half of it. The first contact may be after the middle of an interval, and is
+  /// then found in the next one: both together are as long as requested.
   bool isShort(double length, double approach) const {
     return approach <= shortApproach() || 1.5 * length <= options_.timeTolerance ||
            length <= kShortest;
   }
-  /// m. What is divided below it, too, so that short intervals leave pairs of leaves only.
+  /// m. Pieces below this are divided too, so that short intervals leave only pairs of leaves.
   double shortApproach() const { return options_.tolerance / 3.0; }
 
   const Shape& shapeA_;

@@ -13,10 +13,11 @@ namespace {
 using Eigen::Vector3d;
 using Weights = std::array<double, 4>;
 
-/// m^2. Shorter vectors are no directions: their squares underflow, and with them the length.
+/// m^2. Shorter vectors are not usable as directions: their squares, and so their lengths,
+/// underflow.
 constexpr double kLeastSquare = 1e-280;
 
-/// `normal` of any length and either sign, NaN or zero where the caller knows none.
+/// `normal` of any length and either sign, NaN or zero if the caller knows none.
 Nearness nearness(const Corners& corners, const Weights& weights, const Vector3d& point,
                   const Vector3d& normal) {
   Nearness result;
@@ -36,8 +37,8 @@ struct Face {
   bool parallelogram;                         ///< or a triangle
 };
 
-/// The part of y across x, which has to be the longer one. The second subtraction takes out what
-/// rounding left along x in the first.
+/// The component of y orthogonal to x. x must be the longer one. The second subtraction removes
+/// what rounding left along x in the first.
 Vector3d across(const Vector3d& y, const Vector3d& x) {
   const double length = x.squaredNorm();
   if (!(length > 0.0)) return y;
@@ -45,8 +46,8 @@ Vector3d across(const Vector3d& y, const Vector3d& x) {
   return once - (once.dot(x) / length) * x;
 }
 
-/// Keeps the nearest point and the direction with the highest lowest corner among what it is shown,
-/// each on its own.
+/// Keeps the nearest point, and separately the direction with the highest lowest corner, among
+/// those it receives.
 class Best {
  public:
   explicit Best(const Corners& corners) : corners_(corners) {
@@ -172,7 +173,7 @@ Nearness VertexFace::nearest(const Corners& corners) {
     return nearness(corners, {0.0, 1.0 - t, t, 0.0}, p, p);
   }
   const double part = 1.0 / (areaA + areaB + areaC);
-  // Rounding may lead here with an area that is not positive: the point has to be of the face.
+  // Rounding may lead here with an area that is not positive: the point must belong to the face.
   const double v = std::clamp(areaB * part, 0.0, 1.0);
   const double w = std::clamp(areaC * part, 0.0, 1.0 - v);
   return nearness(corners, {1.0 - v - w, v, w, 0.0}, a + v * e + w * f, e.cross(f));

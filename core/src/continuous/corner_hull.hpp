@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 
-/// Two features, a vertex and a face or two edges, as the set of differences between a point of the
-/// one and a point of the other: a triangle, or a parallelogram. The features are as far apart as
-/// that set is from the origin.
+/// Two features, a vertex and a face or two edges, as the set of differences between points of the
+/// one and points of the other: a triangle, or a parallelogram. The distance of the features is
+/// that of this set from the origin.
 namespace swept::detail {
 
 /// Corners of the set at one time, m. A triangle's fourth corner is its first again. By
@@ -40,8 +40,8 @@ inline double lowest(const std::array<double, 4>& h) {
   return first < second ? first : second;
 }
 
-/// How far the set is from the origin: at most `distance`, at least the lowest of `heights` (both
-/// but for rounding).
+/// Distance of the set from the origin: at most `distance`, at least the lowest of `heights` (both
+/// up to rounding).
 struct Nearness {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, or zero where none is known
   double distance = 0.0;            ///< m, of a point of the set: upper bound on its distance

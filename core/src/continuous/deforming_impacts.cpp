@@ -12,8 +12,8 @@
 
 /// Lemma. The distance of two triangles that do not touch is that of a corner of one from the
 /// other, or of two edges: the least of fifteen distances that change continuously in time. So
-/// triangles that do not touch at the start come within a separation >= 0 no earlier than the first
-/// of these does, and not without it: where they first touch, one of the fifteen distances is zero.
+/// triangles that do not touch at the start come within a separation >= 0 exactly when the first of
+/// these distances does: where they first touch, one of the fifteen distances is zero.
 namespace swept {
 
 namespace {
@@ -64,7 +64,7 @@ class ImpactQuery {
   void run();
 
  private:
-  /// First of all, since nothing comes before a contact at the start.
+  /// Tested first, since nothing comes before a contact at the start.
   void lookAtStart();
   void lookAtStep();
   bool done() const { return options_.firstOnly && result_.contactBy <= 0.0; }
@@ -87,7 +87,7 @@ bool ImpactQuery::haveCommonVertex(const MovingTriangle& t, const MovingTriangle
   return same_ && shareVertex(a_.surface.triangle(t.number()), a_.surface.triangle(u.number()));
 }
 
-/// Of two triangles with a common vertex: the features that no other pair covers.
+/// For two triangles with a common vertex: the features that no other pair covers.
 unsigned ImpactQuery::orphans(const MovingTriangle& t, const MovingTriangle& u) const {
   const auto isCorner = [](int v, const MovingTriangle& of) {
     return v == of.vertex(0) || v == of.vertex(1) || v == of.vertex(2);

@@ -75,7 +75,7 @@ void DeformingMesh::Data::arrange(std::span<const Vector3d> vertices) {
   makeRoom(order, end);
 }
 
-/// Both frames in the order of a new tree, which is for the end.
+/// Both frames in the order of a new tree, which is built for the end.
 void DeformingMesh::Data::arrangeAnew() {
   std::vector<Vector3d> first(vertexCount, Vector3d::Zero());
   std::vector<Vector3d> last(vertexCount, Vector3d::Zero());
@@ -160,7 +160,7 @@ double DeformingMesh::growth() const {
     return inDefaultEnvironment([&] { return growth(); });
   }
   if (data_->builtRatio > 0.0) return data_->areaRatio / data_->builtRatio;
-  // Built of points alone, so in no order.
+  // It was built from points, so it has no order.
   return data_->areaRatio > 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Pieces of a stage of work, for whichever thread comes next.
+/// Pieces of a stage of work; each free thread takes the next one.
 class Pieces {
  public:
   Pieces(std::size_t count, std::size_t each) : count_(count), each_(each) {}
@@ -35,12 +35,12 @@ class Pieces {
   std::size_t count_, each_;
 };
 
-/// Three stages, each of which needs all of the one before. What a piece gives depends on nothing
-/// but the piece; what is added up is added up afterwards, in the order of the pieces. The second
-/// stage is the first that changes anything.
+/// Three stages, each of which needs all of the one before. The result of a piece depends only on
+/// the piece. Sums are formed afterwards, in the order of the pieces. The second stage is the first
+/// that changes anything.
 ///
-/// Subtrees, and not one level of the tree after another in pieces: that takes as long, and one
-/// wait more for each level.
+/// It works by subtrees, not by levels of the tree: levels in pieces take as long, with one more
+/// wait per level.
 class Refit {
  public:
   Refit(DeformingMesh::Data& data, std::span<const Vector3d> vertices, unsigned threads)
@@ -59,7 +59,7 @@ class Refit {
       others.reserve(threads_ - 1);
       while (others.size() + 1 < threads_) others.emplace_back([this] { work(); });
     } catch (const std::exception&) {
-      // No more threads to be had: those that there are do it all.
+      // No more threads are available: the existing ones do all the work.
       const auto missing = static_cast<std::ptrdiff_t>(threads_ - 1 - others.size());
       checked_.count_down(missing);
       copied_.count_down(missing);

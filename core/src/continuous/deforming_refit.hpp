@@ -9,14 +9,14 @@
 
 namespace swept::detail {
 
-/// The frame that follows the end of the step, into `start`, which is not needed then, by so many
-/// threads or fewer, the calling one among them: bit for bit the same on any number. Returns the
-/// area of boxes in terms of that of the triangles' boxes. Throws std::invalid_argument for a
-/// coordinate that is not finite, and has changed nothing then. Allocates for threads only.
+/// Writes the frame that follows the end of the step into `start`, which is not needed then, with
+/// at most this many threads including the caller's: bit for bit the same for any number. Returns
+/// the area of boxes relative to that of the triangles' boxes. Throws std::invalid_argument for a
+/// non-finite coordinate, and then has changed nothing. Allocates only for threads.
 double refit(DeformingMesh::Data& data, std::span<const Eigen::Vector3d> vertices,
              unsigned threads);
 
-/// Of so many threads (0: as many as there are processors), how many pay.
+/// How many of these threads (0: as many as processors) pay.
 unsigned usefulThreads(unsigned threads, std::size_t triangles);
 
 }  // namespace swept::detail

@@ -40,8 +40,8 @@ class Arranger {
   }
 
  private:
-  /// A part as large as `size`, a power of two, or smaller. The first half gets size / 2, so that
-  /// only the last block of a level is not full.
+  /// The largest part is `size`, a power of two. The first half gets size / 2, so that only the
+  /// last block of a level is not full.
   void halve(std::size_t first, std::size_t last, std::size_t size) {
     for (; size > kTreeLanes; size /= 2) {
       const std::size_t middle = first + size / 2;

@@ -12,8 +12,7 @@
 
 /// An eight-wide tree over triangles, without pointers: triangle, or block, 8 b + l of one level is
 /// lane l of block b of the next. Level 0 holds the corners of triangles, the levels above hold
-/// boxes; the topmost one has a single lane in use. Lanes that are not in use repeat the last one
-/// that is.
+/// boxes; the topmost has a single lane in use. Unused lanes repeat the last used one.
 namespace swept::detail {
 
 inline constexpr int kTreeLanes = 8;
@@ -36,7 +35,7 @@ struct alignas(16) FloatPoint {
   float x, y, z, unused;
 };
 
-/// What moves: one frame.
+/// The moving part: one frame.
 struct DeformingFrame {
   std::vector<Eigen::Vector3d> vertices;  ///< m, as numbered by the tree
   std::vector<CornerBlock> corners;
@@ -44,7 +43,7 @@ struct DeformingFrame {
   double reach = 0.0;                                        ///< m. No coordinate is larger.
 };
 
-/// What stays: which triangle is where.
+/// The constant part: the places of the triangles.
 struct TreeOrder {
   std::vector<int> triangleOf;        ///< the caller's number of a triangle of the tree
   std::vector<int> vertexOf;          ///< the caller's number of a vertex of the tree

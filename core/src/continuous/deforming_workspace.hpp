@@ -20,7 +20,7 @@ struct DeformingWorkspace::Data {
 
 namespace detail {
 
-/// m. What findMeetingPairs() is to be asked for. More than all that underflows.
+/// m. The margin to request from findMeetingPairs(). It is more than everything that underflows.
 inline float meetingMargin(double separation, double reach) {
   return static_cast<float>(1.01 * (separation + kMeetingRounding * reach)) +
          std::numeric_limits<float>::min();

@@ -9,13 +9,13 @@
 
 namespace swept::detail {
 
-/// Two features, whichever triangles they are met in.
+/// Two features, whichever triangles contain them.
 class FeatureKey {
  public:
   /// Of no features.
   FeatureKey() : key_(~std::uint64_t{0}) {}
   static FeatureKey edges(int first, int second) { return FeatureKey(0, first, second); }
-  /// `side` tells a vertex of the first mesh from one of the second.
+  /// `side` distinguishes a vertex of the first mesh from one of the second.
   static FeatureKey vertexFace(int side, int vertex, std::uint32_t face) {
     return FeatureKey(1U + static_cast<unsigned>(side), vertex, static_cast<int>(face));
   }
@@ -30,7 +30,7 @@ class FeatureKey {
 };
 
 /// Remembers when features meet. Two edges have up to four pairs of triangles around them, which
-/// are looked at soon after one another: a small cache, which forgets, finds nearly all of them.
+/// are tested soon after one another: a small cache, which forgets, finds nearly all of them.
 class FeatureCache {
  public:
   void clear() { entries_.assign(kEntries, {}); }

@@ -24,7 +24,7 @@ double LargestCoordinate(const double* values, std::size_t count) {
   const hn::ScalableTag<double> tag;
   const std::size_t step = hn::Lanes(tag);
   auto largest = hn::Zero(tag);
-  // What is not finite makes this NaN, and it stays so.
+  // A non-finite value makes this NaN for good.
   auto nothing = hn::Zero(tag);
   std::size_t i = 0;
   for (; i + step <= count; i += step) {

@@ -76,10 +76,10 @@ using Eigen::Vector3d;
 constexpr double kLeastSize = 1e-40;
 constexpr double kGreatestSize = 1e40;
 
-/// How much longer the next interval may be than one that was proven.
+/// Growth of the next interval after one that was proven.
 constexpr double kGrowth = 8.0;
 
-/// Tests after which planes are tried as well.
+/// Number of tests after which planes are tried as well.
 constexpr int kPatience = 4;
 
 using RefinedVector = std::array<TwoDoubles, 3>;
@@ -136,7 +136,7 @@ class ImpactSearch {
 
  private:
   void look(double t, Instant& instant) const;
-  /// At t, or at `last` where that is sooner.
+  /// The features at t, or at `last` if that is sooner.
   void lookBefore(double t, double after, const Instant& last, Instant& instant) const;
   bool missesOnAxis(const Corners& end) const {
     return beyond(paths_.start.x, end.x, threshold_) || beyond(paths_.start.y, end.y, threshold_) ||
@@ -155,10 +155,10 @@ class ImpactSearch {
 
   const CornerPaths& paths_;
   double size_;
-  double threshold_;  ///< what a proof has to exceed
+  double threshold_;  ///< a proof must exceed this
   double tolerance_;
   double contact_;                   ///< distances of at most this are contact
-  double aim_;                       ///< where to look for it
+  double aim_;                       ///< the distance that steps aim at
   std::array<double, 4> fromAtEnd_;  ///< heights of the later corners along the earlier normal
   std::array<double, 4> toAtStart_;  ///< heights of the earlier corners along the later normal
 };
@@ -170,7 +170,7 @@ void ImpactSearch<Features>::look(double t, Instant& instant) const {
   instant.nearness = Features::nearest(instant.corners);
   const Nearness& found = instant.nearness;
   if (found.distance <= contact_) return;
-  // A direction that proves half of what is there is good enough to go on with.
+  // A direction that proves half of the distance is good enough to continue with.
   if (!(lowest(found.heights) - threshold_ >= 0.5 * (found.distance - threshold_))) {
     instant.nearness = Features::nearestOfAnyShape(instant.corners);
   }
@@ -187,8 +187,8 @@ void ImpactSearch<Features>::lookBefore(double t, double after, const Instant& l
   }
 }
 
-/// Proof for [from.t, to.t]; the lemma's cases b >= 0 and b^2 < a c, and the directions at both
-/// ends, kept.
+/// A proof for [from.t, to.t]: the lemma's cases b >= 0 and b^2 < a c, and the directions at both
+/// ends.
 template <class Features>
 bool ImpactSearch<Features>::separated(const Instant& from, const Instant& to) {
   const std::array<double, 4>& a = from.nearness.heights;
@@ -238,7 +238,7 @@ bool ImpactSearch<Features>::separatedByPlane(const Instant& from, const Instant
   return least > -3.0 * rounding && separatedByRefinedPlane(from, to, lengths);
 }
 
-/// The same with coefficients that hardly round. `lengths`: what they have to exceed.
+/// The same with coefficients that hardly round. `lengths`: what they must exceed.
 template <class Features>
 bool ImpactSearch<Features>::separatedByRefinedPlane(const Instant& from, const Instant& to,
                                                      const std::array<double, 4>& lengths) const {
@@ -252,7 +252,7 @@ bool ImpactSearch<Features>::separatedByRefinedPlane(const Instant& from, const 
   return all;
 }
 
-/// When the nearest points would meet if they kept the speed at which they approach.
+/// When the nearest points would meet at their present speed of approach.
 template <class Features>
 double ImpactSearch<Features>::contactTime(const Instant& from) const {
   const Nearness& near = from.nearness;
@@ -264,8 +264,8 @@ double ImpactSearch<Features>::contactTime(const Instant& from) const {
 }
 
 /// An end of the interval that is more likely to be proven: the first root of the polynomials, or
-/// what one of the two directions alone proves. Only the latter is sure to be reached, so that it
-/// is what remains after repeated failures.
+/// the range that one of the two directions proves alone. Only the latter is certain to be proven,
+/// so it remains after repeated failures.
 template <class Features>
 double ImpactSearch<Features>::shorter(const Instant& from, const Instant& to, int failures) const {
   const std::array<double, 4>& a = from.nearness.heights;

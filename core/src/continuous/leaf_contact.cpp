@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Enforced. Smooth contacts take four or five.
+/// Cap on the steps. Smooth contacts take four or five.
 constexpr int kMaxSteps = 12;
 
 }  // namespace
@@ -31,9 +31,9 @@ GjkResult LeafContact::measure(const OpenPair& pair, const RelativeState& state,
   return gap;
 }
 
-// A step that ends in contact passed the first one by what the acceleration can do during the step:
-// that far back the leaves are apart again as long as their normal is one direction, and a step
-// from there ends as much nearer.
+// A step that ends in contact passed the first contact by at most what the acceleration can do
+// during the step. That far back the leaves are apart again, as long as their normal is one
+// direction, and a step from there ends nearer by that much.
 std::optional<LeafContact::Found> LeafContact::find(const OpenPair& pair, const Range& range,
                                                     ContinuousEffort& effort) const {
   std::optional<Found> found;

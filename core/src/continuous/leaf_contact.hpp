@@ -9,8 +9,8 @@
 namespace swept::detail {
 
 /// The first contact of one pair of leaves by Newton's method on their distance: each step goes to
-/// where they touch if they keep approaching along their normal as they do now. A contact that is
-/// found is one; that it is the first is left to proofs.
+/// where they touch if they keep their present approach along their normal. A contact that is found
+/// is real; proofs must show that it is the first.
 class LeafContact {
  public:
   /// Refers to the sides and the motion. `margin`, `accuracy` (of distances): m.
@@ -18,7 +18,7 @@ class LeafContact {
               double accuracy)
       : a_(a), b_(b), motion_(motion), margin_(margin), accuracy_(accuracy) {}
 
-  /// Where to look, in units of t.
+  /// The interval to search, in units of t.
   struct Range {
     double from = 0.0;
     double to = 1.0;
@@ -32,7 +32,7 @@ class LeafContact {
     Eigen::Vector3d pointA;          ///< m, a's frame
     Eigen::Vector3d pointB;          ///< m, a's frame
   };
-  /// Nothing if the leaves do not seem to meet there, or not in a few steps.
+  /// No value if the leaves do not seem to meet there, or not in a few steps.
   std::optional<Found> find(const OpenPair& pair, const Range& range,
                             ContinuousEffort& effort) const;
 

@@ -43,7 +43,7 @@ struct alignas(64) PairCorners {
 };
 
 /// Differences of two features at both ends: those of a corner and the corners of a face, or of the
-/// corners of two edges. The features are apart when some direction, the same at both ends, has all
+/// corners of two edges. The features are apart if some direction, the same at both ends, has all
 /// differences beyond the margin: they move linearly.
 template <int kCount>
 struct Differences {
@@ -63,7 +63,7 @@ struct Differences {
     }
     const auto extent = hn::Max(least, hn::Neg(most));
     const auto square = dot(n, n);
-    // Where the square of the length leaves single precision, nothing is proven.
+    // If the square of the length leaves single precision, nothing is proven.
     const auto usable =
         hn::And(hn::Gt(square, hn::Set(tag, 1e-30F)), hn::Lt(square, hn::Set(tag, 1e30F)));
     return hn::And(usable, hn::Gt(extent, hn::Mul(margin, hn::Sqrt(square))));
@@ -152,7 +152,7 @@ class PairFeatures {
   Vector wake_[2][3];  ///< normal of the plane that an edge sweeps, as seen from the other triangle
 };
 
-/// One in each file of kernels: what is compiled once for each instruction set has no header.
+/// One copy in each file of kernels: code that is compiled once per instruction set has no header.
 HWY_INLINE std::uint32_t bitsOf(Mask mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(Tag(), mask, bits);

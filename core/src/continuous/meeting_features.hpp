@@ -19,8 +19,8 @@ struct FeatureBits {
   static constexpr int secondCorner(int j) { return 12 + j; }
 };
 
-/// Sets features[p], for every pair p, to what may come within `margin` (m) of each other during
-/// the step; of the others that is proven. `margin` as for findMeetingPairs().
+/// Sets features[p], for every pair p, to the features that may come within `margin` (m) of each
+/// other during the step; the others are proven not to. `margin` as for findMeetingPairs().
 void findMeetingFeatures(const MovingTree& a, const MovingTree& b, float margin,
                          std::span<const MeetingPair> pairs, std::vector<std::uint16_t>& features);
 

@@ -22,14 +22,14 @@ using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 using IntTag = hn::CappedTag<std::int32_t, kTreeLanes>;
 
-/// One in each file of kernels: what is compiled once for each instruction set has no header.
+/// One copy in each file of kernels: code that is compiled once per instruction set has no header.
 HWY_INLINE std::uint32_t bitsOf(Mask mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(Tag(), mask, bits);
   return bits[0];
 }
 
-/// A box as large as the margin beyond another, to be held against those of lanes.
+/// A box grown by the margin, for comparison with those of lanes.
 struct GrownBox {
   float lower[3], upper[3];
 
@@ -44,9 +44,9 @@ struct GrownBox {
 /// At either end of the motion.
 using Blocks = std::array<const BoxBlock*, 2>;
 
-/// Bit i: no axis keeps box i, on its way from one end to the other, from the grown box. Boxes
+/// Bit i: no axis separates box i, on its way from one end to the other, from the grown box. Boxes
 /// around the corners at both ends, moving linearly, contain the triangle at every time between,
-/// and the gap along an axis is linear too. A NaN keeps nothing apart.
+/// and the gap along an axis is linear too. A NaN separates nothing.
 template <int kEnds>
 HWY_INLINE std::uint32_t lanesMeet(const Blocks& blocks, const GrownBox (&box)[2]) {
   const Tag tag;
@@ -69,11 +69,11 @@ HWY_INLINE std::uint32_t lanesMeet(const Blocks& blocks, const GrownBox (&box)[2
   return meet;
 }
 
-/// What is asked of eight triangles again and again.
+/// Data of eight triangles that is used again and again.
 struct Prepared {
   const CornerBlock* corners[2];
   BoxBlock box[2];
-  TreeRow normal[3];  ///< unit, or nothing useful, of the triangle halfway
+  TreeRow normal[3];  ///< unit, or unusable, of the triangle halfway
   std::uint32_t block = ~0U;
 };
 
@@ -93,8 +93,8 @@ HWY_INLINE void prepareBoxes(Prepared& p) {
   }
 }
 
-/// Scales to unit length; shorter than what single precision squares becomes zero, which proves
-/// nothing.
+/// Scales to unit length. Vectors too short for a square in single precision become zero, which
+/// proves nothing.
 HWY_INLINE void normalize(Lanes (&n)[3]) {
   const Tag tag;
   const auto square = hn::MulAdd(n[0], n[0], hn::MulAdd(n[1], n[1], hn::Mul(n[2], n[2])));
@@ -137,7 +137,7 @@ struct TriangleAgainst {
   const Prepared& a;
   std::size_t lane;
   const Prepared& b;
-  std::size_t first;  ///< lane of b that the vectors begin with
+  std::size_t first;  ///< first lane of b in the vectors
   float margin;
 
   HWY_INLINE Lanes cornerA(int end, std::size_t c, std::size_t k) const {

@@ -15,7 +15,7 @@ struct MeetingPair {
   std::uint32_t second;  ///< likewise; the larger one of two of one tree
 };
 
-/// A pair of blocks still to be looked at.
+/// A pair of blocks that has yet to be tested.
 struct OpenBlocks {
   std::uint32_t first, second;
   std::uint8_t firstLevel, secondLevel;
@@ -23,20 +23,20 @@ struct OpenBlocks {
 
 struct MovingTree {
   const TreeOrder* order;
-  const DeformingFrame* start;  ///< null: only the end is of interest
+  const DeformingFrame* start;  ///< null: only the end matters
   const DeformingFrame* end;
 };
 
-/// Appends all pairs of triangles that come within `margin` (m) of each other, and others for which
-/// no proof to the contrary was found. `same`: the two trees are one; of pairs with a common vertex
-/// only those of two marked triangles are appended. `open` is scratch.
+/// Appends all pairs of triangles that come within `margin` (m) of each other, and others without a
+/// proof that they do not. `same`: the two trees are one; of pairs with a common vertex only those
+/// of two marked triangles are appended. `open` is scratch.
 ///
-/// `margin` has to contain kMeetingRounding times the largest coordinate.
+/// `margin` must include kMeetingRounding times the largest coordinate.
 void findMeetingPairs(const MovingTree& a, const MovingTree& b, bool same, float margin,
                       std::vector<OpenBlocks>& open, std::vector<MeetingPair>& pairs);
 
-/// m. From this margin on, which is where coordinates may exceed 5e17, boxes alone are compared:
-/// products could leave single precision. Below it none does that counts.
+/// m. From this margin on, where coordinates may exceed 5e17, only boxes are compared: products
+/// could leave single precision. Below it, no relevant product does.
 inline constexpr float kMostMargin = 1e12F;
 
 }  // namespace swept::detail

@@ -45,7 +45,8 @@ MotionBound Motion::bound(const BoundingSphere& ball, double from, double to) co
   bound.linear = half * moving.velocityAt(moving.center);
   bound.spin = half * moving.twist.angular;
   bound.radius = ball.radius;
-  // Of the velocity at the middle. All of a body of infinite size that does not turn has the same.
+  // Acceleration of the velocity at the middle. All points of a body of infinite size that does not
+  // turn have the same velocity.
   const double reach = std::isfinite(ball.radius) ? ball.radius : 0.0;
   const double rounded = half * rounding(ball.center.norm() + reach);
   bound.curvature = (0.5 * half * half * moving.acceleration + rounded) * kUp;

@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// No unit. How far products of a rotation's columns may be from those of unit vectors: what poses
-/// of single precision, or printed with seven digits, keep to.
+/// No unit. How far products of a rotation's columns may be from those of unit vectors: poses in
+/// single precision, or printed with seven digits, stay within it.
 constexpr double kNotARotation = 1e-6;
 
 [[noreturn]] void refuse(std::string_view name, const std::string& what) {

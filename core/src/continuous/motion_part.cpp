@@ -59,7 +59,7 @@ MotionRates MotionPart::rates(double from, double to) const {
           squared * whole.angularAcceleration};
 }
 
-// The whole's t is rounded by an ulp of 1 before the whole rounds what it makes of it.
+// The whole's t is rounded by an ulp of 1, in addition to the whole's own rounding.
 double MotionPart::rounding(double reach) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, reach] { return MotionPart::rounding(reach); });

@@ -12,7 +12,7 @@ constexpr double kUp = 1.0 + 1e-13;
 
 }  // namespace
 
-// A point at the distance d from the reference point has at most the speed |v| + |w| d and the
+// A point at distance d from the reference point has at most the speed |v| + |w| d and the
 // acceleration |v'| + (|w'| + |w|^2) d.
 MovingBall::MovingBall(const Motion& motion, const BoundingSphere& ball, double from, double to,
                        double middle)

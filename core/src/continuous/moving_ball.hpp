@@ -5,8 +5,8 @@
 
 namespace swept::detail {
 
-/// 0 where either is, even if the other is infinite: a body of any size that does not turn. A NaN
-/// stays one.
+/// The product, but 0 if either factor is 0, even if the other is infinite: a body of any size that
+/// does not turn. A NaN stays NaN.
 inline double times(double a, double b) {
   return a == 0.0 || b == 0.0 ? 0.0 : a * b;
 }
@@ -22,11 +22,11 @@ struct MovingBall {
   Eigen::Vector3d reference;  ///< m, at the middle
   Eigen::Vector3d center;     ///< m, at the middle
   double radius;              ///< m
-  double speed;               ///< m per unit of t, of no point of the ball more
-  double acceleration;        ///< m per unit of t squared, of no point of the ball more
+  double speed;               ///< m per unit of t, upper bound over the points of the ball
+  double acceleration;        ///< m per unit of t squared, upper bound over the points of the ball
 
   bool isStill() const { return rates.speed == 0.0 && rates.angularSpeed == 0.0; }
-  /// Of the body's motion at the middle, taken on to a point of the world.
+  /// Velocity of a point of the world if it moved with the body, at the middle.
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& point) const {
     return twist.linear + twist.angular.cross(point - reference);
   }

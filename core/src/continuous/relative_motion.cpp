@@ -17,14 +17,14 @@ using Eigen::Vector3d;
 
 /// Relative: the sums and products of norms below are of fewer than fifty terms, none negative.
 constexpr double kUp = 1.0 + 1e-13;
-/// Relative: velocities and what is made of them here, as vectors, are sums of fewer than fifty
-/// products; and half an interval, which they are multiplied by, is rounded up by kUp.
+/// Relative: velocities and vectors computed from them are sums of fewer than fifty products; half
+/// an interval, which multiplies them, is rounded up by kUp.
 constexpr double kVelocityRounding = 2e-13;
-/// m. Squares of lengths below 1e-154 m underflow: what is made of norms here may be short by as
-/// much, a few times.
+/// m. Squares of lengths below 1e-154 m underflow: quantities made of norms may be too small by a
+/// few times that.
 constexpr double kUnderflow = 1e-150;
 
-/// How the two approach, for some observer, in the world frame; see ApproachBound.
+/// The approach of the two for some observer, in the world frame; see ApproachBound.
 struct Approach {
   Vector3d linear = Vector3d::Zero();
   Vector3d spinA = Vector3d::Zero();
@@ -48,7 +48,7 @@ Approach forTheWorld(const MovingBall& a, const MovingBall& b, double half) {
   return seen;
 }
 
-/// For an observer who moves with one body and sees the other's ball pass by.
+/// Motion of the other's ball for an observer who moves with one body.
 ///
 /// Lemma: a point P of the other has, for the observer, the velocity u = v(P) - f(P), with f the
 /// observer's own velocity taken on to P, and, written in the observer's frame, the acceleration
@@ -78,9 +78,9 @@ Passing passing(const MovingBall& observer, const MovingBall& other, double half
   return {half * u, half * spin, 0.5 * half * half * acceleration * kUp, half * speed * kUp};
 }
 
-/// The observer who sees the least of a motion proves the most: one body may carry the other about,
-/// and a large one that turns beside a small one sees that move slowly. To one that stands still
-/// the world does.
+/// The observer who sees the least motion proves the most: one body may carry the other, and a
+/// large body that turns beside a small one sees that move slowly. A body that stands still sees
+/// what the world sees.
 Approach least(const MovingBall& a, const MovingBall& b, double half) {
   Approach best = forTheWorld(a, b, half);
   const auto keepBetter = [&](const Approach& seen) {
@@ -97,8 +97,8 @@ Approach least(const MovingBall& a, const MovingBall& b, double half) {
   return best;
 }
 
-/// m. How far from a body's origin its rounding matters: as far as the body goes, or, where that is
-/// anywhere, as the other.
+/// m. How far from a body's origin its rounding matters: as far as the body reaches, or, if that is
+/// infinite, as far as the other does.
 double reachOf(const BoundingSphere& ball, const MovingBall& body, const MovingBall& other) {
   if (std::isfinite(ball.radius)) return ball.center.norm() + ball.radius;
   if (!std::isfinite(other.radius)) return ball.center.norm();
@@ -134,7 +134,8 @@ MotionSlice RelativeMotion::over(double from, double to, double margin) const {
   bound.ballA = {ballA_.center, bound.spinA.isZero(0.0) ? 0.0 : a.radius};
   bound.ballB = {slice.a_from_b * ballB_.center, bound.spinB.isZero(0.0) ? 0.0 : b.radius};
   const double moved = bound.most();
-  // Either motion rounds its poses and velocities, and so does one pose in terms of the other.
+  // Each motion rounds its poses and velocities, and so does expressing one pose relative to the
+  // other.
   const double poses = a_.rounding(reachOf(ballA_, a, b)) + b_.rounding(reachOf(ballB_, b, a));
   const double product =
       tolerance::kRoundingPerJoint * (a.pose.translation().norm() + b.pose.translation().norm());

@@ -14,19 +14,19 @@ struct MotionSlice {
   Eigen::Isometry3d world_from_a;  ///< at the middle
   Eigen::Isometry3d a_from_b;      ///< at the middle
   ApproachBound approach;          ///< around the middle; `required` is the margin and roundings
-  bool finite = false;             ///< otherwise nothing of the above is to be relied on
+  bool finite = false;             ///< otherwise the other members are invalid
 
   double half() const { return 0.5 * (to - from); }
 };
 
-/// Where two bodies are at one t, and how they move.
+/// Relative pose and motion of two bodies at one t.
 struct RelativeState {
   Eigen::Isometry3d world_from_a;
   Eigen::Isometry3d a_from_b;
   Eigen::Vector3d velocity;  ///< m per unit of t, a's frame: of b past a's origin
   Eigen::Vector3d spin;      ///< rad per unit of t, a's frame: of b about a
 
-  /// m per unit of t. How fast b comes closer to a against `normal` (from a to b), at a point of
+  /// m per unit of t. Speed at which b approaches a against `normal` (from a to b), at a point of
   /// both (a's frame).
   double closing(const Eigen::Vector3d& normal, const Eigen::Vector3d& point) const {
     return -normal.dot(velocity + spin.cross(point));
@@ -40,7 +40,7 @@ class RelativeMotion {
   RelativeMotion(const BoundingSphere& ballA, const Motion& a, const BoundingSphere& ballB,
                  const Motion& b);
 
-  /// `margin`: m, what the bodies have to keep.
+  /// `margin`: m, which the bodies must keep.
   MotionSlice over(double from, double to, double margin) const;
   RelativeState at(double t) const;
 

@@ -15,11 +15,11 @@ namespace {
 using Eigen::Vector3d;
 
 /// No unit. Pieces that approach by more than this share of their size are left to shorter
-/// intervals. On the piano in the apartment (Pan, Chitta, Manocha 2012) half and twice this take
-/// 1.36 and 1.14 times as long.
+/// intervals. On the piano in the apartment (Pan, Chitta, Manocha 2012), half and twice this value
+/// take 1.36 and 1.14 times as long.
 constexpr double kFast = 1.0 / 32.0;
 
-/// No unit. Of how far whole bodies approach: accuracy of the distance of their hulls.
+/// No unit. Accuracy of the distance of the hulls, relative to the approach of the whole bodies.
 constexpr double kHullAccuracy = 0.1;
 
 double diameterOf(const Piece& piece) {
@@ -55,7 +55,7 @@ void SliceDescent::look(const OpenPair& pair) {
     const PartApproach approach(slice_.approach, a.motion, b.motion);
     const bool roots = pair.placeA < 0 && pair.placeB < 0;
     if (roots && areHullsApart(approach, known)) return;
-    // Children are looked at together; what would be left again may well be far away by now.
+    // Children are tested together; those that would be left again may be far away by now.
     const bool ofA = !a.piece.isLeaf();
     if (!roots && isTooFast(a, b, approach) &&
         isApart(pieces_.gap((ofA ? a : b).piece, ofA, (ofA ? b : a).piece), approach, known)) {
@@ -65,9 +65,9 @@ void SliceDescent::look(const OpenPair& pair) {
   descend(a, b, known);
 }
 
-// Lemma: what the interval takes away from a separation shrinks with it at least in proportion. A
-// gap along n that exceeds `required` and a share s of the loss is therefore enough for the share s
-// of half the interval.
+// Lemma: the approach that an interval subtracts from a separation shrinks at least in proportion
+// to the interval. A gap along n that exceeds `required` and a share s of the approach is therefore
+// enough for the share s of half the interval.
 SliceDescent::Proven SliceDescent::provenBy(double gap, const Vector3d& n,
                                             const PartApproach& approach) const {
   const double required = slice_.approach.required;
@@ -81,7 +81,7 @@ SliceDescent::Proven SliceDescent::provenBy(double gap, const Vector3d& n,
   return {share(loss.before), share(loss.after)};
 }
 
-// Without a guess: hulls that overlap, whose direction says nothing, are many.
+// Without a guess: many hulls overlap, and their direction says nothing.
 bool SliceDescent::areHullsApart(const PartApproach& approach, Known& known) {
   ++effort_.leafTests;
   const double accuracy = std::max(goal_.accuracy, kHullAccuracy * approach.most());

@@ -12,7 +12,7 @@
 
 namespace swept::detail {
 
-/// Two pieces by their places in the hierarchies, not yet proven apart.
+/// Two pieces, given by their places in the hierarchies, not yet proven apart.
 struct OpenPair {
   int placeA = -1;
   int placeB = -1;
@@ -20,13 +20,13 @@ struct OpenPair {
   Eigen::Vector3f direction = Eigen::Vector3f::Zero();
 };
 
-/// Looks at pairs of pieces during one interval of a motion: each is proven apart for all of it,
-/// divided, or put on the list of those that shorter intervals start from (the front list of Pan,
-/// Chitta, Manocha 2012, section IV, here carried from an interval to its parts).
+/// Examines pairs of pieces during one interval of a motion. Each pair is proven apart for the
+/// whole interval, divided, or put on the list with which shorter intervals start (the front list
+/// of Pan, Chitta, Manocha 2012, section IV, here passed from an interval to its parts).
 ///
-/// A pair is divided as long as its pieces are not small beside how far they approach: where they
-/// are, a shorter interval proves more than smaller pieces do. Bounds are directional, with the
-/// motion of each node by itself (as in C2A: Tang, Kim, Manocha 2009).
+/// A pair is divided as long as its pieces are large compared to their approach. After that, a
+/// shorter interval proves more than smaller pieces do. Bounds are directional and use each node's
+/// own motion (as in C2A: Tang, Kim, Manocha 2009).
 class SliceDescent {
  public:
   struct Goal {
@@ -36,30 +36,30 @@ class SliceDescent {
     /// interval follows.
     double divideBelow;
   };
-  /// Refers to all of them. `open` is added to.
+  /// Refers to all arguments. Appends to `open`.
   SliceDescent(const Side& a, const Side& b, const MotionSlice& slice, const Goal& goal,
                std::vector<OpenPair>& open, ContinuousEffort& effort);
 
   void look(const OpenPair& pair);
 
-  /// Of half the interval, before its middle and after: for how much of it pairs are apart.
+  /// The parts of half the interval, before its middle and after, for which pairs are apart.
   struct Proven {
     double before = 1.0;
     double after = 1.0;
   };
 
-  /// Two points (m, a's frame) at most the margin apart at the middle. Pairs looked at afterwards
-  /// are put on the list as they are; the pair in contact comes first of those added.
+  /// Two points (m, a's frame) at most the margin apart at the middle. Pairs that come after them
+  /// go on the list untested; the pair in contact is the first one added.
   struct Contact {
     Eigen::Vector3d pointA;
     Eigen::Vector3d pointB;
   };
   const std::optional<Contact>& contact() const { return contact_; }
-  /// What is proven of all pairs.
+  /// The part proven for all pairs.
   const Proven& proven() const { return proven_; }
-  /// m. No pair left open approaches by more within half the interval.
+  /// m. Upper bound on the approach of all pairs left open, within half the interval.
   double approach() const { return approach_; }
-  /// The pair whose proof ends first after the middle, if it is one of leaves.
+  /// The pair whose proof ends first after the middle, if it is a pair of leaves.
   const std::optional<OpenPair>& nearest() const { return nearest_; }
 
  private:
@@ -68,7 +68,7 @@ class SliceDescent {
     PartMotion motion;
   };
   Part part(bool ofA, const Piece& piece) const { return {piece, motions_.of(ofA, piece)}; }
-  /// What is known of a pair before it is looked at closely.
+  /// What is known about a pair before it is examined closely.
   struct Known {
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< from a to b, a's frame; or zero
     Proven proven{0.0, 0.0};

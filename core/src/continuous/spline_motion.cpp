@@ -60,7 +60,7 @@ Curve derivative(const Curve& curve) {
   return result;
 }
 
-/// NaN if either is: a bound that is not known is none.
+/// NaN if either is: then there is no bound.
 double larger(double a, double b) {
   return a > b || std::isnan(a) ? a : b;
 }
@@ -99,7 +99,7 @@ Matrix3d exponential(const Vector3d& turn) {
 }
 
 /// The left Jacobian of the rotation group applied to a vector: the angular velocity of
-/// exp(rotation) where the rotation vector changes by `rate`.
+/// exp(rotation) if the rotation vector changes by `rate`.
 Vector3d leftJacobian(const Vector3d& rotation, const Vector3d& rate) {
   const double squared = rotation.squaredNorm();
   const Vector3d once = rotation.cross(rate);
@@ -234,7 +234,7 @@ MotionRates SplineMotion::rates(double from, double to) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, from, to] { return SplineMotion::rates(from, to); });
   }
-  // t times the number of spans rounds: an end may belong to either of two.
+  // t times the number of spans rounds: an end may belong to either of two spans.
   const Place first = placeOf(from - 1e-14, spans_), last = placeOf(to + 1e-14, spans_);
   MotionRates most;
   double turnRate = 0.0, turnChange = 0.0;
@@ -257,8 +257,8 @@ MotionRates SplineMotion::rates(double from, double to) const {
   return most;
 }
 
-// Lengths of control vectors bound those of the curve; its derivative's are at most 2 degree spans
-// times as long, and round in proportion.
+// Lengths of control vectors bound those of the curve. Those of its derivative are at most 2 degree
+// spans times as long, and round in proportion.
 double SplineMotion::rounding(double reach) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, reach] { return SplineMotion::rounding(reach); });

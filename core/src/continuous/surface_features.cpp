@@ -11,8 +11,8 @@ namespace swept::detail {
 
 namespace {
 
-/// Surfaces around busier triangles than this are marked without a look at each pair: in a fan of n
-/// triangles there are n^2 of them.
+/// Surfaces around busier triangles than this are marked without testing each pair: a fan of n
+/// triangles has n^2 of them.
 constexpr std::size_t kMostNeighbours = 96;
 
 struct EdgeUse {
@@ -138,8 +138,8 @@ int SurfaceFeatures::leastBusy(std::span<const int> candidates) const {
                            [this](int t, int u) { return neighbours(t) < neighbours(u); });
 }
 
-/// Every triangle of a feature has a common vertex with every triangle of its fellow orphan: so all
-/// of the latter are neighbours of any one of the former.
+/// Every triangle of a feature shares a vertex with every triangle of its fellow orphan. So all
+/// triangles of the latter are neighbours of any one of the former.
 void SurfaceFeatures::markOrphans(std::size_t vertices) {
   const auto mark = [this](std::span<const int> all) {
     for (const int t : all) marks_[static_cast<std::size_t>(t)] = 1;

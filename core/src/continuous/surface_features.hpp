@@ -10,22 +10,22 @@
 
 namespace swept::detail {
 
-/// Connectivity of triangles: which share a vertex, which an edge, by index.
+/// Connectivity of triangles: which share a vertex or an edge, by index.
 ///
-/// Two triangles with a common vertex touch always, so that only those without one are tested
-/// against each other. A vertex and a face, or two edges, without a common vertex are covered when
-/// two triangles they belong to have no common vertex either; else they are orphans (Tang, Curtis,
-/// Yoon, Manocha 2009, "ICCD", section 4) and need a test of their own. A closed surface of the
-/// usual kind has none.
+/// Two triangles with a common vertex always touch, so only pairs without one are tested against
+/// each other. A vertex and a face, or two edges, without a common vertex are covered if they
+/// belong to two triangles that have no common vertex either. Otherwise they are orphans (Tang,
+/// Curtis, Yoon, Manocha 2009, "ICCD", section 4) and need their own test. A usual closed surface
+/// has none.
 class SurfaceFeatures {
  public:
   SurfaceFeatures(std::size_t vertices, std::span<const Eigen::Vector3i> triangles);
 
   const std::vector<Eigen::Vector3i>& triangles() const { return triangles_; }
   const Eigen::Vector3i& triangle(int t) const { return triangles_[static_cast<std::size_t>(t)]; }
-  /// Of each triangle: the connected piece it belongs to, from 0.
+  /// Per triangle: its connected piece, from 0.
   const std::vector<int>& pieces() const { return pieces_; }
-  /// Of each triangle: not 0 if it may have an orphan. All triangles of an orphan's features have.
+  /// Per triangle: not 0 if it may have an orphan. All triangles of an orphan's features have.
   const std::vector<std::uint8_t>& marks() const { return marks_; }
 
   /// In ascending order.
@@ -37,7 +37,7 @@ class SurfaceFeatures {
   /// Triangles with this edge, in ascending order.
   std::span<const int> beside(int edge) const;
 
-  /// For a vertex that is none of the face's.
+  /// For a vertex that is not one of the face's.
   bool isOrphan(int vertex, int face) const;
   /// For edges without a common vertex.
   bool areOrphans(int edge, int other) const;

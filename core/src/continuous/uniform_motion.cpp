@@ -14,11 +14,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// rad. Below it a screw's axis is so far away that its place is lost to rounding, by more than the
-/// screw differs from a straight line between the same ends.
+/// rad. Below it a screw's axis is so far away that its position is lost to rounding, by more than
+/// the screw differs from a straight line between the same ends.
 constexpr double kHardlyTurns = 1e-7;
 
-/// The rotation vector, of the least length, that turns one orientation into another.
+/// The shortest rotation vector that takes one orientation to the other.
 Vector3d turnBetween(const Matrix3d& start, const Matrix3d& end) {
   const Eigen::AngleAxisd turn(Eigen::Quaterniond(Matrix3d(end * start.transpose())).normalized());
   return turn.angle() * turn.axis();
@@ -62,8 +62,8 @@ UniformMotion UniformMotion::interpolation(const Isometry3d& start, const Isomet
           reference};
 }
 
-// Chasles: with the displacement d of the origin and the turn by theta about u, a point of the axis
-// is the origin's middle plus (u x d) / (2 tan(theta / 2)).
+// Chasles: with the displacement d of the origin and the rotation by theta about u, a point of the
+// axis is the origin's middle plus (u x d) / (2 tan(theta / 2)).
 UniformMotion UniformMotion::screw(const Isometry3d& start, const Isometry3d& end) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return UniformMotion::screw(start, end); });
@@ -122,7 +122,7 @@ MotionRates UniformMotion::rates(double from, double to) const {
   return {displacement_.norm() * (1.0 + 1e-15), 0.0, angle_ * (1.0 + 1e-15), 0.0};
 }
 
-// An angle of many turns is known to an ulp of itself only.
+// An angle of many turns is known only to an ulp of itself.
 double UniformMotion::rounding(double reach) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, reach] { return UniformMotion::rounding(reach); });

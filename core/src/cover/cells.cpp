@@ -26,7 +26,7 @@ std::uint32_t sidesOf(int corner) {
   return sides;
 }
 
-/// Points in one cube of a coarse grid become one point, whose blur is what they are off by.
+/// Points in one cube of a coarse grid become one point; its blur is their distance from it.
 double thinOut(std::vector<Vector3d>& points) {
   constexpr std::size_t kGrid = 4;
   const auto [lower, upper] = Aabb::fit(points);
@@ -58,8 +58,8 @@ double thinOut(std::vector<Vector3d>& points) {
 
 /// The corners at the other ends of edges that the surface does not meet. An edge lies in two sides
 /// of the box, and a patch that meets it, cut a margin m beyond both, has a corner within two
-/// margins of both: with y and z from the two sides inward, y >= -m and z >= -m on the patch and
-/// y + z <= 0 at some corner, so that y <= m and z <= m there, up to the rounding of the cuts.
+/// margins of both. With y and z inward from the two sides, y >= -m and z >= -m on the patch and y
+/// + z <= 0 at some corner, so y <= m and z <= m there, up to the rounding of the cuts.
 std::uint32_t freeNeighbours(std::span<const std::uint32_t> touched, int corner) {
   std::uint32_t free = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,7 +72,7 @@ std::uint32_t freeNeighbours(std::span<const std::uint32_t> touched, int corner)
   return free;
 }
 
-/// The extremes first: a ball that does not contain all fails early.
+/// The extremes first: a ball that does not contain all of them fails early.
 void extremesFirst(std::vector<Vector3d>& points) {
   std::size_t front = 0;
   for (int axis = 0; axis < 3 && front + 2 <= points.size(); ++axis) {
@@ -88,7 +88,7 @@ void extremesFirst(std::vector<Vector3d>& points) {
   }
 }
 
-/// Adds what clipPolygon() leaves of a patch. Most patches are on one side.
+/// Adds the part of a patch that clipPolygon() leaves. Most patches are on one side.
 void addPart(std::span<const Vector3d> polygon, int triangle, int axis, double at, double side,
              Cell& half) {
   const auto kept = static_cast<std::size_t>(
@@ -229,7 +229,7 @@ std::uint32_t Cells::cornersInside(const Cell& cell) {
   std::array<bool*, 8> answers{};
   std::uint32_t known = 0;
   std::uint32_t inside = 0;
-  std::uint32_t told = 0;  // have passed on what is known of them
+  std::uint32_t told = 0;  // have passed their result on
   for (int i = 0; i < 8; ++i) {
     const std::uint32_t sides = sidesOf(i);
     if (std::any_of(touched.begin(), touched.end(),
@@ -264,7 +264,7 @@ std::uint32_t Cells::cornersInside(const Cell& cell) {
 }
 
 bool Cells::middleIsSolid(const Cell& cell) {
-  // No surface between the middle and the corners.
+  // There is no surface between the middle and the corners.
   for (int i = 0; i < 8; ++i) {
     const Vector3d corner = cornerOf(cell, i);
     const auto known = corners_.find({corner.x(), corner.y(), corner.z()});

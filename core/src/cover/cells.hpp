@@ -11,7 +11,7 @@
 
 namespace swept::detail {
 
-/// A box and what of the shape is in it.
+/// A box and the part of the shape in it.
 struct Cell {
   /// A convex part of a triangle, or a point.
   struct Patch {
@@ -32,8 +32,8 @@ struct Cell {
   double size() const { return (upper - lower).maxCoeff(); }
   /// Whether the ball contains the content.
   bool isIn(const Eigen::Vector3d& center, double radius) const;
-  /// m, distance of the middle from some point of the surface in the cell; of those looked at the
-  /// least.
+  /// m, distance of the middle from some point of the surface in the cell: the least of those
+  /// tested.
   double nearest() const;
   /// m, radius of the least ball around `center` that contains the content.
   double farthest(const Eigen::Vector3d& center) const;
@@ -45,7 +45,7 @@ struct Cell {
 /// the corners of C in S. Proof: a linear function over S in C is largest at a point of the
 /// surface, or at an interior point of S; the latter is then a local and so the global maximum over
 /// C, and the face of C through it on which the function is constant either meets the surface or
-/// lies in S, with a corner of C. A box without surface is in S or outside it as its middle is.
+/// lies in S, with a corner of C. A box without surface is in S or outside it, as its middle is.
 ///
 /// Rounding: triangles are cut a little beyond the sides of the boxes (`margin_`), so where it is
 /// uncertain whether a corner is in S, the surface beside it counts as content. What the cuts
@@ -54,10 +54,9 @@ class Cells {
  public:
   explicit Cells(const Solid& solid);
   Cell root() const;
-  /// Appends the halves, across the longest side, that have content.
+  /// Appends the halves with content, divided across the longest side.
   void split(const Cell& cell, std::vector<Cell>& out);
-  /// Whether halving it again means something in double precision, and the work allowed is not
-  /// done.
+  /// Whether halving it again is meaningful in double precision, and work is left.
   bool canSplit(const Cell& cell) const {
     return cell.size() > 1e3 * margin_ && splits_ < kMostSplits;
   }
@@ -72,7 +71,7 @@ class Cells {
   std::uint32_t cornersInside(const Cell& cell);
   bool middleIsSolid(const Cell& cell);
 
-  /// Links to a hundredth of their size need some ten thousand.
+  /// For links at a hundredth of their size some ten thousand suffice.
   static constexpr int kMostSplits = 1 << 19;
 
   const Solid& solid_;

@@ -20,19 +20,19 @@ constexpr double kDeepest = 8.0;       // deeper balls are hardly flatter at thi
 constexpr double kSameCenter = 0.3;    // balls this close together, and not deeper by more than
 constexpr double kSameDepth = 0.1;     // this, count as known
 
-// A cell in a ball of this part of the radius needs no ball of its own.
+// A cell in a ball reduced to this part of its radius needs no ball of its own.
 constexpr double kAmply = 0.9;
 
-/// Of an overhang: the smaller the cells, the fewer balls do, and the more time it takes; coarse
-/// levels have few cells anyway.
+/// Relative to an overhang. Smaller cells need fewer balls, but more time; coarse levels have few
+/// cells anyway.
 double cellFactor(double relativeOverhang) {
   if (relativeOverhang > 0.2) return 0.8;
   if (relativeOverhang > 0.1) return 1.25;
   return relativeOverhang > 0.06 ? 1.75 : 3.0;
 }
 
-/// Overhangs from about a quarter of the radius down, by halves; the last step is at most 1.4 times
-/// one. A little more than a quarter: eight balls can do for a cube.
+/// Overhangs from about a quarter of the radius down, by halves; the last step is at most a factor
+/// 1.4. They start a little above a quarter, since eight balls can be enough for a cube.
 std::vector<LevelAim> aimsOf(double radius, const SphereCoverOptions& options) {
   constexpr double kFirst = 0.26;
   constexpr double kLeast = 1e-3;
@@ -91,7 +91,7 @@ bool CoverBuilder::addLevel(int level, const LevelAim& aim) {
     if (nodes_[i].childCount > 0 || nodes_[i].beyond <= aim.overhang) continue;
     std::vector<Node> children = childrenOf(nodes_[i], level, aim);
     if (children.size() == 1 && children.front().radius <= nodes_[i].radius) {
-      // One better ball takes the place of its parent.
+      // One better ball replaces its parent.
       children.front().level = nodes_[i].level;
       nodes_[i] = std::move(children.front());
       continue;
@@ -149,8 +149,8 @@ std::vector<CoverBuilder::Node> CoverBuilder::childrenOf(Node& node, int level,
   return children;
 }
 
-/// Divides the node's cells with surface until each is small for this level and in one of the
-/// balls, and finds these balls. Returns the solid cells.
+/// Divides the node's cells with surface until each is small enough for this level and in one of
+/// the balls, and finds these balls. Returns the solid cells.
 std::vector<Cell> CoverBuilder::refine(std::vector<Cell> pending, double mostDepth,
                                        const LevelAim& aim, Division& division) {
   std::vector<Cell> solids;
@@ -188,7 +188,7 @@ void CoverBuilder::chooseFor(Division& division, std::size_t first) {
   std::vector<std::vector<int>> sets(division.balls.size());
   const std::size_t count = division.cells.size() - first;
   if (count == 0) return;
-  // Most cells are clearly in a ball or clearly not; these are looked at in one go.
+  // Most cells are clearly in a ball or clearly not; these are tested in one pass.
   struct Ends {
     Vector3d middle;
     double reach;
@@ -224,9 +224,9 @@ void CoverBuilder::chooseFor(Division& division, std::size_t first) {
   }
 }
 
-/// The balls chosen for the surface contain most of the inside: cells go to one that contains them,
-/// halved while it seems that several share them. The rest, deep inside, waits for a choice of its
-/// own.
+/// The balls chosen for the surface contain most of the inside. Cells go to a ball that contains
+/// them, and are halved while several balls seem to share them. The rest, deep inside, waits for
+/// its own choice.
 void CoverBuilder::placeSolids(std::vector<Cell> pending, double delta, Division& division) {
   std::vector<Cell> left;
   const auto reachesMiddle = [&](const Cell& cell) {
@@ -288,8 +288,8 @@ void CoverBuilder::suggest(const Cell& cell, double mostDepth, double delta,
   if (!known) balls.push_back({*place, place->depth + delta});
 }
 
-/// Whether one of the balls contains the cell, or one around the cell's middle, which is then
-/// added; certainly when the cell is too small to be halved.
+/// Whether one of the balls contains the cell, or a ball around the cell's middle, which is then
+/// added. Always true if the cell is too small to be halved.
 bool CoverBuilder::isCovered(const Cell& cell, double delta, bool divisible,
                              std::vector<Ball>& balls) {
   const auto contains = [&cell](const Ball& ball) {
@@ -320,8 +320,8 @@ SphereCover::Node CoverBuilder::finished(const Node& node) const {
   return out;
 }
 
-/// The depth known of the centre, or what an inner ball leaves around it. Depths that the search
-/// for inscribed balls cut short are measured where the ball is for more than one leaf.
+/// The known depth of the centre, or what an inner ball leaves around it. Depths that the search
+/// for inscribed balls cut short are measured if the ball is for more than one leaf.
 void CoverBuilder::findInsides(SphereCover& cover) const {
   for (std::size_t i = 0; i < cover.nodes.size(); ++i) {
     SphereCover::Node& node = cover.nodes[i];
@@ -340,7 +340,7 @@ void CoverBuilder::findInsides(SphereCover& cover) const {
   }
 }
 
-/// The deepest, each reaching beyond those before by at least half its radius.
+/// The deepest balls, each reaching beyond those before by at least half its radius.
 std::vector<CoverBall> CoverBuilder::innerBalls() const {
   constexpr float kBeyond = 0.5F;     // of the radius
   constexpr double kSmallest = 0.05;  // of the largest

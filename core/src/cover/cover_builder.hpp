@@ -15,11 +15,11 @@ struct LevelAim {
 };
 
 /// Grows the tree of a cover level by level. A node owns the cells whose content its ball contains;
-/// its children share them out.
+/// its children share them.
 ///
 /// A ball around a candidate c of radius depth(c) + delta reaches at most delta beyond the shape.
-/// So with inscribed balls as candidates a level of overhang delta is a set cover of its cells, and
-/// deep balls, which lie flat against the surface, need few.
+/// So with inscribed balls as candidates, a level of overhang delta is a set cover of its cells.
+/// Deep balls lie flat against the surface, so few are needed.
 class CoverBuilder {
  public:
   CoverBuilder(const Shape& shape, const SphereCoverOptions& options);
@@ -36,19 +36,19 @@ class CoverBuilder {
     std::vector<Cell> cells;
     std::vector<Candidate> pool;
   };
-  /// A candidate and how large a ball it stands for.
+  /// A candidate and the radius of the ball it stands for.
   struct Ball {
     Candidate place;
     double radius;  ///< m
   };
 
-  /// How a node's content is shared out.
+  /// How the children share a node's content.
   struct Division {
     std::vector<Cell> cells;
     std::vector<Ball> balls;
     std::vector<int> chosen;                 ///< of the balls: the children
     std::vector<int> owner;                  ///< per cell: index into `chosen`
-    std::size_t placed = 0;                  ///< the first cells, as far as they have an owner
+    std::size_t placed = 0;                  ///< number of first cells that have an owner
     std::vector<std::vector<int>> usefulTo;  ///< per ball: owners of cells that it contains
   };
 

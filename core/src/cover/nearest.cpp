@@ -43,7 +43,7 @@ void considerTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, c
   const double acac = ac.squaredNorm();
   const double determinant = abab * acac - abac * abac;
   const double inverse = inverseOf(determinant);
-  // Of a sliver the sides decide, whatever the inner coordinates say.
+  // For a sliver the sides decide, whatever the inner coordinates say.
   const bool sliver = !(determinant > kSliver * abab * acac) || inverse == 0.0;
   const double height = ap.dot(ab.cross(ac));  // times the length of the normal
   if (!sliver && height * height > best.squared * determinant) return;

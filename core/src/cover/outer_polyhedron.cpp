@@ -33,9 +33,9 @@ double circleSlack() {
   return kRoundUp / std::cos(std::numbers::pi / kSides) - 1.0 + 1e-12;
 }
 
-/// Points whose hull contains the unit ball: the grid points of an octahedron's faces pushed out to
-/// one radius. A polyhedron around the centre contains the ball that touches the nearest of the
-/// planes of its faces.
+/// Points whose hull contains the unit ball: the grid points of an octahedron's faces, pushed out
+/// to one radius. A polyhedron around the centre contains the ball that touches the nearest plane
+/// of its faces.
 struct OuterBall {
   std::vector<Vector3d> points;
   double slack = 0.0;

@@ -21,9 +21,9 @@ OuterPoints outerPoints(const Cone& cone);
 OuterPoints outerPoints(const Ellipsoid& ellipsoid);
 OuterPoints outerPoints(const Triangle& triangle);
 
-/// Hull with a volume that contains the points and keeps within `slack` of their hull: the hull
-/// itself where it has a volume, else of a small octahedron around each point. No faces when all
-/// points are one.
+/// A hull with a volume that contains the points and stays within `slack` of their hull: the hull
+/// itself if it has a volume, else that of a small octahedron around each point. No faces if all
+/// points coincide.
 struct ThickHull {
   ConvexHull hull;
   double slack = 0.0;  ///< m

@@ -19,7 +19,7 @@ Pockets::Pockets(std::span<const Vector3d> vertices, std::span<const Eigen::Vect
   for (int axis = 0; axis < 3; ++axis) {
     counts_[axis] = static_cast<int>((upper[axis] - lower[axis]) / cell_) + 4;
   }
-  // No triangle reaches the outermost layer, whatever rounds.
+  // No triangle reaches the outermost layer, whatever the rounding.
   origin_ = lower - Vector3d::Constant(1.5 * cell_);
   kinds_.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2], Kind::Unreached);
   const Parts parts = partsOf(vertices, triangles);
@@ -80,7 +80,7 @@ void Pockets::divide(std::span<const Vector3d> polygon, const Index& first, cons
   }
 }
 
-/// The skin: whole triangles where no part is within.
+/// The skin consists of whole triangles where no part is within.
 void Pockets::peel(const Parts& parts, std::span<const Vector3d> vertices,
                    std::span<const Eigen::Vector3i> triangles) {
   std::vector<bool> isWithin(triangles.size(), false);

@@ -10,29 +10,29 @@
 
 namespace swept::detail {
 
-/// What an open mesh surrounds, at the resolution of a grid: cells that no walk from the outside
-/// through cells without triangles reaches. Collision meshes of links are often shells with slits
-/// and parts inside, and a large ball serves them as well as it does a solid. Guides where balls
-/// go; nothing proven rests on it.
+/// The space that an open mesh surrounds, at the resolution of a grid: cells that no path from the
+/// outside through cells without triangles reaches. Collision meshes of links are often shells with
+/// slits and parts inside, and a large ball serves them as well as it does a solid. It guides the
+/// placement of balls; no proof depends on it.
 class Pockets {
  public:
   Pockets(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles);
   bool areNone() const { return areNone_; }
-  /// Whether some of the triangle is next to the outside; the others are within.
+  /// Whether some part of the triangle borders on the outside; other triangles are within.
   bool isSkin(int triangle) const { return isSkin_[triangle]; }
-  /// Those triangles, or the parts of them next to the outside where others are within.
+  /// These triangles, or the parts of them that border on the outside if other parts are within.
   const std::vector<Eigen::Vector3d>& skinVertices() const { return skinVertices_; }  ///< m
   const std::vector<Eigen::Vector3i>& skinTriangles() const { return skinTriangles_; }
-  /// False where contain() is false whatever the distance.
+  /// False if contain() is false at any distance.
   bool mayContain(const Eigen::Vector3d& p) const { return kindAt(p) != Kind::Outside; }
   /// Whether a point is within; `toSkin`: m, its distance from the nearest triangle of the skin.
   bool contain(const Eigen::Vector3d& p, double toSkin) const;
 
  private:
   using Index = std::array<int, 3>;
-  /// Within and Skin: occupied, and known not to touch, or to touch, the outside.
+  /// Within and Skin cells are occupied, and known not to touch, or to touch, the outside.
   enum class Kind : std::uint8_t { Unreached, Occupied, Within, Skin, Outside };
-  /// Of a triangle in a cell.
+  /// The part of a triangle in a cell.
   struct Part {
     Index cell;
     int triangle;

@@ -14,7 +14,7 @@ using Sets = std::vector<std::vector<int>>;
 std::vector<int> choose(const std::vector<double>& weights, const Sets& sets) {
   std::vector<int> times(weights.size(), 0);  // covered by the sets chosen
   std::vector<int> chosen;
-  std::vector<std::pair<double, int>> heap;  // weight missing when last summed, -index
+  std::vector<std::pair<double, int>> heap;  // weight still missing at the last sum, -index
   const auto missing = [&](int index) {
     double sum = 0.0;
     for (const int element : sets[index]) sum += times[element] == 0 ? weights[element] : 0.0;
@@ -28,7 +28,7 @@ std::vector<int> choose(const std::vector<double>& weights, const Sets& sets) {
     std::pop_heap(heap.begin(), heap.end());
     const int index = -heap.back().second;
     heap.pop_back();
-    // Gains only shrink, so the heap's first entry is the best when it is up to date.
+    // Gains only shrink, so the first entry of the heap is the best one if it is up to date.
     const std::pair<double, int> now(missing(index), -index);
     if (!(now.first > 0.0)) continue;
     if (!heap.empty() && now < heap.front()) {

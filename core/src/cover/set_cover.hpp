@@ -5,11 +5,11 @@
 
 namespace swept::detail {
 
-/// Few of the sets whose union is that of all: greedily the set with the most elements that are
-/// still missing (Chvatal 1979, "A greedy heuristic for the set-covering problem"), the first of
-/// equals, then without those that later choices made superfluous; or the same with elements that
-/// few sets have weighing more, if that gives fewer sets. Elements are 0 to `elements` - 1. The
-/// sets chosen, in order of choice.
+/// Few of the sets, with the same union as all of them. Greedy: the set with the most missing
+/// elements is next (Chvatal 1979, "A greedy heuristic for the set-covering problem"), the first
+/// among equals; then sets that later choices made superfluous are dropped. It also tries larger
+/// weights for elements that few sets have, and uses the result with fewer sets. Elements are 0 to
+/// `elements` - 1. Returns the chosen sets in order of choice.
 std::vector<int> greedyCover(int elements, const std::vector<std::vector<int>>& sets);
 
 }  // namespace swept::detail

@@ -59,7 +59,8 @@ Solid::Solid(const Shape& shape) {
     mesh_ = *mesh;
   } else if (const auto* cloud = std::get_if<PointCloud>(&shape)) {
     cloud_ = *cloud;
-    // The points grown by the largest radius contain the shape, and are in it grown by the slack.
+    // The points grown by the largest radius contain the shape, and lie in the shape grown by the
+    // slack.
     inflation_ = cloud->largestRadius();
     slack_ = inflation_ - cloud->leastRadius();
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -94,8 +95,8 @@ Solid::Solid(const Shape& shape) {
   for (const Vector3d& vertex : vertices())
     scale_ = std::max(scale_, vertex.lpNorm<Eigen::Infinity>());
   // A path of at most 100 cuts (Cells::canSplit) moves a corner by 8 roundings each, 1e-13 of the
-  // scale; what is uncertain about points within rounding of the surface is 1e-14 of it. The corner
-  // of a patch may stand for that of a box 2e-12 of the scale away along each axis.
+  // scale; the uncertainty of points within rounding of the surface is 1e-14 of it. The corner of a
+  // patch may stand for that of a box 2e-12 of the scale away along each axis.
   constexpr double kPad = 1e-11;
   pad_ += kPad * scale_;
 }
@@ -111,7 +112,7 @@ void Solid::useHull(const ConvexHull& hull, double slack) {
     if (mesh_->isClosed()) return;
     mesh_.reset();
   }
-  // One point, or too small for a polyhedron in double precision: a ball around all of it.
+  // One point, or too small for a polyhedron in double precision: one ball around all of it.
   const Aabb box = boundingBox(hull);
   const double reach = 0.5 * (box.upper - box.lower).lpNorm<1>();
   usePoints(std::array{box.center()}, 0.0);
@@ -156,8 +157,8 @@ void Solid::findPockets() {
   skin_ = std::make_unique<const Surface>(pockets_->skinVertices(), pockets_->skinTriangles());
 }
 
-/// Parts inside a link, or links made of parts that overlap, have triangles within the solid; they
-/// bound no ball in the shell around them. Small parts are not worth the trouble.
+/// Parts inside a link, or links made of overlapping parts, have triangles within the solid. These
+/// bound no ball in the shell around them. Small parts are not worth the effort.
 void Solid::findShells() {
   constexpr double kLarge = 0.2;
   if (mesh_->report().closedComponents < 2) return;
@@ -278,9 +279,9 @@ double Solid::overhang(const Candidate& candidate, double radius) const {
   return farthestFromSurface(candidate.center, radius, distance(*nearest_, candidate.center));
 }
 
-/// Upper bound of the distance to the surface over a ball: its values change by no more than the
-/// way gone, so a cube around a point has none above the value there plus half its diagonal. The
-/// cube with the largest bound is split until the work is done.
+/// Upper bound of the distance to the surface over a ball. The distance is 1-Lipschitz, so over a
+/// cube it is at most the value at the centre plus half the diagonal. The cube with the largest
+/// bound is split until the work is used up.
 double Solid::farthestFromSurface(const Vector3d& center, double radius, double atCenter) const {
   constexpr int kEvaluations = 25;
   struct Cube {
@@ -290,7 +291,7 @@ double Solid::farthestFromSurface(const Vector3d& center, double radius, double 
     double here;
     bool operator<(const Cube& other) const { return bound < other.bound; }
   };
-  // Of any point looked at: none is farther from the centre than 3 radii, in the 1-norm.
+  // Bound for any tested point: none is farther from the centre than 3 radii, in the 1-norm.
   const double error = nearest_->error(center) + 12e-6 * radius + slack_;
   std::priority_queue<Cube> cubes;
   cubes.push({atCenter + radius, center, radius, atCenter});

@@ -18,20 +18,20 @@
 
 namespace swept::detail {
 
-/// A point where a ball may go.
+/// A candidate centre of a ball.
 struct Candidate {
   Eigen::Vector3d center;  ///< m
   /// m. Positive inside: the ball of this radius is part of the solid. Negative outside: some point
   /// of the shape is this near.
   double depth;
-  /// The depth is that in the shape with its pockets filled, and not proven.
+  /// The depth counts pockets as filled, and is not proven.
   bool inPocket = false;
 };
 
-/// Points that the last balls touched, to start the next search with: those near it shrink the ball
-/// as a search would. Whatever they are, the ball found is proven.
+/// Points that the last balls touched, to start the next search: nearby points shrink the ball as a
+/// search would. The ball found is proven in any case.
 struct Contacts {
-  const Nearest* of = nullptr;            ///< whose points they are
+  const Nearest* of = nullptr;            ///< the search that they belong to
   std::array<Eigen::Vector3d, 8> points;  ///< m
   int count = 0;
   int next = 0;
@@ -42,13 +42,13 @@ struct Contacts {
   }
 };
 
-/// What a cover is built from: triangles (those of a mesh, or of a polyhedron that contains a
-/// convex shape) or points, each grown by a radius.
+/// The input of a cover: triangles (those of a mesh, or of a polyhedron that contains a convex
+/// shape) or points, each grown by a radius.
 ///
 /// Lemma (convex shapes): let the polyhedron P contain the shape S and be contained in S grown by
-/// s. Where a ball of radius d is in P, one of radius d - s is in S (cancel the ball of radius s on
-/// both sides of B(d - s) + B(s) within S + B(s): Radstrom 1952), and where a point is at distance
-/// d from P it is at most d + s from S. So depths in S are at least those in P minus `slack`.
+/// s. If a ball of radius d is in P, one of radius d - s is in S (cancel the ball of radius s on
+/// both sides of B(d - s) + B(s) within S + B(s): Radstrom 1952). If a point is at distance d from
+/// P, it is at most d + s from S. So depths in S are at least those in P minus `slack`.
 class Solid {
  public:
   /// Throws std::invalid_argument for planes and half-spaces.
@@ -60,30 +60,30 @@ class Solid {
   /// Empty for points.
   std::span<const Eigen::Vector3i> triangles() const;
 
-  /// False for surfaces without pockets, flat shapes and points: no ball is inside.
+  /// False for surfaces without pockets, flat shapes and points: they contain no ball.
   bool hasDepth() const { return (hasInside_ && !isFlat_) || pockets_; }
   /// Whether anything is enclosed.
   bool hasInside() const { return hasInside_; }
-  /// Proven, up to the rounding that TriangleMesh::encloses() speaks of.
+  /// Proven, up to the rounding that TriangleMesh::encloses() describes.
   bool encloses(const Eigen::Vector3d& p) const { return mesh_ && mesh_->encloses(p); }
-  /// Proven lower bound. `near`: m, some point of the surface is no farther, as far as known; makes
-  /// the search short.
+  /// Proven lower bound. `near`: m, an upper bound on the distance to the surface, as far as known;
+  /// it shortens the search.
   Candidate at(const Eigen::Vector3d& p,
                double near = std::numeric_limits<double>::infinity()) const;
-  /// m, of `at()` without pockets: always proven.
+  /// m, depth of `at()` without pockets: always proven.
   double depth(const Eigen::Vector3d& p,
                double near = std::numeric_limits<double>::infinity()) const;
-  /// What at() finds of a point that is known to be enclosed.
+  /// The result of at() for a point that is known to be enclosed.
   Candidate inside(const Eigen::Vector3d& p) const;
   /// A ball of at most `radius` (m) inside the solid, or in a pocket, that touches the surface at
-  /// `foot`, a point of a triangle; none where there is no room, and at triangles in a pocket.
+  /// `foot`, a point of a triangle; none if there is no room, and for triangles in a pocket.
   std::optional<Candidate> inscribed(const Eigen::Vector3d& foot, int triangle, double radius,
                                      Contacts& contacts) const;
   /// m, proven: no point of the ball is farther than this from the shape.
   double overhang(const Candidate& candidate, double radius) const;
 
   double inflation() const { return inflation_; }  ///< m, radius of what is around the points
-  /// m. Rounding of clipped points, and what a hull left out: to be added to radii.
+  /// m. Rounding of clipped points, and the error of a hull: must be added to radii.
   double pad() const { return pad_; }
   double scale() const { return scale_; }  ///< m, no coordinate is larger
 
@@ -101,7 +101,7 @@ class Solid {
     Surface(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> unordered,
             const TreeTopology& tree);
   };
-  /// One closed component of several. It is part of the solid whatever the others do within it.
+  /// One closed component of several. It is part of the solid whatever the others are inside it.
   struct Shell {
     Shell(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> unordered,
           const Aabb& box, bool oriented);
@@ -109,7 +109,7 @@ class Solid {
     ClosedComponent component;
     bool encloses(const Eigen::Vector3d& p) const { return detail::encloses(component, p); }
   };
-  /// What bounds a ball: triangles, and the component that it has to stay in, if it is one.
+  /// The bounds of a ball: triangles, and the component that it must stay in, if there is one.
   struct Hollow {
     const Nearest& nearest;
     const Shell* shell;
@@ -117,7 +117,7 @@ class Solid {
 
   void findPockets();
   void findShells();
-  /// m, of an enclosed point that is this far from the nearest triangle.
+  /// m, depth of an enclosed point that is this far from the nearest triangle.
   double depthIn(const Eigen::Vector3d& p, double toTriangles) const;
   /// `wrongSide` receives whether there was room on that side, but outside.
   std::optional<Candidate> inscribedAlong(const Eigen::Vector3d& foot,

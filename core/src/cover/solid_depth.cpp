@@ -13,13 +13,13 @@ namespace swept {
 
 namespace {
 
-// A ball that no triangle reaches into is wholly inside if its centre is: winding numbers and
-// parities change at triangles only.
+// If no triangle reaches into a ball, the ball is wholly inside exactly if its centre is: winding
+// numbers and parities change only at triangles.
 double meshDepth(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
   if (!mesh.encloses(point)) return 0.0;
   const detail::Nearest nearest(mesh.vertices(), mesh.triangles(), mesh.bvh());
   const detail::Nearest::Found found = nearest.find(point, std::numeric_limits<double>::infinity());
-  if (!std::isfinite(found.squared)) return 0.0;  // squares that overflow find nothing
+  if (!std::isfinite(found.squared)) return 0.0;  // overflowing squares find nothing
   return std::sqrt(found.squared) * (1.0 - 1e-15) - nearest.error(point);
 }
 

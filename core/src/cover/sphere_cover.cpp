@@ -12,7 +12,7 @@
 namespace swept {
 namespace {
 
-/// Between these the fourth powers of a thousandth of a size, and the squares in single precision,
+/// Between these, the fourth powers of a thousandth of a size, and the squares in single precision,
 /// are normal numbers.
 constexpr double kSmallestRadius = 1e-15;
 constexpr double kLargestRadius = 1e15;
@@ -24,7 +24,7 @@ void requireOption(const char* name, double value, double least) {
   throw std::invalid_argument(message.str());
 }
 
-/// Of a shape that contains a point: none of the ball's is farther from it than the diameter.
+/// For a shape that contains a point: no point of the ball is farther from it than the diameter.
 SphereCover oneBall(const BoundingSphere& ball) {
   SphereCover::Node node{};
   node.ball.center = ball.center.cast<float>();

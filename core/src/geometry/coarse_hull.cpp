@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-// What support queries read of kCoarse points stays in the fastest cache, that of many more does
-// not; an outer hull of so few reaches some hundredths of its width beyond a round body.
+// The support data of kCoarse points stays in the fastest cache, that of many more does not. An
+// outer hull with so few points reaches some hundredths of its width beyond a round body.
 ConvexHull ConvexHull::coarser(const ConvexHull& hull) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return coarser(hull); });

@@ -23,9 +23,9 @@ struct Cone {
   enum class Part : std::uint8_t { Base, Tetrahedron };
 
   /// Distance of `point` from some point of that part: an upper bound of the distance from it, up
-  /// to the rounding of these few operations. The weights found are clamped to valid ones before
-  /// the distance is measured, so it holds however inaccurate they are; correcting them by what is
-  /// left makes up for flat tetrahedra.
+  /// to the rounding of these few operations. The weights are clamped to valid ones before the
+  /// distance is measured, so the bound holds however inaccurate they are. Correcting them by the
+  /// remainder makes up for flat tetrahedra.
   double distanceBound(const Eigen::Vector3d& point, Part part) const {
     constexpr int kCorrections = 3;
     double bound = std::numeric_limits<double>::infinity();

@@ -23,8 +23,8 @@ namespace {
 
 using Points = std::span<const Eigen::Vector3d>;
 
-/// Which points are kept, and how far the others may lie outside the hull of these. Coordinates are
-/// scaled to at most 1 in magnitude.
+/// Selects the points to keep, and measures how far the others may lie outside their hull.
+/// Coordinates are scaled to at most 1 in magnitude.
 struct Selection {
   std::vector<bool> kept;
   std::vector<std::array<int, 3>> faces;
@@ -32,8 +32,8 @@ struct Selection {
 
   explicit Selection(std::size_t count) : kept(count, false) {}
 
-  /// Drops a point that is this far from some combination of kept ones, or keeps it if that is too
-  /// far.
+  /// Drops a point that is at most this far from some combination of kept ones, or keeps it if that
+  /// is too far.
   void consider(std::size_t point, double distance) {
     if (distance <= tolerance::kHull)
       error = std::max(error, distance + detail::kHullRounding);
@@ -63,7 +63,7 @@ int argMax(Points points, const Key& key) {
   return best;
 }
 
-/// Four points that spread as far as a quick look tells.
+/// Four points with a large spread, by a quick search.
 struct Spread {
   std::array<int, 4> corners;
   Eigen::Vector3d axis;  ///< from the first to the second
@@ -152,7 +152,7 @@ Selection selectInPlane(Points points, const Spread& spread) {
   if (polygon.size() < 3) return Selection::all(points.size());
 
   Selection selection(points.size());
-  // The tetrahedra need an apex off the plane, which is not used as a point of the hull.
+  // The tetrahedra need an apex off the plane, which is not a point of the hull.
   const Eigen::Vector3d apex = points[polygon[0]] + spread.normal;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto beyond = std::partition_point(
@@ -190,7 +190,7 @@ Selection selectInSpace(Points points, const Spread& spread) {
 Selection select(Points points) {
   if (points.size() <= 3) return Selection::all(points.size());
   const Spread spread(points);
-  // Differences of huge or tiny coordinates may not be numbers.
+  // Differences of huge or tiny coordinates may not be finite.
   if (!(spread.width > tolerance::kHull)) {
     return spread.axis.norm() > tolerance::kHull ? selectOnLine(points, spread)
                                                  : Selection::all(points.size());

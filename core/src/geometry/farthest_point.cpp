@@ -30,7 +30,7 @@ struct Best {
   }
 };
 
-/// Two chains of comparisons, so that one need not wait for the other.
+/// Two chains of comparisons, so that one does not wait for the other.
 std::size_t farthestPoint(const double* coordinates, std::size_t count, double dx, double dy,
                           double dz) {
   const Tag tag;
@@ -57,7 +57,7 @@ std::size_t farthestPoint(const double* coordinates, std::size_t count, double d
     odd.consider(along(i + lanes), oddAt);
   }
   even.consider(odd.value, odd.index);
-  // No branch on which lane won: it is anyone's guess.
+  // No branch on which lane won: that is unpredictable.
   HWY_ALIGN double index[4];
   hn::Store(even.index, tag, index);
   const auto won = hn::Eq(even.value, hn::MaxOfLanes(tag, even.value));

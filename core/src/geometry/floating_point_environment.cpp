@@ -7,8 +7,8 @@
 namespace swept::detail {
 namespace {
 
-// What of the control registers makes an environment. What is set leaves the rest as it is by then:
-// masks, and flags that were raised meanwhile.
+// The bits of the control registers that make up an environment. Setting them leaves the other bits
+// at their present values: masks, and flags that were raised meanwhile.
 #if defined(__GNUC__) && defined(__SSE2__)
 
 constexpr std::uint32_t kRoundingOrZeros = 0xE040;
@@ -90,7 +90,7 @@ class DefaultEnvironment {
 }  // namespace
 
 void runInDefaultEnvironment(void (*query)(void*), void* closure) {
-  // Volatile: not even a compiler that sees the whole program knows what is called.
+  // Volatile: not even a compiler that sees the whole program knows the function that is called.
   void (*volatile unknown)(void*) = query;
   if (!inForeignEnvironment() && !inForeignPrecision()) {
     unknown(closure);

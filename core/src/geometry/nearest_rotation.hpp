@@ -6,17 +6,17 @@
 
 namespace swept::detail {
 
-/// No unit. How far the entries of R^T R, R a pose's linear part, may be from those of the identity
-/// for the pose to be taken for a rigid one, with the rotation nearest to R. Larger: what is meant
-/// to scale or shear is taken for a rotation. Smaller: poses of few digits get no answer.
+/// No unit. How far the entries of R^T R, with R a pose's linear part, may be from those of the
+/// identity if the pose is to count as rigid, with the rotation nearest to R. Larger: scaling or
+/// shear would count as a rotation. Smaller: poses with few digits get no answer.
 inline constexpr double kNearRotation = 1e-3;
 
-/// Whether queries may work with the pose as it is: it is finite, and R as good as a rotation.
+/// Whether queries may use the pose as it is: it is finite, and R is nearly a rotation.
 ///
 /// Lemma: let E = R^T R - 1, of Frobenius norm e. By the polar decomposition R = Q (1 + E)^(1/2)
-/// there is a rotation (or reflection) Q with |R - Q| and |R^T - Q^T| at most e / 2 (1 + e), and so
-/// is R^T from the inverse of R at most e (1 + e). For e = 8e-15 that is half of kSupportRounding,
-/// of which what queries do takes the other half.
+/// there is a rotation (or reflection) Q with |R - Q| and |R^T - Q^T| at most e / 2 (1 + e), and
+/// R^T is at most e (1 + e) from the inverse of R. For e = 8e-15 that is half of kSupportRounding;
+/// the queries' own operations use the other half.
 inline bool isRigidPose(const Eigen::Isometry3d& pose) {
   constexpr double kMost = 8e-15;
   const Eigen::Matrix<double, 4, 4>& m = pose.matrix();
@@ -35,13 +35,12 @@ inline bool isRigidPose(const Eigen::Isometry3d& pose) {
   return squared + finite <= kMost * kMost;
 }
 
-/// What a pose means that is not as good as a rigid one: the same translation, and the rotation
-/// nearest to its linear part (polar decomposition). Every query with poses means that, so that all
-/// agree. None if the pose is not finite, or farther from rigid than kNearRotation.
+/// The rigid pose that stands for a pose that is not rigid enough: the same translation, and the
+/// rotation nearest to its linear part (polar decomposition). Every query with poses uses it, so
+/// that all agree. No value if the pose is not finite, or farther from rigid than kNearRotation.
 std::optional<Eigen::Isometry3d> nearestRigidPose(const Eigen::Isometry3d& pose);
 
-/// The pose as it is where that is as good as rigid, else the nearest rigid one; NaN if there is
-/// none.
+/// The pose itself if it is rigid enough, else the nearest rigid one; NaN if there is none.
 Eigen::Isometry3d rigidPose(const Eigen::Isometry3d& pose);
 
 }  // namespace swept::detail

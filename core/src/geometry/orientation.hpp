@@ -86,7 +86,7 @@ class OrientedPlane {
   }
   /// Proportional to the distance from the plane, positive ahead of it.
   double height(const Eigen::Vector3d& p) const { return normal_.dot(p - anchor_); }
-  /// Heights beyond this, either way, have the right sign.
+  /// Heights beyond this, of either sign, have the right sign.
   double bound() const { return bound_; }
   /// Not normalised.
   const Eigen::Vector3d& normal() const { return normal_; }

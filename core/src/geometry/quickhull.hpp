@@ -14,30 +14,29 @@
 
 namespace swept::detail {
 
-/// A face that a ray from inside a hull leaves by.
+/// The face through which a ray from inside a hull leaves.
 struct HullExit {
   std::array<int, 3> corners;  ///< indices of points
   int looks = 0;               ///< planes and faces that the ray was compared with
 };
 
-/// Quickhull (Barber, Dobkin, Huhdanpaa 1996). Where we deviate: which faces a new point sees is
-/// decided exactly, so the faces it sees always form a disc and faces never have to be merged.
-/// Points that are not certainly ahead of a face are passed over; what they miss is measured by the
-/// caller.
+/// Quickhull (Barber, Dobkin, Huhdanpaa 1996), with one difference: the faces that a new point sees
+/// are decided exactly, so they always form a disc and faces never have to be merged. Points that
+/// are not certainly ahead of a face are skipped; the caller measures their loss.
 class Quickhull {
  public:
   /// `start` are four points, meant to span a volume. Coordinates are at most 1 in magnitude.
   Quickhull(std::span<const Eigen::Vector3d> points, const std::array<int, 4>& start)
       : points_(points), next_(points.size(), kNone), faceFrom_(points.size(), kNone) {
     addTetrahedron(start);
-    // Adding a point removes the face it is ahead of, so each face is looked at once.
+    // Adding a point removes the face it is ahead of, so each face is processed once.
     for (std::size_t face = 0; face < faces_.size() && consistent_; ++face) {
       if (faces_[face].alive && faces_[face].farthest != kNone)
         addFarthestOf(static_cast<int>(face));
     }
   }
 
-  /// False when the start has no volume, or the arithmetic was not exact after all (underflow). The
+  /// False if the start has no volume, or the arithmetic was not exact after all (underflow). The
   /// surface is then unusable.
   bool consistent() const { return consistent_; }
 
@@ -50,12 +49,13 @@ class Quickhull {
     return out;
   }
 
-  /// The face by which the ray from `inside`, a point within the start, along `offset` leaves the
-  /// surface. Rounding may mislead: the answer is a guess.
+  /// The face through which the ray from `inside`, a point within the start, along `offset` leaves
+  /// the surface. Rounding may mislead: the answer is a guess.
   ///
-  /// From a face of the start on to what took its place, until a face is still there: a fan around
-  /// the point that was added, in whose order the ray's turn around that point is found by halving.
-  /// A walk from face to face takes the root of their number, or half of them in a fan.
+  /// It goes from a face of the start to the faces that replaced it, until a face still exists.
+  /// These form a fan around the added point; halving finds the ray's turn around that point in the
+  /// fan's order. A walk from face to face would take the root of their number, or half of them in
+  /// a fan.
   HullExit exitOf(const Eigen::Vector3d& inside, const Eigen::Vector3d& offset) const {
     HullExit found;
     int face = startTowards(inside, offset);
@@ -108,7 +108,7 @@ class Quickhull {
     for (std::size_t point = 0; point < points_.size(); ++point) assign(static_cast<int>(point), 0);
   }
 
-  /// Puts the point on the list of one face from `firstFace` on that it is certainly ahead of.
+  /// Puts the point on the list of one face, from `firstFace` on, that it is certainly ahead of.
   void assign(int point, std::size_t firstFace) {
     for (std::size_t i = firstFace; i < faces_.size(); ++i) {
       Face& face = faces_[i];
@@ -152,8 +152,8 @@ class Quickhull {
     }
   }
 
-  /// Puts the horizon's edges in order, one after the other. It is one closed loop through distinct
-  /// vertices when the decisions are exact.
+  /// Orders the horizon's edges one after the other. They form one closed loop through distinct
+  /// vertices if the decisions are exact.
   bool orderHorizon() {
     for (const HorizonEdge& edge : horizon_) faceFrom_[edge.from] = kNone;
     for (std::size_t i = 0; i < horizon_.size(); ++i) {
@@ -246,7 +246,7 @@ class Quickhull {
     return gone.firstPart + least;
   }
 
-  /// Where rounding led to a face beside the right one, a few steps lead there.
+  /// If rounding led to a face beside the right one, a few steps lead there.
   int nearby(int face, const Eigen::Vector3d& inside, const Eigen::Vector3d& offset,
              int& looks) const {
     constexpr int kMostSteps = 16;

@@ -67,7 +67,7 @@ Shape scaled(const Shape& shape, double factor) {
     throw std::invalid_argument(message.str());
   }
   const Aabb box = boundingBox(shape);
-  // Of boxes that span more than half of what a double can, too.
+  // Also for boxes that span more than half of the range of doubles.
   const Scaling scaling{factor, 0.5 * box.lower + 0.5 * box.upper};
   return std::visit([&](const auto& s) { return scaling.of(s); }, shape);
 }

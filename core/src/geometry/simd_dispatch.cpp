@@ -24,7 +24,7 @@ Registers cpuid(unsigned leaf, unsigned part) {
   return there ? r : Registers{};
 }
 
-/// Those that not every compiler's __builtin_cpu_supports knows by name.
+/// Features that not every compiler's __builtin_cpu_supports knows by name.
 bool hasF16c() {
   return (cpuid(1, 0).ecx >> 29 & 1U) != 0;
 }
@@ -35,8 +35,8 @@ bool hasAvxVnni() {
   return (cpuid(7, 1).eax >> 4 & 1U) != 0;
 }
 
-/// What Highway compiles each of its sets with. __builtin_cpu_supports asks the operating system,
-/// too, whether it saves the registers.
+/// The features that Highway compiles each of its targets with. __builtin_cpu_supports also asks
+/// the operating system whether it saves the registers.
 std::int64_t detectedTargets() {
   __builtin_cpu_init();
   const auto has = [](auto supported) { return supported != 0; };

@@ -24,8 +24,8 @@ Nearest onVertex(int i, const Vector3d& p) {
   return {{i}, {1.0}, 1, p};
 }
 
-/// The foot is corrected by what is left of it along the edge: near contact the first one has lost
-/// digits to cancellation.
+/// Corrects the foot by its remainder along the edge: near contact the first foot has lost digits
+/// to cancellation.
 Nearest onSegment(int i, int j, const Vector3d& p, const Vector3d& q) {
   const Vector3d edge = q - p;
   const double length = edge.squaredNorm();
@@ -100,7 +100,7 @@ Vector3d sumOf(const std::array<Vector3d, 4>& p, const std::array<double, 4>& we
   return (weight[0] * p[0] + weight[1] * p[1]) + (weight[2] * p[2] + weight[3] * p[3]);
 }
 
-/// The origin's shares with what their sum misses it by taken off, as long as that helps.
+/// The origin's shares, corrected by the error of their sum as long as that helps.
 Nearest corrected(Nearest whole, const std::array<Vector3d, 4>& p) {
   constexpr int kCorrections = 3;
   const Vector3d e0 = p[0] - p[3];
@@ -145,7 +145,7 @@ Nearest inTetrahedron(const std::array<Vector3d, 4>& p) {
   return corrected(whole, p);
 }
 
-/// What is nearest by its weighted sum, not by its signs: of a flat tetrahedron these are noise.
+/// Compares the distances of weighted sums, not signs: for a flat tetrahedron the signs are noise.
 Nearest onTetrahedron(const std::array<Vector3d, 4>& p) {
   Nearest best = onTriangle({0, 1, 2}, p[0], p[1], p[2]);
   best = nearer(best, onTriangle({0, 1, 3}, p[0], p[1], p[3]));

@@ -19,13 +19,13 @@ struct Simplex {
 
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
   bool contains(const Eigen::Vector3d& difference) const;
-  /// No weight is negative or no number.
+  /// Whether no weight is negative or NaN.
   bool hasShares() const;
 
   /// Drops the vertices that do not support the point of the simplex nearest to the origin, sets
-  /// the weights, which are shares, and returns that point. Every feature is looked at and measured
-  /// by its weighted sum, so that flat and thin simplices near the origin do not mislead; four
-  /// vertices are left only when the origin is inside.
+  /// the weights, which are shares, and returns that point. It examines every feature and measures
+  /// it by its weighted sum, so that flat and thin simplices near the origin do not mislead. Four
+  /// vertices are left only if the origin is inside.
   Eigen::Vector3d reduceToNearest();
 
   Eigen::Vector3d nearest() const;  ///< m, the weighted sum of the differences

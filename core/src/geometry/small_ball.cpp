@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 using Points = std::span<const Vector3d>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Relative, of squares. What is this near to the smallest ball is taken for it.
+/// Relative, of squares. A point this near to the boundary of the smallest ball counts as on it.
 constexpr double kEnough = 1e-9;
-/// Each but the last grows the ball, so that they end; how soon is not proven.
+/// Cap on the pivots. Each pivot but the last grows the ball, so they end; how soon is not proven.
 constexpr int kMaxPivots = 64;
 
 struct Ball {
@@ -52,8 +52,8 @@ struct Support {
   Points all() const { return {points.data(), count}; }
 };
 
-/// Through `first` and all of up to three others, with its centre in the plane, line or point that
-/// they span; NaN where they do not determine one.
+/// The ball through `first` and all of up to three others, with its centre in the plane, line or
+/// point that they span; NaN if they do not determine one.
 Ball through(const Vector3d& first, Points others) {
   using Edges = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
@@ -67,14 +67,14 @@ Ball through(const Vector3d& first, Points others) {
   return {first + offset, offset.squaredNorm()};
 }
 
-/// A ball that grows, and what of the points that it has grown to holds it.
+/// A ball that grows, and the points that support it.
 class GrowingBall {
  public:
   const Vector3d& center() const { return ball_.center; }
   bool contains(double squaredDistance) const { return isWithin(squaredDistance, ball_); }
 
-  /// The smallest ball that contains `point`, which lies outside, and the support so far. False:
-  /// rounding hides which that is.
+  /// The smallest ball that contains `point`, which lies outside, and the present support. False if
+  /// rounding hides which ball that is.
   bool growTo(const Vector3d& point) {
     Ball least{Vector3d::Zero(), kInfinity};
     Support kept;
@@ -119,7 +119,7 @@ BoundingSphere ballAround(const Vector3d& center, Points points) {
 }
 
 BoundingSphere smallBall(Points points) {
-  // The middle of the box is the centre already where points are symmetric.
+  // If points are symmetric, the middle of the box is already the centre.
   const Aabb box = Aabb::fit(points);
   const Vector3d center = 0.5 * box.lower + 0.5 * box.upper;
   Farthest outermost = farthest(points, center);

@@ -16,14 +16,13 @@ inline double aboveRounding(double length) {
   return length * kLengthUp + std::numeric_limits<double>::min();
 }
 
-/// Contains `points` whatever `center` is: the radius is measured, not inferred.
+/// A ball that contains `points` for any `center`: the radius is measured, not inferred.
 BoundingSphere ballAround(const Eigen::Vector3d& center, std::span<const Eigen::Vector3d> points);
 
-/// Contains `points`, of which there is at least one, and is the smallest ball that does but for
-/// rounding: squares of coordinates beyond 1e-150 and 1e150 round to nothing or to infinity, and
-/// the ball may be the one about the middle of their box. Pivots to the point farthest from the
-/// ball of those so far (Gärtner 1999, "Fast and robust smallest enclosing balls"), which takes
-/// some ten looks at all points.
+/// The smallest ball that contains `points`, which are not empty, up to rounding. Squares of
+/// coordinates below 1e-150 and above 1e150 underflow or overflow, and the ball may then be the one
+/// about the middle of their box. It pivots to the point farthest from the present ball (Gärtner
+/// 1999, "Fast and robust smallest enclosing balls"), which takes some ten passes over all points.
 BoundingSphere smallBall(std::span<const Eigen::Vector3d> points);
 
 }  // namespace swept::detail

@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 using Points = std::span<const Vector3d>;
 using List = std::vector<int>;
 
-/// Cells of a face of the cube [-1, 1]^3 go a little beyond it, so that the axis through its middle
-/// is never in a corner of cells: flat sides of bodies often look along an axis, and all points of
-/// such a side are then in one list, not in four.
+/// Cells of a face of the cube [-1, 1]^3 reach slightly beyond it, so that the axis through its
+/// middle is never in a corner of cells. Flat sides of bodies often face along an axis, and all
+/// points of such a side are then in one list, not in four.
 constexpr double kWidth = 2.1;
 
 /// A cell of the surface of the cube. Faces: two per axis, the positive one first.
@@ -34,7 +34,7 @@ struct Cell {
   bool isOnFace(int side) const { return std::max(row, column) * kWidth / side - 1.0 <= 1.0; }
 };
 
-/// Where (row, column) of a face's lattice of `side` steps is.
+/// Coordinates of (row, column) on a face's lattice of `side` steps.
 Vector3d cornerOf(int face, int row, int column, int side) {
   const int axis = face / 2;
   Vector3d corner;
@@ -44,19 +44,20 @@ Vector3d cornerOf(int face, int row, int column, int side) {
   return corner;
 }
 
-/// How far points go along the corners of a cell: a row each.
+/// Extent of the points along the corners of a cell, one row each.
 using Along = std::array<std::span<const double>, 4>;
 
-/// Those of `list` that may be the farthest along a direction of a cell. Points are at most 1 in
-/// magnitude.
+/// The points of `list` that may be the farthest along a direction of a cell. Points are at most 1
+/// in magnitude.
 ///
-/// Lemma: a direction of the cell is a sum of its corners with weights of at least zero. A point p
-/// that is not as far as q along any corner is not as far as q along any direction of the cell.
+/// Lemma: a direction of the cell is a sum of its corners with weights of at least zero. If a point
+/// p is less far than q along every corner, it is less far than q along every direction of the
+/// cell.
 List farthestOfCell(const List& list, const Along& along) {
-  // Two sums of three products, each off by less than 2e-15, and a direction that is taken for one
-  // of the cell although it is 2e-15 beside it, where two points are at most 3.5 apart.
+  // Two sums of three products are each off by less than 2e-15, and a direction may be up to 2e-15
+  // beside its cell, where two points are at most 3.5 apart.
   constexpr double kRounding = 2e-14;
-  // The farthest along each corner, and along their middle.
+  // The farthest point along each corner, and along their middle.
   constexpr int kBest = 5;
   std::array<std::size_t, kBest> best{};
   std::array<double, kBest> most;
@@ -91,8 +92,8 @@ List farthestOfCell(const List& list, const Along& along) {
   return kept;
 }
 
-/// The four parts of a cell: lists of the points in `list` for them go into `out`, by cells of a
-/// cube with `side` of them along an edge.
+/// The four parts of a cell: the lists of points from `list` for them go into `out`, by cells of a
+/// cube with `side` cells along an edge.
 void divide(Points points, const List& list, Cell cell, int side, std::vector<List>& out) {
   std::vector<double> far(9 * list.size());
   for (int i = 0; i < 9; ++i) {
@@ -113,8 +114,8 @@ void divide(Points points, const List& list, Cell cell, int side, std::vector<Li
   }
 }
 
-/// Lists of the cells of a cube with `side` of them along an edge, an even number: parts of those
-/// of a cube with half as many, or of the one list of all.
+/// Lists of the cells of a cube with `side` cells along an edge, an even number. They are parts of
+/// the lists of a cube with half as many cells, or of the one list of all points.
 std::vector<List> refined(Points points, const std::vector<List>& lists, int side) {
   std::vector<List> out(6 * static_cast<std::size_t>(side) * side);
   const int half = side / 2;
@@ -175,7 +176,7 @@ std::size_t SupportPoints::cellOf(const Vector3d& direction) const {
   int axis = 0;
   const double most = direction.cwiseAbs().maxCoeff(&axis);
   if (!(most > 0.0)) return 0;
-  // Nothing of what is no number.
+  // NaN has no list.
   const auto place = [&](double across) {
     const double at = side_ / kWidth * (across / most + 1.0);
     return at > 0.0 ? static_cast<int>(at) : 0;

@@ -15,15 +15,16 @@ namespace swept::detail {
 struct WeldedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;  ///< with three distinct corners
-  /// Triangles with two equal corners, or three, that reach beyond the others.
+  /// Triangles with two or three equal corners that reach beyond the others.
   std::vector<Eigen::Vector3i> lines;
   std::vector<int> keptAs;  ///< per given vertex: its index in `vertices`; -1: no triangle uses it
-  int degenerateDropped = 0;  ///< triangles with two equal corners that do not
+  int degenerateDropped =
+      0;  ///< triangles with two equal corners that do not reach beyond the others
 };
 
-/// For each point the index of the first point with equal coordinates (-0.0 equals 0.0). Without a
-/// tolerance: STL files repeat a vertex of several triangles in equal numbers, and one would close
-/// real gaps, so that a surface would be taken for a solid. Open addressing: half the table stays
+/// For each point the index of the first point with equal coordinates (-0.0 equals 0.0), without a
+/// tolerance. STL files repeat a vertex of several triangles in equal numbers. A tolerance would
+/// close real gaps, and a surface would count as a solid. Open addressing: half the table stays
 /// empty, so probes are short.
 inline std::vector<int> firstEqual(std::span<const Eigen::Vector3d> points) {
   constexpr int kFree = -1;
@@ -45,14 +46,14 @@ inline std::vector<int> firstEqual(std::span<const Eigen::Vector3d> points) {
   return first;
 }
 
-/// What a triangle with two equal corners is; with equal ends, a point.
+/// The line of a triangle with two equal corners; with equal ends, a point.
 struct WeldedLine {
   int least;
   int most;
   auto operator<=>(const WeldedLine&) const = default;
 };
 
-/// Of a triangle, where vertices at the same place have one index, `first`.
+/// The line of a triangle, where `first` gives one index to vertices at the same place.
 inline Eigen::Vector3i weldedCorners(const Eigen::Vector3i& triangle, std::span<const int> first) {
   return {first[triangle[0]], first[triangle[1]], first[triangle[2]]};
 }
@@ -61,8 +62,8 @@ inline bool hasDistinctCorners(const Eigen::Vector3i& corners) {
   return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-/// Each of the lines once that is no edge of a triangle with distinct corners, and each of the
-/// points that is no corner of one and no end of a line.
+/// The lines that are no edge of a triangle with distinct corners, each once, and the points that
+/// are no corner of such a triangle and no end of a line.
 inline std::vector<WeldedLine> linesBeyond(std::span<const Eigen::Vector3i> triangles,
                                            std::span<const int> first,
                                            std::vector<WeldedLine> lines) {
@@ -95,8 +96,8 @@ inline std::vector<WeldedLine> linesBeyond(std::span<const Eigen::Vector3i> tria
 
 /// Indices must be in range and coordinates finite.
 ///
-/// A line is as much of the shape as a triangle is: where rounding puts a corner on another one,
-/// what is left of a needle may reach far beyond all other triangles, if the surface is open there.
+/// A line is part of the shape as a triangle is: if rounding moves a corner onto another one, the
+/// rest of a needle may reach far beyond all other triangles, if the surface is open there.
 inline WeldedMesh weld(std::span<const Eigen::Vector3d> vertices,
                        std::span<const Eigen::Vector3i> triangles) {
   constexpr int kUnused = -1;

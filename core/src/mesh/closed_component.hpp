@@ -9,7 +9,7 @@
 
 namespace swept::detail {
 
-/// A closed component of a mesh, with a tree of its own.
+/// A closed component of a mesh, with its own tree.
 struct ClosedComponent {
   std::span<const Eigen::Vector3d> vertices;   ///< m
   std::span<const Eigen::Vector3i> triangles;  ///< in the order of the tree's leaves
@@ -18,7 +18,8 @@ struct ClosedComponent {
   bool oriented;  ///< its winding number is defined
 };
 
-/// As TriangleMesh::encloses(), by this component alone. In the default floating-point environment.
+/// Like TriangleMesh::encloses(), for this component alone. In the default floating-point
+/// environment.
 bool encloses(const ClosedComponent& component, const Eigen::Vector3d& point);
 
 }  // namespace swept::detail

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Points times planes looked at for one component.
+/// Cap on the number of points times planes tested for one component.
 constexpr std::size_t kMostWork = 20'000'000;
 
 /// Six times the volume that outward-oriented triangles enclose.
@@ -49,7 +49,7 @@ bool allSupport(std::span<const Vector3i> triangles, std::span<const Vector3d> v
 }
 
 /// A closed oriented surface on the boundary of its hull covers that boundary k times, and encloses
-/// k times the hull's volume: once is what makes it the boundary of a convex solid.
+/// k times the hull's volume. If k is one, it is the boundary of a convex solid.
 bool isConvex(std::span<const Vector3i> triangles, std::span<const Vector3d> vertices,
               const ConvexHull& hull) {
   if (hull.faces().empty() || triangles.size() * hull.vertices().size() > kMostWork) return false;
@@ -62,9 +62,9 @@ bool isConvex(std::span<const Vector3i> triangles, std::span<const Vector3d> ver
   return allSupport(triangles, vertices, hull, kConvexPart * size);
 }
 
-/// False where some corners are clearly ahead of the plane of a triangle and others behind it, for
-/// a few of the triangles: then isConvex() is false too, and there is no need of a hull. Clearly is
-/// a thousand times as far as allSupport() takes, and as a hull may leave points outside.
+/// False if, for a few of the triangles, some corners are clearly ahead of the triangle's plane and
+/// others behind it. Then isConvex() is false too, and no hull is needed. "Clearly" is a thousand
+/// times the distance that allSupport() accepts, and that a hull may leave points outside.
 bool mayBeConvex(std::span<const Vector3i> triangles, std::span<const Vector3d> vertices,
                  std::span<const Vector3d> corners) {
   constexpr std::size_t kLooks = 8;

@@ -17,13 +17,13 @@ inline double distanceToSegment(const Eigen::Vector3d& point, const Eigen::Vecto
                                 const Eigen::Vector3d& b) {
   const Eigen::Vector3d along = b - a;
   const double at = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  // Not a number where the square of the length underflows.
+  // NaN if the square of the length underflows.
   if (!(at >= 0.0)) return (point - a).norm();
   return (point - a - at * along).norm();
 }
 
-/// Open edges over the points where their corners meet: each is replaced by a path through all such
-/// points that are near it, so that edges along each other become equal paths however they are
+/// Open edges over the points where their corners meet. Each edge is replaced by a path through all
+/// such points near it, so that edges along each other become equal paths, however they are
 /// divided.
 class CrackPaths {
  public:
@@ -39,8 +39,8 @@ class CrackPaths {
     tree_ = PointTree(vertices, std::move(chosen));
   }
 
-  /// From the meeting point of `edge.from` to that of `edge.to`; one point where they are the same.
-  /// No vertex comes twice. Valid up to the next call.
+  /// Path from the meeting point of `edge.from` to that of `edge.to`; one point if they are the
+  /// same. No vertex comes twice. Valid up to the next call.
   const std::vector<int>& between(const OpenEdge& edge) {
     path_.clear();
     addBetween(edge);
@@ -55,8 +55,8 @@ class CrackPaths {
   }
 
  private:
-  /// In widths. Corners of a path may be one width from where their edges are, along each axis, and
-  /// what is near to the edge one more.
+  /// In widths. Corners of a path may be one width from the original corners along each axis, and
+  /// points near the edge one more.
   static constexpr double kReach = 3.0;
 
   static std::vector<int> cornersOf(std::span<const OpenEdge> edges) {
@@ -78,7 +78,7 @@ class CrackPaths {
     add(last);
   }
 
-  /// Adds what lies between two meeting points. Depends on nothing but these, up to its direction.
+  /// Adds the points between two meeting points. Depends only on these, up to its direction.
   void divide(int first, int last) {
     if (first == last) return;
     const Eigen::Vector3d& a = vertices_[std::min(first, last)];

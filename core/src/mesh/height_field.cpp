@@ -40,7 +40,7 @@ void requireHeights(const Eigen::MatrixXd& heights, double base) {
   }
 }
 
-/// Both ends exact, so that fields of one size share their borders.
+/// Both ends are exact, so that fields of one size share their borders.
 double coordinate(double size, int index, int count) {
   if (index == count - 1) return 0.5 * size;
   return size * (static_cast<double>(index) / (count - 1) - 0.5);
@@ -83,7 +83,7 @@ TriangleMesh heightField(double xSize, double ySize, const Eigen::MatrixXd& heig
     }
   }
 
-  // Walls, and below them a fan: the bottom is flat and convex, whatever its border's nodes.
+  // Walls, and below them a fan: the bottom is flat and convex, whatever the nodes on its border.
   const std::vector<int> border = borderOf(rows, columns);
   const int firstBelow = static_cast<int>(vertices.size()), count = static_cast<int>(border.size());
   for (const int top : border) {

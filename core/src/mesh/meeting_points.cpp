@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// In doubles, as no integer holds them all. Where a coordinate has no room for its neighbours,
-/// nothing but equal ones is within the width.
+/// In doubles, as no integer type holds them all. If a coordinate is too large to have neighbours,
+/// only equal ones are within the width.
 using Cell = std::array<double, 3>;
 
 struct CellHash {
@@ -45,7 +45,7 @@ bool passes(const Vector3d& a, const Vector3d& b, const Vector3d& lower, const V
     enter = std::max(enter, first);
     leave = std::min(leave, last);
   }
-  // Rounding moves both by little of the segment's length.
+  // Rounding moves both by a small part of the segment's length.
   constexpr double kSlack = 1e-12;
   return enter <= leave + kSlack;
 }
@@ -54,7 +54,7 @@ bool passes(const Vector3d& a, const Vector3d& b, const Vector3d& lower, const V
 
 std::vector<int> meetingPoints(std::span<const Vector3d> points, std::span<const int> among,
                                double width) {
-  // Wide enough that most points have all that is near in their own.
+  // Wide enough that most points find all their neighbours in their own cell.
   const double side = 8.0 * width;
   // The last point of each cell, and per point the one before it; indices into `among`.
   std::unordered_map<Cell, int, CellHash> cells;

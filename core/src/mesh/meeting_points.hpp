@@ -7,21 +7,23 @@
 
 namespace swept::detail {
 
-/// Of some points a few that all others are near to. Those few are more than `width` (m) apart
-/// along an axis, and each other point is within `width` of one of them along each axis.
+/// Selects a few points such that all others are near to one of them. The selected ones are more
+/// than `width` (m) apart along an axis, and each other point is within `width` of one of them
+/// along each axis.
 ///
-/// Per point of `among` (indices into `points`): the nearest of them that were chosen before it,
-/// itself when it is chosen. Takes linear time where not many points are within a few widths.
+/// Per point of `among` (indices into `points`): the nearest point selected before it, or itself if
+/// it is selected. Linear time if few points are within a few widths of each other.
 std::vector<int> meetingPoints(std::span<const Eigen::Vector3d> points, std::span<const int> among,
                                double width);
 
-/// Points in boxes within boxes, to find those near a line segment.
+/// Points in nested boxes, to find those near a line segment.
 class PointTree {
  public:
-  /// `points` (m) has to outlive the tree.
+  /// `points` (m) must outlive the tree.
   PointTree(std::span<const Eigen::Vector3d> points, std::vector<int> among);
 
-  /// A superset of those within `reach` (m) of the segment from `a` to `b`, indices into `points`.
+  /// Indices into `points` of a superset of the points within `reach` (m) of the segment from `a`
+  /// to `b`.
   void near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double reach,
             std::vector<int>& found) const;
 

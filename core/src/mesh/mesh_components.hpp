@@ -8,24 +8,23 @@
 #include <span>
 #include <vector>
 
-/// Which triangles of a mesh hang together, and which of these components bound a solid.
+/// The connected components of a mesh's triangles, and which of them bound a solid.
 ///
-/// A component is closed when each of its edges has an even number of triangles, and no triangle is
-/// a line (two equal corners): a cycle modulo two, for which the parity of the crossings of a ray
-/// does not depend on the ray. Two shells that touch along an edge (four triangles there) are such
-/// a cycle.
+/// A component is closed if each of its edges has an even number of triangles, and no triangle is a
+/// line (two equal corners): a cycle modulo two, for which the parity of a ray's crossings does not
+/// depend on the ray. Two shells that touch along an edge (four triangles there) are such a cycle.
 ///
 /// Repeated corner sets need a decision per component. A surface written twice (double-sided, or
-/// the same part twice) has parity zero everywhere, so repetitions are dropped when that leaves the
+/// the same part twice) has parity zero everywhere, so repetitions are dropped if that leaves the
 /// component closed. Two shells that share a face repeat it too, and dropping one copy would open
-/// both: when only the repetitions close the component they stay.
+/// both: if only the repetitions close the component, they stay.
 namespace swept::detail {
 
 struct MeshComponents {
-  std::vector<Eigen::Vector3i> triangles;  ///< without the duplicates dropped
+  std::vector<Eigen::Vector3i> triangles;  ///< without the dropped duplicates
   std::vector<int> componentOf;  ///< per triangle: index of its closed component, -1: open
-  /// Per closed component: every edge is run through equally often both ways, so that the signed
-  /// number of crossings of a ray does not depend on the ray either.
+  /// Per closed component: whether every edge is traversed equally often both ways, so that the
+  /// signed number of a ray's crossings does not depend on the ray either.
   std::vector<bool> oriented;
   std::vector<int> cornerOf;  ///< a vertex of each component, open or closed
   int openComponents = 0;
@@ -82,7 +81,7 @@ class ComponentFinder {
     int direction;  ///< +1: from the smaller vertex to the larger
   };
 
-  /// What is known of a component, stored at its root triangle.
+  /// Data of a component, stored at its root triangle.
   struct Part {
     bool evenWithoutRepetitions = true;
     bool evenWithRepetitions = true;
@@ -111,7 +110,7 @@ class ComponentFinder {
     return repeats_[triangle] && !parts_[find(triangle)].keepsRepetitions();
   }
 
-  /// Sorted by their ends: into one bucket a vertex by counting, and each of these few by its own.
+  /// Sorted by their ends: one bucket per vertex by counting, and then each small bucket by itself.
   void collectEdges() {
     std::vector<std::size_t> start;
     const auto smaller = [&](const Eigen::Vector3i& triangle, int corner) {
@@ -164,7 +163,7 @@ class ComponentFinder {
     };
     bool found = false;
     forEachEdge([&](std::span<const HalfEdge> edge) {
-      // An edge of many triangles is for the thorough search to compare.
+      // The thorough search compares an edge of many triangles.
       if (edge.size() > 8) found = true;
       for (std::size_t i = 1; i < edge.size() && !found; ++i) {
         for (std::size_t j = 0; j < i; ++j) found = found || third(edge[i]) == third(edge[j]);
@@ -182,7 +181,7 @@ class ComponentFinder {
     for (Eigen::Vector3i& set : corners) std::sort(set.begin(), set.end());
     std::vector<int> order(corners.size());
     std::iota(order.begin(), order.end(), 0);
-    // Ties by index, so that the first of equal triangles is the one kept.
+    // Ties by index, so that the first of equal triangles is kept.
     std::sort(order.begin(), order.end(), [&](int a, int b) {
       for (int i = 0; i < 3; ++i) {
         if (corners[a][i] != corners[b][i]) return corners[a][i] < corners[b][i];
@@ -218,7 +217,7 @@ class ComponentFinder {
   std::span<const Eigen::Vector3i> triangles_;
   std::vector<HalfEdge> edges_;
   std::vector<int> root_;
-  std::vector<bool> repeats_;  ///< the corners of an earlier triangle
+  std::vector<bool> repeats_;  ///< has the corners of an earlier triangle
   std::vector<Part> parts_;
 };
 

@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Triangles between an edge and its path. The path is halved again and again, so that few of them
-/// are long.
+/// Triangles between an edge and its path. The path is halved repeatedly, so that few of them are
+/// long.
 void fill(std::span<const int> path, std::vector<Vector3i>& triangles) {
   if (path.size() < 3) return;
   const std::size_t middle = path.size() / 2;
@@ -39,7 +39,7 @@ std::vector<double> areasOf(std::span<const Vector3d> vertices, std::span<const 
 /// The patches around each solid.
 std::vector<std::vector<int>> solidsOf(std::span<const OpenEdge> edges,
                                        std::span<const double> areas, CrackPaths& paths) {
-  // Of memory: only where very many edges lie along each other there are more.
+  // Cap on memory: reached only if very many edges lie along each other.
   constexpr std::size_t kMostSteps = std::size_t{1} << 26;
   std::vector<PatchStep> steps;
   for (const OpenEdge& edge : edges) {
@@ -53,7 +53,7 @@ std::vector<std::vector<int>> solidsOf(std::span<const OpenEdge> edges,
   return patchCycles(std::move(steps), areas);
 }
 
-/// Whether some corners are those of an odd number of triangles. Else the triangles lie on each
+/// Whether some corners belong to an odd number of triangles. If not, the triangles lie on each
 /// other: a sheet that is narrower than a crack.
 bool hasSides(std::vector<Vector3i> triangles) {
   for (Vector3i& corners : triangles) std::sort(corners.begin(), corners.end());
@@ -101,7 +101,7 @@ class Closing {
 
   bool isDone() const { return std::ranges::find(isClosed_, false) == isClosed_.end(); }
 
-  /// With the patches that are still open; `all`: with the others, too, as some may share a wall
+  /// With the patches that are still open; `all`: also with the others, as some may share a wall
   /// with solids that are closed.
   void close(double width, bool all, CracksClosed& done) {
     if (isDone()) return;
@@ -121,7 +121,7 @@ class Closing {
         for (const OpenEdge& edge : edgesOf_[patch]) {
           const std::vector<int>& path = paths.of(edge);
           fill(path, triangles);
-          // The distance to a segment is convex: of a triangle's points a corner is the farthest.
+          // The distance to a segment is convex: the farthest point of a triangle is a corner.
           for (const int vertex : path)
             largest = std::max(largest, distanceToSegment(vertices_[vertex], vertices_[edge.from],
                                                           vertices_[edge.to]));
@@ -136,7 +136,7 @@ class Closing {
     for (const int patch : closed_) isClosed_[patch] = true;
   }
 
-  /// What is left.
+  /// The rest.
   void addOpen() {
     std::vector<Vector3i> left;
     for (std::size_t i = 0; i < open_.size(); ++i)

@@ -10,25 +10,26 @@
 
 namespace swept::detail {
 
-/// What closed components that were open.
+/// The result of closing open components.
 struct CracksClosed {
   int triangles = 0;     ///< added in cracks
-  double largest = 0.0;  ///< m: no point of them is farther from an edge that was open
+  double largest = 0.0;  ///< m: no point of these is farther from an edge that was open
 };
 
 /// Finds the solids among the open components: see TriangleMesh::build(). Their triangles become
-/// those of closed components, triangles in cracks are added, and copies of those that bound
-/// several. `width` (m): of the cracks that are filled; 0: none. `vertices` (m) are distinct.
+/// those of closed components; triangles in cracks are added, and so are copies of triangles that
+/// bound several solids. `width` (m): of the cracks that are filled; 0: none. `vertices` (m) are
+/// distinct.
 ///
-/// Each solid has the least of a few widths up to `width`: where the mesh has details as small as
-/// the cracks that are allowed, its own may be smaller.
+/// Each solid uses the least of a few widths up to `width`: if the mesh has details as small as the
+/// allowed cracks, its own cracks may be smaller.
 CracksClosed closeCracks(std::span<const Eigen::Vector3d> vertices, double width,
                          MeshComponents& parts);
 
-/// Of the open components of a mesh: which widths would leave none of them open.
+/// Finds the widths that would leave none of a mesh's open components open.
 class OpenParts {
  public:
-  /// `vertices` (m) have to outlive this.
+  /// `vertices` (m) must outlive this.
   OpenParts(std::span<const Eigen::Vector3d> vertices, const MeshComponents& parts);
   /// Whether this width (m) alone would do.
   bool areClosedBy(double width) const;

@@ -18,8 +18,8 @@ namespace swept {
 
 namespace {
 
-/// Directions for the rays, well spread for every number taken: Roberts 2018 ("The unreasonable
-/// effectiveness of quasirandom sequences"), mapped to the sphere with equal areas.
+/// Well spread directions for any number of rays: Roberts 2018 ("The unreasonable effectiveness of
+/// quasirandom sequences"), mapped to the sphere with equal areas.
 constexpr int kDirections = 32;
 std::array<Eigen::Vector3d, kDirections> spreadDirections() {
   constexpr double kFirstRatio = 0.7548776662466927;  // 1 / g and 1 / g^2, g^3 = g + 1
@@ -35,8 +35,8 @@ std::array<Eigen::Vector3d, kDirections> spreadDirections() {
   return directions;
 }
 
-/// Signed crossings of one ray with each closed component whose box contains its origin. Their
-/// parity is that of the number of crossings.
+/// Signed crossings of one ray with each closed component whose box contains the ray's origin.
+/// Their parity is that of the number of crossings.
 class CrossingCounts {
  public:
   void add(int component) {
@@ -89,7 +89,7 @@ class CrossingCounts {
 /// A ray against triangles.
 class RayCount {
  public:
-  /// `componentOf`: per triangle; none: all are of component 0. `scale` is a power of two.
+  /// `componentOf`: per triangle; empty: all belong to component 0. `scale` is a power of two.
   RayCount(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles,
            const detail::WideBvh& bvh, std::span<const int> componentOf,
            const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double scale,
@@ -105,7 +105,7 @@ class RayCount {
 
   /// False when the ray passes within rounding of the border of a triangle that matters.
   bool run() {
-    // Each level leaves at most seven siblings behind.
+    // Each level leaves at most seven siblings to visit.
     std::array<int, (detail::WideNode::kLanes - 1) * detail::WideBvh::kMaxDepth + 1> stack;
     int pending = 0;
     stack[pending++] = 0;
@@ -162,15 +162,15 @@ class RayCount {
   CrossingCounts& counts_;
 };
 
-/// What keeps the products of three coordinates of a component of this size (m) within the range of
-/// doubles: without, no ray is sure and all that the box holds would be inside.
+/// Scale that keeps the products of three coordinates of a component of this size (m) within the
+/// range of doubles. Without it, no ray is sure, and everything in the box would count as inside.
 double scaleFor(double size) {
   if (size > 1e-60 && size < 1e60) return 1.0;
   return size > 0.0 && std::isfinite(size) ? std::ldexp(1.0, std::min(-std::ilogb(size), 1000))
                                            : 1.0;
 }
 
-/// Shoots rays until one is sure. `isInside` says what the crossings of a component mean.
+/// Shoots rays until one is sure. `isInside` interprets the crossings of a component.
 template <typename Shoot, typename IsInside>
 bool anyRayInside(CrossingCounts& counts, const Shoot& shoot, const IsInside& isInside) {
   static const std::array<Eigen::Vector3d, kDirections> directions = spreadDirections();
@@ -178,7 +178,7 @@ bool anyRayInside(CrossingCounts& counts, const Shoot& shoot, const IsInside& is
     counts.reset();
     if (shoot(direction)) return counts.any(isInside);
   }
-  // Only a point within rounding of a triangle leaves no direction: it touches the solid.
+  // Only a point within rounding of a triangle has no sure direction: it touches the solid.
   return true;
 }
 

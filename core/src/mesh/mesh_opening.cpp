@@ -24,7 +24,7 @@ double longestSide(std::span<const Eigen::Vector3d> points) {
     lower = lower.min(point.array());
     upper = upper.max(point.array());
   }
-  // Of boxes that span more than half of what a double can, too.
+  // Also for boxes that span more than half of the range of doubles.
   return points.empty() ? 0.0 : 2.0 * (0.5 * upper - 0.5 * lower).maxCoeff();
 }
 
@@ -34,7 +34,8 @@ double TriangleMesh::usualCrackWidth(std::span<const Eigen::Vector3d> vertices) 
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([vertices] { return usualCrackWidth(vertices); });
   }
-  // A coordinate of six digits is off by up to 5e-6 of itself, and two copies of it by twice that.
+  // A coordinate of six digits is off by up to 5e-6 of itself, and two copies of it differ by twice
+  // that.
   constexpr double kOfSide = 1e-5;
   constexpr double kTwoSteps = 2.0 * std::numeric_limits<float>::epsilon();
   double largest = 0.0;
@@ -64,7 +65,7 @@ double TriangleMesh::opening() const {
   const double most = 0.1 * longestSide(vertices());
   int halved = 0;
   if (!(most > 0.0) || !parts.areClosedBy(most)) return kInfinity;
-  // Widths are `most` halved so often. The last that closes all is between these two.
+  // Widths are `most`, halved repeatedly. The last one that closes everything is between these two.
   int tooOften = 40;
   while (tooOften - halved > 1) {
     const int middle = (halved + tooOften) / 2;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostPatches = 512;
 using PatchSet = std::bitset<kMostPatches>;
 
-/// A basis of the sets of which each of `equations` has an even number, of `count` patches.
+/// A basis of the subsets of `count` patches that have an even number of each equation's patches.
 std::vector<PatchSet> evenSets(const std::vector<PatchSet>& equations, std::size_t count) {
   std::map<std::size_t, PatchSet> rows;  // by the first patch, which no other row has
   for (PatchSet equation : equations) {
@@ -39,8 +39,8 @@ std::vector<PatchSet> evenSets(const std::vector<PatchSet>& equations, std::size
   return basis;
 }
 
-/// Changes one set of a basis so that the sum of all is the set of the largest area: mostly the
-/// outermost walls, and who counts crossings of all sets at once sees that.
+/// Changes one set of a basis so that the sum of all is the set of the largest area. These are
+/// mostly the outermost walls, which a count of the crossings of all sets at once then gives.
 void sumToLargest(std::vector<PatchSet>& basis, std::span<const double> areas) {
   constexpr std::size_t kMostSets = 10;
   if (basis.empty() || basis.size() > kMostSets) return;
@@ -78,7 +78,7 @@ class Finder {
     leaveLonely();
     for (std::vector<int>& owners : odd_)
       std::erase_if(owners, [&](int patch) { return open_[patch]; });
-    // Where two patches meet, and no other, a set has both of them or none: they are one piece.
+    // If exactly two patches meet, a set has both of them or neither: they are one piece.
     for (bool joins = true; joins;) {
       findMeetings();
       joins = false;
@@ -117,7 +117,7 @@ class Finder {
     return patch;
   }
 
-  /// For each step the pieces of which an odd number of patches takes it, but for none at all.
+  /// For each step the pieces with an odd number of patches that take it, unless there are none.
   void findMeetings() {
     meetings_.clear();
     for (const std::vector<int>& owners : odd_) {
@@ -153,7 +153,7 @@ class Finder {
     }
   }
 
-  /// A patch that takes a step which no other takes is at a hole. Without it, others may be alone
+  /// A patch with a step that no other patch takes borders a hole. Without it, others may be alone
   /// at their steps.
   void leaveLonely() {
     std::vector<std::vector<std::size_t>> stepsOf(areas_.size());

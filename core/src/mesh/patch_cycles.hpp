@@ -7,20 +7,20 @@
 
 namespace swept::detail {
 
-/// Between two points that a border of a patch leads through, the smaller one first.
+/// A step between two points on a patch's border, the smaller point first.
 struct PatchStep {
   std::array<int, 2> ends;
   int patch;
   auto operator<=>(const PatchStep&) const = default;
 };
 
-/// Sets of patches that bound a solid each: every step is taken by the borders of its patches an
-/// even number of times. What any set encloses that has this property, one of these does.
+/// Sets of patches that bound a solid each: the borders of a set's patches take every step an even
+/// number of times. Together they enclose everything that any set with this property encloses.
 ///
-/// `areas`: one a patch. Patches that share a wall are in several sets. A point inside of one is
-/// inside of an odd number of them at most places: of those with the largest area. Takes linear
-/// time but where an odd number of patches meets, as at such walls; where more than 512 of them
-/// hang together the rest stays open.
+/// `areas`: one per patch. Patches that share a wall are in several sets. A point inside one set
+/// is, at most places, inside an odd number of them: of those with the largest area. Linear time,
+/// except where an odd number of patches meets, as at such walls. If more than 512 of them are
+/// connected, the rest stays open.
 std::vector<std::vector<int>> patchCycles(std::vector<PatchStep> steps,
                                           std::span<const double> areas);
 

@@ -11,7 +11,7 @@ namespace swept::detail {
 
 /// How a ray meets a triangle.
 enum class Crossing : std::uint8_t {
-  Unsure,   ///< within rounding of the border, of the origin, or not a number
+  Unsure,   ///< within rounding of the border or of the origin, or NaN
   Miss,     ///< proven
   Along,    ///< proven: once, with the triangle's normal
   Against,  ///< proven: once, against the triangle's normal

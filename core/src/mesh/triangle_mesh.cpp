@@ -37,11 +37,11 @@ double estimateConcavity(const TriangleMesh& mesh) {
   return concavity;
 }
 
-/// Of what WideBvh::spread() was when the order of the hierarchy was chosen.
+/// Value of WideBvh::spread() when the order of the hierarchy was chosen.
 constexpr double kRebuildGrowth = 2.0;
 
 void requireCounts(std::size_t vertices, std::size_t triangles) {
-  // Three half edges per triangle and two tree nodes have to be counted in an int.
+  // Three half edges per triangle and two tree nodes must fit into an int.
   constexpr std::size_t kMaxCount = std::size_t{1} << 29;
   if (vertices <= kMaxCount && triangles <= kMaxCount) return;
   std::ostringstream message;
@@ -90,7 +90,7 @@ std::vector<Eigen::Vector3d> cornersOf(std::span<const Eigen::Vector3d> vertices
   return corners;
 }
 
-/// Puts those of the given vertices that are kept where they belong: `keptAs` says where.
+/// Puts the kept ones of the given vertices into their places, given by `keptAs`.
 void moveKept(std::span<const Eigen::Vector3d> given, std::span<const int> keptAs,
               std::span<Eigen::Vector3d> kept) {
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -159,8 +159,8 @@ TriangleMesh TriangleMesh::build(std::span<const Eigen::Vector3d> vertices,
   surface.componentCorners = std::move(parts.cornerOf);
   for (const bool oriented : parts.oriented)
     surface.components.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), oriented});
-  // A component each: no triangle shares the edge. They come after components and cracks were
-  // found, which know edges between two vertices only.
+  // Each is its own component: no triangle shares the edge. They are added after the search for
+  // components and cracks, which expects edges between two different vertices.
   for (const Triangle& line : welded.lines) {
     surface.triangles.push_back(line);
     surface.componentOf.push_back(-1);
@@ -199,8 +199,7 @@ TriangleMesh TriangleMesh::withSourceError(double error) const {
   return mesh;
 }
 
-/// Builds the hierarchy and puts the triangles, and what goes with each, in the order of its
-/// leaves.
+/// Builds the hierarchy and puts the triangles, with their data, in the order of its leaves.
 void TriangleMesh::arrange(Surface& surface) {
   std::vector<Eigen::Vector3d> corners = cornersOf(surface.vertices, surface.triangles);
   const auto tree = TreeTopology::build({corners, 3}, SurfaceAreaSplit{}, detail::WideNode::kLanes);

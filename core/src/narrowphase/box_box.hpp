@@ -11,12 +11,12 @@ namespace swept::detail {
 
 /// The separating axes of two boxes (Gottschalk, Lin, Manocha 1996): the normals of their faces and
 /// the cross products of their edges. Boxes are apart if and only if one of these 15 separates
-/// them; where they overlap, the least overlap is the penetration depth.
+/// them. If they overlap, the least overlap is the penetration depth.
 ///
-/// Lemma: the columns c_j of the pose are taken as they are, orthonormal or not. b is then the
-/// parallelepiped that the pose makes of its box, the edge axes e_i x c_j are exact, their dot
-/// products have a rounding relative to their lengths, and so a separation divided by that length
-/// errs by a few ulps of the coordinates, however nearly parallel the edges.
+/// Lemma: the columns c_j of the pose are used as they are, orthonormal or not. b is then the
+/// parallelepiped that the pose makes of its box, and the edge axes e_i x c_j are exact. Their dot
+/// products round relative to their lengths, so a separation divided by that length is off by a few
+/// ulps of the coordinates, however nearly parallel the edges.
 class BoxAxes {
  public:
   BoxAxes(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b)
@@ -45,8 +45,7 @@ class BoxAxes {
   }
 
   /// The deepest points of two boxes that overlap along `normal`, the axis found: a corner under
-  /// the other's face, or two edges that cross. False where they are not so placed, such as for
-  /// parallel faces.
+  /// the other's face, or two crossing edges. False for other placements, such as parallel faces.
   bool deepest(const Eigen::Vector3d& normal, Eigen::Vector3d& onA, Eigen::Vector3d& onB) const {
     const Eigen::Vector3d inB = c_.transpose() * normal;
     const Eigen::Vector3d cornerB = support::box(b_, -inB);
@@ -92,8 +91,8 @@ class BoxAxes {
     index_ = index;
   }
 
-  /// Edge axes are not unit vectors, but not longer than kLongest: most are out of the question
-  /// before their length is known.
+  /// Edge axes are not unit vectors, but at most kLongest long: most are excluded before their
+  /// length is known.
   template <int i>
   void edges() {
     constexpr double kLongest = 1.001;

@@ -5,8 +5,8 @@
 
 namespace swept::detail {
 
-/// p + s d, coordinate by coordinate: loads of two at once would wait for what was just stored one
-/// by one.
+/// p + s d, coordinate by coordinate: loads of two coordinates at once would wait for what was just
+/// stored one by one.
 [[gnu::always_inline]] inline Eigen::Vector3d moved(const Eigen::Vector3d& p, double s,
                                                     const Eigen::Vector3d& d) {
   return {p.x() + s * d.x(), p.y() + s * d.y(), p.z() + s * d.z()};

@@ -11,8 +11,8 @@
 
 namespace swept::detail {
 
-/// A core that has a closest for any point makes a closed form with the point, whichever comes
-/// first.
+/// A core with a closest point for any point makes a closed form with the point core, in either
+/// order.
 template <Convex::Core kind>
 concept HasClosestPoint = requires(const Convex& body, const Eigen::Vector3d& p,
                                    ClosestPoint& closest) {

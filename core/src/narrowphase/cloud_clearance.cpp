@@ -19,7 +19,7 @@ using detail::WideBvh;
 using detail::WideNode;
 using Eigen::Vector3d;
 
-/// The nearest boxes first; what is farther than the nearest ball so far is passed over.
+/// The nearest boxes first; boxes farther than the nearest ball so far are skipped.
 class NearestBall {
  public:
   NearestBall(const PointCloud& cloud, const Vector3d& point, double enough)
@@ -65,8 +65,8 @@ class NearestBall {
     return squared < kGreatest ? std::sqrt(squared) : v.stableNorm();
   }
 
-  /// m^2; boxes with more than this hold nothing that is nearer. Squares beyond single precision
-  /// tell nothing: no box is passed over then.
+  /// m^2; boxes at more than this hold nothing that is nearer. Squares beyond single precision
+  /// decide nothing: then no box is skipped.
   float limit() const {
     constexpr double kGreatest = 1e38;
     const double most = std::max(least_, 0.0) + boxRounding_;

@@ -23,7 +23,7 @@ bool contains(const OrientedBox& box, const Vector3d& point) {
   return true;
 }
 
-/// Calls `stop` with the points of a cloud whose boxes may meet another box, until it is true of
+/// Calls `stop` with the points of a cloud whose boxes may meet another box, until it is true for
 /// one.
 template <typename Stop>
 void anyNearBox(const PointCloud& cloud, const BoxFrames& cloud_from_box, const OrientedBox& box,
@@ -50,7 +50,7 @@ void anyNearBox(const PointCloud& cloud, const BoxFrames& cloud_from_box, const 
 
 }  // namespace
 
-/// What is not in the box around all triangles is not enclosed by any.
+/// Points outside the box around all triangles are not enclosed by any.
 std::optional<Vector3d> enclosedPoint(const TriangleMesh& mesh, const PointCloud& cloud,
                                       const Eigen::Isometry3d& mesh_from_cloud) {
   std::optional<Vector3d> found;

@@ -26,7 +26,7 @@ class Collector {
         most < contacts.max_size() - contacts.size() ? contacts.size() + most : contacts.max_size();
   }
 
-  /// Returns false if the list is full before every pair was looked at.
+  /// Returns false if the list is full before every pair was tested.
   bool run() { return descend(pieces_.rootA(), pieces_.rootB()); }
   int effort() const { return effort_; }
 

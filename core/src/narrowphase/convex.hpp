@@ -15,7 +15,7 @@ namespace swept::detail {
 /// A convex body as the pair queries see it: a core, grown by a ball. Refers to the shape's data
 /// and must not outlive it.
 struct Convex {
-  /// HalfSpace stays the last: tables of pairs are as large as it says.
+  /// HalfSpace must stay the last: it gives the size of tables of pairs.
   enum class Core : std::uint8_t {
     Point,
     Segment,
@@ -33,11 +33,13 @@ struct Convex {
   double offset = 0.0;  ///< m, of planes and half-spaces
   double radius = 0.0;  ///< m, of the ball that grows the core
   double extent = 0.0;  ///< m, no point of the core is farther from the local origin
-  double inset = 0.0;   ///< m, of an ellipsoid: its core's distance inside the surface `size` gives
-  double error = 0.0;   ///< m, the shape may reach this far beyond the core grown by `radius`
-  double omitted = 0.0;  ///< m, the part of `error` that vertices make which a hull leaves out
+  double inset =
+      0.0;  ///< m, for an ellipsoid: distance of its core inside the surface that `size` gives
+  double error = 0.0;    ///< m, the shape may reach this far beyond the core grown by `radius`
+  double omitted = 0.0;  ///< m, the part of `error` from vertices that a hull leaves out
   std::span<const Eigen::Vector3d> points;
-  const SupportPoints* vertices = nullptr;  ///< `points` as support queries read them, or null
+  const SupportPoints* vertices =
+      nullptr;  ///< `points` in the form that support queries read, or null
 
   static Convex of(const Sphere& sphere);
   static Convex of(const Box& box);
@@ -54,8 +56,8 @@ struct Convex {
   /// Planes and half-spaces: unbounded, and without a support mapping.
   static constexpr bool isFlat(Core core);
   bool isFlat() const { return isFlat(core); }
-  /// Point of a bounded core farthest along `direction`, of a length in [1e-100, 1e100] or zero. Of
-  /// planes and half-spaces: their point nearest to the origin, whatever the direction.
+  /// Point of a bounded core farthest along `direction`, of a length in [1e-100, 1e100] or zero.
+  /// For planes and half-spaces: their point nearest to the origin, for any direction.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 };
 
@@ -78,8 +80,8 @@ constexpr bool Convex::isFlat(Core core) {
 
 namespace support {
 
-/// Lemma: where the squares of the components across the axis underflow, dropping them costs less
-/// than 1e-50 of the direction's length, far below what a support evaluation rounds anyway.
+/// Lemma: if the squares of the components across the axis underflow, dropping them costs less than
+/// 1e-50 of the direction's length, far below the rounding of a support evaluation.
 inline double across(const Eigen::Vector3d& d) {
   return std::sqrt(d.x() * d.x() + d.y() * d.y());
 }
@@ -226,7 +228,7 @@ inline Convex Convex::ofPoints(std::span<const Eigen::Vector3d> points) {
   Convex convex;
   convex.core = Core::Points;
   convex.points = points;
-  // At least the norm, cheaper, and right at any scale.
+  // At least the norm, cheaper, and correct at any scale.
   for (const Eigen::Vector3d& p : points) {
     convex.extent = std::max(convex.extent, p.cwiseAbs().sum());
   }

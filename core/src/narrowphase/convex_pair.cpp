@@ -27,7 +27,7 @@ constexpr std::size_t kCores = static_cast<std::size_t>(Core::HalfSpace) + 1;  /
 template <Core kind>
 constexpr bool kFlat = Convex::isFlat(kind);
 
-/// A core that no one wants without a ball around it.
+/// A core that is used only with a ball around it.
 template <Core kind>
 constexpr bool kRound = kind == Core::Point || kind == Core::Segment;
 
@@ -61,7 +61,7 @@ Contact boxesCollide(const Convex& a, const Convex& b, const Isometry3d& a_from_
   return contactOf(gjk(a, b, a_from_b, normal, Goal(0.0), 0.0, 0.0, GjkMode::Exact));
 }
 
-/// The three queries of one kind of pair. What a pair has no closed form for, GJK and EPA answer.
+/// The three queries of one kind of pair. GJK and EPA answer for pairs without a closed form.
 template <Core kindA, Core kindB>
 struct PairQueries {
   static GjkResult distance(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
@@ -78,7 +78,7 @@ struct PairQueries {
         }
       }
       if constexpr (probe::kHasFaces<kindA> || probe::kHasFaces<kindB>) {
-        // A warm start says more than the faces do.
+        // A warm start is better than the faces.
         if (mode == GjkMode::Exact && guess.isZero()) {
           const Look found = look<kindA, kindB>(a, b, a_from_b);
           if (found.inside || found.exact) return grown(found.gap, a, b, goal);
@@ -113,7 +113,7 @@ struct PairQueries {
     }
   }
 
-  /// True with the gap of the cores where these have a closed form that answers.
+  /// True, with the gap of the cores, if these have a closed form that answers.
   [[gnu::always_inline]] static bool inClosedForm(const Convex& a, const Convex& b,
                                                   const Isometry3d& a_from_b, CoreGap& gap) {
     if constexpr (HasClosedForm<kindA, kindB>) {

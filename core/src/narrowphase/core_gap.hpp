@@ -12,7 +12,7 @@
 
 namespace swept::detail {
 
-/// What a closed form says about two cores. Everything in a's frame.
+/// The result of a closed form for two cores. All vectors are in a's frame.
 struct CoreGap {
   double distance;         ///< m; minus the penetration depth where the cores overlap
   double rounding;         ///< m, bound on the error of `distance`
@@ -33,14 +33,15 @@ using ConeCore = CoreTag<Convex::Core::Cone>;
 using EllipsoidCore = CoreTag<Convex::Core::Ellipsoid>;
 using PointsCore = CoreTag<Convex::Core::Points>;
 
-/// m. No coordinate of the two cores' points, of their differences or of their witnesses is larger.
+/// m. Upper bound on the coordinates of the two cores' points, of their differences and of their
+/// witnesses.
 [[gnu::always_inline]] inline double magnitudeOf(const Convex& a, const Convex& b,
                                                  const Eigen::Isometry3d& a_from_b) {
   return a.extent + b.extent + a_from_b.translation().cwiseAbs().sum() + a.radius + b.radius;
 }
 
 /// m. Lemma: a closed form takes a few dozen operations on coordinates of at most the magnitudes
-/// summed here, each of which errs by half an epsilon; differences of such coordinates keep that
+/// summed here, each with an error of half an epsilon; differences of such coordinates keep that
 /// absolute error, and so do norms of differences.
 [[gnu::always_inline]] inline double pairRounding(const Convex& a, const Convex& b,
                                                   const Eigen::Isometry3d& a_from_b) {
@@ -54,7 +55,7 @@ struct ClosestPoint {
   Eigen::Vector3d point;   ///< m
 };
 
-/// A point against a core, from the core's closest in its own frame.
+/// A point against a core, from the core's closest point in its own frame.
 [[gnu::always_inline]] inline CoreGap gapFromPoint(const ClosestPoint& closestPointOnB,
                                                    const Eigen::Isometry3d& a_from_b,
                                                    double rounding) {
@@ -66,7 +67,7 @@ struct ClosestPoint {
           Eigen::Vector3d::Zero()};
 }
 
-/// A core against a point, from the core's closest.
+/// A core against a point, from the core's closest point.
 [[gnu::always_inline]] inline CoreGap gapToPoint(const ClosestPoint& closestPointOnA,
                                                  const Eigen::Isometry3d& a_from_b,
                                                  double rounding) {

@@ -18,7 +18,7 @@ bool isUnbounded(const Shape& shape) {
   return std::holds_alternative<Plane>(shape) || std::holds_alternative<HalfSpace>(shape);
 }
 
-/// Planes and half-spaces have closed forms on either backend.
+/// Planes and half-spaces use closed forms with either backend.
 bool wantsLibccd(const Shape& a, const Shape& b, Backend backend) {
   return backend == Backend::Libccd && !isUnbounded(a) && !isUnbounded(b);
 }

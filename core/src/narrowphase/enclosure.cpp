@@ -12,7 +12,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Of a mesh, of each component; of a convex body, one of its own, which goes to `own`.
+/// Of a mesh, a point of each component; of a convex body, one of its points, which is stored in
+/// `own`.
 std::span<const Vector3d> representatives(const Side& side, Vector3d& own) {
   if (side.mesh != nullptr) return side.mesh->componentPoints();
   own = side.convex.support(Vector3d::UnitX());
@@ -40,7 +41,7 @@ bool isInBoth(const Side& a, const Side& b, const Isometry3d& a_from_b, const Ve
 }
 
 // A convex body lies wholly on one side of the mesh's surface, and so does each connected component
-// of a mesh and each ball of a cloud: one point of each tells.
+// of a mesh and each ball of a cloud. So one point of each decides.
 std::optional<Vector3d> enclosedPoint(const Side& a, const Side& b, const Isometry3d& a_from_b) {
   const auto inA = [&](std::optional<Vector3d> inB) {
     if (inB) inB = a_from_b * *inB;

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Deepest points: the boundary's point nearest to the origin, carried over to the two bodies. Not
-/// always one of the face whose plane is nearest: thin faces have their planes askew.
+/// Deepest points: the point of the boundary nearest to the origin, mapped to the two bodies. It is
+/// not always in the face whose plane is nearest: thin faces have inaccurate planes.
 void witness(const Polytope& polytope, EpaResult& result) {
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](int face) {

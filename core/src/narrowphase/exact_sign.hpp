@@ -9,9 +9,9 @@
 
 #include "geometry/orientation.hpp"
 
-/// Signs of determinants of points: a floating-point filter first, an exact sum only where nothing
-/// cheaper tells (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
-/// geometric predicates", in idea).
+/// Signs of determinants of points: first a floating-point filter, then an exact sum where nothing
+/// cheaper decides (following the idea of Shewchuk 1997, "Adaptive precision floating-point
+/// arithmetic and fast robust geometric predicates").
 ///
 /// Lemma (filter). With u = 2^-53 and no overflow, ((b - a) x (c - a)) . (p - a) evaluated in
 /// doubles carries at most 8 roundings along each of its 6 products of three factors: three
@@ -50,7 +50,7 @@ inline double heightRounding(double first, double second, double reach) {
          kUnderflow;
 }
 
-/// What the filter says of a value known within a bound.
+/// Decision of the filter for a value with this error bound.
 enum class FilteredSign : int { Negative = -1, Positive = 1, Unknown = 2 };
 
 inline FilteredSign filteredSign(double value, double bound) {
@@ -60,7 +60,7 @@ inline FilteredSign filteredSign(double value, double bound) {
   return FilteredSign::Unknown;
 }
 
-/// Side of p with respect to the plane through a, b, c, as far as doubles tell.
+/// Side of p with respect to the plane through a, b, c, if doubles can decide.
 inline FilteredSign filteredSideOfPlane(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                         const Eigen::Vector3d& c, const Eigen::Vector3d& p) {
   const Eigen::Vector3d ab = b - a;
@@ -98,8 +98,8 @@ inline TwoDoubles operator-(const TwoDoubles& x) {
   return {-x.high, -x.low};
 }
 
-/// Second stage of sideOfPlane(): the differences without rounding, then some 100 bits. It tells
-/// all but points that are coplanar, or within 2^-95 of it.
+/// Second stage of sideOfPlane(): exact differences, then some 100 bits. It decides for all points
+/// except those that are coplanar, or within 2^-95 of it.
 ///
 /// Lemma. A sum of TwoDoubles is within 3 u^2 of the sum of the magnitudes, a product within 8 u^2
 /// of its own, and each of the six products of three factors passes at most two products and three
@@ -123,7 +123,7 @@ inline FilteredSign refinedSideOfPlane(const Eigen::Vector3d& a, const Eigen::Ve
                       0x1p-95 * ((reach[0] * reach[1] + kUnderflow) * reach[2]) + kUnderflow);
 }
 
-/// Whether two of the points are one, or all are in one plane across an axis: what meshes share.
+/// Whether two of the points coincide, or all are in one plane across an axis: frequent in meshes.
 inline bool plainlyCoplanar(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             const Eigen::Vector3d& c, const Eigen::Vector3d& p) {
   for (int k = 0; k < 3; ++k) {

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Lemma: the balls' signed distance is at most that of what they hold. Its few sums and the norm
-/// err by a few ulps of the terms, and by the least double where these underflow.
+/// Lemma: the balls' signed distance is at most that of their contents. Its few sums and the norm
+/// are off by a few ulps of the terms, and by the least double if these underflow.
 double ballSeparation(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
                       Vector3d& normal) {
   const Vector3d& t = a_from_b.translation();
@@ -25,7 +25,7 @@ double ballSeparation(const Convex& a, const Convex& b, const Isometry3d& a_from
   const double rounding = tolerance::kSupportRounding * (apart + reach) +
                           4.0 * std::numeric_limits<double>::denorm_min();
   const double separation = apart - reach - rounding;
-  // Infinite sums say nothing.
+  // Infinite sums prove nothing.
   return std::isfinite(separation) ? separation : -std::numeric_limits<double>::infinity();
 }
 

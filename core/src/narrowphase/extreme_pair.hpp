@@ -15,8 +15,8 @@ inline bool isExtreme(double magnitude) {
   return !(magnitude > kLeastMagnitude && magnitude < kMostMagnitude);
 }
 
-/// Bodies so small or so large, or so far from each other: bounded from below by the balls around
-/// their origins, from above by any two of their points. Both bodies are bounded.
+/// Bodies that are extremely small, large or far from each other: the balls around their origins
+/// bound the distance from below, any two of their points from above. Both bodies are bounded.
 GjkResult extremePair(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
                       const Goal& goal);
 SignedDistanceResult extremePairSigned(const Convex& a, const Convex& b,

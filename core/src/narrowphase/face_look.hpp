@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// The flat faces of either body that look at the other one.
+/// The flat faces of either body that face the other one.
 struct Look {
   double separation = -std::numeric_limits<double>::infinity();  ///< m, proven but for rounding
   Eigen::Vector3d normal =
@@ -54,7 +54,7 @@ Look look(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
         probeFaces(CoreTag<kindB>{}, b, a, a_from_b.linear().transpose(), originOfAInB(a_from_b));
     if (found.inside) {
       look.inside = true;
-      look.exact = false;  // where they touch, rounding may have set a face of a apart
+      look.exact = false;  // if they touch, rounding may have reported a face of a as separating
       look.gap.distance = 0.0;
       look.gap.normal = -(a_from_b.linear() * found.normal);
       look.gap.common = a_from_b * found.lowest;

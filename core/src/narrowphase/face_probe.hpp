@@ -10,9 +10,9 @@
 
 namespace swept::detail {
 
-/// A quick look at the flat faces of one body that look at the middle of another one: where the
-/// other's point nearest to such a face lies over the face or inside the body, that is the whole
-/// answer. The looks do not wait for each other, unlike the steps of a descent.
+/// A quick test of the flat faces of one body that face the middle of another: if the other's point
+/// nearest to such a face lies over the face or inside the body, that is the whole answer. The
+/// tests do not wait for each other, unlike the steps of a descent.
 struct FaceProbe {
   double separation = -std::numeric_limits<double>::infinity();  ///< m, the largest of the faces
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, of that face; the body's frame
@@ -49,7 +49,7 @@ inline bool overFace(ConeCore, const Convex& body, const Face&, const Eigen::Vec
   return squaredRho(p) <= body.size.x() * body.size.x();
 }
 
-/// Of a point over the face and not beyond it.
+/// For a point over the face and not beyond it.
 inline bool within(BoxCore, const Convex& body, const Face& face, const Eigen::Vector3d& p) {
   return std::abs(p[face.axis]) <= body.size[face.axis];
 }

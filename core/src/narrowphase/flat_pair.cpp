@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// m. Sums of coordinates beyond this may not be finite, and the answer is the widest interval.
+/// m. Sums of larger coordinates may not be finite, and the answer is then the widest interval.
 constexpr double kFarthest = 1e300;
 
 /// A signed gap with the points that witness it. All in a's frame.
@@ -28,7 +28,7 @@ struct Gap {
   bool endless = false;                ///< no translation separates the two
 };
 
-/// A plane or half-space and the bounded body at it, both in a's frame.
+/// A plane or half-space and the bounded body, both in a's frame.
 struct Wall {
   const Convex& flat;
   const Convex& body;
@@ -72,7 +72,7 @@ Gap againstBounded(const Wall& wall) {
     const Vector3d highest = wall.farthest(wall.n);
     const double above = (wall.offset - wall.n.dot(highest)) - radius;
     const Vector3d top = highest + radius * wall.n;
-    // On the way from the lowest point to the highest, where it crosses the plane.
+    // On the way from the lowest point to the highest, the point where it crosses the plane.
     const double both = gap.value + above;
     const double share = both < 0.0 ? std::clamp(gap.value / both, 0.0, 1.0) : 0.0;
     gap.common += share * (top - gap.pointB);
@@ -89,7 +89,7 @@ Gap againstBounded(const Wall& wall) {
   return gap;
 }
 
-/// Both unbounded; `normalB`, `offsetB` describe the second in the frame of the first.
+/// For two unbounded bodies; `normalB`, `offsetB` describe the second in the frame of the first.
 Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, double offsetB,
                  double translation) {
   Gap gap;
@@ -101,8 +101,8 @@ Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, doub
   gap.normal = a.size;
   if (a.size.cross(normalB).norm() > tolerance::kParallel) {
     gap.endless = true;
-    // A point on both boundaries. What is left of nearly parallel normals is mostly rounding, but
-    // each step takes away all but that share of the error.
+    // A point on both boundaries. The remainder of nearly parallel normals is mostly rounding, but
+    // each step removes all but that share of the error.
     const double sineSquared = a.size.cross(normalB).squaredNorm();
     const Vector3d along = (normalB - a.size.dot(normalB) * a.size) / sineSquared;
     constexpr int kSteps = 5;
@@ -125,7 +125,8 @@ Gap betweenFlats(const Convex& a, const Convex& b, const Vector3d& normalB, doub
     gap.pointA = gap.pointB = gap.common;
     return gap;
   }
-  // A solid on one side leaves one way apart; two planes are apart either way.
+  // A solid on one side leaves one way to separate; two planes can be separated in either
+  // direction.
   const bool bAhead = solidA || (solidB ? !sameWay : ahead >= 0.0);
   gap.normal = bAhead ? a.size : Vector3d(-a.size);
   gap.value = bAhead ? ahead : -ahead;

@@ -26,7 +26,7 @@ Vector3d firstDirection(const Vector3d& guess, const Vector3d& offset) {
   return norm > 0.0 ? Vector3d((offset / norm).normalized()) : Vector3d::UnitX();
 }
 
-/// Length of d, which is scaled where its square leaves the range of doubles.
+/// Length of d, which is scaled if its square leaves the range of doubles.
 double lengthOf(Vector3d& d) {
   const double squared = d.squaredNorm();
   if (isUsable(squared)) return std::sqrt(squared);
@@ -49,7 +49,7 @@ void growWitness(GjkResult& result, const Vector3d& v, double distance, double r
     return;
   }
   if (radiusA + radiusB > 0.0 && distance > 0.0) {
-    // Any point at s from A's core, distance - radiusB <= s <= radiusA, belongs to both.
+    // Any point at distance s from A's core, distance - radiusB <= s <= radiusA, belongs to both.
     const double s = std::clamp(0.5 * (radiusA + distance - radiusB), 0.0, distance);
     result.pointA += (s / distance) * v;
   }
@@ -69,7 +69,7 @@ struct Pair {
   /// terms, the rotation of n and of a point, and the norm of n contribute at most a few ulps of
   /// the coordinates' magnitude.
   const double rounding;
-  /// m. Points this near may be one: what their own rounding is, not what it is allowed to be.
+  /// m. Points this near may coincide: this is their actual rounding, not the allowed one.
   const double coincident;
 
   Pair(const Convex& bodyA, const Convex& bodyB, const Eigen::Isometry3d& a_from_b)
@@ -115,7 +115,7 @@ GjkResult better(const GjkResult& one, const GjkResult& other) {
   return result;
 }
 
-/// What a descent is to find out.
+/// The goal of a descent.
 struct Request {
   const Goal& goal;
   double contact;    ///< m
@@ -125,7 +125,7 @@ struct Request {
 
 enum class Care : std::uint8_t { Quick, Careful };
 
-/// One descent of GJK. A quick one trusts the features that signs choose; a careful one looks at
+/// One descent of GJK. A quick one trusts the features that signs choose. A careful one examines
 /// all of them and measures each by its weighted sum, for pairs so near or so slender that the
 /// signs are noise.
 class Search {
@@ -146,7 +146,7 @@ class Search {
     return result_;
   }
 
-  /// Whether rounding, and not what was asked for, ended the descent.
+  /// Whether rounding, and not the goal, ended the descent.
   bool stuck() const {
     if (result_.satisfied || ended_) return false;
     const double width = result_.upper - result_.lower;
@@ -156,7 +156,7 @@ class Search {
   const Simplex& nearest() const { return nearest_; }
 
  private:
-  /// Looks along d and turns it; false at the end.
+  /// Evaluates the support along d and turns d; false at the end.
   bool step(Vector3d& d) {
     const double length = lengthOf(d);
     if (!(length > 0.0)) return false;
@@ -180,7 +180,7 @@ class Search {
       ended_ = true;
       return false;
     }
-    // Without a proven separation the bodies may overlap, and only the origin inside will tell.
+    // Without a proven separation the bodies may overlap, and only the origin inside can show it.
     if (distance_ - separation <= request_.tolerance && result_.lower > 0.0) return false;
     if (simplex_.contains(w)) return false;
     simplex_.propose(w, onA);
@@ -195,12 +195,12 @@ class Search {
     return !bySlab_;
   }
 
-  /// To the feature of simplex and new point that is nearest to the origin; false where that is no
-  /// progress, or progress enough.
+  /// Moves to the feature of simplex and new point that is nearest to the origin; false if that is
+  /// no progress, or progress enough.
   bool reduce(Vector3d& d) {
     if (!carefully_) {
       const GjkSimplex::Step step = simplex_.step<true>();
-      // Nearer than proven is noise.
+      // A distance below the proven one is noise.
       if (step.size < 4 && step.squared < squared_ &&
           !(proven_ > 0.0 && step.squared < kNearer * proven_ * proven_)) {
         simplex_.take(step);
@@ -227,7 +227,7 @@ class Search {
            distance_ > pair_.coincident;
   }
 
-  /// Whether four points hold the origin by their weights too.
+  /// Whether the weights of four points also show that they contain the origin.
   bool enclosed(const GjkSimplex::Step& step) {
     GjkSimplex whole = simplex_;
     whole.take(step);
@@ -293,7 +293,7 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
 }
 
 Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b) {
-  constexpr int kIterations = 32;  // what takes more is left to gjk()
+  constexpr int kIterations = 32;  // longer descents are left to gjk()
   const Pair pair(a, b, a_from_b);
   GjkSimplex simplex;
   Vector3d d = firstDirection(Vector3d::Zero(), pair.offset);

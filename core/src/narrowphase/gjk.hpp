@@ -12,8 +12,7 @@
 
 namespace swept::detail {
 
-/// What a separation along n has to exceed for a query to be satisfied: a constant, or a motion
-/// bound.
+/// The separation along n that satisfies a query: a constant, or a motion bound.
 class Goal {
  public:
   explicit Goal(double constant) : constant_(constant) {}
@@ -27,11 +26,11 @@ class Goal {
   double constant_ = 0.0;
 };
 
-/// How far a query is taken once its goal is out of reach (the distance is not above what is
-/// needed).
+/// How far a query continues once its goal is out of reach (the distance is not above the required
+/// one).
 enum class GjkMode : std::uint8_t {
   Exact,      ///< to convergence
-  GoalOnly,   ///< only until it is clear whether there is contact
+  GoalOnly,   ///< only until contact is decided
   BoundOnly,  ///< not at all
 };
 
@@ -54,9 +53,9 @@ GjkResult gjk(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_
               const Eigen::Vector3d& guess, const Goal& goal, double contact, double tolerance,
               GjkMode mode, Simplex* last = nullptr);
 
-/// Whether two cores share a point, without what only a distance needs: the same descent by signs
-/// alone. `Separate` is proven; `Unknown` where rounding or slow convergence leaves the answer to
-/// gjk(). The balls around the cores are ignored.
+/// Whether two cores share a point, without the work that only a distance needs: the same descent
+/// by signs alone. `Separate` is proven; `Unknown` if rounding or slow convergence leaves the
+/// answer to gjk(). The balls around the cores are ignored.
 Contact meet(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b);
 
 }  // namespace swept::detail

@@ -15,13 +15,13 @@ namespace swept::detail {
 /// The simplex of a descent of GJK: up to four points of the difference B - A, the newest last,
 /// with A's part of each.
 ///
-/// The newest vertex lies beyond the others towards the origin, so that the nearest feature has it,
-/// and only features with it are looked at. Where rounding breaks that premise, the point found is
-/// no nearer than the last one, or nearer than proven; the caller sees that and asks
+/// The newest vertex lies beyond the others towards the origin, so the nearest feature contains it,
+/// and only features with it are examined. If rounding breaks that premise, the point found is no
+/// nearer than the last one, or nearer than proven. The caller sees that and calls
 /// reducedCarefully().
 ///
-/// Directions are multiples of the nearest point, of any length: what the next support point waits
-/// for has no square root and no division in it.
+/// Directions are multiples of the nearest point, of any length: the next support point needs no
+/// square root and no division.
 class GjkSimplex {
  public:
   using Vector3d = Eigen::Vector3d;
@@ -71,7 +71,7 @@ class GjkSimplex {
     }
   }
 
-  /// The first `count` points with the weights of the nearest point, every feature looked at.
+  /// The first `count` points with the weights of the nearest point; every feature is examined.
   Simplex reducedCarefully(int count) const {
     Simplex simplex;
     simplex.size = count;
@@ -87,15 +87,15 @@ class GjkSimplex {
     }
   }
 
-  /// Along the way from the origin to the nearest feature of a simplex that is taken: of a length
-  /// of its own, and across the feature to the last digit where the feature is near.
+  /// The direction from the origin to the nearest feature of a taken simplex: of any length, and
+  /// orthogonal to the feature to the last digit if the feature is near.
   Vector3d across(const Vector3d& nearest) const {
     if (size_ == 2) {
       const Vector3d edge = p_[0] - p_[1];
       return nearest - (nearest.dot(edge) / edge.squaredNorm()) * edge;
     }
     if (size_ != 3) return nearest;
-    // The normal has the most digits from the two shortest edges.
+    // The two shortest edges give the normal the most digits.
     std::array<Vector3d, 3> edge;
     int longest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -139,8 +139,8 @@ class GjkSimplex {
     return simplex;
   }
 
-  /// Whether the four vertices are proven to hold the origin: each volume with it is a share of the
-  /// whole beyond doubt.
+  /// Whether the four vertices are proven to contain the origin: each volume with the origin is
+  /// certainly a share of the whole.
   ///
   /// Lemma: of coordinates up to `magnitude`, an edge's rounds by 2 ulps of it, a cross product's
   /// component is at most 8 m^2 and off by 40 ulps, and so a volume by less than 500 ulps of m^3.
@@ -187,8 +187,8 @@ class GjkSimplex {
     return step;
   }
 
-  /// The foot on an edge that is near has lost digits along it to cancellation, and the distance is
-  /// worth the correction.
+  /// The foot on a near edge has lost digits along it to cancellation, and the distance is worth
+  /// the correction.
   template <bool withDistance>
   Step edge(int i, int newest) const {
     const Vector3d e = p_[i] - p_[newest];

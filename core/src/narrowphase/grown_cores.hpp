@@ -9,8 +9,8 @@
 
 namespace swept::detail {
 
-/// Grown by their balls, the bodies are apart by the cores' distance less both radii. Fills the
-/// caller's result in place: copies of results cost as much as the closed forms of spheres.
+/// Grown by their balls, the bodies are apart by the cores' distance minus both radii. Fills the
+/// caller's result in place: copying results costs as much as the closed forms of spheres.
 template <typename Result>
 [[gnu::always_inline]] inline void grow(const CoreGap& gap, const Convex& a, const Convex& b,
                                         Result& result) {

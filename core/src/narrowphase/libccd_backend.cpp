@@ -18,7 +18,7 @@
 namespace swept::detail {
 namespace {
 
-/// What libccd can handle in one call.
+/// The shapes that libccd can handle in one call.
 using Piece = std::variant<Sphere, Box, Cylinder, Capsule, Cone, Ellipsoid, ConvexHull, Triangle>;
 
 double along(double direction, double size) {
@@ -106,7 +106,7 @@ struct Body {
   double growth = 0.0;     ///< m
 
   Body(const Shape& shape, const Eigen::Isometry3d& where) : piece(pieceOf(shape)), pose(where) {
-    // MPR needs a point inside; that of a bounding ball is inside only for a symmetric solid.
+    // MPR needs a point inside; the centre of a bounding ball is inside only for a symmetric solid.
     const auto* hull = std::get_if<ConvexHull>(&piece);
     const Eigen::Vector3d inner =
         hull ? meanOf(hull->vertices()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
@@ -123,7 +123,7 @@ struct Body {
   }
 };
 
-/// How often support points were asked for, and may be. One for each call of libccd, on the stack
+/// How often support points were requested, and may be. One for each call of libccd, on the stack
 /// of the query: no thread sees another one's.
 struct Supports {
   int taken = 0;
@@ -163,8 +163,8 @@ enum class Met : std::uint8_t { No, Yes, Unknown };
 /// Minkowski portal refinement. libccd's GJK stops early on round shapes: against closed forms its
 /// distances were off by up to 2 mm, those of its portal refinement by the bisection's step.
 ///
-/// ccdMPRIntersect has no limit of its own, and goes round for ever on some flat shapes. A support
-/// point that is not a number fails each of its comparisons, which ends it.
+/// ccdMPRIntersect has no limit of its own, and loops for ever on some flat shapes. A NaN support
+/// point fails each of its comparisons, which ends it.
 Met meet(const Body& a, const Body& b, int& evaluations) {
   constexpr int kMostSupports = 2 * 10'000;  // of both; 200 of either are many
   constexpr unsigned long kMostIterations = 200;
@@ -192,7 +192,7 @@ struct Search {
   double enough;
   double contact;
   int evaluations = 0;
-  bool unknown = false;  ///< whether two pieces meet as they are was not found for some
+  bool unknown = false;  ///< it stayed unknown for some two pieces whether they meet as they are
 
   bool done() const { return upper <= contact; }
 
@@ -212,7 +212,7 @@ struct Search {
  private:
   void bisect(Body& a, const Body& b) {
     double apart = 0.0;
-    // Grown by the distance of the centres they meet, grown by less than `upper` maybe not.
+    // Grown by the distance of the centres they meet; grown by less than `upper` they may not.
     double together = std::min(upper, (a.center - b.center).norm());
     if (together == upper) {
       a.growth = std::max(0.0, upper - tolerance::kLibccdDistance);
@@ -303,7 +303,7 @@ void examineMeshPair(const TriangleMesh& a, const Shape& b, const Eigen::Isometr
 void examineShapes(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                    Search& search);
 
-/// Ball by ball: slow, and nothing that could go wrong with a hierarchy does.
+/// Ball by ball: slow, but no error of a hierarchy is possible.
 void examineCloud(const PointCloud& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                   Search& search) {
   Eigen::Isometry3d ball_from_b = a_from_b;
@@ -346,7 +346,7 @@ DistanceResult libccdDistance(const Shape& a, const Shape& b, const Eigen::Isome
 
 Contact libccdIntersect(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b) {
   if (!a_from_b.matrix().allFinite()) return Contact::Unknown;
-  // Started at the accuracy, the search has nothing to refine: it only looks for overlap.
+  // Started at the accuracy, the search has nothing to refine: it only searches for overlap.
   Search search{tolerance::kLibccdDistance, 0.0, 0.0};
   examineShapes(a, b, a_from_b, search);
   if (search.upper <= 0.0) return Contact::Touching;

@@ -23,7 +23,7 @@ struct Ball {
   double radius;    ///< m
 };
 
-/// Parts or pairs of them worth looking at: they only make a bound tighter.
+/// Cap on the parts or pairs of parts that are tested: more of them only tighten a bound.
 constexpr std::size_t kMostParts = 4096;
 
 std::size_t countOf(const Side& side) {
@@ -31,7 +31,7 @@ std::size_t countOf(const Side& side) {
   return side.isConvex() ? 1 : side.mesh->convexParts().size();
 }
 
-/// Calls `visit` with each convex part of the solid and where it is.
+/// Calls `visit` with each convex part of the solid and its pose.
 template <typename Visitor>
 void forEachPart(const Side& side, const Visitor& visit) {
   if (side.isConvex()) {
@@ -116,7 +116,7 @@ class Depth {
     depth_.normal = found.normal;
     depth_.pointA = found.pointA;
     depth_.pointB = found.pointB;
-    // The deepest point of a mesh in a half-space is one of its hull, and has to come out.
+    // The deepest point of a mesh in a half-space is one of its hull, and must come out.
     const bool halfSpace =
         a_.convex.core == Convex::Core::HalfSpace || b_.convex.core == Convex::Core::HalfSpace;
     if (halfSpace) depth_.lower = -found.upper - a_.convex.error - b_.convex.error;
@@ -125,7 +125,8 @@ class Depth {
   /// Each part is in its body, so a translation that separates the bodies separates each pair.
   void parts() {
     if (countOf(a_) * countOf(b_) > kMostParts) return;
-    // Lemma: the offset of two parts rounds by a few ulps of the coordinates it is a difference of.
+    // Lemma: the offset of two parts rounds by a few ulps of the coordinates whose difference it
+    // is.
     const double moved = tolerance::kSupportRounding *
                          (a_.convex.extent + b_.convex.extent + a_from_b_.translation().norm());
     forEachPart(a_, [&](const Convex& partA, const Vector3d& centerA) {

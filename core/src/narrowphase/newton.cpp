@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kSteps = 5;
-/// Of the normal with an edge: farther from a right angle, the edge is not what touches.
+/// Cosine of the normal with an edge: beyond it, the edge is not the feature in contact.
 constexpr double kAskew = 0.25;
 
 Vector3d ellipsoidBend(const Convex& body, const Vector3d& n, const Vector3d& t) {
@@ -34,8 +34,8 @@ Vector3d rimBend(const Convex& body, const Vector3d& n, const Vector3d& t) {
   return {x * along, y * along, 0.0};
 }
 
-/// Second derivatives of the support function at a unit normal, times t: how the support point
-/// moves when the normal does. Zero at corners.
+/// Second derivatives of the support function at a unit normal, times t: the movement of the
+/// support point when the normal changes. Zero at corners.
 Vector3d bend(const Convex& body, const Vector3d& n, const Vector3d& t) {
   switch (body.core) {
     case Convex::Core::Ellipsoid:
@@ -184,7 +184,7 @@ bool edgeAt(const Convex& body, const Vector3d& n, const Spots& spots, Edge& edg
   return false;
 }
 
-/// Of a body of which edgeAt() has found an edge.
+/// For a body on which edgeAt() found an edge.
 Placed place(const Convex& body, const Edge& edge, const Vector3d& u) {
   const Vector3d& size = body.size;
   switch (body.core) {

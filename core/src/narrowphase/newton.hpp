@@ -7,7 +7,7 @@
 
 namespace swept::detail {
 
-/// Whether the core's surface has curvature that its support function knows.
+/// Whether the core's surface has curvature that its support function can give.
 inline bool isCurved(const Convex& body) {
   switch (body.core) {
     case Convex::Core::Cylinder:
@@ -39,13 +39,12 @@ struct Spots {
   }
 };
 
-/// Newton's method on the normal of the slab between two cores that are apart, from a unit `normal`
-/// near the solution; `rotation` and `offset` are b's pose in a's frame. Where a descent of GJK
-/// adds a part of a digit per step, it doubles them. Looks for the solution with a smooth spot on
-/// either body, then with a straight edge of one (of a box, of a polytope as the spots say, a line
-/// on the side of a cylinder or cone) or a polytope's face and a smooth spot of the other, then
-/// with an edge of each. True if the gap is known to within `tolerance`: from below by the slab,
-/// from above by two points.
+/// Newton's method on the normal of the slab between two separate cores, from a unit `normal` near
+/// the solution; `rotation` and `offset` are b's pose in a's frame. Each step doubles the number of
+/// digits, where a descent of GJK adds a part of a digit. It tries in turn: a smooth spot on either
+/// body; a straight edge of one (of a box, of a polytope as the spots say, a line on the side of a
+/// cylinder or cone) or a polytope's face, with a smooth spot of the other; an edge of each. True
+/// if the gap is known to within `tolerance`: from below by the slab, from above by two points.
 bool newtonGap(const Convex& a, const Convex& b, const Eigen::Matrix3d& rotation,
                const Eigen::Vector3d& offset, const Eigen::Vector3d& normal,
                const std::array<Spots, 2>& spots, double tolerance, CoreGap& gap, int& evaluations);

@@ -8,8 +8,8 @@ namespace swept::detail {
 using Eigen::Vector3d;
 
 // Rounding: velocities, half axes and their products with a spin are sums of fewer than 20 products
-// of a spin with coordinates, each within a few ulps of the coordinates' 1-norms. Of b these are
-// moved into a's frame first, where they may be larger by the frames' distance.
+// of a spin with coordinates, each within a few ulps of the coordinates' 1-norms. Those of b are
+// first moved into a's frame, where they may be larger by the frames' distance.
 PartMotion PartMotions::of(bool ofA, const OrientedBox& box) const {
   PartMotion part;
   if (!(ofA ? turnsA_ : turnsB_)) return part;

@@ -11,11 +11,11 @@
 
 namespace swept::detail {
 
-/// How one part of a body, all of it within a box, moves differently from the centre of the body's
-/// ball. In a's frame, over half an interval.
+/// How the motion of one part of a body, all of it within a box, differs from that of the centre of
+/// the body's ball. In a's frame, over half an interval.
 struct PartMotion {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();  ///< m, of the box's centre
-  /// m. The box's half axes turned by the spin: n . spread[j] is what the ends of axis j add.
+  /// m. The box's half axes rotated by the spin: the ends of axis j add n . spread[j].
   std::array<Eigen::Vector3d, 3> spread{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                         Eigen::Vector3d::Zero()};
   double most = 0.0;      ///< m, no sum of +-spread[j] is longer
@@ -40,19 +40,19 @@ class PartApproach {
             std::min(whole.travel, (linear_.norm() + a.most + b.most) * (1.0 + 1e-14) + fixed_);
   }
 
-  /// m. A separation of more than this along the unit vector n at m lasts over the whole interval.
+  /// m. A separation of more than this along the unit vector n at m holds for the whole interval.
   double along(const Eigen::Vector3d& n) const {
     return whole_.required + std::min(whole_.travel, std::abs(n.dot(linear_)) + spreadAlong(n));
   }
-  /// m. What a separation along n at m loses, at most, until the interval's end, and has lost since
-  /// its beginning: the parts do not approach both before and after.
+  /// m. Upper bound on how much a separation along n at m shrinks until the interval's end, and has
+  /// shrunk since its beginning: the parts do not approach both before and after.
   struct Loss {
     double before;
     double after;
   };
   Loss lossAlong(const Eigen::Vector3d& n) const {
     const double receding = n.dot(linear_), spread = spreadAlong(n);
-    // Of an endless body that turns neither is a number, and only the travel counts.
+    // For an unbounded body that turns, neither is finite, and only the travel counts.
     const auto lost = [&](double approach) {
       return approach <= 0.0 ? 0.0 : std::min(whole_.travel, approach);
     };
@@ -90,7 +90,7 @@ class PartMotions {
 
   /// `box` in the side's own frame.
   PartMotion of(bool ofA, const OrientedBox& box) const;
-  /// Of the whole body, by its ball.
+  /// Bound for the whole body, by its ball.
   PartMotion ofBall(bool ofA) const;
 
  private:

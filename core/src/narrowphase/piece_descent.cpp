@@ -13,8 +13,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Pairs of pieces put off, the nearest first. Of a fixed size: what finds no room is looked at
-/// right away, in an order that is merely less good.
+/// Postponed pairs of pieces, the nearest first. Its size is fixed: a pair that finds no room is
+/// tested at once, only in a less good order.
 class WaitingPairs {
  public:
   struct Pair {
@@ -58,12 +58,12 @@ class PieceDescent {
       if (next.lower > found_.settledBeyond({})) return found_.settle(next.lower);
       begin(pieces_.piece(true, next.placeA), pieces_.piece(false, next.placeB));
     }
-    // Contact at a distance ends the search; what is left may be nearer.
+    // Contact at a distance ends the search; the remaining pairs may be nearer.
     if (!waiting_.isEmpty()) found_.settle(waiting_.pop().lower);
   }
 
  private:
-  /// A piece and how it moves, where that is still of interest.
+  /// A piece and its motion, if that still matters.
   struct Part {
     Piece piece;
     PartMotion motion;
@@ -120,8 +120,8 @@ class PieceDescent {
     }
   }
 
-  /// A distance query looks at the nearest of all pairs first: no other order looks at fewer. Pairs
-  /// that may overlap have to be looked at anyway. A motion bound gains nothing from the order.
+  /// A distance query tests the nearest of all pairs first: no other order tests fewer. Pairs that
+  /// may overlap must be tested anyway. A motion bound gains nothing from the order.
   bool putOff(const PiecePair::Split& split, int lane, const Piece& other, float lower) {
     if (goal_.approach != nullptr || !(lower > 0.0F) || waiting_.isFull()) return false;
     const int place = PiecePair::placeOf(split, lane);
@@ -145,14 +145,14 @@ class PieceDescent {
     return open;
   }
 
-  /// Along the direction of a bound, where that says that the boxes are apart.
+  /// The gap along the direction of a bound, if the bound says that the boxes are apart.
   BoxGap gapOf(const Piece& child, bool ofA, const Piece& other, float lower,
                const Vector3d& along) const {
     return lower > 0.0F ? pieces_.gap(child, ofA, other, along) : BoxGap{};
   }
 
-  /// Whether the boxes are apart as their motion needs. `direction` receives that of the gap, if
-  /// there is one.
+  /// Whether the boxes are as far apart as their motion needs. `direction` receives that of the
+  /// gap, if there is one.
   bool settledAlong(const BoxGap& gap, const PartApproach& approach, Vector3d& direction) {
     if (!(gap.value > 0.0)) return false;
     direction = gap.direction;
@@ -161,8 +161,8 @@ class PieceDescent {
     return true;
   }
 
-  /// A node's box against a round body itself: against the body's own box alone, all of a mesh that
-  /// is near a corner of that box would be looked at triangle by triangle.
+  /// A node's box against a round body itself: against the body's own box, all of a mesh near a
+  /// corner of that box would be tested triangle by triangle.
   bool settledByBody(const Piece& piece, bool ofA, const Piece& other, const Goal& goal,
                      const Vector3d& guess) {
     const Convex& body = (ofA ? b_ : a_).convex;
@@ -186,7 +186,7 @@ class PieceDescent {
     found_.note(measured, approach);
   }
 
-  /// Of two leaves by GJK, along the direction that suits the goal.
+  /// For two leaves by GJK, along the direction that suits the goal.
   GjkResult measure(const Piece& pieceA, const Piece& pieceB, const PieceApproach& approach,
                     const Vector3d& guess) {
     PiecePair::Leaves leaves;
@@ -199,7 +199,7 @@ class PieceDescent {
     return measured;
   }
 
-  /// Of two triangles, where the direction does not matter.
+  /// For two triangles, if the direction does not matter.
   GjkResult measureTriangles(const Piece& pieceA, const Piece& pieceB) const {
     const double rounding = pieces_.rounding();
     const TriangleDistance found = triangleDistance(cornersOf(*a_.mesh, pieceA.primitive),

@@ -9,15 +9,14 @@
 
 namespace swept::detail {
 
-/// What a search over pieces has found out so far, and what that leaves to be asked of others.
+/// The result of a search over pieces so far, and the goal that it leaves for other pairs.
 struct PieceFindings {
   explicit PieceFindings(const PieceGoal& goal) : asked(goal) {}
 
   bool inContact() const { return result.upper <= asked.contact; }
 
-  /// What a pair of pieces has to exceed to be settled. Once some pair has failed a motion bound,
-  /// only contact is still of interest; in a distance query, only what is nearer than the best so
-  /// far.
+  /// The separation that settles a pair of pieces. Once some pair has failed a motion bound, only
+  /// contact still matters; in a distance query, only pairs nearer than the best so far.
   Goal goal(const PieceApproach& approach) const {
     return approach ? goalOfMotion(*approach) : Goal(settledBeyond(approach));
   }
@@ -26,8 +25,8 @@ struct PieceFindings {
     return failed ? Goal(asked.contact) : Goal(approach);
   }
 
-  /// m. A proven distance beyond this settles a pair whatever the direction: the goal may have come
-  /// closer since the pair was measured.
+  /// m. A proven distance beyond this settles a pair in any direction: the goal may have become
+  /// smaller since the pair was measured.
   double settledBeyond(const PieceApproach& approach) const {
     if (approach) return failed ? asked.contact : approach->most();
     return std::min(asked.enough, std::max(0.0, result.upper - asked.tolerance));
@@ -59,7 +58,7 @@ struct PieceFindings {
 
   const PieceGoal& asked;
   PieceResult result;
-  bool failed = false;  ///< some pair of pieces is not apart as the goal asks
+  bool failed = false;  ///< some pair of pieces is not as far apart as the goal requires
 };
 
 }  // namespace swept::detail

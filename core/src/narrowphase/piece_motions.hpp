@@ -9,7 +9,7 @@
 
 namespace swept::detail {
 
-/// None in a distance query.
+/// No motion, for a distance query.
 using PieceApproach = std::optional<PartApproach>;
 
 /// How the pieces of two sides move, where a motion bound is searched for.

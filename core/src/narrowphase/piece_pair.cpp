@@ -18,7 +18,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// By half a float's last place at least, so that the sum of doubles that the value is may round.
+/// Grown by at least half a float's last place, so that the sum of doubles for the value may round.
 float wellBelow(double value) {
   return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
 }
@@ -41,7 +41,8 @@ OrientedBox boxAround(std::span<const Vector3d> points) {
   return boxOf(center, (upper - center).cwiseMax(center - lower));
 }
 
-/// Around the core of a convex body. A plane or half-space has no box, and none of it is looked at.
+/// A box around the core of a convex body. A plane or half-space has no box, and none of it is
+/// tested.
 OrientedBox coreBox(const Convex& convex) {
   const Vector3d& size = convex.size;
   switch (convex.core) {
@@ -62,14 +63,14 @@ OrientedBox coreBox(const Convex& convex) {
   return {};
 }
 
-/// m. How far a side reaches from its origin, in the 1-norm.
+/// m. Distance from a side's origin to its farthest point, in the 1-norm.
 double reachOf(const Side& side) {
   if (!side.isConvex()) return side.bvh->reach();
   return side.convex.isFlat() ? 0.0 : 2.0 * side.convex.extent;
 }
 
-/// The error of a hull that leaves out vertices is a ball around it, in which witnesses of its
-/// distance may lie. As an error, it would let them be anywhere.
+/// The error of a hull that leaves out vertices becomes a ball around it, in which witnesses of its
+/// distance may lie. As an error, it would allow them anywhere.
 Convex grownAround(const ConvexHull& hull) {
   Convex convex = Convex::of(hull);
   convex.radius = std::exchange(convex.error, 0.0);
@@ -166,7 +167,7 @@ void PiecePair::boundChildren(const Split& split, const Piece& other, double eno
   }
 }
 
-/// A box of one side against the plane or half-space that is the other.
+/// A box of one side against the plane or half-space on the other side.
 float PiecePair::boundAgainstFlat(const OrientedBox& box, bool ofA) const {
   const Convex& flat = (ofA ? b_ : a_).convex;
   const Convex body = Convex::of(Box{Vector3d(box.half[0], box.half[1], box.half[2])});
@@ -177,9 +178,9 @@ float PiecePair::boundAgainstFlat(const OrientedBox& box, bool ofA) const {
   }
   const GjkResult apart = ofA ? flatPair(flat, body, a_from_b_.inverse() * side_from_box, Goal(0.0))
                               : flatPair(flat, body, a_from_b_ * side_from_box, Goal(0.0));
-  // Lemma: flatPair allows for the rounding of the relative coordinates it is given; those they are
-  // differences of may be larger. The axes are orthonormal only as far as kBoxRounding times the
-  // size goes.
+  // Lemma: flatPair allows for the rounding of the relative coordinates it gets; the coordinates
+  // whose differences these are may be larger. The axes are orthonormal only up to kBoxRounding
+  // times the size.
   const double rounded =
       tolerance::kSupportRounding * (box.center.norm() + a_from_b_.translation().norm()) +
       2.0 * kBoxRounding * body.extent;
@@ -208,7 +209,7 @@ BoxGap PiecePair::gap(const Piece& child, bool ofA, const Piece& other,
   return ofBodies(boxGap(child.box, ofA ? frames_ : back_, other.box, along), ofA, other);
 }
 
-/// Returns the centre that the body is given about, in its side's frame.
+/// Returns the centre about which the body is given, in its side's frame.
 Vector3d PiecePair::placeOne(const Side& side, const Piece& piece, TriangleCorners& corners,
                              Convex& body) {
   if (piece.isWhole()) {
@@ -231,8 +232,9 @@ void PiecePair::place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) 
   const Vector3d centerB = placeOne(b_, pieceB, leaves.cornersB, leaves.b);
   leaves.a_from_b = a_from_b_;
   leaves.a_from_b.translation() = a_from_b_ * centerB - leaves.centerA;
-  // Lemma: the translation, and what is left of a triangle's corners, round by a few ulps of the
-  // coordinates they are differences of, which may be far larger than the leaves and their offset.
+  // Lemma: the translation, and the relative corners of a triangle, round by a few ulps of the
+  // coordinates whose differences they are, which may be far larger than the leaves and their
+  // offset.
   const double moved = rounding_ + tolerance::kSupportRounding * a_.convex.extent;
   if (!pieceA.isWhole()) leaves.a.error += moved;
   if (pieceA.isWhole() && !pieceB.isWhole()) leaves.b.error += moved;
@@ -259,8 +261,8 @@ void PiecePair::place(const Piece& piece, bool ofA, BoxAndBody& pair) const {
   } else {
     pair.a_from_b.translation() = a_from_b_ * box.center;
   }
-  // Lemma: corners and translation round by a few ulps of the coordinates they are sums and
-  // differences of.
+  // Lemma: corners and translation round by a few ulps of the coordinates whose sums and
+  // differences they are.
   pair.box.error = tolerance::kSupportRounding *
                    (box.center.cwiseAbs().sum() + a_from_b_.translation().norm() + size);
 }

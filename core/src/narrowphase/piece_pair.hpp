@@ -25,7 +25,7 @@ struct Side {
   double concavity = 0.0;        ///< m, estimate of how far `outer` reaches beyond the body
 
   bool isConvex() const { return bvh == nullptr; }
-  /// A convex body around the side that is quick to ask: itself if it is convex.
+  /// A convex body around the side that is quick to test: itself if it is convex.
   const Convex& around() const { return isConvex() ? convex : outer; }
   static Side of(const Shape& shape);
 };
@@ -53,27 +53,27 @@ class PiecePair {
   Piece rootB() const { return rootOf(b_); }
   static Piece rootOf(const Side& side);
 
-  /// The node whose children are looked at next: that of the larger piece, in the hierarchy or made
-  /// in `room`. Not both are leaves.
+  /// The node whose children are tested next: that of the larger piece, in the hierarchy or made in
+  /// `room`. At most one of the two is a leaf.
   struct Split {
     bool ofA;
     int index;  ///< in the hierarchy
     const WideNode* node;
   };
-  /// Whether it is that of a. Not both are leaves.
+  /// Whether it belongs to a. At most one of the two is a leaf.
   static bool isLarger(const Piece& a, const Piece& b);
   Split split(const Piece& a, const Piece& b, WideNode& room) const;
 
   /// m. Lower bounds on the distances between the children of a node and a piece of the other side;
-  /// exact ones are not of interest beyond `enough`.
-  /// `directions`: null, or along what, in the frame of the node's side.
+  /// beyond `enough` they need not be exact.
+  /// `directions`: null, or receives the direction of each bound, in the frame of the node's side.
   void boundChildren(const Split& split, const Piece& other, double enough, Bounds& lower,
                      BoxDirections* directions = nullptr) const;
 
   /// A direction (unit, a's frame, from a to b) along which a child and a piece of the other side
-  /// are apart, and by how much (m, proven); not positive: none found.
+  /// are apart, and their proven separation (m); not positive: none found.
   BoxGap gap(const Piece& child, bool ofA, const Piece& other) const;
-  /// Along this one, of boundChildren().
+  /// The same along this direction from boundChildren().
   BoxGap gap(const Piece& child, bool ofA, const Piece& other, const Eigen::Vector3d& along) const;
 
   static Piece child(const Split& split, int lane) {
@@ -81,11 +81,11 @@ class PiecePair {
     return {at < 0 ? -1 : at, at < 0 ? ~at : -1, placeOf(split, lane), split.node->box(lane)};
   }
   static int placeOf(const Split& split, int lane) { return split.index * WideNode::kLanes + lane; }
-  /// The piece of a side that has this place.
+  /// The piece of a side with this place.
   Piece piece(bool ofA, int place) const;
 
-  /// Two leaves as convex bodies, each about a centre of its own so that little is lost to
-  /// rounding. Stays where it was made: the bodies refer to its corners.
+  /// Two leaves as convex bodies, each about its own centre so that rounding loses little. It
+  /// cannot be moved: the bodies refer to its corners.
   struct Leaves {
     TriangleCorners cornersA;  ///< m, relative to centerA, of a triangle
     TriangleCorners cornersB;
@@ -96,8 +96,8 @@ class PiecePair {
   };
   void place(const Piece& pieceA, const Piece& pieceB, Leaves& leaves) const;
 
-  /// The box of a piece of one side, about its centre, and the convex body that is the other side.
-  /// Stays where it was made.
+  /// The box of a piece of one side, about its centre, and the convex body on the other side. It
+  /// cannot be moved.
   struct BoxAndBody {
     std::array<Eigen::Vector3d, 8> corners;  ///< m, relative to the box's centre
     Convex box;
@@ -115,7 +115,7 @@ class PiecePair {
   }
   /// Of a triangle of b in a's frame.
   TriangleCorners movedCorners(int triangle) const;
-  /// m. What moving b's points into a's frame rounds them by, at most.
+  /// m. Upper bound on the rounding of b's points in a's frame.
   double rounding() const { return rounding_; }
 
  private:

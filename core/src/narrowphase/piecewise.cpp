@@ -12,7 +12,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Bodies with pieces, first through the convex bodies around them.
+/// A pair of bodies with pieces; the convex bodies around them are tested first.
 class Search {
  public:
   Search(const Side& a, const Side& b, const Isometry3d& a_from_b, const PieceGoal& goal)
@@ -63,7 +63,7 @@ class Search {
     if (!exact && !hulls.satisfied) return outOfReach(hulls);
     result.lower = hulls.lower;
     result.normal = hulls.lower > 0.0 ? hulls.normal : Vector3d::Zero();
-    if (!exact) return true;  // the nearest points of hulls witness nothing of what they contain
+    if (!exact) return true;  // the nearest points of hulls are no witnesses for their contents
     result.upper = hulls.upper;
     result.pointA = hulls.pointA;
     result.pointB = hulls.pointB;

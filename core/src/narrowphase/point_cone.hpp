@@ -39,7 +39,7 @@ namespace swept::detail {
     return true;
   };
   if (up < 0.0 && out > 0.0) return corner(out, up, radius, -cone.size.z());
-  // Not only above the slope: of a cone without width or height, it is all there is.
+  // Not only above the slope: for a cone without width or height, the slope is everything.
   if (up >= 0.0 && side >= 0.0) {
     const double past = along - slant;
     if (along <= 0.0) {

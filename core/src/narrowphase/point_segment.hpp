@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// On a segment of the z axis. False next to the segment, where the normal has no digits.
+/// On a segment of the z axis. False close to the segment, where the normal has no digits.
 [[gnu::always_inline]] inline bool closestPointOn(SegmentCore, const Convex& segment,
                                                   const Eigen::Vector3d& p, ClosestPoint& closest) {
   closest.point = {0.0, 0.0, std::clamp(p.z(), -segment.size.z(), segment.size.z())};

@@ -15,8 +15,8 @@ inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eige
 }
 
 /// On a triangle, by the regions of its corners, edges and face (Ericson 2005, section 5.1.5).
-/// False for other sets of points, on the triangle, where the normal has no digits, and where the
-/// triangle is so thin that the slab along the normal is not as wide as the distance.
+/// False for a point on the triangle, where the normal has no digits, and if the triangle is so
+/// thin that the slab along the normal is not as wide as the distance.
 [[gnu::always_inline]] inline bool closestPointOn(PointsCore, const Convex& triangle,
                                                   const Eigen::Vector3d& p, ClosestPoint& closest) {
   if (triangle.points.size() != 3) return false;
@@ -53,9 +53,9 @@ inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eige
   } else if (areaA <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
     away = (p - b) - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b);
   } else {
-    // Lemma: each d errs by a few ulps of the squares' sum and is at most that, so that an area
-    // errs by less than 150 ulps of the sum's square. A closest that may be beside the triangle is
-    // looked for on the edge that it is near.
+    // Lemma: each d is off by a few ulps of the sum of squares and is at most that, so an area is
+    // off by less than 150 ulps of the sum's square. If the closest point may be beside the
+    // triangle, it is searched on the nearby edge.
     constexpr double kAreaRounding = 4e-14;
     const double squares = ee + ff + toA.squaredNorm();
     const double least = std::min(areaA, std::min(areaB, areaC));
@@ -82,8 +82,8 @@ inline Eigen::Vector3d awayFromEdge(const Eigen::Vector3d& fromStart, const Eige
   const double alongC = closest.normal.dot(p - c);
   const double allowed =
       kSlab * (triangle.extent + std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()));
-  // The normal of a thin triangle has few digits: the closest is on the triangle only if all
-  // corners are in the closest's plane.
+  // The normal of a thin triangle has few digits: the closest point is on the triangle only if all
+  // corners are in the closest point's plane.
   const bool flat = std::max(alongA, std::max(alongB, alongC)) - closest.distance <= allowed;
   return closest.distance - std::min(alongA, std::min(alongB, alongC)) <= allowed &&
          (flat || !onFace);

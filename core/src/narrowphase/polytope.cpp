@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the angle between a face's edges: thinner ones have no normal.
+/// Sine of the angle between a face's edges: thinner faces have no normal.
 constexpr double kLeastSine = 1e-9;
 
 }  // namespace
@@ -46,7 +46,7 @@ bool Polytope::start(const Simplex& simplex, Vector3d& flat) {
   return makeTetrahedron();
 }
 
-/// Gives up vertices that are within `least` of the plane, the line or the point of those before.
+/// Drops vertices that are within `least` of the plane, the line or the point of those before.
 void Polytope::dropFlat(double least) {
   if (vertexCount_ == 4) {
     const Vector3d normal = edge(1).cross(edge(2));
@@ -110,7 +110,7 @@ bool Polytope::makeFace(const std::array<int, 3>& corners, Face& face, double& d
   face.vertex = corners;
   face.normal = normal * (1.0 / std::sqrt(squared));
   face.visit = 0;
-  // A thin face's normal may be turned so far that its corners differ.
+  // A thin face's normal may be turned so far that its corners have different heights.
   distance = std::min(face.normal.dot(p), std::min(face.normal.dot(point(corners[1])),
                                                    face.normal.dot(point(corners[2]))));
   return face.normal.dot(center_) < distance;
@@ -135,7 +135,8 @@ Simplex Polytope::triangle(int face) const {
 
 bool Polytope::expand(const Vertex& added, int from) {
   // A vertex in the plane of a face beside the hole may lie on the line of their common edge, and
-  // the fan would get a face without area. Faces in whose plane it lies are better replaced too.
+  // the fan would get a face without area. It is better to replace faces in whose plane it lies,
+  // too.
   return expand(added, from, 0.0) || expand(added, from, -4.0 * rounding_);
 }
 
@@ -188,7 +189,7 @@ bool Polytope::seeAround(const Vector3d& point, int from, double above) {
     if (faces_[across].visit == visit_) continue;
     int entry = 0;
     while (entry < 2 && faces_[across].neighbor[entry] != face) ++entry;
-    // Two faces may share two edges; the one that starts where ours ends is meant.
+    // Two faces may share two edges; the one that starts where ours ends is the right one.
     const int end = faces_[face].vertex[(edge + 1) % 3];
     for (int k = 0; k < 3; ++k) {
       if (faces_[across].neighbor[k] == face && faces_[across].vertex[k] == end) entry = k;
@@ -214,7 +215,7 @@ int Polytope::takeSlot() {
   return freeCount_ > 0 ? free_[--freeCount_] : faceSlots_++;
 }
 
-/// The new faces are made before the old ones are given up.
+/// Makes the new faces before it drops the old ones.
 bool Polytope::makeFan(int apex) {
   const int slots = faceSlots_;
   const int freeBefore = freeCount_;

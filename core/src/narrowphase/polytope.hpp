@@ -10,7 +10,7 @@
 namespace swept::detail {
 
 /// The polytope inside B - A that EPA grows: triangles that know their neighbours, so that finding
-/// what a new vertex sees costs as much as that is, not as much as there is. Fixed storage.
+/// the faces that a new vertex sees costs only as much as their number. Fixed storage.
 ///
 /// Lemma: where all faces have a positive distance, the ball of the least of these around the
 /// origin lies in B - A, however rounding has turned the normals. A face's distance is the least
@@ -39,8 +39,8 @@ class Polytope {
   };
   int nearestFace() const;
   const Face& face(int i) const { return faces_[i]; }
-  /// m. No point of the face is nearer to the origin, which is inside the polytope. Larger than any
-  /// length for slots without a face.
+  /// m. No point of the face is nearer to the origin, which is inside the polytope. For slots
+  /// without a face it is larger than any length.
   double distance(int face) const { return distances_[face]; }
   int faceSlots() const { return faceSlots_; }
   Simplex triangle(int face) const;
@@ -53,14 +53,14 @@ class Polytope {
   Vertex support(const Eigen::Vector3d& n);
 
   /// Replaces the faces that see the new vertex, one of which is `from`, by a fan from their
-  /// border. False when the polytope would no longer be one; then it is left as it was.
+  /// border. False if the result would not be a polytope; then nothing changes.
   bool expand(const Vertex& added, int from);
 
   double rounding() const { return rounding_; }  ///< m
   int evaluations() const { return evaluations_; }
 
  private:
-  static constexpr double kGone = 1e300;  ///< m, key of a face that is no more
+  static constexpr double kGone = 1e300;  ///< m, key of a removed face
 
   struct Border {
     int face;  ///< that stays

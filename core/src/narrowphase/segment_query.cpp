@@ -26,10 +26,10 @@ Vector3d nearestOnEdge(const Vector3d& p, const Vector3d& from, const Vector3d& 
 
 using Corners = std::array<Vector3d, 3>;
 
-/// By the regions of corners, edges and face (Ericson 2005, section 5.1.5). Unlike that of
-/// closestPointOn() in point_triangle.hpp, which proves its distance or gives up, the point need
-/// not be the nearest, as with a triangle without an area: it is one of the triangle in any case,
-/// and the first region that holds it ends the look.
+/// By the regions of corners, edges and face (Ericson 2005, section 5.1.5). closestPointOn() in
+/// point_triangle.hpp proves its distance or gives up. Here the point need not be the nearest, as
+/// for a triangle without an area: it belongs to the triangle in any case, and the first region
+/// that contains it ends the search.
 Vector3d nearestOn(const Corners& corners, const Vector3d& p) {
   const auto& [a, b, c] = corners;
   const Vector3d e = b - a;
@@ -56,9 +56,9 @@ Vector3d nearestOn(const Corners& corners, const Vector3d& p) {
 }
 
 /// Alternating projections (Cheney, Goldstein 1959): the point of the segment nearest to a point of
-/// the triangle and the other way round. Lemma: whatever these points, for the direction n between
-/// them the segment keeps at least n . (center - corner) - |n . half| over |n| from the triangle,
-/// at the corner where that is least.
+/// the triangle and vice versa. Lemma: for the direction n between any two points, the distance of
+/// the segment from the triangle is at least n . (center - corner) - |n . half| over |n|, at the
+/// corner where that is least.
 bool isTriangleFarther(const Corners& corners, const LineSegment& segment, double radius) {
   constexpr int kMostRounds = 4;
   const double squaredLength = segment.half.squaredNorm();

@@ -9,7 +9,7 @@
 namespace swept::detail {
 
 /// Capsules: the nearest points of two segments (after Lumelsky 1985), proven by the slab between
-/// them. False where the two meet or are so nearly parallel that rounding spoils the answer.
+/// them. False if the two meet or are so nearly parallel that rounding spoils the answer.
 [[gnu::always_inline]] inline bool closedForm(SegmentCore, SegmentCore, const Convex& a,
                                               const Convex& b, const Eigen::Isometry3d& a_from_b,
                                               CoreGap& gap) {
@@ -33,7 +33,7 @@ namespace swept::detail {
   if (!(squared > gap.rounding * gap.rounding && squared > 1e-280 && squared < 1e280)) return false;
   gap.distance = std::sqrt(squared);
   gap.normal = apart * (1.0 / gap.distance);
-  // Lemma: along any unit normal, the least of b's coordinates less the greatest of a's bounds the
+  // Lemma: along any unit normal, the least of b's coordinates minus the greatest of a's bounds the
   // distance from below.
   const double separation =
       gap.normal.dot(t) - halfB * std::abs(gap.normal.dot(d)) - halfA * std::abs(gap.normal.z());

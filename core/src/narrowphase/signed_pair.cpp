@@ -31,8 +31,8 @@ Convex insetCore(const Convex& body) {
 
 }  // namespace
 
-/// The cores decide; growing both by balls lowers the signed distance by the two radii, apart or
-/// not.
+/// The cores decide; growing both by balls lowers the signed distance by the two radii, whether
+/// they are apart or not.
 SignedDistanceResult signedByEpa(const Convex& a, const Convex& b, const Isometry3d& a_from_b,
                                  const Vector3d& guess, double tolerance) {
   Convex coreA = insetCore(a);
@@ -65,9 +65,9 @@ SignedDistanceResult signedByEpa(const Convex& a, const Convex& b, const Isometr
   const double rounding = tolerance::kSupportRounding * radii;
   result.lower -= radii + rounding;
   result.upper -= radii - rounding;
-  // Points witness a distance; of a depth that they leave, their rounding counts.
+  // Points witness a distance; for the depth that they leave, their rounding counts.
   if (result.upper < 0.0) result.upper += pairRounding(coreA, coreB, a_from_b);
-  // The normal proves, but the way between the points is what makes them as far apart as it says.
+  // The normal proves the bound, but the distance of the points is that along the way between them.
   const Vector3d way = result.pointB - result.pointA;
   const double length = way.norm();
   const Vector3d n = apart.lower > 0.0 && length > 0.0 ? Vector3d(way / length) : result.normal;

@@ -13,7 +13,7 @@ SignedDistanceResult signedByEpa(const Convex& a, const Convex& b,
                                  double tolerance);
 
 /// The deepest points of two cores that overlap by `depth` along `result.normal`, the shortest way
-/// out: moved a little farther than that, they are nearest to each other there.
+/// out: moved slightly farther than that, the cores have their nearest points there.
 void deepestPoints(const Convex& a, const Convex& b, const Eigen::Isometry3d& a_from_b,
                    double depth, SignedDistanceResult& result);
 

@@ -59,7 +59,7 @@ class Polygon {
   int size_ = 3;
 };
 
-/// How a triangle passes through the prism over another one, the face: heights are along its
+/// How a triangle passes through the prism over another one, the face. Heights are along the face's
 /// normal.
 struct Passage {
   Vector3d normal = Vector3d::Zero();  ///< unit
@@ -95,7 +95,7 @@ Vector3d middleAtZero(const Polygon& polygon, const std::array<double, 8>& heigh
   return count > 0 ? Vector3d(sum / count) : fallback;
 }
 
-/// Of the passage the normal is known. False if rounding finds nothing of the triangle over the
+/// The normal of the passage is known. False if rounding finds nothing of the triangle over the
 /// face.
 bool passThrough(const Corners& triangle, const Corners& face, const Corners& faceEdges,
                  Passage& passage) {
@@ -123,7 +123,7 @@ bool passThrough(const Corners& triangle, const Corners& face, const Corners& fa
   return true;
 }
 
-/// In the frame and unit of a TrianglePair.
+/// All in the frame and unit of a TrianglePair.
 struct Candidate {
   double depth = std::numeric_limits<double>::infinity();
   Vector3d p = Vector3d::Zero();
@@ -139,8 +139,8 @@ void keepShallower(Candidate& best, const Candidate& other) {
 /// few ulps.
 constexpr double kWellShaped = 0.3;
 
-/// The normal oriented by the edges, where the triangle has an area: exactly, since the direction
-/// of a rounded normal says nothing about a triangle that is a segment.
+/// The normal oriented by the edges, if the triangle has an area: this is decided exactly, since
+/// the direction of a rounded normal says nothing for a triangle that is a segment.
 bool unitNormal(const TriangleCorners& t, const Corners& edges, Vector3d& normal) {
   const Vector3d plain = edges[0].cross(edges[1]);
   const double squared = plain.squaredNorm();
@@ -164,7 +164,7 @@ Vector3d longest(const Corners& edges) {
   });
 }
 
-/// A unit vector across both triangles' longest edges: what segments and points have for a normal.
+/// A unit vector orthogonal to both triangles' longest edges: the normal for segments and points.
 Vector3d acrossBoth(const TrianglePair& pair) {
   const Vector3d e = longest(pair.e);
   const Vector3d f = longest(pair.f);
@@ -174,18 +174,18 @@ Vector3d acrossBoth(const TrianglePair& pair) {
   return direction.squaredNorm() > 0.0 ? direction.unitOrthogonal() : Vector3d::UnitX();
 }
 
-/// How far a point is from being common to both.
+/// Distance of a point from being common to both.
 double offBoth(const TrianglePair& pair, const Vector3d& x) {
   return std::max((x - detail::nearestOnTriangle(x, pair.p, pair.e)).norm(),
                   (x - detail::nearestOnTriangle(x, pair.q, pair.f)).norm());
 }
 
-/// Of the size: a common point that is off by no more than roundings.
+/// Relative to the size: a common point is off by at most this, from roundings.
 constexpr double kCommon = 1e-15;
 
-/// The triangles' common point: `middle` of the first passage that is one up to rounding, or else
-/// the best there is. Where they meet in a corner or an edge, rounding may leave it out of what
-/// passes over a face.
+/// The triangles' common point: `middle` of the first passage that is a common point up to
+/// rounding, or else the best one. If they meet in a corner or an edge, rounding may drop it from
+/// the part over a face.
 Vector3d commonPoint(const TrianglePair& pair, const Passage* passages, int count) {
   Vector3d best = Vector3d::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -204,8 +204,8 @@ Vector3d commonPoint(const TrianglePair& pair, const Passage* passages, int coun
   return best;
 }
 
-/// Either way along the normal. A passage that keeps to one side has lost to rounding where it
-/// touches the face.
+/// In either direction along the normal. If a passage keeps to one side, rounding has lost the
+/// place where it touches the face.
 void keepShallower(Candidate& best, const Passage& passage, const Vector3d& common) {
   const auto consider = [&](double height, const Vector3d& extreme, double up) {
     const double depth = up * height + 0.0;  // not -0

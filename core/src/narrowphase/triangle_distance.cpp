@@ -7,10 +7,10 @@
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
-/// The nearest points are guessed fast and then proven: for any direction n, the gap between the
+/// The nearest points are guessed fast and then proven. For any direction n, the gap between the
 /// two triangles along n is a lower bound on their distance, and only a right guess makes it as
-/// large as the distance of the points. What cannot be proven this way (touching triangles,
-/// slivers, nearly parallel features in near contact) is left to exact predicates and the complete
+/// large as the distance of the points. Pairs that cannot be proven this way (touching triangles,
+/// slivers, nearly parallel features in near contact) are left to exact predicates and the complete
 /// enumeration.
 namespace swept {
 
@@ -20,8 +20,8 @@ using detail::PointPair;
 using detail::TrianglePair;
 using Eigen::Vector3d;
 
-/// Of the size. A guess proven this close is taken: a few roundings more than separationAlong()
-/// subtracts for itself.
+/// Relative to the size. A guess proven this close is accepted: a few roundings more than
+/// separationAlong() subtracts for itself.
 constexpr double kProven = 2e-14;
 
 struct Found {
@@ -61,7 +61,7 @@ bool cornerOverFace(const TrianglePair& pair, const Vector3d& normal, Found& fou
   return proves(pair, fromFirst ? normal : Vector3d(-normal), points, found);
 }
 
-/// What all nine edge pairs need of each edge.
+/// Data of each edge for all nine edge pairs.
 struct EdgeTable {
   explicit EdgeTable(const std::array<Vector3d, 3>& edges) {
     for (int i = 0; i < 3; ++i) {
@@ -97,9 +97,9 @@ EdgeParameters nearestOnEdges(double ee, double inverseE, double ff, double inve
   return {s, t, s > 0.0 && s < 1.0, insideSecond};
 }
 
-/// Direction in which the distance of a pair of points on two edges is proven: their difference
-/// without what rounding put along an edge in whose interior the point lies. The nearer the
-/// triangles, the more that matters.
+/// The direction that proves the distance of a pair of points on two edges: their difference
+/// without what rounding put along an edge in whose interior the point lies. This matters more the
+/// nearer the triangles are.
 Vector3d provingDirection(const Vector3d& v, const Vector3d& e, double inverseE, const Vector3d& f,
                           double inverseF, const EdgeParameters& at) {
   if (at.insideFirst && at.insideSecond) {
@@ -111,7 +111,7 @@ Vector3d provingDirection(const Vector3d& v, const Vector3d& e, double inverseE,
   return v;
 }
 
-/// Edge pairs until one is proven; otherwise false.
+/// Tries edge pairs until one is proven; otherwise false.
 bool edgePairs(const TrianglePair& pair, Found& found) {
   const EdgeTable tableE(pair.e);
   const EdgeTable tableF(pair.f);
@@ -131,7 +131,7 @@ bool edgePairs(const TrianglePair& pair, Found& found) {
       const double squared = v.squaredNorm();
       if (!(squared < least)) continue;
       least = squared;
-      // Only where neither third corner is ahead can the pair be the nearest one.
+      // The pair can be the nearest one only if neither third corner is ahead.
       const double aheadP = v.dot(pair.p[(i + 2) % 3] - p);
       const double aheadQ = -v.dot(pair.q[(j + 2) % 3] - q);
       const double ahead = std::max({aheadP, aheadQ, 0.0});
@@ -164,7 +164,7 @@ TriangleDistance unknownDistance(const TriangleCorners& a, const TriangleCorners
   return {0.0, std::numeric_limits<double>::infinity(), a[0], b[0]};
 }
 
-/// What the fast guesses did not settle.
+/// The pairs that the fast guesses did not settle.
 TriangleDistance hardDistance(const TrianglePair& pair, const TriangleCorners& a,
                               const TriangleCorners& b) {
   if (!std::isfinite(pair.size)) return unknownDistance(a, b);
@@ -201,7 +201,7 @@ TriangleDistance triangleDistance(const TriangleCorners& a, const TriangleCorner
   Found found;
   if (cornerOverFace<true>(pair, pair.f[0].cross(pair.f[1]), found) ||
       cornerOverFace<false>(pair, pair.e[0].cross(pair.e[1]), found) || edgePairs(pair, found)) {
-    // Proven apart only if the bound is positive: below that, the exact predicate decides.
+    // Proven apart only if the bound is positive; otherwise the exact predicate decides.
     if (found.lower > 0.0) return inMetres(pair, found, a[0]);
   }
   return hardDistance(pair, a, b);

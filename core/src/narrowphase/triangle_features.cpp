@@ -28,8 +28,8 @@ Vector3d onSegment(const Vector3d& point, const Vector3d& start, const Vector3d&
   return start + (along / length) * edge;
 }
 
-/// The part of y across x, which has to be the longer one. The second subtraction takes out what
-/// rounding left along x in the first: it matters as soon as the part across is small.
+/// The component of y orthogonal to x. x must be the longer one. The second subtraction removes
+/// what rounding left along x in the first; this matters as soon as the orthogonal part is small.
 Vector3d across(const Vector3d& y, const Vector3d& x) {
   const double length = x.squaredNorm();
   if (!(length > 0.0)) return y;
@@ -37,10 +37,10 @@ Vector3d across(const Vector3d& y, const Vector3d& x) {
   return once - (once.dot(x) / length) * x;
 }
 
-/// Where two edges are nearest within both of their interiors; their ends are other features' work.
-/// In terms of `across`, so that nearly parallel edges cost no accuracy: the error of `t` is that
-/// of the coordinates over the length of `rise`, and moving by it changes the distance by the error
-/// of the coordinates.
+/// Where two edges are nearest within both of their interiors; other features handle their ends. It
+/// uses `across`, so that nearly parallel edges cost no accuracy: the error of `t` is that of the
+/// coordinates over the length of `rise`, and moving by it changes the distance by the error of the
+/// coordinates.
 bool insideEdges(const Vector3d& start, const Vector3d& edge, const Vector3d& otherStart,
                  const Vector3d& otherEdge, Vector3d& on, Vector3d& onOther) {
   const Vector3d rise = across(otherEdge, edge);

@@ -6,13 +6,13 @@
 
 #include "swept/core/triangle_pair.hpp"
 
-/// What distance and contact of two triangles share: a frame in which nothing overflows, nearest
+/// Shared by distance and contact of two triangles: a frame in which nothing overflows, nearest
 /// points by a complete enumeration of the features, and proven separations.
 namespace swept::detail {
 
-/// Two triangles relative to the first corner of the first and scaled by a power of two, so that
-/// the largest coordinate is near 1 unless it was near enough already. Scaling is exact; the
-/// subtraction rounds each coordinate by at most its own 2^-53.
+/// Two triangles relative to the first corner of the first, scaled by a power of two so that the
+/// largest coordinate is near 1, unless it already was. Scaling is exact; the subtraction rounds
+/// each coordinate by at most 2^-53 of itself.
 struct TrianglePair {
   TrianglePair(const TriangleCorners& a, const TriangleCorners& b);
 
@@ -31,20 +31,21 @@ struct PointPair {
   double squared;  ///< of their distance
 };
 
-/// Proven lower bound on n . (y - x) / |n| over all x of the first triangle and y of the second
-/// one: their distance if it is positive. -infinity for directions too short or not finite.
+/// Proven lower bound on n . (y - x) / |n| over all x of the first triangle and y of the second: a
+/// bound on their distance if it is positive. -infinity for directions that are too short or not
+/// finite.
 double separationAlong(const TrianglePair& pair, const Eigen::Vector3d& n);
 
-/// The best of separationAlong() over every direction in which two polytopes can be farthest apart:
-/// face normals, edge crosses, and `towards` (from the first to the second) itself, as it is and
-/// across each edge.
+/// The best of separationAlong() over every direction that can give the distance of two polytopes:
+/// face normals, cross products of edges, and `towards` (from the first to the second), as it is
+/// and orthogonal to each edge.
 double bestSeparation(const TrianglePair& pair, const Eigen::Vector3d& towards);
 
-/// Perpendicular to x and y. Unlike the rounded cross product it is so up to rounding for nearly
-/// parallel x and y as well.
+/// Perpendicular to x and y, up to rounding even for nearly parallel x and y, unlike the rounded
+/// cross product.
 Eigen::Vector3d perpendicular(const Eigen::Vector3d& x, const Eigen::Vector3d& y);
 
-/// A normal of a triangle given by its edges in order, as perpendicular() gives it. Of no use for a
+/// A normal of a triangle given by its edges in order, by perpendicular(). Not usable for a
 /// triangle without an area.
 Eigen::Vector3d faceNormal(const std::array<Eigen::Vector3d, 3>& edges);
 

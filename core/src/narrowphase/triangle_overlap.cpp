@@ -66,7 +66,7 @@ bool allZero(const Signs& s) {
   return s[0] == 0 && s[1] == 0 && s[2] == 0;
 }
 
-/// A triangle seen from the corner that the other one's plane parts from the other two.
+/// A triangle seen from the corner that the other one's plane separates from the other two.
 struct Wedge {
   const Vector3d* apex;
   const Vector3d* next;
@@ -106,9 +106,9 @@ void alignAlongLine(Wedge& first, Wedge& second) {
   if (sideOfFirst < 0) std::swap(second.next, second.last);
 }
 
-// What follows decides every pair, given coordinates in the exact range. Triangles in one plane and
-// triangles without an area rest on this: a set of points in one plane, and any subset of it, is
-// mapped one to one by at least one of the three projections along a coordinate axis. So two
+// The following decides every pair, given coordinates in the exact range. Triangles in one plane
+// and triangles without an area rely on this: at least one of the three projections along a
+// coordinate axis maps a set of points in one plane, and any subset of it, one to one. So two
 // coplanar figures share a point if and only if their projections do in all three.
 
 using Point = const Vector3d&;
@@ -129,7 +129,7 @@ bool segmentsTouch(Point a, Point b, Point c, Point d) {
          projectedSegmentsTouch(a, b, c, d, 2, 0) && sideOfPlane(a, b, c, d) == 0;
 }
 
-/// Signs alone leave out where on its line a triangle without an area ends: the box tells.
+/// Signs alone do not show where on its line a triangle without an area ends: its box does.
 bool projectedTriangleHolds(const TriangleCorners& t, Point p, int i, int j) {
   for (const int axis : {i, j}) {
     const auto [least, most] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
@@ -212,7 +212,7 @@ bool touchExactly(const TriangleCorners& a, const TriangleCorners& b) {
   const Signs signsB = sidesOf(a, b);
   if (strictlyOneSide(signsB)) return false;
   if (allZero(signsA) && allZero(signsB)) return coplanarTouch(a, b);
-  // One of them without an area: a segment against a triangle.
+  // For one triangle without an area: a segment against a triangle.
   if (allZero(signsA) || allZero(signsB)) return anyEdgeTouches(a, b);
   Wedge first = wedge(a, signsA);
   Wedge second = wedge(b, signsB);

@@ -46,7 +46,7 @@ class AnyOfRanges {
     upper_.remove(range.upper);
     estimate_.remove(range.estimate);
   }
-  /// `besides`: the probability that something else occurs, at most.
+  /// `besides`: upper bound on the probability that something else occurs.
   ProbabilityRange range(double besides) const {
     ProbabilityRange any;
     any.lower = lower_.probability();

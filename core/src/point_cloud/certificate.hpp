@@ -11,7 +11,7 @@
 
 namespace swept::detail {
 
-/// Of a line, in parameters along it; empty where from > to.
+/// An interval of a line, in parameters along it; empty if from > to.
 struct Interval {
   double from = std::numeric_limits<double>::infinity();
   double to = -std::numeric_limits<double>::infinity();
@@ -30,20 +30,20 @@ struct Certificate {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();  ///< m, center; or unit normal
   double number = 0.0;                               ///< m, radius; or offset
 
-  /// Smaller all around by `by` (m): what positions may be off by rounding.
+  /// The set shrunk all around by `by` (m), the rounding of positions.
   Certificate shrunk(double by) const {
     Certificate smaller = *this;
     smaller.number += form == Form::Ball ? -by : by;
     return smaller;
   }
 
-  /// Where the line of points origin + w * way is in the set.
+  /// The interval of the line of points origin + w * way that is in the set.
   Interval along(const Eigen::Vector3d& origin, const Eigen::Vector3d& way) const {
     return form == Form::Ball ? alongBall(origin, way) : alongHalfSpace(origin, way);
   }
 
  private:
-  // By way of the line's nearest point to the center: its rounding is that of positions, and no
+  // Uses the line's nearest point to the center: its rounding is that of positions, and no
   // difference of squares cancels.
   Interval alongBall(const Eigen::Vector3d& origin, const Eigen::Vector3d& way) const {
     const double length = way.norm();
@@ -67,7 +67,7 @@ struct Certificate {
   }
 };
 
-/// What a look at one position tells about an event.
+/// What a query at one position proves about an event.
 struct Finding {
   std::optional<Certificate> proof;  ///< a set around the position
   double clearance = 0.0;  ///< m, estimate: distance to where the event occurs, or minus that to
@@ -75,7 +75,7 @@ struct Finding {
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, where it grows; zero if unknown
 };
 
-/// Looks at a position (m).
+/// Queries a position (m).
 using LookAt = std::function<Finding(const Eigen::Vector3d&)>;
 
 }  // namespace swept::detail

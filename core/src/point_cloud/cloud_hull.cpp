@@ -47,7 +47,7 @@ Vector3d meanOf(const std::vector<Vector3d>& points) {
   return sum;
 }
 
-/// By how much the hull has to be scaled about `middle` to contain all points; infinite where
+/// The factor by which the hull must be scaled about `middle` to contain all points; infinite if
 /// `middle` is not well inside.
 ///
 /// Lemma: a point beyond no plane of the scaled hull is in it. Scaling moves the plane of a face by
@@ -83,7 +83,7 @@ ConvexHull cloudHull(std::span<const Vector3d> points, const CloudTree& tree) {
   if (points.size() <= ConvexHull::kFew) return ConvexHull::of(points);
   const std::vector<Vector3d> kept = farthestPoints(points, tree);
   const double size = (tree.bounds().upper - tree.bounds().lower).maxCoeff();
-  // Flat sets, and needles, only have a hull to scale where their points are thick.
+  // Flat sets, and needles, have a hull that can be scaled only if their points are thickened.
   for (const double thickness : {0.0, 1e-6, 1e-3}) {
     const ConvexHull hull = ConvexHull::of(thickened(kept, thickness * size));
     if (hull.faces().empty()) continue;

@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// A convex body that contains the points: their hull where they are few, else one of few vertices
+/// A convex body that contains the points: their hull if they are few, else one of few vertices
 /// that reaches some hundredths of its size beyond them.
 ConvexHull cloudHull(std::span<const Eigen::Vector3d> points, const CloudTree& tree);
 

@@ -83,10 +83,10 @@ class CloudQuery {
            effort_.looks < goal_.options.maxLooks;
   }
 
-  /// Pairs without a common point are enough where many are likely.
+  /// Pairs without a common point are enough if many pairs are likely.
   void match(const NoisyPair& pair) {
     if (usedA_[pair.a] || usedB_[pair.b]) return;
-    constexpr double kOfUse = 1e-3;  // what is less likely would be in the way of others
+    constexpr double kOfUse = 1e-3;  // less likely pairs would only block others
     if (pair.range.lower < kOfUse) return;
     usedA_[pair.a] = usedB_[pair.b] = true;
     matched_.add(pair.range.lower);
@@ -116,8 +116,8 @@ class CloudQuery {
     return 4.0 * tolerance::kSupportRounding * size + kPositionUnderflow;
   }
 
-  /// By the closed form; positions off by a rounding move it by the density of the distance, which
-  /// is at most that of a normal one, at either end.
+  /// By the closed form. Rounding of positions changes it by at most the density of the distance,
+  /// which is at most that of a normal distribution, at either end.
   ProbabilityRange isotropic(std::size_t i, std::size_t j) const {
     const double s = std::hypot(a_.factor(i)(0, 0), b_.factor(j)(0, 0));
     const double p = ballProbability(meanOf(i, j).norm(), a_.radii[i] + b_.radii[j], s);
@@ -125,7 +125,7 @@ class CloudQuery {
     return {std::max(0.0, p - error), std::min(1.0, p + error), p};
   }
 
-  /// By a series, or where that is too long by an integral that is left open.
+  /// By a series, or, if that is too long, by an integral that is left open.
   ProbabilityRange anisotropic(std::size_t i, std::size_t j) {
     if (!hasDigits(std::hypot(a_.spreads[i], b_.spreads[j]))) return {};
     const Matrix3d one = a_.factor(i);
@@ -147,7 +147,7 @@ class CloudQuery {
     return open_.back().integral.range();
   }
 
-  /// Brings the bounds of all pairs this close. False if closer ones are not possible, or no use.
+  /// Brings the bounds of all pairs this close. False if closer ones are impossible or useless.
   bool improvePairs(double accuracy) {
     double open = 0.0;
     for (Open& one : open_) {
@@ -179,7 +179,7 @@ class CloudQuery {
     return range;
   }
 
-  /// Draws the groups that are known least, until the estimate is as accurate as asked for.
+  /// Samples the least known groups until the estimate is as accurate as requested.
   void sample(const PairGroups& groups, CollisionProbability& result) {
     std::mt19937_64 random(goal_.options.seed);
     std::vector<GroupSamples> samples;
@@ -200,7 +200,7 @@ class CloudQuery {
     }
   }
 
-  /// How far off a group's estimate may be.
+  /// Possible error of a group's estimate.
   double errorOf(const GroupSamples& samples, std::size_t group) const {
     const double most = 0.5 * groups_[group].gap();
     return samples.draws() > 0 ? std::min(most, samples.standardError()) : most;
@@ -226,7 +226,7 @@ class CloudQuery {
   }
 
   /// Sets the estimate and its standard error, to first order in those of the groups. Returns the
-  /// error, with that of groups that no one has drawn.
+  /// error, including that of groups that were not sampled.
   double combine(const std::vector<GroupSamples>& samples, const std::vector<std::size_t>& groupOf,
                  CollisionProbability& result) const {
     AnyOf any;

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kLanes = WideNode::kLanes;
 
-/// Levels up to this one have boxes along the surface that their points may be of, which is flat.
-/// Larger patches are bent, and not worth another look at all points.
+/// Levels up to this one have boxes along the surface that their points may lie on, which is nearly
+/// flat. Larger patches are curved, and not worth another pass over all points.
 constexpr std::size_t kLastOriented = 2;
 
 Aabb joined(const Aabb& a, const Aabb& b) {
@@ -88,7 +88,7 @@ OrientedBox CloudTree::boxFor(std::size_t level, std::size_t index, const Vector
   if (level == kLastOriented) {
     return fitBoxAlong({points, radius, grown}, principalAxes(scatterOf(points)), origin);
   }
-  // A bucket has too few points to tell which way the surface goes; its node has enough.
+  // A bucket has too few points to show the orientation of the surface; its node has enough.
   return fitBoxAlong({points, radius, grown}, patches_[level == 0 ? index / kLanes : index],
                      origin);
 }

@@ -18,8 +18,9 @@ inline std::array<Eigen::Vector3d, 8> cornersOf(const Aabb& box) {
   return corners;
 }
 
-/// The hierarchy over points in an order in which runs are compact: eight points a bucket, eight
-/// buckets a node, eight nodes a node above. All arrays, so that it is built level by level.
+/// The hierarchy over points in an order in which runs are compact: eight points per bucket, eight
+/// buckets per node, eight nodes per node above. It consists of arrays only, so it is built level
+/// by level.
 class CloudTree {
  public:
   /// Refers to the points and radii.
@@ -31,7 +32,7 @@ class CloudTree {
   const Aabb& bounds() const { return levels_.back().front(); }
   /// Largest d . p of all points.
   double support(const Eigen::Vector3d& d) const;
-  /// Index of a point where it is reached.
+  /// Index of a point that attains it.
   std::size_t farthest(const Eigen::Vector3d& d) const;
 
  private:
@@ -47,7 +48,7 @@ class CloudTree {
   std::size_t childrenOf(std::size_t level, std::size_t index) const;
 
   PointBuckets buckets_;
-  /// m; boxes of the points: of buckets, of eight buckets, and so on. The last level has one.
+  /// m; boxes of the points: of buckets, of eight buckets, and so on. The last level has one box.
   std::vector<std::vector<Aabb>> levels_;
   std::vector<Eigen::Matrix3d> patches_;  ///< principal axes of runs of eight buckets
   std::vector<double> radii_;  ///< m, the largest of each bucket; empty: all have one radius

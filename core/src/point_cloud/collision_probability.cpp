@@ -8,7 +8,7 @@ namespace swept {
 
 namespace {
 
-/// NaN compares false, and is Undecided.
+/// NaN compares false, which gives Undecided.
 ThresholdResult compared(const CollisionProbability& found, double threshold) {
   ThresholdResult result;
   result.lower = found.lower;

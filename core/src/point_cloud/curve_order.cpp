@@ -23,7 +23,7 @@ struct Run {
   std::size_t count;
 };
 
-/// As many points as this may share a cell of the grid: what a bucket of the hierarchy holds.
+/// This many points may share a cell of the grid: as many as a bucket of the hierarchy holds.
 constexpr std::size_t kFew = 8;
 
 class CurveOrder {
@@ -79,13 +79,14 @@ class CurveOrder {
     if (count > kFew) crowded_.push_back({first, count});
   }
 
-  /// Of points on a surface about one in sixteen cells is taken. A key and an index share 64 bits.
+  /// For points on a surface about one in sixteen cells is occupied. A key and an index share 64
+  /// bits.
   static int bitsFor(int indexBits) {
     const int wanted = std::clamp((indexBits + 1) / 2 + 2, 6, HilbertCurve::kMostBits);
     return std::min((wanted + 1) / 2 * 2, (64 - indexBits) / 6 * 2);
   }
 
-  /// Place on the curve, then which of the run.
+  /// The place on the curve, then the index in the run.
   void makeKeys(const Run& run, const Aabb& box, int bits, int indexBits) {
     const double cells = std::ldexp(1.0, bits);
     const double half = (0.5 * box.upper - 0.5 * box.lower).maxCoeff();
@@ -111,7 +112,7 @@ class CurveOrder {
     }
   }
 
-  /// By the bits from `lowest` on, a digit at a time from the lowest.
+  /// Sorts by the bits from `lowest` on, one digit at a time from the lowest.
   void sortKeys(int bits, int lowest) {
     constexpr int kMostDigit = 11;
     if (keys_.size() < 256) {

@@ -9,8 +9,8 @@
 
 namespace swept::detail {
 
-/// Indices of the points along Hilbert's curve through `bounds` (m), which contain them: any run of
-/// them is a compact set. Linear in their number, at most 2^30. Where many points are in one cell
+/// Indices of the points along Hilbert's curve through `bounds` (m), which contains them: any run
+/// of them is a compact set. Linear in their number, at most 2^30. If many points are in one cell
 /// of the curve's grid, they are ordered along a curve through their own box.
 std::vector<int> curveOrder(std::span<const Eigen::Vector3d> points, const Aabb& bounds);
 

@@ -17,10 +17,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of u and v; beyond is 5e-12 of the probability, which only the upper bound has.
+/// Range of u and v; 5e-12 of the probability is beyond, which only the upper bound includes.
 constexpr std::array<double, 6> kCuts{-7.0, -2.2, -0.75, 0.75, 2.2, 7.0};
 
-/// Enforced cap, some ten megabytes: cells so small gain little, and splits need not cost looks.
+/// Cap on the number of cells, some ten megabytes: smaller cells gain little, and splits need not
+/// cost looks.
 constexpr std::size_t kMostCells = 1 << 15;
 
 constexpr int kLooksAlong = 4;        // at gaps of a cell's middle line, each time
@@ -72,8 +73,8 @@ Finding EventIntegral::lookAt(const Vector3d& position, LineCell* cell) {
   return finding;
 }
 
-// A ball around the mean holds all but the tail of the noise, a half-space all but that of its part
-// along the normal.
+// A ball around the mean contains all but the tail of the noise, a half-space all but the tail of
+// its component along the normal.
 void EventIntegral::boundByFirst(const Finding& first) {
   first_.estimate = first.clearance <= 0.0 ? 1.0 : 0.0;
   if (!common_.empty()) {
@@ -98,8 +99,8 @@ void EventIntegral::boundByFirst(const Finding& first) {
   range_ = first_;
 }
 
-/// Along the mean of the boundary's normals around: lines that cross all of it steeply. Lines along
-/// a wall would tell little, since no ball that is to one side of it has many of them.
+/// The mean of the nearby normals of the boundary: lines along it cross all of it steeply. Lines
+/// along a wall would show little, since no ball on one side of it contains much of them.
 void EventIntegral::makeFrame() {
   constexpr double kAround = 1.2;       // standard deviations
   constexpr double kLeastSlope = 1e-3;  // of the spread: a boundary along which the noise is
@@ -119,7 +120,8 @@ void EventIntegral::makeFrame() {
     along = Vector3d::Unit(largest);
   }
   const Matrix3d turn = axisFrame(along);
-  // u and v along the noise's axes besides w: where it has none, lines are all the same.
+  // u and v are the noise's axes besides w: if there is no noise along an axis, its lines are all
+  // the same.
   Matrix3d axes = noise_.factor * turn;
   const double square = axes.col(0).squaredNorm() - axes.col(1).squaredNorm();
   const double angle = 0.5 * std::atan2(2.0 * axes.col(0).dot(axes.col(1)), square);
@@ -148,7 +150,7 @@ void EventIntegral::makeCells() {
   updateRange();
 }
 
-/// m, as far as the probable part of the cell extends along an axis.
+/// m, extent of the probable part of the cell along an axis.
 double EventIntegral::width(const LineCell& cell, int axis) const {
   const auto k = static_cast<std::size_t>(axis);
   return std::sqrt(cell.variance[k]) * frame_.axes.col(axis).norm();
@@ -169,7 +171,8 @@ void EventIntegral::lookAlong(LineCell& cell) {
   bound(frame_, cell);
 }
 
-/// Looks into a gap of the middle line, and once more where the boundary seems to cross it.
+/// Queries a position in a gap of the middle line, and another where the boundary seems to cross
+/// it.
 Vector3d EventIntegral::approach(LineCell& cell, const Interval& gap, Finding& finding) {
   const Vector3d origin = frame_.line(cell.mean[0], cell.mean[1]);
   const Vector3d way = frame_.way();

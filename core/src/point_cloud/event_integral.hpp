@@ -9,15 +9,15 @@
 
 namespace swept::detail {
 
-/// Standard deviations of the noise: no look of an EventIntegral goes so far.
+/// Standard deviations of the noise: no look of an EventIntegral is farther from the mean.
 inline constexpr double kFarthestLook = 32.0;
 
-/// m. What positions and distances may be off by, besides their rounding, where squares of small
-/// numbers underflow: far above the root of the least one.
+/// m. Error of positions and distances, besides their rounding, if squares of small numbers
+/// underflow: far above the root of the least double.
 inline constexpr double kPositionUnderflow = 1e-140;
 
-/// Whether the square of a spread (m) keeps its digits. Of others only far and deep positions are
-/// told apart.
+/// Whether the square of a spread (m) keeps its digits. If not, only far and deep positions can be
+/// distinguished.
 inline bool hasDigits(double spread) {
   return spread > 1e-140 && spread < 1e140;
 }
@@ -31,13 +31,13 @@ struct ProbabilityRange {
   double gap() const { return upper - lower; }
 };
 
-/// The probability that an event occurs at a position with Gaussian noise: bounds that come closer
+/// The probability that an event occurs at a position with Gaussian noise: bounds that are refined
 /// step by step.
 ///
-/// Positions are seen in coordinates in which the noise is standard normal, the last of them along
-/// what the noise makes of the normal of the event's boundary, so that most lines along it cross
-/// the boundary steeply. Rectangles of such lines are bounded by certificates, the one with the
-/// widest bounds first (best-first cubature).
+/// Positions have coordinates in which the noise is standard normal. The last of them is along the
+/// transformed normal of the event's boundary, so that most lines along it cross the boundary
+/// steeply. Certificates bound rectangles of such lines, the one with the widest bounds first
+/// (best-first cubature).
 class EventIntegral {
  public:
   struct Noise {
@@ -47,10 +47,10 @@ class EventIntegral {
     double rounding;         ///< m, of positions, and of the frame that `look` speaks of
     bool isConvex;           ///< the positions for which the event occurs are a convex set
   };
-  /// Looks once, at the mean.
+  /// Performs one look, at the mean.
   EventIntegral(const Noise& noise, LookAt look);
 
-  /// One step. False if there is nothing left that steps could improve.
+  /// One step. False if no step could improve the bounds.
   bool refine();
 
   const ProbabilityRange& range() const { return range_; }

@@ -44,7 +44,7 @@ void GroupSamples::draw(int draws, std::mt19937_64& random) {
   draws_ += draws;
 }
 
-// With one draw more of either outcome (Laplace's rule), so that few draws are never sure.
+// Adds one sample of either outcome (Laplace's rule), so that few samples never give certainty.
 double GroupSamples::standardError() const {
   const double draws = draws_ + 2.0;
   const double p = (met_ + 1.0) / draws;

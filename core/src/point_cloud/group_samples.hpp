@@ -13,7 +13,7 @@
 
 namespace swept::detail {
 
-/// Draws true positions of a group's points, and counts how often any of its pairs meets.
+/// Samples true positions of a group's points, and counts how often any of its pairs meets.
 class GroupSamples {
  public:
   GroupSamples(const NoisyCloudData& a, const NoisyCloudData& b, const Eigen::Isometry3d& a_from_b,
@@ -23,7 +23,7 @@ class GroupSamples {
 
   int draws() const { return draws_; }
   double probability() const { return draws_ > 0 ? static_cast<double>(met_) / draws_ : 0.0; }
-  /// Of probability(); not zero where all draws agreed.
+  /// Standard error of probability(); not zero even if all samples agreed.
   double standardError() const;
 
  private:

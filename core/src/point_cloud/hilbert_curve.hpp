@@ -21,8 +21,8 @@ class HilbertCurve {
     return spread(x) | spread(y) << 1 | spread(z) << 2;
   }
 
-  /// Indices of cells among 2^(3 bits), with `bits` even and coordinates below 2^bits. Of several
-  /// at once, since each step of one has to wait for the step before.
+  /// Indices of cells among 2^(3 bits), with `bits` even and coordinates below 2^bits. For several
+  /// cells at once, since each step for one cell waits for the step before.
   template <std::size_t N>
   static std::array<std::uint64_t, N> indices(const std::array<std::uint64_t, N>& cells, int bits) {
     std::array<std::uint64_t, N> found{};

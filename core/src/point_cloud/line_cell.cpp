@@ -19,7 +19,7 @@ struct AffineEnd {
   double variance = 0.0;            ///< over the rectangle
   std::array<double, 4> corners{};  ///< values
 
-  /// How far the mean of P(w <= function) may be from P(w <= middle).
+  /// Bound on the difference between the mean of P(w <= function) and P(w <= middle).
   double error() const {
     if (std::isinf(middle)) return 0.0;
     double reach = 0.0;
@@ -46,7 +46,8 @@ struct Seen {
     }
     return true;
   }
-  /// Whether the two have a common point on every line of the cell: by convexity if so on corners.
+  /// Whether the two have a common point on every line of the cell: by convexity, if they do at the
+  /// corners.
   bool meets(const Seen& other) const {
     for (std::size_t k = 0; k < kMiddle; ++k) {
       if (!(on[k].from <= other.on[k].to && other.on[k].from <= on[k].to)) return false;
@@ -78,11 +79,11 @@ std::vector<Seen> look(const NoiseFrame& frame, const LineCell& cell) {
   return seen;
 }
 
-/// Below a concave function (or, with `below` false, above a convex one) of these values at the
-/// corners.
+/// An affine function below a concave function (or, with `below` false, above a convex one) with
+/// these values at the corners.
 AffineEnd affineEnd(const LineCell& cell, const std::array<double, 4>& values, bool below) {
   AffineEnd end;
-  if (std::isinf(values[0])) {  // of a half-space, whose ends are so everywhere
+  if (std::isinf(values[0])) {  // a half-space, whose ends are infinite everywhere
     end.middle = values[0];
     end.corners = values;
     return end;
@@ -109,7 +110,8 @@ AffineEnd endOf(const LineCell& cell, const Seen& seen, bool upper) {
   return affineEnd(cell, values, upper);
 }
 
-/// Certificates of one kind that overlap, one after the other: all between the two ends is proven.
+/// Overlapping certificates of one kind, one after the other: everything between the two ends is
+/// proven.
 struct Segment {
   AffineEnd from;
   AffineEnd to;
@@ -153,7 +155,8 @@ std::vector<Segment> segments(const LineCell& cell, const std::vector<Seen>& see
   return chains;
 }
 
-/// Of a convex event: with points of every corner's line, all between them is in it.
+/// For a convex event: if every corner's line has a point of it, everything between these points is
+/// in it.
 std::vector<Segment> hullOf(const LineCell& cell, const std::vector<Seen>& seen) {
   Seen hull;
   for (const Seen& one : seen) {
@@ -169,7 +172,7 @@ std::vector<Segment> hullOf(const LineCell& cell, const std::vector<Seen>& seen)
   return {{endOf(cell, hull, false), endOf(cell, hull, true)}};
 }
 
-/// Probability that is proven; segments that overlap without one chaining to the other count once.
+/// The proven probability; segments that overlap without chaining to each other count once.
 double provenMass(std::vector<Segment> chains) {
   std::sort(chains.begin(), chains.end(),
             [](const Segment& a, const Segment& b) { return a.mass() > b.mass(); });
@@ -185,8 +188,9 @@ double provenMass(std::vector<Segment> chains) {
   return std::min(1.0, mass);
 }
 
-/// Calls gap(interval, known occurrence before, after) for what no certificate has on the middle
-/// line. Returns the probability of what is known to occur. `seen` is sorted along that line.
+/// Calls gap(interval, known occurrence before, after) for each part of the middle line without a
+/// certificate. Returns the probability of the part known to occur. `seen` is sorted along that
+/// line.
 template <typename OnGap>
 double walkMiddle(const std::vector<Seen>& seen, const OnGap& gap) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -207,7 +211,8 @@ double walkMiddle(const std::vector<Seen>& seen, const OnGap& gap) {
   return occurring;
 }
 
-/// How much of a gap of the middle line belongs to its start: up to where the boundary seems to be.
+/// The share of a gap of the middle line that belongs to its start: up to where the boundary seems
+/// to be.
 double shareOfStart(const NoiseFrame& frame, const LineCell& cell, const Interval& gap) {
   if (!cell.boundary) return 0.5;
   const Eigen::Vector3d origin = frame.line(cell.mean[0], cell.mean[1]);
@@ -219,7 +224,7 @@ double shareOfStart(const NoiseFrame& frame, const LineCell& cell, const Interva
   return mass > 0.0 ? before / mass : 0.5;
 }
 
-/// By the middle line: gaps whose ends agree are like their ends, others are parted.
+/// Uses the middle line: a gap whose ends agree is like its ends, other gaps are divided.
 double middleEstimate(const NoiseFrame& frame, const LineCell& cell,
                       const std::vector<Seen>& seen) {
   double shared = 0.0;
@@ -241,7 +246,7 @@ void sortAlongMiddle(std::vector<Seen>& seen) {
   });
 }
 
-/// The newest are kept: they were made closer to where it matters.
+/// Keeps the newest: they were made closer to the relevant places.
 void keepUseful(LineCell& cell, std::vector<Seen>& seen) {
   std::vector<Seen> kept;
   for (std::size_t i = seen.size(); i-- > 0 && kept.size() < kMostCertificates;) {
@@ -264,8 +269,8 @@ void keepUseful(LineCell& cell, std::vector<Seen>& seen) {
 }  // namespace
 
 // The variance of a unimodal distribution on an interval is at most a ninth of its square
-// (Jacobson: The Maximum Variance of Restricted Unimodal Distributions, 1969), that of a normal
-// one cut off at both sides at most what it was.
+// (Jacobson: The Maximum Variance of Restricted Unimodal Distributions, 1969). The variance of a
+// normal distribution truncated at both sides is at most that of the whole.
 LineCell LineCell::of(const std::array<double, 2>& from, const std::array<double, 2>& to) {
   LineCell cell;
   cell.from = from;

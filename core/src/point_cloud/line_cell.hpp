@@ -22,28 +22,27 @@ struct NoiseFrame {
   Eigen::Vector3d way() const { return axes.col(2); }
 };
 
-/// Where an event's boundary seems to be: a tangent plane.
+/// The estimated boundary of an event: a tangent plane.
 struct BoundaryGuess {
   Eigen::Vector3d point;    ///< m
   Eigen::Vector3d outward;  ///< unit, away from the event
 };
 
-/// The lines along w with (u, v) in a rectangle, and how much of their probability is where an
-/// event occurs.
+/// The lines along w with (u, v) in a rectangle, and the probability in them that an event occurs.
 ///
-/// The bounds are of second order in the rectangle's size. A certificate is convex, so that its end
-/// along w is a concave function of (u, v), and an affine function that is below it at the four
-/// corners is so everywhere. The mean of P(z <= affine function) over the rectangle differs from
-/// its value in the rectangle's mean by at most half the curvature of the distribution function
-/// times the variance of the affine function.
+/// The bounds are of second order in the rectangle's size. A certificate is convex, so its end
+/// along w is a concave function of (u, v), and an affine function below it at the four corners is
+/// below it everywhere. The mean of P(z <= affine function) over the rectangle differs from its
+/// value at the rectangle's mean by at most half the curvature of the distribution function times
+/// the variance of the affine function.
 struct LineCell {
   std::array<double, 2> from{};  ///< of u and v
   std::array<double, 2> to{};
   std::array<double, 2> mean{};      ///< of u and v, given that they are in the rectangle
-  std::array<double, 2> variance{};  ///< an upper bound on theirs
+  std::array<double, 2> variance{};  ///< upper bounds on their variances
   double mass = 0.0;                 ///< probability that (u, v) is in the rectangle
 
-  bool looked = false;  ///< positions of its middle line were looked at
+  bool looked = false;  ///< positions of its middle line were queried
   std::vector<Certificate> certificates;
   std::optional<BoundaryGuess> boundary;  ///< next to the middle line; for the estimate alone
 
@@ -56,10 +55,10 @@ struct LineCell {
   static LineCell of(const std::array<double, 2>& from, const std::array<double, 2>& to);
 };
 
-/// Sets the cell's bounds from its certificates; drops those that tell nothing.
+/// Sets the cell's bounds from its certificates; drops useless certificates.
 void bound(const NoiseFrame& frame, LineCell& cell);
 
-/// What is not known of a cell's middle line: the part of most probability.
+/// The unknown part of a cell's middle line with the largest probability.
 struct LineGap {
   Interval where;     ///< of w
   double mass = 0.0;  ///< probability of w

@@ -17,8 +17,8 @@ Isometry3d placedAt(const Vector3d& position) {
   return Isometry3d(Eigen::Translation3d(position));
 }
 
-// The ball of a point touches the shape wherever the point is in a touching set, and nowhere in a
-// free one.
+// The ball of a point touches the shape at all positions of the point in a touching set, and at
+// none in a free one.
 Certificate touchingBall(const Vector3d& center, double radius) {
   return {Certificate::Form::Ball, true, center, radius};
 }
@@ -64,7 +64,7 @@ Finding ShapeLook::at(const Vector3d& position, double radius, double tolerance)
                                     : atOther(position, radius, tolerance);
 }
 
-// The ball that reaches to the nearest triangle is wholly enclosed, or not at all, as its center.
+// The ball that reaches to the nearest triangle is wholly enclosed exactly if its center is.
 Finding ShapeLook::atMesh(const Vector3d& position, double radius, double tolerance) const {
   PieceGoal goal;
   goal.surfaces = true;
@@ -89,7 +89,7 @@ Finding ShapeLook::atOther(const Vector3d& position, double radius, double toler
   if (apart.lower > 0.0) {
     Finding finding = outside(position, radius, apart.lower, apart.upper);
     finding.outward = unitOrZero(position - apart.pointA);
-    // A plane has the whole shape behind it.
+    // The whole shape is behind the plane.
     if (apart.lower > radius && apart.normal.squaredNorm() > 0.0) {
       finding.proof =
           freeHalfSpace(apart.normal, apart.normal.dot(position) - (apart.lower - radius));

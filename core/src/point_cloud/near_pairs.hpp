@@ -23,8 +23,8 @@ class NearPairs {
     while (tailBeyond(enough_) > kFarTail / pairs) enough_ += 0.125;
   }
 
-  /// Calls onPair(point of a, point of b) for each, until that returns false. Returns whether all
-  /// pairs were gone through.
+  /// Calls onPair(point of a, point of b) for each pair, until that returns false. Returns whether
+  /// all pairs were visited.
   template <typename OnPair>
   bool visit(const OnPair& onPair) {
     std::vector<std::pair<int, int>> waiting{{0, 0}};
@@ -49,7 +49,7 @@ class NearPairs {
     return true;
   }
 
-  double far() const { return far_; }  ///< probability, at most, that any other pair meets
+  double far() const { return far_; }  ///< upper bound on the probability that any other pair meets
   int boxPairs() const { return boxPairs_; }
 
  private:

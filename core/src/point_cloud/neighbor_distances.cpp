@@ -40,8 +40,8 @@ class Nearest {
 
 }  // namespace
 
-/// Points that are near in the order of the hierarchy are near: the k before and after give a
-/// radius that the k-th nearest is within.
+/// Points that are near in the order of the hierarchy are near in space: the k before and after
+/// give an upper bound on the distance of the k-th nearest.
 std::vector<double> neighborDistances(const PointCloud& cloud, int k) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, k] { return neighborDistances(cloud, k); });

@@ -32,8 +32,8 @@ void requireFinite(const Vector3d& p, const std::string& what) {
   throw std::invalid_argument(message.str());
 }
 
-/// That so many, and those along another ray from a share exp(-length) of the range on, are no more
-/// than allowed.
+/// Checks that this many balls, and those along another ray from a share exp(-length) of the range
+/// on, are at most as many as allowed.
 void requireFew(std::size_t balls, double length, double factor, double radius, double range) {
   const double more = factor > 1.0 ? length / std::log(factor) : HUGE_VAL;
   if (static_cast<double>(balls) + more <= static_cast<double>(kMostBalls)) return;

@@ -13,7 +13,7 @@ namespace swept::detail {
 
 namespace {
 
-/// Disjoint sets of points, each known by one of them.
+/// Disjoint sets of points, each represented by one of them.
 class PointSets {
  public:
   explicit PointSets(std::size_t count) : parent_(count) {
@@ -34,13 +34,14 @@ class PointSets {
 };
 
 /// Sets of pairs without a common point. Each pair goes to the first set that has none of its
-/// points: the likeliest go first, and so the first sets have the most.
+/// points. The likeliest pairs go first, so the first sets have the most.
 class PairSets {
  public:
   void add(const NoisyPair& pair) {
     Used& ofA = usedA_[pair.a];
     Used& ofB = usedB_[pair.b];
-    // All before are used: a point with many pairs would look through all of its own for each.
+    // All earlier sets are used: a point with many pairs would otherwise search all of its sets for
+    // each pair.
     std::size_t word = std::max(ofA.full, ofB.full);
     while ((ofA.word(word) | ofB.word(word)) == kAll) ++word;
     const std::size_t set = kWord * word + std::countr_one(ofA.word(word) | ofB.word(word));
@@ -65,8 +66,9 @@ class PairSets {
   static constexpr std::size_t kWord = 64;  ///< sets in a word, a bit each
   static constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
-  /// The sets that have a point: all of the words before `full`, and those beyond that have any.
-  /// So a point with one pair is small even where its pair is in the last of many sets.
+  /// The sets that have a point: all of the words before `full`, and the words beyond that have
+  /// any. So a point with one pair needs little memory even if its pair is in the last of many
+  /// sets.
   struct Used {
     std::uint64_t word(std::size_t index) const {
       const auto found = beyond.find(index);

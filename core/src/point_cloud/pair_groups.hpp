@@ -16,10 +16,10 @@ struct NoisyPair {
   ProbabilityRange range;
 };
 
-/// Pairs in groups that have no point in common: what happens in one does not depend on the others.
+/// Pairs in groups without common points: the groups are independent.
 class PairGroups {
  public:
-  /// Points of a and b are numbered up to these.
+  /// The numbers of points of a and of b.
   PairGroups(std::span<const NoisyPair> pairs, std::size_t pointsA, std::size_t pointsB);
 
   std::size_t count() const { return starts_.size() - 1; }
@@ -35,8 +35,8 @@ class PairGroups {
 
 /// The probability that any pair of a group meets. With pairs p_e:
 /// - pairs without a common point are independent: 1 - prod(1 - p_e) over them is a lower bound;
-/// - a group is parted into sets of such pairs, and is at most as likely as the sum over the sets.
-/// The estimate is what it would be if all pairs were independent.
+/// - a group is divided into sets of such pairs; the sum over the sets is an upper bound.
+/// The estimate assumes that all pairs are independent.
 ProbabilityRange groupRange(std::span<const NoisyPair> pairs, std::span<const std::size_t> group);
 
 }  // namespace swept::detail

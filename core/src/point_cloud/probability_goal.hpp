@@ -8,10 +8,10 @@
 
 namespace swept::detail {
 
-/// Probability that all points (or pairs) together have which are far enough not to be looked at.
+/// Upper bound on the total probability of all points (or pairs) that are far enough to be skipped.
 inline constexpr double kFarTail = 1e-9;
 
-/// What a query is after.
+/// The goal of a query.
 struct ProbabilityGoal {
   CollisionProbabilityOptions options;
   std::optional<double> threshold;  ///< none: the probability itself
@@ -22,7 +22,7 @@ struct ProbabilityGoal {
   }
 };
 
-/// Both set bounds, estimate and effort; [0, 1] for a pose that is not finite.
+/// Both set bounds, estimate and effort; [0, 1] for a non-finite pose.
 CollisionProbability shapeProbability(const NoisyCloudData& a, const Shape& b,
                                       const Eigen::Isometry3d& a_from_b,
                                       const ProbabilityGoal& goal);

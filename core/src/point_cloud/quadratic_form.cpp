@@ -43,7 +43,7 @@ class ChiSquare {
   double degrees_ = 1.0;
 };
 
-/// The weights of the series, each from all before it.
+/// The weights of the series; each depends on all before it.
 class Weights {
  public:
   Weights(const Array3d& variances, const Array3d& shifts)

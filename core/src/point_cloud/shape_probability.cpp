@@ -26,7 +26,8 @@ bool isConvexShape(const Shape& shape) {
   return !std::holds_alternative<TriangleMesh>(shape) && !std::holds_alternative<PointCloud>(shape);
 }
 
-/// m. How far a shape reaches from its origin; 0 for planes, whose offset the points' distance has.
+/// m. Distance from a shape's origin to its farthest point; 0 for planes, whose offset is in the
+/// points' distances.
 double extentOf(const Shape& shape) {
   const BoundingSphere ball = boundingSphere(shape);
   return std::isfinite(ball.radius) ? ball.center.norm() + ball.radius : 0.0;
@@ -43,7 +44,7 @@ class ShapeQuery {
         goal_(goal),
         look_(shape),
         extent_(extentOf(shape)) {
-    // A tail that far out is at most its share of kFarTail.
+    // The tail this far out is at most its share of kFarTail.
     const double share = kFarTail / static_cast<double>(cloud.points.size());
     while (tailBeyond(enough_) > share) enough_ += 0.125;
   }
@@ -54,7 +55,7 @@ class ShapeQuery {
   }
 
  private:
-  /// m, proven: distance from the shape to a node's box; known no further than `enough`.
+  /// m, proven: distance from the shape to a node's box; not computed beyond `enough`.
   double boxDistance(const Aabb& box, double enough) const {
     Isometry3d at = shape_from_cloud_;
     at.translation() = shape_from_cloud_ * box.center();
@@ -65,13 +66,13 @@ class ShapeQuery {
     return distance(shape_, Box{half}, at, options).lower - rounding;
   }
 
-  /// m, what positions around `center` may be off by.
+  /// m, rounding of positions around `center`.
   double roundingAt(const Vector3d& center, double reach) const {
     const double size = center.norm() + reach + extent_ + cloud_from_shape_.translation().norm();
     return 4.0 * tolerance::kSupportRounding * size + kPositionUnderflow;
   }
 
-  /// False once the goal is reached: the rest need not be looked at.
+  /// False once the goal is reached: the rest can be skipped.
   bool lookAtNear() {
     std::vector<int> waiting{0};
     while (!waiting.empty()) {
@@ -119,7 +120,7 @@ class ShapeQuery {
       certain_.push_back(withoutNoise(point));
       any_.add(certain_.back());
     }
-    // Points that are yet to come may have any probability.
+    // Remaining points may have any probability.
     ProbabilityRange range = any_.range(far_);
     range.upper = 1.0;
     return !goal_.isReached(range);
@@ -153,7 +154,7 @@ class ShapeQuery {
     });
   }
 
-  /// How much a point's gap counts in that of all: points beside one that is all but sure to touch
+  /// Weight of a point's gap in that of all points: points beside one that almost certainly touches
   /// do not matter.
   static double weightOf(const EventIntegral& integral) {
     constexpr double kSure = 1e-3;
@@ -184,7 +185,7 @@ class ShapeQuery {
     }
   }
 
-  // Summed anew: what was added and taken out again has left its roundings.
+  // Sums anew: adding and subtracting has left roundings.
   CollisionProbability result() const {
     AnyOfRanges any;
     for (const ProbabilityRange& range : certain_) any.add(range);
@@ -206,7 +207,7 @@ class ShapeQuery {
   const ShapeLook look_;
   const double extent_;  ///< m
   double enough_ = 0.0;  ///< standard deviations
-  double far_ = 0.0;     ///< probability, at most, that any of the far points touches
+  double far_ = 0.0;     ///< upper bound on the probability that any of the far points touches
   bool isComplete_ = false;
   std::vector<ProbabilityRange> certain_;  ///< of points without noise
   std::vector<EventIntegral> integrals_;

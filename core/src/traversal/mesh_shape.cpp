@@ -37,8 +37,8 @@ std::array<Eigen::Vector3d, 8> boxCorners(const Shape& shape,
     return inDefaultEnvironment([&] { return boxCorners(shape, mesh_from_shape); });
   }
   Aabb box = boundingBox(shape);
-  // Placing the corners rounds by a few epsilons of their coordinates; a box larger by more than
-  // that makes up for it. What is unbounded stays so.
+  // Placing the corners rounds by a few epsilons of their coordinates; the box is enlarged by more
+  // than that. Unbounded boxes stay unbounded.
   const double scale =
       box.lower.lpNorm<1>() + box.upper.lpNorm<1>() + mesh_from_shape.translation().lpNorm<1>();
   box = box.inflated(tolerance::kSupportRounding * scale);

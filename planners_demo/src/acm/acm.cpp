@@ -17,7 +17,7 @@
 namespace swept {
 namespace {
 
-/// What hides collisions is said aloud.
+/// Warns of options that hide collisions.
 void warnOfDefaults(const AcmResult& result, Warnings& warnings) {
   const std::vector<Link>& links = result.model.robot->links();
   std::vector<std::string> pairs;
@@ -29,7 +29,8 @@ void warnOfDefaults(const AcmResult& result, Warnings& warnings) {
              joined(pairs));
 }
 
-/// s. Robots with fewer links are done within the time, or nearly; with more, each hour helps.
+/// Seconds. Robots with fewer links finish within this time, or nearly. For larger ones each hour
+/// helps.
 double timeOf(const Arguments& args, const Robot& robot) {
   constexpr double kTime = 20.0;
   constexpr std::size_t kFewLinks = 40;

@@ -21,7 +21,7 @@ std::string namesOf(const Robot& robot, const LinkPairReport& pair) {
   return robot.links()[pair.linkA].name + " - " + robot.links()[pair.linkB].name;
 }
 
-/// `joint=value, ...` of the variables that matter to the pair.
+/// `joint=value, ...` for the variables that matter to the pair.
 std::string witnessValues(const Robot& robot, const LinkPairReport& pair) {
   std::vector<std::string> values;
   for (const int v : pair.variables)
@@ -48,7 +48,7 @@ std::string checkCommand(const AcmResult& result, const LinkPairReport& pair) {
   return command;
 }
 
-/// Rounded down: all of it is said of all of it alone.
+/// Rounded down, so that 100 % means all.
 std::string percent(double share) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1f %%", std::floor(1e3 * share) / 10.0);

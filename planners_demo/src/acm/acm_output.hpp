@@ -8,7 +8,7 @@
 #include "output/text_output.hpp"
 #include "swept/robot_model/allowed_collision_matrix.hpp"
 
-/// What `swept acm` found out about a robot, and how that compares with its SRDF.
+/// The findings of `swept acm` on a robot, and how they compare with its SRDF.
 namespace swept {
 
 struct AcmResult {

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM};
 
-// What a signal handler may touch.
+// The data that a signal handler may touch.
 volatile std::sig_atomic_t gRequests = 0;
 int gPipe[2] = {-1, -1};
 std::array<struct sigaction, kSignals.size()> gBefore;
@@ -48,7 +48,7 @@ void becomeWorker(pid_t parent) {
 #endif
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
-  // A planner's failed assertion is to be seen as what it is, and without a file for each.
+  // A planner's failed assertion must show as such, without a core file for each.
   std::signal(SIGABRT, SIG_DFL);
   std::set_terminate(std::abort);
   const rlimit none{.rlim_cur = 0, .rlim_max = 0};

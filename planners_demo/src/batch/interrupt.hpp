@@ -6,7 +6,8 @@
 namespace swept {
 
 /// While it lives, the first SIGINT or SIGTERM is a request to stop, and the second ends the
-/// process at once with exit code 130. A signal that was ignored before, stays so. One at a time.
+/// process at once with exit code 130. A signal that was ignored before stays ignored. At most one
+/// object at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -15,11 +16,11 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   static bool requested();
-  /// Readable from the request on: for poll.
+  /// A descriptor for poll that is readable from the request on.
   int descriptor() const;
 
-  /// fork(), and in the child: SIGINT ignored, for a terminal sends it to all; SIGTERM and SIGABRT
-  /// with their usual effect; and no way to outlive the parent (Linux only).
+  /// Calls fork(). The child ignores SIGINT, which a terminal sends to all. SIGTERM and SIGABRT
+  /// have their default effect in it, and it cannot outlive the parent (Linux only).
   pid_t forkWorker() const;
 };
 

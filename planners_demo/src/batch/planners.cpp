@@ -16,10 +16,10 @@
 namespace swept {
 namespace {
 
-/// The runs of a command, and where their results go.
+/// The runs of a command, and the place of their results.
 class BatchRun {
  public:
-  /// Of an MPI job's processes, the one with rank 0 speaks for all.
+  /// Of an MPI job's processes, only the one with rank 0 prints.
   BatchRun(const Arguments& args, int rank)
       : args_(args), warnings_(rank > 0 ? Warnings::none() : Warnings(args.quiet)) {
     batch_.args = &args;
@@ -56,7 +56,7 @@ class BatchRun {
     return complete ? ExitCode::Free : ExitCode::Interrupted;
   }
 
-  /// Files of half a batch would look like those of a whole one.
+  /// A file of half a batch would look like that of a whole one.
   void report(bool complete) const {
     if (args_.batch.fromStdin) return;
     printResults(args_, header_, results_);
@@ -64,7 +64,7 @@ class BatchRun {
   }
 
  private:
-  /// Takes over what the file has, and returns the rest, as places in the keys.
+  /// Takes over the results in the file, and returns the remaining runs, as places in the keys.
   std::vector<std::size_t> open() {
     if (!args_.output.empty()) {
       file_.emplace(args_.output, header_, warnings_);
@@ -84,7 +84,7 @@ class BatchRun {
     return places;
   }
 
-  /// A rank's share of the runs, in a process that is not the rank's own.
+  /// A rank's share of the runs, done in a separate process.
   void runShare(const WorkerLink& link) {
     std::vector<std::size_t> places;
     while (const auto place = link.nextRun()) places.push_back(*place);

@@ -11,24 +11,24 @@
 
 namespace swept {
 
-/// Which one of an MPI job's processes this is, as the launcher says; none: it is no such process,
+/// The rank of this process in an MPI job, as the launcher gives it. None: it is not in such a job,
 /// or this build is without MPI.
 std::optional<int> mpiRank();
 
-/// What the ranks of a job do with a list of runs that all of them know.
+/// How the ranks of a job process a list of runs that all of them know.
 struct RankedBatch {
-  /// In a process of its own: does the runs it is given, once it has been given all.
+  /// Called in a process of its own. It receives all the runs first and then does them.
   WorkerProcess::Life work;
-  /// On rank 0, before all else: the places in the list that are to be done.
+  /// Called on rank 0, before all else: the places in the list that are to be done.
   std::function<std::vector<std::size_t>()> open;
-  /// On rank 0: a line of a results file.
+  /// Called on rank 0: takes a line of a results file.
   std::function<void(const std::string& line)> take;
-  /// On rank 0.
+  /// Called on rank 0.
   std::function<void(const std::string& line)> warn;
 };
 
-/// Shares the runs among the ranks, by place. Must be called while the process has one thread. A
-/// rank that cannot go on ends the job, with a message and exit code 3. Once per process.
+/// Shares the runs among the ranks, by place. Call it while the process has one thread, and once
+/// per process. A rank that cannot go on ends the job, with a message and exit code 3.
 void runOnRanks(const RankedBatch& batch);
 
 }  // namespace swept

@@ -17,7 +17,7 @@ namespace {
 constexpr int kResult = 1, kEnd = 2;  // tags
 constexpr int kTick = 10;             // ms
 
-/// Between MPI's start and its end. MPI's own errors end the job.
+/// MPI, started by the constructor and ended by the destructor. MPI's own errors end the job.
 class Job {
  public:
   Job() {
@@ -39,7 +39,7 @@ class Job {
     std::abort();
   }
 
-  /// Of rank 0, on all.
+  /// Broadcasts rank 0's value to all.
   std::vector<std::size_t> shared(const std::vector<std::size_t>& places) const {
     std::vector<std::uint64_t> numbers(places.begin(), places.end());
     std::uint64_t count = numbers.size();
@@ -53,7 +53,7 @@ class Job {
     MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, 0, tag, MPI_COMM_WORLD);
   }
 
-  /// All that has come, to `take`; the number of ranks that have ended.
+  /// Passes all messages that have come to `take`. Returns the number of ranks that have ended.
   template <typename Take>
   int receive(const Take& take) const {
     int ended = 0;
@@ -77,7 +77,8 @@ class Job {
   int rank_ = 0, size_ = 1;
 };
 
-/// One rank's part: hands on what its own worker says, and on rank 0 what the others send.
+/// The part of one rank: passes on the results of its own worker, and on rank 0 those that the
+/// others send.
 class Rank {
  public:
   Rank(const Job& job, const RankedBatch& batch, WorkerProcess worker)

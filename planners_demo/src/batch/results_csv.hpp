@@ -9,7 +9,7 @@
 namespace swept {
 
 /// A row per run below a header with units. A cell with a comma, a quote or a line break is in
-/// quotes, with quotes in it doubled; what there is none of is empty.
+/// quotes, with quotes in it doubled. A missing value is an empty cell.
 std::string csvText(const std::vector<RunResult>& results);
 
 }  // namespace swept

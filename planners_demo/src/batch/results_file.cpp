@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::string_view kHeaderBegin = R"({"format":"swept bench planners")";
 
-/// A header that was not written to its end, and nothing else.
+/// True for a file that holds only the torn beginning of a header.
 bool isTornHeader(std::string_view text) {
   return text.starts_with(kHeaderBegin) || kHeaderBegin.starts_with(text);
 }
@@ -51,7 +51,7 @@ void addRun(Results& results, std::map<RunKey, std::string>& known, const std::s
   }
 }
 
-/// Each line is looked at as soon as it is there: what is no results file need not have an end.
+/// Each line is checked as soon as it is read: a file of another kind may never end.
 class Lines {
  public:
   explicit Lines(std::string file) : file_(std::move(file)) {}
@@ -92,7 +92,7 @@ class Lines {
   std::string rest_;  ///< what is there of the next one
 };
 
-/// Also of pipes, and of more than a text file may have.
+/// Works also for pipes, and for files larger than a text file may be.
 Results allOf(int descriptor, const std::string& file) {
   Lines lines(file);
   std::array<char, 65536> buffer{};
@@ -160,7 +160,7 @@ void ResultsFile::refuse(const std::string& reason) const {
 void ResultsFile::openForWriting(int flags) {
   descriptor_ = open(file_.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | flags, 0666);
   if (descriptor_ < 0) refuse(std::strerror(errno));
-  // Unlike flock's, this one is not handed on to workers, and ends with its process.
+  // Unlike a lock by flock, this one is not inherited by workers, and ends with its process.
   struct flock whole = {};
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;

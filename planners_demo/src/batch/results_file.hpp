@@ -9,7 +9,7 @@
 
 namespace swept {
 
-/// What a results file holds: a header and a result per line.
+/// The content of a results file: a header and a result per line.
 // NOLINTNEXTLINE(bugprone-exception-escape): Json's move is noexcept, which is not believed of it.
 struct Results {
   Json header;                  ///< null: there is none yet
@@ -18,27 +18,27 @@ struct Results {
   std::size_t tornBytes = 0;    ///< of a last line without one: its writer was killed
 };
 
-/// A line that comes again as it was counts once. Warns of a torn line. Throws InputError for a
-/// file that is no results file, a line that is no result or has more than kMaxTextBytes, and two
-/// results of one run.
+/// Reads a results file. A repeated identical line counts once. Warns of a torn line. Throws
+/// InputError for a file that is not a results file, a line that is not a result or has more than
+/// kMaxTextBytes, and two different results of one run.
 Results readResults(const std::string& file, Warnings& warnings);
 
 /// A results file that grows. Each line is on the disk before the next is written.
 class ResultsFile {
  public:
-  /// Reads what is there; drops a torn line, with a warning. A pipe or a device, which has no lines
-  /// to be read again, takes the header and the results. Nothing is written to a file that is
-  /// refused. Throws InputError or UsageError: as readResults, for a header that is not
-  /// `header`, a file that cannot be written or that another process writes to.
+  /// Reads the existing results and drops a torn line, with a warning. To a pipe or a device, which
+  /// cannot be read again, it writes the header and the results. It writes nothing to a file that
+  /// it refuses. Throws InputError or UsageError: as readResults, for a header other than `header`,
+  /// and for a file that cannot be written or that another process writes to.
   ResultsFile(const std::string& file, const Json& header, Warnings& warnings);
   ~ResultsFile();
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
-  /// The file's own, where there was one.
+  /// The existing file's own header, if there was a file.
   const Json& header() const { return results_.header.is_null() ? header_ : results_.header; }
   const std::vector<RunResult>& runs() const { return results_.runs; }
-  /// Makes the file where there was none. Throws UsageError.
+  /// Creates the file if there was none. Throws UsageError.
   void append(const RunResult& result);
 
  private:

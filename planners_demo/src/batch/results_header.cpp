@@ -29,7 +29,7 @@ constexpr const char* kFormat = "swept bench planners";
 constexpr int kVersion = 1;
 constexpr const char* kWithoutContacts = "without_default_contacts";
 
-// A planner and its simplification have the time limit each, and what else there is is quick.
+// The planner and the simplification have the time limit each, and the rest is quick.
 constexpr double kHardLimitBase = 30.0;  // s
 constexpr double kHardLimitFactor = 5.0;
 
@@ -53,7 +53,7 @@ void requireTruth(const JsonValue& place) {
   place.boolean();
 }
 
-/// What headers have to have in common: all that resultsHeader() writes but `time`.
+/// The fields that headers must have in common: all that resultsHeader() writes except `time`.
 struct Field {
   const char* name;
   void (*require)(const JsonValue&);
@@ -80,9 +80,9 @@ constexpr std::array kFields{Field{"format", requireText},
                              Field{"simplify", requireTruth},
                              Field{"clearance", requireTruth}};
 
-/// Files of the time before there was --attach do not have it. In older ones than those that say
-/// otherwise no contacts of robots without an SRDF are left out, and none has the margins of the
-/// two kinds of pairs where both are `margin`.
+/// Completes an older header. Files from before --attach lack that field. Files older than the
+/// fields for contacts and for the two margins mean that no contacts of robots without an SRDF are
+/// left out, and that both kinds of pairs have the margin `margin`.
 bool isOptional(std::string_view field) {
   return field == "attach" || field == kWithoutContacts || field == "margin_self" ||
          field == "margin_world";
@@ -149,7 +149,7 @@ Json resultsHeader(const Batch& batch) {
                  {"simplify", !args.noSimplify},
                  {"clearance", !args.batch.noClearance}});
   if (!args.batch.noTimes) header["time"] = startJson();
-  // As it will be read back, with the names in it mended.
+  // As it will be read back, with invalid names repaired.
   return Json::parse(lineOf(header));
 }
 

@@ -8,18 +8,18 @@
 
 namespace swept {
 
-/// The first line of a results file: all that its results have in common. `time` in it, where there
-/// is one, is a note: when and where the batch began.
+/// The first line of a results file: what its results have in common. Its optional `time` is a
+/// note: when and where the batch began.
 Json resultsHeader(const Batch& batch);
 
-/// s; a run that takes longer in all is stopped.
+/// Seconds. A run that takes longer in all is stopped.
 double hardLimitOf(const Arguments& args);
 
-/// Throws InputError, of line 1 of `source`, unless it is a header that this program can read.
+/// Throws InputError, for line 1 of `source`, unless it is a header that this program can read.
 void requireHeader(const Json& header, const std::string& source);
 
-/// Throws InputError, of line 1 of `source`, naming the first field that differs. `expected` is a
-/// header too, of `where`: `on the command line`, say.
+/// Throws InputError, for line 1 of `source`, naming the first field that differs. `expected` is a
+/// header too; `where` says whose, for example `on the command line`.
 void requireSameHeader(const Json& header, const std::string& source, const Json& expected,
                        const std::string& where);
 

@@ -57,7 +57,7 @@ std::string clearanceOf(const std::optional<NearestPair>& pair) {
   return pair ? exactNumber(pair->clearance) : "";
 }
 
-/// In one order; the values are empty where there are none.
+/// In a fixed order; the value is empty where a run has none.
 std::vector<Property> propertiesOf(const RunResult& run, bool simplified) {
   const PathFacts path = run.path.value_or(PathFacts{});
   const RunTimes times = run.times.value_or(RunTimes{});

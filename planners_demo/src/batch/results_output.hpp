@@ -7,14 +7,14 @@
 
 namespace swept {
 
-/// --log and --csv: throws UsageError when they cannot be written; better before the work than
-/// after it. Makes the folder of the logs.
+/// Throws UsageError when --log or --csv cannot be written, so that this shows before the work.
+/// Makes the folder of the logs.
 void requireOutputs(const Arguments& args);
 
 /// The table on stdout, or with --json one object.
 void printResults(const Arguments& args, const Json& header, std::vector<RunResult> results);
 
-/// What --log and --csv ask for. Throws UsageError.
+/// Writes the files of --log and --csv. Throws UsageError.
 void writeOutputs(const Arguments& args, const Json& header, std::vector<RunResult> results);
 
 }  // namespace swept

@@ -8,7 +8,7 @@
 
 namespace swept {
 
-/// What the runs of one planner and validator on a set of problems, or on all, came to.
+/// The totals of one planner and validator on a set of problems, or on all sets.
 struct TableRow {
   std::string set;  ///< `total` for all of several
   std::string planner, validator;
@@ -23,7 +23,7 @@ struct TableRow {
   std::vector<double> lengths;  ///< of the solved ones
 };
 
-/// By set, planner and validator, in alphabetic order; whatever the order of the runs.
+/// By set, planner and validator, in alphabetic order. The order of the runs does not matter.
 std::vector<TableRow> tableRows(const std::vector<RunResult>& runs);
 
 std::string tableText(const std::vector<TableRow>& rows);

@@ -15,7 +15,8 @@
 namespace swept {
 namespace {
 
-/// Bytes. What names a run has some hundred; what has no line break may have no end.
+/// The longest line, in bytes. A key has some hundred bytes; text without a line break may never
+/// end.
 constexpr std::size_t kMaxLine = std::size_t{1} << 20;
 
 constexpr std::uint32_t kLargestSeed = std::numeric_limits<std::uint32_t>::max();
@@ -31,7 +32,8 @@ std::vector<std::string> namesOf(const std::vector<std::string>& texts, const Re
   return names;
 }
 
-/// Throws UsageError or InputError unless all that the key names is there, by the name it has.
+/// Throws UsageError or InputError unless the key's problem, planner and validator exist under
+/// these names.
 void requireKnown(const RunKey& key, const ProblemFile& problems, double margin) {
   problems.problem(key.set, key.index);
   if (plannerName(key.planner) != key.planner)

@@ -14,7 +14,7 @@
 
 namespace swept {
 
-/// One run of a batch: with the batch's header, all that its result depends on but for time.
+/// One run of a batch. With the batch's header it determines the result, except for times.
 struct RunKey {
   std::string set;
   int index = 0;          ///< of the problem in the set
@@ -26,15 +26,16 @@ struct RunKey {
   auto operator<=>(const RunKey&) const = default;
 };
 
-/// Of run 1 it is `first`, of the next one more, ...; after the largest comes 1.
+/// The seed of a run: `first` for run 1, one more for each next run. After the largest comes 1.
 std::uint32_t seedOfRun(std::uint32_t first, int run);
 
-/// All that the command line asks for, by problem, then planner, validator and run. Throws
-/// UsageError or InputError for what is not there, naming what is.
+/// All runs that the command line asks for, ordered by problem, then planner, validator and run.
+/// Throws UsageError or InputError for a name that does not exist, and lists those that do.
 std::vector<RunKey> listRuns(const ProblemFile& problems, const Arguments& args);
 
-/// The runs of text, a JSON object per line as `--list` prints them. Throws InputError naming
-/// `source`, line and field: for anything else, a run that comes twice, and what listRuns refuses.
+/// The runs in a text with a JSON object per line, as `--list` prints them. Throws InputError,
+/// naming `source`, line and field, for anything else, for a run that occurs twice, and for what
+/// listRuns refuses.
 std::vector<RunKey> readRuns(std::istream& text, const std::string& source,
                              const ProblemFile& problems, const Arguments& args);
 
@@ -43,7 +44,7 @@ nlohmann::json parseJsonLine(const std::string& line, const std::string& source,
 
 /// The fields of a key in their order.
 Json keyJson(const RunKey& key);
-/// Throws InputError. Says nothing about whether there is such a problem, planner or validator.
+/// Throws InputError. Does not check that the problem, planner or validator exists.
 RunKey keyOf(const JsonValue& json);
 
 /// `shelf 3 RRTConnect certified, run 1, seed 1`.

@@ -24,7 +24,7 @@ void addNearest(Json& json, const std::string& kind, const std::optional<Nearest
   json["nearest_" + kind] = pair ? nearestJson(pair->bodyA, pair->bodyB) : Json(nullptr);
 }
 
-/// Files of the time before the kinds were told apart do not have them.
+/// Files from before the two kinds of pairs were told apart lack these fields.
 std::optional<NearestPair> nearestOf(const JsonValue& json, const std::string& kind) {
   const std::string clearance = "certified_clearance_" + kind, nearest = "nearest_" + kind;
   if (!json.has(clearance) || json.at(clearance).isNull()) return {};

@@ -12,7 +12,7 @@
 
 namespace swept {
 
-/// What is known of a path: a run that has none, has no such facts.
+/// The facts about a path; a run without a path has none.
 struct PathFacts {
   double length = 0.0;              ///< in the metric of the state space
   int segments = 0;                 ///< motions between its states
@@ -21,7 +21,7 @@ struct PathFacts {
   int undecided = 0;                ///< segments that are neither
   std::optional<double> clearance;  ///< m, proven lower bound; none: not certified, or no pairs
   ///@{
-  /// Likewise of pairs with the world and of the robot's own bodies, with the pair that is nearest.
+  /// Likewise for pairs with the world and for self pairs, with the nearest pair.
   std::optional<NearestPair> world, self;
   ///@}
   std::string digest;                       ///< of the states' bits, in order
@@ -37,7 +37,7 @@ struct RunTimes {
   double total() const { return planning + simplification + certification; }
 };
 
-/// OMPL's word for it.
+/// OMPL's name of it.
 inline constexpr std::string_view kStopped = "Crash";
 
 struct RunResult {
@@ -46,8 +46,8 @@ struct RunResult {
   /// end; empty when there was nothing for a planner to do.
   std::string status;
   std::string failure;  ///< why there is no path; empty when there is one
-  /// One by one, for planner and validator; none: unknown, or not wanted because it is a matter of
-  /// time where there is no path.
+  /// States that planner and validator checked one by one. None: unknown, or left out because it
+  /// depends on time where there is no path.
   std::optional<std::uint64_t> statesChecked;
   std::optional<std::uint64_t> motionsChecked;  ///< for planner and simplification; likewise
   std::optional<PathFacts> path;
@@ -56,13 +56,13 @@ struct RunResult {
   bool solved() const { return path.has_value(); }
 };
 
-/// Of a worker that did not live to the end of the run.
+/// The result for a worker that died during the run.
 RunResult stoppedRun(const RunKey& key, const std::string& failure);
 
 Json resultJson(const RunResult& result);
 /// Throws InputError naming the field.
 RunResult resultOf(const JsonValue& json);
-/// Of a line that a worker wrote.
+/// Parses a line that a worker wrote.
 RunResult resultOfLine(const std::string& line);
 
 }  // namespace swept

@@ -17,7 +17,7 @@ namespace {
 
 namespace ob = ompl::base;
 
-/// Another validity checker, with a count of the questions it is asked.
+/// Wraps another validity checker and counts its calls.
 class CountedValidity : public ob::StateValidityChecker {
  public:
   CountedValidity(const ob::SpaceInformationPtr& si, ob::StateValidityCheckerPtr inner,
@@ -41,7 +41,7 @@ class CountedValidity : public ob::StateValidityChecker {
   std::atomic<std::uint64_t>& count_;
 };
 
-/// For planners with threads: FCL's objects are moved by each question.
+/// For planners with threads: each query moves FCL's objects.
 class OneAtATime : public ob::StateValidityChecker {
  public:
   OneAtATime(const ob::SpaceInformationPtr& si, ob::StateValidityCheckerPtr inner)

@@ -9,7 +9,7 @@
 
 namespace swept {
 
-/// Who says during planning which motions are valid.
+/// What decides during planning which motions are valid.
 struct Validator {
   enum class Kind : std::uint8_t {
     Certified,  ///< CertifiedMotionValidator: proven free
@@ -29,9 +29,9 @@ struct Validator {
 /// FCL in this build or with a margin (m) above 0.
 Validator readValidator(const std::string& text, double margin);
 
-/// What a planner asks for in its space, with the validator; `statesChecked` counts the states that
-/// planner and validator ask about one by one. It has to outlive the setup; any number of threads
-/// may ask.
+/// The space information that a planner needs, with the validator. `statesChecked` counts the
+/// states that planner and validator check one by one. It must outlive the setup. Any number of
+/// threads may use it.
 SetupMaker setupMaker(const Validator& validator, std::atomic<std::uint64_t>& statesChecked);
 
 }  // namespace swept

@@ -72,7 +72,7 @@ const std::shared_ptr<const Checker>& Worker::checkerOf(const PlanningProblem& p
   return checker_;
 }
 
-/// A result counts without it.
+/// A result is valid without it.
 void Worker::dump(const RunKey& key, const PlanOutcome& outcome) {
   try {
     dump_.setProblem(key.set, key.index);
@@ -104,8 +104,8 @@ RunResult Worker::run(const RunKey& key) {
     for (const std::vector<double>& q : ends.goals) states.push_back({.label = "goal", .q = q});
     outcome = plan(checkerOf(problem), states, request);
   } catch (const std::exception& error) {
-    // Values outside the limits, a planner that needs more than a space, no memory: no reason not
-    // to do the other runs.
+    // Values outside the limits, a planner that needs more than a space, or lack of memory do not
+    // stop the other runs.
     outcome.failure = error.what();
   }
   dump(key, outcome);

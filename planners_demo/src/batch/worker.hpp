@@ -37,7 +37,7 @@ class Worker {
   Warnings warnings_;
   QueryDump dump_;
   std::shared_ptr<const Checker> like_;
-  /// The last problem and its checker: neighbours in a batch have the same.
+  /// The last problem and its checker: consecutive runs of a batch often have the same.
   std::string set_;
   int index_ = 0;
   std::shared_ptr<const Checker> checker_;

@@ -13,7 +13,7 @@
 namespace swept {
 namespace {
 
-// How long a run may be late before that is seen, and a progress line old.
+// The longest delay until a late run is noticed or the progress line is updated.
 constexpr int kTick = 100;  // ms
 
 }  // namespace
@@ -65,7 +65,7 @@ void WorkerPool::await(const Listener& listener) {
     }
     descriptors.push_back({.fd = worker.descriptor(), .events = POLLIN, .revents = 0});
   }
-  if (poll(descriptors.data(), descriptors.size(), kTick) < 0) return;  // a signal
+  if (poll(descriptors.data(), descriptors.size(), kTick) < 0) return;  // interrupted by a signal
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     if (descriptors[i + 1].revents != 0)
       take(workers_[i], listener);
@@ -96,7 +96,7 @@ void WorkerPool::take(WorkerProcess& worker, const Listener& listener) {
   if (!alive) lose(worker, "", listener);
 }
 
-/// It ended, or is ended now. `how` is known in the second case.
+/// The worker has ended, or is killed now; then `how` is known.
 void WorkerPool::lose(WorkerProcess& worker, const std::string& how, const Listener& listener) {
   const std::optional<std::size_t> run = worker.run();
   const bool wasReady = worker.ready();

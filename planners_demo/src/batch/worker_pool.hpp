@@ -11,7 +11,7 @@
 
 namespace swept {
 
-/// Does the runs of a batch in processes of its own; whatever one of them does, the others go on.
+/// Does the runs of a batch in separate processes. Whatever one of them does, the others go on.
 class WorkerPool {
  public:
   struct Listener {
@@ -25,9 +25,9 @@ class WorkerPool {
              double hardLimit)
       : interrupt_(interrupt), batch_(batch), keys_(keys), hardLimit_(hardLimit) {}
 
-  /// All runs at `places` in the keys, in this order but for `jobs` at a time. False: interrupted;
-  /// no worker is left then. Must be called while the process has one thread. Throws UsageError
-  /// when a worker cannot work at all.
+  /// Does all runs at `places` in the keys, in this order, `jobs` at a time. False: interrupted; no
+  /// worker is left then. Call it while the process has one thread. Throws UsageError when a worker
+  /// cannot work at all.
   bool run(const std::vector<std::size_t>& places, int jobs, const Listener& listener);
 
  private:

@@ -19,7 +19,7 @@
 namespace swept {
 namespace {
 
-/// False: there is nobody at the other end any more.
+/// False: the other end is closed.
 bool sendAll(int socket, const char* bytes, std::size_t size) {
   for (std::size_t done = 0; done < size;) {
     const ssize_t sent = send(socket, bytes + done, size - done, MSG_NOSIGNAL);
@@ -30,15 +30,16 @@ bool sendAll(int socket, const char* bytes, std::size_t size) {
   return true;
 }
 
-/// The three are open since main() began, so that neither the socket nor what is opened here is one
-/// of them.
+/// Descriptors 0, 1 and 2 are open since main() began, so neither the socket nor a file opened here
+/// has one of these numbers.
 void silence() {
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   close(nowhere);
 }
 
-/// The life of a worker. It does not return, so that nothing of the parent is done twice.
+/// The main loop of a worker. It does not return, so it repeats nothing that the parent does at its
+/// end.
 [[noreturn]] void live(int socket, const WorkerProcess::Life& life) {
   silence();
   const WorkerLink link(socket);
@@ -63,7 +64,7 @@ WorkerMessage messageOf(const std::string& line) {
 
 void WorkerLink::say(WorkerMessage::Kind kind, const std::string& text) const {
   std::string line(1, static_cast<char>(kind));
-  // A text for the user may have line breaks; a message may not.
+  // A text for the user may have line breaks, but a message may not.
   const bool forUser = kind == WorkerMessage::Kind::Warning || kind == WorkerMessage::Kind::Error;
   line.append(forUser ? lineOf(text) : text);
   line.append("\n");
@@ -119,7 +120,7 @@ void WorkerProcess::give(std::size_t run) {
   run_ = run;
   since_ = Clock::now();
   const std::uint64_t place = run;
-  // Whether it is still there shows when its messages end.
+  // The end of its messages shows whether the worker still runs.
   sendAll(socket_, reinterpret_cast<const char*>(&place), sizeof place);
 }
 

@@ -15,7 +15,7 @@
 
 namespace swept {
 
-/// What a worker says.
+/// The kinds of messages from a worker.
 struct WorkerMessage {
   enum class Kind : char {
     Ready = 'r',    ///< takes runs from now on
@@ -32,9 +32,10 @@ class WorkerLink {
  public:
   explicit WorkerLink(int socket) : socket_(socket) {}
 
-  /// Ends the process when nobody listens any more. A result has no line breaks.
+  /// Sends a message. Ends the process when the parent has closed its end. A result has no line
+  /// breaks.
   void say(WorkerMessage::Kind kind, const std::string& text) const;
-  /// Waits for it; none: there will be no more.
+  /// Waits for the next run; none: there will be no more.
   std::optional<std::size_t> nextRun() const;
 
  private:
@@ -47,27 +48,28 @@ class WorkerProcess {
   using Clock = std::chrono::steady_clock;
   using Life = std::function<void(const WorkerLink&)>;
 
-  /// Must be called while the process has one thread. An exception that `life` ends with becomes
-  /// an Error. `others` are descriptors that the child has to close. Throws UsageError when there
-  /// can be no more processes.
+  /// Call it while the process has one thread. An exception that leaves `life` becomes an Error.
+  /// `others` are descriptors that the child has to close. Throws UsageError when no process can be
+  /// created.
   WorkerProcess(const Interrupt& interrupt, const Life& life, std::span<const int> others);
-  /// Kills it if it still lives.
+  /// Kills it if it still runs.
   ~WorkerProcess();
   WorkerProcess(WorkerProcess&& other) noexcept;
   WorkerProcess& operator=(WorkerProcess&& other) noexcept;
 
   int descriptor() const { return socket_; }
   bool ready() const { return ready_; }
-  /// The run it is at, as a place in the list that both know.
+  /// The worker's current run, as a place in the list that both know.
   std::optional<std::size_t> run() const { return run_; }
   Clock::time_point since() const { return since_; }
 
   void give(std::size_t run);
   void giveNoMore() const;
-  /// Whole messages that have come. Blocks when there is nothing to read. False: it has ended.
+  /// The complete messages that have come. Blocks when there is nothing to read. False: the worker
+  /// has ended.
   bool receive(std::vector<WorkerMessage>& messages);
-  /// Waits for its end, killing it before where that is asked for. `stopped by signal 9`; empty
-  /// when it ended by itself as it should.
+  /// Waits for its end, and kills it before if that is asked for. Returns, for example, `stopped by
+  /// signal 9`; empty when it ended normally.
   std::string reap(bool killFirst);
 
  private:

@@ -28,17 +28,17 @@ using detail::LinkChain;
 using detail::LinkPieces;
 using detail::NeverProof;
 
-/// Share of the budget for a first proof, before contacts are looked for with more effort: most
-/// pairs are far apart.
+/// Share of the budget for a first proof, before the more expensive search for contacts: most pairs
+/// are far apart.
 constexpr std::int64_t kFirstProof = 16;
 
 /// Of the budget: a fraction of a second.
 constexpr std::int64_t kLongestSlice = 500'000;
 
-/// s. Longer is for ever: a clock cannot tell.
+/// s. A longer time counts as unlimited: no clock can measure it.
 constexpr double kLongestTime = 1e8;
 
-/// Share of the budget for all pairs, before the open ones have the whole, where time is limited.
+/// Share of the budget for all pairs, before the open ones get the whole, if the time is limited.
 constexpr std::int64_t kFirstRound = 64;
 
 class Examiner {
@@ -76,7 +76,7 @@ class Examiner {
     return result;
   }
 
-  /// Nothing of the report counts but the links. `budget`: of the options, or less.
+  /// Only the links of the report are used. `budget`: that of the options, or less.
   void examine(LinkPairReport& report, std::int64_t budget) const;
   bool isOver() const { return Clock::now() >= end_; }
 
@@ -124,7 +124,7 @@ void Examiner::examine(LinkPairReport& report, std::int64_t budget) const {
   LinkChain::Place place;
   chain.startFrom(start_, place);
   ContactSearch search(pieces_[report.linkA], pieces_[report.linkB], chain, options_.margin, place);
-  // Of its own for each pair, so that no pair depends on how many come before it.
+  // Each pair has its own, so that no pair depends on the number of pairs before it.
   const std::uint64_t seed = (std::uint64_t{options_.seed} << 32) +
                              (static_cast<std::uint64_t>(report.linkA) << 16) +
                              static_cast<std::uint64_t>(report.linkB);
@@ -142,7 +142,7 @@ void Examiner::examine(LinkPairReport& report, std::int64_t budget) const {
   }
 }
 
-/// Values without limits, those of planar and floating joints, cannot be drawn.
+/// Values without limits, those of planar and floating joints, cannot be sampled.
 bool Examiner::canSample(const LinkPairReport& report) const {
   return options_.samples > 0 && std::ranges::all_of(report.variables, [this](int v) {
            return std::isfinite(robot_.variables()[v].upper - robot_.variables()[v].lower);
@@ -152,7 +152,7 @@ bool Examiner::canSample(const LinkPairReport& report) const {
 void Examiner::classifyContact(ContactSearch& search, std::uint64_t seed,
                                LinkPairReport& report) const {
   const bool apart = search.findApart(options_.samples, seed).has_value();
-  // Without samples nothing speaks for more than the default state, unless there is no other.
+  // Without samples only the default state is known, unless it is the only state.
   const bool looked = report.variables.empty() || canSample(report);
   report.status = looked && !apart ? PairStatus::Always : PairStatus::Default;
 }
@@ -190,7 +190,8 @@ void Examiner::prove(const LinkChain& chain, LinkChain::Place& place, ContactSea
   report.outOfTime = report.outOfTime && !report.witness;
 }
 
-/// In slices, of which none is longer than what is behind, so that the end of the time is seen.
+/// In slices that are at most as long as the work before them, so that the end of the time is
+/// noticed.
 NeverProof::State Examiner::goOn(NeverProof& proof, std::int64_t from, std::int64_t budget) const {
   NeverProof::State state = NeverProof::State::Open;
   for (std::int64_t upTo = from; upTo < budget && state == NeverProof::State::Open && !isOver();) {
@@ -200,7 +201,7 @@ NeverProof::State Examiner::goOn(NeverProof& proof, std::int64_t from, std::int6
   return state;
 }
 
-/// Reports are kept up to date one by one.
+/// Reports are updated one by one.
 class Progress {
  public:
   Progress(const AllowedCollisionMatrixOptions& options, std::size_t all)

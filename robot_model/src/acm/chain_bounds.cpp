@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Additions that take as long as what one joint does to two balls: in any direction; in one.
+/// Number of additions that take as long as the effect of one joint on two balls: in any direction;
+/// in one.
 constexpr std::int64_t kReachWork = 10;
 constexpr std::int64_t kEffectWork = 20;
 
@@ -43,7 +44,7 @@ double ChainBounds::reach(std::size_t j, const Ball& ball) const {
 }
 
 double ChainBounds::approach(const Ball& a, const Ball& b) {
-  // All joints after C; then C goes from one end to the other.
+  // All joints after C; then C moves from one end to the other.
   const std::size_t count = half_.size();
   double total = 0.0;
   for (std::size_t j = 0; j < count; ++j) {

@@ -10,7 +10,7 @@
 
 namespace swept::detail {
 
-/// How much nearer to each other than in the middle of a box of joint values two points can come.
+/// Bounds how much nearer two points can come, within a box of joint values, than in its middle.
 ///
 /// Lemma. Let the joints between two bodies A and B be numbered from A to B, joint j within e_j of
 /// the middle of its range (rad or m). Fix a point a of A and b of B, and let the middle mean all
@@ -55,25 +55,25 @@ class ChainBounds {
   };
   /// m. Approach of any point of `a` and any of `b`; in any direction.
   double approach(const Ball& a, const Ball& b);
-  /// m. Decrease within the box of a separation that is measured along the unit vector n in the
-  /// middle: of all pairs of points of the two balls. For radii 0 and n from a to b, of |ab|.
+  /// m. Bound on the decrease, within the box, of a separation measured along the unit vector n in
+  /// the middle: for all pairs of points of the two balls. For radii 0 and n from a to b, of |ab|.
   double approachAlong(const Eigen::Vector3d& n, const Ball& a, const Ball& b);
-  /// m; what each variable had in the last answer.
+  /// m; contribution of each variable to the last answer.
   std::span<const double> shares() const { return shares_; }
 
-  /// Of all answers so far, counted in additions, a few ns each: up to the square of the number of
-  /// joints for each.
+  /// Work of all answers so far, counted in additions, a few ns each: up to the square of the
+  /// number of joints for each answer.
   std::int64_t work() const { return work_; }
 
  private:
-  /// What one joint does to the points of a ball; m.
+  /// The effect of one joint on the points of a ball; m.
   struct Effect {
     double any;       ///< c_j r_j
     double directed;  ///< of n . d_j, as far as it brings the two together
   };
   double reach(std::size_t j, const Ball& ball) const;
   Effect effect(std::size_t j, const Eigen::Vector3d& n, const Ball& ball, double sign) const;
-  /// With so many joints before C; m. Gives up beyond `most`.
+  /// With this many joints before C; m. Gives up beyond `most`.
   double sum(std::size_t before, double most);
 
   const LinkChain& chain_;

@@ -9,7 +9,7 @@ namespace swept::detail {
 
 namespace {
 
-/// From where to go downhill.
+/// Start of a descent.
 constexpr std::size_t kStarts = 6;
 
 /// Steps begin with this share of a variable's range ...
@@ -18,7 +18,7 @@ constexpr double kFirstStep = 1.0 / 16.0;
 constexpr double kLastStep = 1e-5;
 constexpr int kMostSteps = 400;
 
-/// In [0, 1): the same on every machine, as std::uniform_real_distribution is not.
+/// In [0, 1): the same on every machine, unlike std::uniform_real_distribution.
 double unit(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
@@ -48,7 +48,7 @@ double ContactSearch::distanceAt(const Values& values, double enough) {
   if (!chain_.moveTo(values, place_)) return std::numeric_limits<double>::infinity();
   const LinkDistance found = linkDistance(a_, b_, place_, enough, margin_);
   least_ = std::min(least_, found.upper);
-  // Without two points to show, a bound is no contact.
+  // Without two points to show, a bound is not a contact.
   const bool known = std::isfinite(found.upper) || !(found.lower > margin_);
   return known ? found.upper : found.lower;
 }

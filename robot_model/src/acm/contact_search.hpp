@@ -10,23 +10,24 @@
 
 namespace swept::detail {
 
-/// Looks for values of a chain's variables at which two links are in contact. Proves nothing else.
+/// Searches values of a chain's variables at which two links are in contact. It proves nothing
+/// else.
 class ContactSearch {
  public:
   using Values = std::vector<double>;
 
-  /// All must outlive this. `place` was started from the configuration to keep elsewhere.
+  /// All must outlive this. `place` starts from the configuration that the other variables keep.
   ContactSearch(const LinkPieces& a, const LinkPieces& b, const LinkChain& chain, double margin,
                 LinkChain::Place& place)
       : a_(a), b_(b), chain_(chain), margin_(margin), place_(place) {}
 
   bool isContact(const Values& values);
-  /// The first of so many random values within the limits at which the two are in contact.
+  /// The first of this many random values within the limits at which the two are in contact.
   std::optional<Values> findContact(int samples, std::uint64_t seed);
-  /// The same, at which they are not.
+  /// The same, for values at which they are not in contact.
   std::optional<Values> findApart(int samples, std::uint64_t seed);
-  /// Values in contact, downhill on the distance from these values and from the nearest of those
-  /// that findContact looked at.
+  /// Values in contact, found by descending on the distance from these values and from the nearest
+  /// of those that findContact tested.
   std::optional<Values> descend(const Values& start);
   double least() const { return least_; }  ///< m, of all distances computed; infinity without any
 

@@ -15,7 +15,8 @@ namespace swept {
 namespace {
 
 constexpr int kSamples = 1000;
-/// Each pair takes as long as the chain between the two, all together the cube of the links.
+/// The time for each pair is proportional to the chain between the two, and the total to the cube
+/// of the number of links.
 constexpr int kMostLinks = 150;
 constexpr std::uint64_t kSeed = 1;
 

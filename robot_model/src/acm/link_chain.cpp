@@ -13,7 +13,7 @@ namespace swept::detail {
 
 namespace {
 
-/// rad or m. Beyond, the rounding of a joint's value is more than that of the joint's transform.
+/// rad or m. Beyond it, the rounding of a joint's value exceeds that of the joint's transform.
 constexpr double kFarthest = 1000.0;
 
 }  // namespace
@@ -52,7 +52,7 @@ LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA,
   }
   for (std::size_t k = 0; k < variables_.size(); ++k) {
     const bool near = std::abs(box_.lower[k]) <= kFarthest && std::abs(box_.upper[k]) <= kFarthest;
-    // Of a box without values anything would be proven.
+    // For a box without values anything could be proven.
     bounded_ = bounded_ && near && box_.lower[k] <= box_.upper[k];
     box_.lower[k] -= tolerance::kLimit;
     box_.upper[k] += tolerance::kLimit;
@@ -88,9 +88,9 @@ void LinkChain::addVariable(const Robot& robot, ChainJoint& joint) {
   }
 }
 
-/// After a turn of a variable all is as before if each joint that follows it turns, by whole turns.
-/// The value of a joint without limits is the same angle whatever turns are added: then this must
-/// be so.
+/// After a turn of a variable everything is as before if each joint that follows it turns, by whole
+/// turns. The value of a joint without limits is the same angle after any turns: then this must
+/// hold.
 void LinkChain::boundTurns() {
   constexpr double turn = 2.0 * std::numbers::pi;
   for (std::size_t k = 0; k < variables_.size(); ++k) {
@@ -101,7 +101,7 @@ void LinkChain::boundTurns() {
     }
     if (model_.cyclic[variables_[k]] != 0 && !periodic) bounded_ = false;
     if (!periodic) continue;
-    // Of turns that are so far out that angles round, any other is as good.
+    // For turns so far out that angles round, any other turn is as good.
     const bool far = !(std::abs(box_.lower[k]) <= kFarthest);
     if (far && box_.upper[k] - box_.lower[k] >= turn) {
       box_.lower[k] = -std::numbers::pi;
@@ -130,7 +130,7 @@ bool LinkChain::moveTo(std::span<const double> values, Place& place) const {
   place.base_from_a = place.states[bodyA_].world_from_body;
   place.base_from_b = place.states[bodyB_].world_from_body;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    // A joint leaves its own axis where it is, and its child's origin stays on it.
+    // A joint does not move its own axis, and its child's origin stays on the axis.
     const int body = joints_[j].body;
     const Eigen::Isometry3d& pose = place.states[body].world_from_body;
     place.axes[j] = {pose.translation(), pose.linear() * model_.bodies[body].axis};

@@ -11,7 +11,7 @@
 
 namespace swept::detail {
 
-/// All of the robot's variables move, whatever groups there are.
+/// A model in which all of the robot's variables move, whatever groups there are.
 KinematicModel wholeKinematics(const Robot& robot);
 
 /// A range of values for each variable of a chain.
@@ -20,7 +20,7 @@ struct JointBox {
   std::vector<double> upper;
 
   double middle(std::size_t k) const { return 0.5 * lower[k] + 0.5 * upper[k]; }
-  /// No value is farther from the middle, rounding included.
+  /// Upper bound on the distance of all values from the middle, rounding included.
   double half(std::size_t k) const {
     const double m = middle(k);
     return std::max(upper[k] - m, m - lower[k]) * kHalfRangeOutward;
@@ -29,13 +29,13 @@ struct JointBox {
 
 /// One joint between two bodies.
 struct ChainJoint {
-  int body = 0;              ///< that the joint moves
+  int body = 0;              ///< body that the joint moves
   bool slides = false;       ///< prismatic; else it turns
   std::size_t variable = 0;  ///< index into LinkChain::variables()
-  double scale = 1.0;        ///< the joint moves by this times what its variable does; not negative
+  double scale = 1.0;        ///< factor from the variable's movement to the joint's; not negative
 };
 
-/// The joints between two bodies, in order from the first to the second, and where their axes are.
+/// The joints between two bodies, in order from the first to the second, and their axes.
 class LinkChain {
  public:
   /// Poses and axes for one value of each variable, in the frame of the last body that carries
@@ -48,7 +48,7 @@ class LinkChain {
     Eigen::Isometry3d base_from_a;
     Eigen::Isometry3d base_from_b;
     std::vector<Axis> axes;  ///< one per joint
-    // Scratch: the path's share of a motion that stands still.
+    // Scratch: the path's part of a motion that stands still.
     std::vector<double> q;
     std::vector<JointMotion> motion;
     std::vector<BodyState> states;
@@ -57,21 +57,23 @@ class LinkChain {
   /// `model` has all of the robot's variables and must outlive this.
   LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB);
 
-  /// The box holds all relative poses within the limits, and joints() is all there is between.
+  /// Whether the box contains all relative poses within the limits, and joints() all joints between
+  /// the two.
   bool bounded() const { return bounded_; }
   const std::vector<ChainJoint>& joints() const { return joints_; }
   const std::vector<int>& variables() const { return variables_; }  ///< of the robot
-  /// All values the variables can have (tolerance::kLimit past their limits included); of those
-  /// that can turn by more than a turn, one turn.
+  /// All values that the variables can have, including tolerance::kLimit beyond their limits.
+  /// Variables that can do a whole turn have one turn.
   const JointBox& box() const { return box_; }
   /// The limits themselves; may be infinite.
   const JointBox& limits() const { return limits_; }
-  /// m; no point of either path is farther from the base's origin, apart from the links themselves.
+  /// m; upper bound on the distance of both paths from the base's origin, without the links
+  /// themselves.
   double reach() const { return reach_; }
 
-  /// All variables at these values of a whole configuration.
+  /// Sets all variables to these values of a whole configuration.
   void startFrom(const Eigen::VectorXd& configuration, Place& place) const;
-  /// The chain's variables at these values. False: nothing can be said.
+  /// Sets the chain's variables to these values. False: nothing can be computed.
   bool moveTo(std::span<const double> values, Place& place) const;
 
  private:

@@ -9,7 +9,7 @@ namespace swept::detail {
 
 namespace {
 
-/// m. Nearer to the best than this a plane need not be.
+/// m. A plane need not be nearer to the best one than this.
 constexpr double kPlaneTolerance = 1e-5;
 
 }  // namespace

@@ -18,10 +18,10 @@ namespace swept::detail {
 struct LinkPieces {
   struct Piece {
     Shape shape;
-    Shape hull;  ///< of the shape, where that is a mesh; else the shape itself
+    Shape hull;  ///< of the shape, if that is a mesh; else the shape itself
     Eigen::Isometry3d body_from_shape;
     BoundingSphere ball;  ///< body frame
-    int root = -1;        ///< its cover's first ball; -1: it has none
+    int root = -1;        ///< first ball of its cover; -1: it has none
   };
   struct Ball {
     Eigen::Vector3d center;  ///< m, body frame
@@ -49,18 +49,18 @@ struct LinkDistance {
   double upper = std::numeric_limits<double>::infinity();  ///< m
   int computed = 0;                                        ///< pieces compared on exact geometry
 };
-/// Gives up on what is proven farther than `enough`, and on all once two points at most `contact`
-/// apart are known (m).
+/// Skips pieces that are proven farther than `enough`, and everything once two points at most
+/// `contact` apart are known (m).
 LinkDistance linkDistance(const LinkPieces& a, const LinkPieces& b, const LinkChain::Place& place,
                           double enough, double contact);
 
 /// A plane between two pieces at one place of the chain: n . (b - a) >= gap for all points a of the
-/// first and b of the second, proven for the poses as they are rounded.
+/// first and b of the second, proven for the rounded poses.
 struct PiecePlane {
   Eigen::Vector3d normal;  ///< unit, base frame
   double gap;              ///< m; not positive: none is known
 };
-/// Gives up where two points at most `least` apart (m) are known.
+/// Gives up if two points at most `least` apart (m) are known.
 PiecePlane planeBetween(const LinkPieces::Piece& a, const LinkPieces::Piece& b,
                         const LinkChain::Place& place, double least);
 

@@ -14,12 +14,12 @@ namespace swept::detail {
 
 namespace {
 
-/// Additions (see NeverProof::work()) that take as long as what a question takes before its first
-/// box: itself, and for each of the robot's bodies.
+/// Number of additions (see NeverProof::work()) that take as long as a question before its first
+/// box: for the question itself, and for each of the robot's bodies.
 constexpr std::int64_t kQuestionWork = 2000;
 constexpr std::int64_t kBodyWork = 1;
-/// Of many questions so many are answered one after the other with the same scratch, which is large
-/// for a robot of many bodies; of few, there is something to do for each thread.
+/// Of many questions, this many are answered one after the other with the same scratch, which is
+/// large for a robot with many bodies. Few questions are spread over all threads.
 constexpr std::size_t kMostTogether = 16;
 constexpr std::size_t kFewestTasks = 256;
 
@@ -42,9 +42,9 @@ class Prover {
     const std::vector<std::uint32_t> order = byJoints();
     std::int64_t left = mostWork;
     for (std::size_t first = 0; first < order.size();) {
-      // What is answered together could be paid together, whatever it turns out to take: so the
-      // answers do not depend on which thread is faster, and the work passes its limit by the last
-      // pairs of balls of a few questions at the most.
+      // Questions that are answered together must be affordable together, whatever their work turns
+      // out to be. So the answers do not depend on which thread is faster, and the work exceeds its
+      // limit by at most the last pairs of balls of a few questions.
       std::size_t last = first;
       for (std::int64_t owed = 0; last < order.size(); ++last) {
         owed += mostWorkOf(order[last], budget);
@@ -82,7 +82,7 @@ class Prover {
     }
   }
 
-  /// Those with fewer joints first, else as they were asked.
+  /// Those with fewer joints first, otherwise in the given order.
   std::vector<std::uint32_t> byJoints() const {
     std::vector<std::uint32_t> next(static_cast<std::size_t>(std::ranges::max(joints_)) + 2, 0);
     for (const int joints : joints_) ++next[joints + 1];

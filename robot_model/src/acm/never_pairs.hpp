@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// Two links, and how far they are to be proven apart.
+/// Two links, and the distance that is to be proven between them.
 struct LinkQuestion {
   int linkA = -1;
   int linkB = -1;
@@ -16,12 +16,11 @@ struct LinkQuestion {
   bool never = false;   ///< proven: always more than the margin apart; see NeverProof
 };
 
-/// Answers them, each within the budget (see AllowedCollisionMatrixOptions::budget), over all
-/// values of the robot's variables within their limits. Those with the fewest joints between the
-/// two links come first, as they are the ones that can be proven, and the less work each is; when
-/// `mostWork` (see NeverProof::work()) might be passed by the next, the rest is left unanswered. On
-/// so many threads (0: as many as there are processors); the answers, and the work that is
-/// returned, are the same on any number.
+/// Answers the questions, each within the budget (see AllowedCollisionMatrixOptions::budget), over
+/// all values of the robot's variables within their limits. Links with the fewest joints between
+/// them come first, as they can be proven, and with less work. If the next question might exceed
+/// `mostWork` (see NeverProof::work()), the rest is left unanswered. Uses this many threads (0: as
+/// many as processors); the answers, and the returned work, are the same for any number.
 std::int64_t proveNever(const Robot& robot, std::span<LinkQuestion> questions, std::int64_t budget,
                         std::int64_t mostWork, unsigned threads = 0);
 

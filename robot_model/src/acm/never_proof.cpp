@@ -10,18 +10,18 @@ namespace swept::detail {
 
 namespace {
 
-/// What one distance on exact geometry counts for in the effort.
+/// Effort of one distance on exact geometry.
 constexpr std::int64_t kExactEffort = 100;
-/// And one plane between hulls.
+/// Effort of one plane between hulls.
 constexpr std::int64_t kPlaneEffort = 20;
 
-/// Additions (see ChainBounds::work()) that take as long as what counts as one effort, apart from
+/// Number of additions (see ChainBounds::work()) that take as long as one unit of effort without
 /// the bounds; and as placing a joint.
 constexpr std::int64_t kEffortWork = 20;
 constexpr std::int64_t kMoveWork = 60;
 
 /// Balls are replaced by their children while their radius is more than this times the approach:
-/// before, halving the box gains more.
+/// for larger approaches, halving the box gains more.
 constexpr double kRefineAt = 4.0;
 
 /// m. A box in which open pairs approach by less is not halved any more.
@@ -38,7 +38,7 @@ NeverProof::NeverProof(const LinkPieces& a, const LinkPieces& b, const LinkChain
       place_(place),
       bounds_(chain),
       nearestDistance_(std::numeric_limits<double>::infinity()) {
-  double largest = 1.0;  // of the joints' values, which are off by their own rounding
+  double largest = 1.0;  // largest of the joints' values, which have their own rounding
   for (const ChainJoint& joint : chain.joints()) {
     const double value = std::max(std::abs(chain.box().lower[joint.variable]),
                                   std::abs(chain.box().upper[joint.variable]));
@@ -65,8 +65,8 @@ std::int64_t NeverProof::work() const {
   return bounds_.work() + kEffortWork * effort_ + kMoveWork * moves_;
 }
 
-/// Of what counts as one effort the bounds take up to twice the square of the number of joints, and
-/// a box has one at least.
+/// For one unit of effort, the bounds take up to twice the square of the number of joints, and a
+/// box has at least one.
 std::int64_t NeverProof::usualWork(std::int64_t budget, std::size_t joints) {
   const auto count = static_cast<std::int64_t>(joints) + 10;
   return 4 * budget * count * count;
@@ -95,7 +95,7 @@ void NeverProof::look(const Box& box) {
   collectOpen(box);
   if (contact_) return;
   if (!outOfWork() && arena_.size() > firstOpen_) dropFar();
-  if (outOfWork()) {  // left before all its pairs of balls have been looked at
+  if (outOfWork()) {  // ended before all its pairs of balls were tested
     stuck_ = true;
     return;
   }
@@ -108,7 +108,7 @@ void NeverProof::look(const Box& box) {
 
 void NeverProof::collectOpen(const Box& box) {
   asked_ = false;
-  // What later boxes had appended is done with.
+  // Entries that later boxes had appended are no longer needed.
   arena_.resize(box.first + box.count);
   firstOpen_ = arena_.size();
   for (std::size_t i = box.first; i < firstOpen_ && !contact_ && !outOfWork(); ++i)
@@ -133,8 +133,9 @@ void NeverProof::refine(BallPair pair) {
       continue;
     }
     arena_.push_back(pair);
-    // What overlaps deeply has many such pairs; the first of them is enough to see it. Leaves that
-    // are just apart are no exception: around a corner of a box where they touch, no halving helps.
+    // Deep overlap has many such pairs; the first of them is enough to detect it. Leaves that are
+    // just apart are no exception: around a corner of a box where they touch, halving does not
+    // help.
     if (leaves && !asked_) askExact(pair);
   }
 }
@@ -195,7 +196,7 @@ bool NeverProof::isFar(const BallPair& pair) {
     if (gap > across) return true;
     keepWorst(across, gap);
   }
-  // In any direction; where exact geometry was not asked, for the choice of what to halve alone.
+  // In any direction; if exact geometry was not used, only to choose the variable to halve.
   const double approach = bounds_.approach(a, b);
   const double gap = asked_ ? exactDistance_ - required_ : 0.0;
   if (gap > approach) return true;

@@ -13,43 +13,42 @@ namespace swept::detail {
 
 /// Proves two links apart for all values of the joints between them, by branch and bound.
 ///
-/// A box of joint values is looked at in its middle. Each point of a link is in the ball of some
-/// leaf of its cover; so two links are more than the margin apart all over the box if each pair of
-/// leaves, or of ancestors in their place, is: centres farther apart than the radii, the margin,
-/// the rounding of poses and what ChainBounds says that they approach. What a box proved apart
-/// holds in its parts too, so these inherit only the pairs of balls that are still open; their
-/// number falls as boxes get smaller. Where pairs are open, exact geometry is asked for planes
-/// between the hulls of the links' pieces in the middle, and where leaves are, for the distance: a
-/// pair of balls within which points approach by less, across the plane or in any direction, is
-/// proven apart as well. If pairs are left, the box is halved across the variable that contributes
-/// most to the approach of the worst pair.
+/// A box of joint values is examined in its middle. Each point of a link is in the ball of some
+/// leaf of its cover. So two links are more than the margin apart in the whole box if each pair of
+/// leaves, or of their ancestors, is: the distance of the centres exceeds the radii, the margin,
+/// the rounding of poses and the approach bound of ChainBounds. What a box proved also holds in its
+/// parts, so these inherit only the open pairs of balls, whose number falls as boxes get smaller.
+/// If pairs are open, exact geometry gives planes between the hulls of the links' pieces in the
+/// middle, and if leaves are open, the distance. A pair of balls whose points approach by less than
+/// that, across the plane or in any direction, is proven apart as well. If pairs are left, the box
+/// is halved across the variable that contributes most to the approach of the worst pair.
 ///
-/// Boxes are taken depth first: the list of open pairs of balls is a stack then.
+/// Boxes are processed depth first: the list of open pairs of balls is then a stack.
 class NeverProof {
  public:
   enum class State : std::uint8_t {
     Open,     ///< the budget ran out
     Proven,   ///< never within the margin
     Contact,  ///< within the margin at nearest()
-    Stuck,    ///< all has been looked at, and some boxes were too small to be halved once more
+    Stuck,    ///< everything was examined, and some boxes were too small to be halved again
   };
 
-  /// All must outlive this. `place` was started from the configuration to keep elsewhere.
+  /// All must outlive this. `place` starts from the configuration that the other variables keep.
   NeverProof(const LinkPieces& a, const LinkPieces& b, const LinkChain& chain, double margin,
              LinkChain::Place& place);
 
-  /// Goes on until so much of the budget is spent in all, or of the work.
+  /// Continues until this much of the budget, or of the work, is spent in total.
   State run(std::int64_t budget, std::int64_t mostWork = std::numeric_limits<std::int64_t>::max());
 
   std::int64_t effort() const { return effort_; }
-  /// Time, as ChainBounds::work() counts it. Effort does not say how long it takes: what counts as
-  /// one takes the longer the more joints there are.
+  /// Time, as ChainBounds::work() counts it. The effort does not measure it: a unit of effort takes
+  /// longer the more joints there are.
   std::int64_t work() const;
-  /// More than a run takes within the budget, unless covers are so large that a box alone goes far
-  /// beyond it.
+  /// Upper bound on the work of a run within the budget, unless covers are so large that a single
+  /// box goes far beyond it.
   static std::int64_t usualWork(std::int64_t budget, std::size_t joints);
   double share() const { return share_; }  ///< of the box, by volume, that is proven
-  /// Values of the chain's variables in the middle of the box in which exact geometry came nearest.
+  /// Values of the chain's variables in the middle of the box with the least exact distance.
   const std::vector<double>& nearest() const { return nearest_; }
 
  private:
@@ -63,7 +62,7 @@ class NeverProof {
     std::size_t count;
     double share;
   };
-  /// The open pair of balls that is farthest from being proven apart in a box.
+  /// The open pair of balls in a box that is farthest from being proven apart.
   struct Worst {
     double lack = 0.0;           ///< m
     double approach = 0.0;       ///< m

@@ -27,8 +27,8 @@ void AttachedObjects::readOne(const YamlPlace& unnamed) {
     return;
   }
   AttachedBody body = begin(entry, id);
-  // MoveIt takes an object without a frame for one in the model frame, after an error. Whoever
-  // wrote it by hand may have meant the link's.
+  // MoveIt reads an object without a frame as one in the model frame, after an error. Whoever wrote
+  // it by hand may have meant the link's frame.
   if (frameName(place.at("header")).empty())
     place.at("header").fail("has to name the frame_id of the object's pose, such as its link's '" +
                             body.link + "'");

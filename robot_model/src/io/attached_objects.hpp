@@ -19,21 +19,22 @@ namespace swept::detail {
 /// PlanningScene::processAttachedCollisionObjectMsg does.
 class AttachedObjects {
  public:
-  /// `frames` knows the robot's links at the state in which the objects are attached, and learns
-  /// the objects'. All arguments must outlive this.
+  /// `frames` knows the robot's links at the state in which the objects are attached; the objects'
+  /// frames are added to it. All arguments must outlive this.
   AttachedObjects(const Robot& robot, SceneFrames& frames, SceneObjects& objects)
       : robot_(robot), frames_(frames), objects_(objects) {}
 
-  /// Those with geometry. Throws InputError, as the others do.
+  /// Reads the list. Objects with geometry become bodies; the others wait for takeFrom(). Throws
+  /// InputError, as the other functions do.
   void read(const YamlPlace& list);
-  /// Takes those without geometry out of the world: they are there by their ids.
+  /// Moves the geometry of the waiting objects from `world`, where their ids name it, to bodies().
   void takeFrom(World& world);
 
   const std::vector<AttachedBody>& bodies() const { return bodies_; }
-  /// One with geometry: the world can have none of this id.
+  /// Whether bodies() has this id; then the world can have none of this id.
   bool has(const std::string& id) const;
   /// Pairs of attached bodies of which one has the other among its touch links. Warns of touch
-  /// links that nothing is called.
+  /// links that name nothing.
   std::vector<std::pair<std::string, std::string>> touchingBodies() const;
 
  private:

@@ -27,8 +27,8 @@ rlimit limitOf(decltype(RLIMIT_AS) resource) {
   return limit;
 }
 
-/// Anew for each request: time that those before it took does not count, nor memory that they gave
-/// back.
+/// Sets the limits again for each request. The time of earlier requests does not count, nor memory
+/// that they gave back.
 class Bounds {
  public:
   explicit Bounds(std::uint64_t parentMemory)
@@ -43,7 +43,7 @@ class Bounds {
                           .it_value = {.tv_sec = static_cast<time_t>(head.seconds), .tv_usec = 0}};
     setitimer(ITIMER_PROF, &timer, nullptr);
     if (parentMemory_ == 0) return;
-    // The soft limit alone: a hard one could not be raised again.
+    // Only the soft limit: a hard limit could not be raised again.
     rlimit memory = memory_;
     memory.rlim_cur = std::min<rlim_t>(memory.rlim_cur, parentMemory_ + head.memory);
     setrlimit(RLIMIT_AS, &memory);
@@ -54,7 +54,7 @@ class Bounds {
   rlimit memory_;  ///< the host's
 };
 
-/// Signals that are to end this process do so, whatever the host does with them.
+/// Restores the default action of signals that end a process, whatever the host does with them.
 void resetSignals() {
   sigset_t ending;
   sigemptyset(&ending);
@@ -86,7 +86,7 @@ bool sendAll(int socket, const char* bytes, std::size_t size) {
   return true;
 }
 
-/// False: there is nobody at the other end.
+/// False: the other end of the socket is closed.
 bool answerNext(int socket, const ChildWork& work, const Bounds& bounds) {
   RequestHead head{};
   if (!receiveAll(socket, reinterpret_cast<char*>(&head), sizeof head)) return false;
@@ -103,7 +103,7 @@ bool answerNext(int socket, const ChildWork& work, const Bounds& bounds) {
 
 std::uint64_t addressSpace() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return 0;  // a sanitizer's shadow takes all addresses there are
+  return 0;  // a sanitizer's shadow memory takes the whole address space
 #else
   std::ifstream stream("/proc/self/statm");
   std::uint64_t pages = 0;

@@ -13,23 +13,24 @@ namespace swept::detail {
 /// What a child does with a request.
 using ChildWork = std::function<std::string(std::string_view)>;
 
-/// Goes ahead of each request.
+/// The header of each request.
 struct RequestHead {
   std::uint64_t seconds;  ///< of processor time, from now on
   std::uint64_t memory;   ///< bytes, more than the parent had
   std::uint64_t size;     ///< bytes of the request
 };
 
-/// Bytes of address space in use; 0: not known, or not to be bounded. Before the fork: reading
-/// /proc is not for a child of a process with threads.
+/// Bytes of address space in use; 0: unknown, or it cannot be limited. Call it before the fork: a
+/// child of a process with threads must not read /proc.
 std::uint64_t addressSpace();
 
-/// How a child ends that could not say all, and one that had too little memory for it.
+/// Exit codes of a child that could not send its whole answer, and of one that ran out of memory
+/// for it.
 inline constexpr int kUnfinished = 17, kNoMemory = 18;
 
-/// The life of a child: it answers requests, each with its size and the text, until there is no
-/// other end of the socket any more. It does not return, so that nothing of the parent is done
-/// twice. `parentMemory` is the parent's addressSpace().
+/// The main loop of a child. It answers requests, each of which is its size and the text, until the
+/// other end of the socket closes. It does not return, so the child repeats nothing that the parent
+/// does at its end. `parentMemory` is the parent's addressSpace().
 [[noreturn]] void liveAsChild(int socket, pid_t parent, const ChildWork& work,
                               std::uint64_t parentMemory);
 

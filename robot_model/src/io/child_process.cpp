@@ -30,8 +30,8 @@ constexpr int kEndTick = 1;  // ms, at one that has closed its socket: most end 
   throw std::system_error(error, std::generic_category(), "no process can be made");
 }
 
-/// None of the three that a host may have closed: the child silences these, and the host writes to
-/// them.
+/// A descriptor other than 0, 1 and 2, which a host may have closed: the child silences these, and
+/// the host writes to them.
 int beyondStandardStreams(int descriptor) {
   if (descriptor > STDERR_FILENO) return descriptor;
   const int higher = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -71,7 +71,8 @@ Heard listen(int socket, std::string& text, std::size_t most) {
 
 }  // namespace
 
-/// A child, and the end of the socket that leads to it. Ended and reaped at the latest here.
+/// A child, and the end of the socket that leads to it. The destructor ends and reaps the child at
+/// the latest.
 class ChildProcess::Process {
  public:
   explicit Process(const ChildWork& work) {
@@ -101,7 +102,7 @@ class ChildProcess::Process {
   Process& operator=(const Process&) = delete;
 
   std::string ask(std::span<const std::string_view> request, const ChildLimits& limits) {
-    // What it said beyond its last answer would be the head of the next.
+    // What the child said beyond its last answer would be read as the head of the next.
     if (char byte = 0; recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0)
       throw ChildError("said too much");
     const unsigned wall = limits.seconds * kWallPerCpu;
@@ -118,7 +119,7 @@ class ChildProcess::Process {
   }
 
  private:
-  /// To one that does not listen any more it says nothing: how that ended, receive() finds out.
+  /// If the child no longer reads, this says nothing: receive() finds out how it ended.
   void send(std::string_view text) {
     while (!text.empty()) {
       const ssize_t count = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -138,11 +139,11 @@ class ChildProcess::Process {
   std::string receive(std::size_t size) {
     std::string text;
     while (text.size() < size) {
-      // Before listening: what one that is gone has said is all in the socket.
+      // Checked before reading: all that a child has written by its end is then in the socket.
       const bool gone = isGone();
       const Heard heard = listen(socket_, text, size - text.size());
-      // The socket of one that is gone may be held open by a child of another thread; and one that
-      // has closed its socket may stay.
+      // A child of another thread may hold the socket of an ended child open. And a child that has
+      // closed its socket may keep running.
       if (gone && heard != Heard::Data) throw ChildError(ending());
       if (heard == Heard::End) poll(nullptr, 0, kEndTick);
       requireTime();
@@ -154,7 +155,7 @@ class ChildProcess::Process {
     if (Clock::now() > latest_) throw ChildError(late_);
   }
 
-  /// Also where the host lets the system reap its children.
+  /// Works also where the host lets the system reap its children.
   bool isGone() {
     if (ended_) return true;
     const pid_t found = waitpid(pid_, &status_, WNOHANG);

@@ -14,7 +14,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// The only way that leads down from an element by these names; null: there is none.
+/// The first element down from `element` by these names; null: there is none.
 const XMLElement* below(const XMLElement* element, std::initializer_list<const char*> names) {
   for (const char* const name : names) {
     if (element == nullptr) return nullptr;

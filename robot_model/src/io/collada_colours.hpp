@@ -9,8 +9,8 @@
 
 namespace swept::detail {
 
-/// The diffuse colours of the materials of a COLLADA file. Nothing of them is refused: what is not
-/// understood, or is a picture, is no colour.
+/// The diffuse colours of the materials of a COLLADA file. A colour that is not understood, or is a
+/// texture, counts as none; nothing here refuses the file.
 class ColladaColours {
  public:
   /// `root` outlives it.

@@ -157,7 +157,7 @@ void MeshReader::addPolylist(const XMLElement& group, const XMLElement* list,
   }
 }
 
-/// Every other triangle of a strip turns the other way in the order of its corners.
+/// Every other triangle of a strip has its corners in the opposite orientation.
 void MeshReader::addStrip(const Corners& corners) {
   requireFewTriangles(mesh_.content.triangles.size() + corners.size() - 2);
   for (std::size_t i = 2; i < corners.size(); ++i) {

@@ -17,7 +17,7 @@ namespace swept::detail {
 
 /// The faces of a <mesh> of COLLADA.
 struct ColladaMesh {
-  /// Of triangles one after the other, and what names their material.
+  /// Consecutive triangles, and the name of the material that they share.
   struct Group {
     std::size_t triangles = 0;
     std::string material;
@@ -26,9 +26,9 @@ struct ColladaMesh {
   std::vector<Group> groups;
 };
 
-/// Fails unless all is there that the faces and the positions of their corners name and count, in
-/// the forms that README, "Which meshes are read", has. A source that gives no face a corner
-/// (normals, colours) is not looked at.
+/// Reads the mesh in the forms of README, "Which meshes are read". Throws if anything is missing
+/// that the faces and the positions of their corners name or count. Ignores sources that give a
+/// face no corner (normals, colours).
 ColladaMesh readColladaMesh(const tinyxml2::XMLElement& mesh, const InputSource& source,
                             FaceCutter& cutter);
 

@@ -19,11 +19,11 @@ class ColladaPositions {
   ColladaPositions(const tinyxml2::XMLElement& mesh, const InputSource& source)
       : mesh_(mesh), source_(source) {}
 
-  /// For a mesh that has faces. Fails unless all numbers are there.
+  /// For a mesh that has faces. Throws unless all numbers are there.
   void read();
 
   const std::vector<Eigen::Vector3d>& all() const { return all_; }
-  /// Fails unless it names the <vertices>, if these were read.
+  /// Throws unless it names the <vertices>, if these were read.
   void requireNamed(const tinyxml2::XMLElement& input) const;
 
  private:

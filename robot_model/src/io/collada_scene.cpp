@@ -41,8 +41,8 @@ struct Geometry {
 
 using Elements = std::multimap<std::string, const XMLElement*>;
 
-/// Puts together what the scene shows: geometries below nodes, which may show other nodes. A node
-/// that shows none (a camera, a lamp, a bone) is passed over.
+/// Collects what the scene shows: geometries below nodes, which may instantiate other nodes. Skips
+/// a node that shows none (a camera, a lamp, a bone).
 class SceneReader {
  public:
   SceneReader(const XMLElement& root, const InputSource& source, FaceMaterials materials)
@@ -141,7 +141,7 @@ const XMLElement& SceneReader::named(const XMLElement& element, const Elements& 
   const char* text = element.Attribute("url");
   const std::string url = std::string("has url=\"") + (text != nullptr ? text : "") + "\"; ";
   if (first == last) fail(element, url + "it must be # and an id of this file");
-  // Of elements that nothing names it is of no account that they have the same.
+  // Elements that nothing refers to may share an id.
   if (const auto second = std::next(first); second != last) {
     fail(element, url + "the elements at lines " + std::to_string(first->second->GetLineNum()) +
                       " and " + std::to_string(second->second->GetLineNum()) +
@@ -216,7 +216,7 @@ void SceneReader::showChild(const XMLElement& child, const ColladaPlace& place, 
   }
 }
 
-/// Whatever the order of its children, all transforms of a node count for all that it shows.
+/// All transforms of a node apply to all that it shows, whatever the order of its children.
 void SceneReader::showNode(const XMLElement& node, ColladaPlace place, int depth) {
   if (++nodesShown_ > kMaxNodes || depth > kMaxDepth) {
     fail(node, "is one too many: " + std::to_string(kMaxNodes) +

@@ -49,7 +49,7 @@ Rotation rotationOf(const XMLElement& element, const InputSource& source) {
   const auto values = numbers<4>(element, source);
   const Eigen::Vector3d axis(values[0], values[1], values[2]);
   if (values[3] == 0.0) return {};
-  // An axis of another length turns nothing in some readers, and stretches in others.
+  // An axis that is not of unit length turns nothing in some readers, and stretches in others.
   if (!(std::abs(axis.norm() - 1.0) <= kUnitAxis))
     failElement(source, element,
                 "has an axis whose length is " + formatNumber(axis.norm()) + "; it must be 1");

@@ -7,27 +7,28 @@
 
 namespace swept::detail {
 
-/// Takes points of a node to the file's frame, and knows how far rounding has moved them at most.
+/// Maps points of a node to the file's frame, and bounds the rounding error of the map.
 class ColladaPlace {
  public:
-  /// The file's frame, in that many metres.
+  /// Starts at the file's frame, whose unit is that many metres.
   explicit ColladaPlace(double unit);
 
-  /// Goes into what `element` of a node places: <translate>, <rotate>, <scale> and <matrix>. Others
-  /// change nothing. Fails for numbers that are not there or make no place.
+  /// Appends the transforms in `element`, the child of a node: <translate>, <rotate>, <scale> and
+  /// <matrix>. Others change nothing. Throws for numbers that are missing or make no transform.
   void enter(const tinyxml2::XMLElement& element, const InputSource& source);
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& point) const {
     return linear_ * point + offset_;
   }
-  /// Of a point that is no farther from the node's origin; the unit of the file's frame.
+  /// Bound on the error of points no farther than this from the node's origin, in the unit of the
+  /// file's frame.
   double error(double distance) const;
 
  private:
   Eigen::Matrix3d linear_;
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
-  /// No point at a distance of d from the node's origin is farther from the file's than stretch_ d
-  /// + reach_, nor was on its way, whatever cancels in the end.
+  /// A point at distance d from the node's origin is at most stretch_ d + reach_ from the file's
+  /// origin. This holds for every intermediate step as well, whatever cancels in the end.
   double stretch_, reach_ = 0.0;
   double steps_ = kStep;  ///< of that, what the transforms so far have rounded at most
 

@@ -13,14 +13,14 @@
 
 namespace swept::detail {
 
-/// With the element's line and name ahead of the problem.
+/// Throws with the element's line and name in front of the problem.
 [[noreturn]] void failElement(const InputSource& source, const tinyxml2::XMLElement& element,
                               const std::string& problem);
 
-/// What `#id` in an attribute points to; empty: it does not point into the file.
+/// The id that `#id` in an attribute refers to; empty: it does not refer into the file.
 std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attribute);
 
-/// The words of its text, one after the other, which live as long as that. Fails if it holds other
+/// The words of the element's text, which live as long as the document. Throws if it holds other
 /// elements.
 template <typename Action>
 void forEachColladaWord(const tinyxml2::XMLElement& element, const InputSource& source,
@@ -41,7 +41,7 @@ void forEachColladaWord(const tinyxml2::XMLElement& element, const InputSource& 
 /// Whole numbers below 2^32: sums and products of a few cannot overflow.
 std::optional<std::uint64_t> colladaCount(std::string_view word);
 
-/// That of an attribute. Fails where there is none, unless there is one to fall back on.
+/// The value of an attribute. Throws where it is missing, unless there is a fallback.
 std::uint64_t colladaCount(const InputSource& source, const tinyxml2::XMLElement& element,
                            const char* attribute, std::optional<std::uint64_t> fallback = {});
 

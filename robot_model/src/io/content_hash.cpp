@@ -28,7 +28,7 @@ constexpr std::array<std::array<std::uint8_t, 16>, 10> kOrder{{
     {10, 2, 8, 4, 7, 6, 1, 5, 15, 11, 9, 14, 3, 12, 13, 0},
 }};
 
-/// Eight bytes, the least first, on any machine.
+/// Writes eight bytes, least significant first, on any machine.
 std::uint64_t wordAt(const std::uint8_t* bytes) {
   std::uint64_t word = 0;
   if constexpr (std::endian::native == std::endian::little) {
@@ -62,7 +62,7 @@ ContentHash::ContentHash() : state_(kStart) {
 
 void ContentHash::add(std::string_view bytes) {
   while (!bytes.empty()) {
-    // A full block waits: the last one is compressed in another way.
+    // A full block waits, because the last one is compressed in another way.
     if (filled_ == kBlock) compress(false);
     const std::size_t count = std::min(bytes.size(), kBlock - filled_);
     std::memcpy(block_.data() + filled_, bytes.data(), count);

@@ -12,19 +12,20 @@
 
 namespace swept::detail {
 
-/// 256 bits that nobody finds a second content for: BLAKE2b (RFC 7693), without a key.
+/// A hash of 256 bits: BLAKE2b (RFC 7693), without a key. Nobody can find a second content with the
+/// same hash.
 class ContentHash {
  public:
   using Digest = std::array<std::uint8_t, 32>;
 
   ContentHash();
   void add(std::string_view bytes);
-  /// The items' bytes, as this machine has them; these must have no gaps.
+  /// Adds the items' bytes, in this machine's form. The items must have no padding.
   template <typename Item>
   void addItems(std::span<const Item> items) {
     add({reinterpret_cast<const char*>(items.data()), items.size_bytes()});
   }
-  /// Of all that was added; nothing is added after it.
+  /// The hash of all that was added. Add nothing after it.
   Digest digest();
 
  private:
@@ -38,10 +39,10 @@ class ContentHash {
 };
 
 ContentHash::Digest hashOf(std::string_view bytes);
-/// Of what a file holds; empty: it cannot be read.
+/// The hash of a file's content; empty: the file cannot be read.
 std::optional<ContentHash::Digest> hashOfFile(const std::filesystem::path& file);
 
-/// Two digits a byte.
+/// As text, two digits per byte.
 std::string hexadecimal(const ContentHash::Digest& digest);
 
 }  // namespace swept::detail

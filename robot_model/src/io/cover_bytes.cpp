@@ -11,7 +11,7 @@ namespace swept::detail {
 
 namespace {
 
-/// A level without the bytes between its fields, which may be any.
+/// A level of a cover, without the padding between its fields, which may hold any bytes.
 struct PackedLevel {
   double aimed;
   double largestOverhang;
@@ -28,7 +28,7 @@ void append(const std::vector<Item>& items, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(Item));
 }
 
-/// Takes them off the front; false: there are too few.
+/// Removes them from the front; false: there are too few.
 template <typename Item>
 bool take(std::string_view& bytes, std::vector<Item>& items) {
   std::uint64_t count = 0;

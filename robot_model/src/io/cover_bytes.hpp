@@ -9,11 +9,11 @@
 
 namespace swept::detail {
 
-/// A cover as bytes of this kind of machine, each bit as it is.
+/// A cover as bytes in this machine's form, bit for bit.
 std::string toBytes(const SphereCover& cover);
 
-/// Empty for what toBytes() does not return: too short or too long, with children out of place or
-/// balls that are none.
+/// The cover. Empty for bytes that toBytes() cannot have returned: too short or too long, with
+/// children out of place or with invalid balls.
 std::optional<SphereCover> coverFromBytes(std::string_view bytes);
 
 }  // namespace swept::detail

@@ -21,9 +21,9 @@ namespace swept::detail {
 
 namespace {
 
-/// Anew whenever covers are built in another way, or written in another form.
+/// Increase it whenever covers are built differently or written in another form.
 constexpr std::string_view kVersion = "swept cover 1\n";
-/// Tells machines with other numbers apart.
+/// Distinguishes machines with another order of bytes.
 constexpr std::uint64_t kOrderOfBytes = 0x0102030405060708;
 
 /// Ahead of the cover: what is written, how, of what, and how many bytes the cover has.
@@ -54,7 +54,7 @@ ContentHash::Digest keyOf(const TriangleMesh& mesh) {
   return hash.digest();
 }
 
-/// This user's, and nobody else may write to it.
+/// The folder belongs to this user, and nobody else may write to it.
 bool isOwn(const struct stat& info) {
   return info.st_uid == geteuid() && (info.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
@@ -81,7 +81,7 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
   explicit operator bool() const { return descriptor_ >= 0; }
 
-  /// Of a file of this user's; empty: it is another, or cannot be read.
+  /// The bytes of a file of this user's; empty: the file is someone else's, or cannot be read.
   std::optional<std::string> whole() const {
     struct stat info {};
     if (fstat(descriptor_, &info) != 0 || !S_ISREG(info.st_mode) || !isOwn(info)) return {};
@@ -109,7 +109,7 @@ class OpenFile {
   int descriptor_;
 };
 
-/// What a file holds between its head and its hash; empty: it is not to be believed.
+/// What a file holds between its head and its hash; empty: the file is not valid.
 std::optional<std::string_view> believed(std::string_view bytes, const ContentHash::Digest& key) {
   const std::size_t headSize = headOf(key, 0).size();
   const std::size_t frame = headSize + sizeof(ContentHash::Digest);

@@ -12,24 +12,24 @@
 
 namespace swept::detail {
 
-/// Covers of meshes in a folder, each in a file whose name is the hash of all that it is made of:
-/// the mesh, how fine it is to be, the version of what is made, the order of bytes.
+/// A folder of the covers of meshes. The name of each file is the hash of its inputs: the mesh, the
+/// fineness, the version of the builder, the byte order.
 ///
-/// Believed is a file with the right head and length whose end is the hash of the rest; any other
-/// is as none. So files that are cut off, damaged or of another version cost time and nothing else.
-/// Whoever can write to the folder can make a file that is believed, and a proof is as good as its
-/// covers. Therefore it has to belong to this user and let nobody else write, and so do its files;
-/// one that is not there is made so. Files appear whole, under their names, so several processes
-/// may share a folder. Any thread.
+/// A file is valid if its head and length are right and its end is the hash of the rest. Any other
+/// file counts as missing. So files that are cut off, damaged or of another version cost time and
+/// nothing else. Whoever can write to the folder can make a valid file, and a proof is only as good
+/// as its covers. Therefore the folder and its files must belong to this user, and nobody else may
+/// write to them; a missing folder is made so. Files appear whole under their names, so several
+/// processes may share a folder. Any thread.
 class CoverCache {
  public:
   /// Of LoadOptions::cache; empty: keeps nothing.
   explicit CoverCache(const std::filesystem::path& folder);
 
-  /// That of the folder, else a new one, which the folder gets.
+  /// The cover of the mesh from the folder, otherwise a new one, which is added to the folder.
   std::shared_ptr<const SphereCover> coverOf(const TriangleMesh& mesh);
 
-  /// Why the folder is not used, or a cover could not be put there; empty: nothing is wrong.
+  /// Why the folder is not used, or a cover could not be stored; empty: no problem.
   std::string problem() const;
 
  private:

@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// About a second. More than any face needs that somebody has drawn: one of 10 000 corners takes
-/// half of it.
+/// The most looks at corners: about a second. That is more than any drawn face needs. One with ten
+/// thousand corners takes half of it.
 constexpr std::uint64_t kMaxLooks = 100'000'000;
 
 Vector3d towards(const Vector3d& from, const Vector3d& to) {
@@ -70,8 +70,8 @@ void FaceCutter::cut(std::span<const int> corners, std::span<const Vector3d> ver
   }
 }
 
-/// So that the face turns left. False: it winds around as much one way as the other, as one that
-/// crosses itself may, so that it has no normal to be seen along.
+/// Makes the face turn left. False: it winds as much one way as the other, as a face that crosses
+/// itself may. It then has no normal to be seen along.
 bool FaceCutter::flatten(std::span<const int> corners, std::span<const Vector3d> vertices) {
   const Vector3d& first = vertices[corners[0]];
   Vector3d normal = Vector3d::Zero();
@@ -83,7 +83,7 @@ bool FaceCutter::flatten(std::span<const int> corners, std::span<const Vector3d>
   }
   Eigen::Index along = 0;
   const double largest = normal.cwiseAbs().maxCoeff(&along);
-  // Less than that is what rounding has left.
+  // A smaller area is rounding error.
   constexpr double kLeast = 1e-10;
   if (sum != 0.0 && !(largest > kLeast * sum)) return false;
   const double side = normal[along] < 0.0 ? -1.0 : 1.0;
@@ -103,7 +103,7 @@ double FaceCutter::turn(int a, int b, int c) const {
 }
 
 bool FaceCutter::isFan() const {
-  // What is no number is none.
+  // With a NaN the face is no fan.
   for (int i = 2; i < std::ssize(outline_.points); ++i)
     if (!(turn(0, i - 1, i) >= 0.0)) return false;
   return true;
@@ -160,7 +160,7 @@ bool FaceCutter::cutEars(std::span<const int> corners, std::vector<Vector3i>& tr
     for (; tried < left && looks_ <= kMaxLooks && !isEar(at); ++tried) at = outline_.next[at];
     if (looks_ > kMaxLooks) return false;
     if (tried == left) {
-      // What has no area covers nothing.
+      // A face without area covers nothing.
       for (tried = 0; tried < left && !isWithoutArea(at); ++tried) at = outline_.next[at];
       if (tried == left) return false;
     }

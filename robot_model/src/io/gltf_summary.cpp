@@ -56,7 +56,7 @@ Parts partsOf(std::string_view bytes, bool isBinary, const InputSource& source) 
   return parts;
 }
 
-/// Goes through what a file shows, and looks at all that faces depend on.
+/// Walks through what a file shows, and reads all that faces depend on.
 class GltfReader {
  public:
   GltfReader(const nlohmann::json& json, Count binary, const InputSource& source)
@@ -81,7 +81,8 @@ class GltfReader {
   }
   void checkExtensions() const;
   Count sizeOfBuffer(const JsonValue& index) const;
-  /// Its count. It has to be of this type and of one of these kinds of numbers, each with its size.
+  /// Returns an accessor's count. The accessor must have this type and one of these component
+  /// types, each given with its size.
   Count readAccessor(const JsonValue& accessor, const std::string& type, Count width,
                      std::initializer_list<std::pair<Count, Count>> kinds) const;
   void readPrimitive(const JsonValue& primitive, Mesh& mesh) const;
@@ -97,7 +98,7 @@ class GltfReader {
   MeshSummary summary_;
 };
 
-/// Materials and lights are all that these have to do with.
+/// Extensions that concern materials and lights only.
 void GltfReader::checkExtensions() const {
   for (const JsonValue& name : list("extensionsRequired")) {
     const std::string text = name.text();
@@ -190,7 +191,7 @@ Eigen::Affine3d GltfReader::placeOf(const JsonValue& node) {
     const auto values = node.at("rotation").elements(4);
     const Eigen::Quaterniond rotation(values[3].number(), values[0].number(), values[1].number(),
                                       values[2].number());
-    // More is no rounding to single precision, or to six digits.
+    // A larger difference is not from rounding to single precision, or to six digits.
     constexpr double kUnit = 1e-6;
     if (!(std::abs(rotation.norm() - 1.0) <= kUnit))
       node.at("rotation").fail("has another length than 1");

@@ -9,17 +9,18 @@
 
 namespace swept::detail {
 
-/// What a mesh file says it holds. What another reader makes of it is held against this.
+/// The number of triangles and the box that a mesh file states. The result of another reader is
+/// compared with it.
 struct MeshSummary {
   std::uint64_t triangles = 0;
   Eigen::AlignedBox3d box;  ///< that contains them; the file's frame and unit
 };
 
-/// Of glTF 2.0, as text or, `isBinary`, as .glb: what its scene shows, by the counts and bounds
-/// that the file gives itself. Throws InputError for what is cut off or reaches beyond its buffers,
-/// for what is in another file, for what needs extensions that have to do with faces, and for
-/// skins, morph targets, sparse accessors, corners that are not in single precision, and faces that
-/// the scene does not show.
+/// Reads the summary of glTF 2.0, as text or, with `isBinary`, as .glb: what its scene shows, by
+/// the counts and bounds that the file states. Throws InputError for a file that is cut off or
+/// reaches beyond its buffers, refers to another file, or needs extensions that concern faces.
+/// Throws it as well for skins, morph targets, sparse accessors, corners that are not in single
+/// precision, and faces that the scene does not show.
 MeshSummary gltfSummary(std::string_view bytes, bool isBinary, const InputSource& source);
 
 }  // namespace swept::detail

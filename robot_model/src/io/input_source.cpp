@@ -12,7 +12,7 @@ InputSource::InputSource(std::string name, const LoadOptions& options)
     : name_(std::move(name)), options_(options) {}
 
 std::filesystem::path InputSource::folder() const {
-  std::error_code error;  // of a working folder that is gone
+  std::error_code error;  // for a working folder that no longer exists
   const std::filesystem::path whole = std::filesystem::absolute(name_, error);
   return (error ? std::filesystem::path(name_) : whole).parent_path();
 }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The reason alone: the library puts its own name and place in front of it.
+/// The reason alone: the library puts its own name and position in front of it.
 std::string reasonOf(const json::exception& error, const char* front) {
   const std::string what = error.what();
   const auto at = what.find(front);
@@ -22,7 +22,7 @@ std::string reasonOf(const json::exception& error, const char* front) {
                                              : what.substr(at + std::string_view(front).size()));
 }
 
-/// Of two values of one key in an object the library would keep one, in silence.
+/// Of two values with one key in an object, the library would silently keep one.
 class KeysOnce {
  public:
   explicit KeysOnce(const std::string& file) : file_(file) {}

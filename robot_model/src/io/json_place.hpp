@@ -14,7 +14,7 @@
 
 namespace swept::detail {
 
-/// A value of the file with the way to it, as messages name it: `set 'cage' problem 3:
+/// A value of the file, and the path to it, which messages name: `set 'cage' problem 3:
 /// world.box[1].name`.
 struct JsonPlace {
   const nlohmann::json& value;

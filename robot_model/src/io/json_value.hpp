@@ -13,8 +13,8 @@ namespace swept {
 /// the line.
 nlohmann::ordered_json parseOrderedJson(const std::string& file);
 
-/// A value of a JSON file with the way to it, which messages name: `case 'a': shapes[0].size`.
-/// Whatever does not hold what it is asked for throws InputError.
+/// A value of a JSON file, and the path to it, which messages name: `case 'a': shapes[0].size`.
+/// Each function throws InputError if the value is not of the kind that is asked for.
 class JsonValue {
  public:
   /// `file` and `value` must outlive this.

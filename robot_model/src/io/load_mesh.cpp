@@ -21,7 +21,7 @@ void requireFactors(const Eigen::Vector3d& scale) {
   throw std::invalid_argument("loadMesh: scale " + text + " must be finite factors other than 0");
 }
 
-/// Messages about a file that others refer to name it and them; here it is the file itself.
+/// Messages about a file that others refer to name both; here the file itself is the input.
 InputError aboutItself(const InputError& error, const std::string& name) {
   const std::string& message = error.message();
   if (!message.starts_with(name)) return error;

@@ -10,7 +10,7 @@ namespace {
 constexpr unsigned kFirstRepetition = 32;  ///< control bytes below it are lengths of runs, less 1
 constexpr std::size_t kLongLength = 7;     ///< of a repetition: another byte is added to it
 
-/// The two may overlap: then what is repeated repeats itself.
+/// The two may overlap: then the copy repeats itself.
 void repeat(char* to, std::size_t distance, std::size_t length) {
   const char* from = to - distance;
   if (distance >= length) {

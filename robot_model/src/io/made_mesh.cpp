@@ -14,9 +14,11 @@ namespace swept::detail {
 
 namespace {
 
-/// In the file's unit: how far apart the corners of triangles may be, along each axis, that are one
-/// corner, or a corner on an edge, to the program that wrote them. Coordinates are off by up to
-/// half of what they are rounded to, single precision or six decimals, and two of them by twice
+/// The tolerance for corners, along each axis, in the file's unit. Corners that the writing program
+/// held equal, or a corner and the edge that it lies on, may be this far apart. Coordinates are off
+/// by up to half of the last place that they are rounded to, in single precision or with six
+/// decimals, and two of them by twice that. For a mesh that is small in its unit six decimals are
+/// few: the tolerance is no more than 1e-4 of its size.
 /// that. Of a mesh that is small in its unit six decimals are few: no more than 1e-4 of its size.
 double roundingOf(const MeshFileContent& content) {
   constexpr double kDecimals = 2e-6;

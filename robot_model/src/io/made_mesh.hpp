@@ -14,7 +14,8 @@
 
 namespace swept::detail {
 
-/// A mesh file at one scale, and what there is to be said of it. Or why there is no mesh.
+/// A mesh made from a file at one scale, with remarks for messages, or the reason why there is no
+/// mesh.
 struct MadeMesh {
   std::optional<TriangleMesh> mesh;
   double rounding = 0.0;  ///< m: along each axis, what is nearer to another thing may be the same
@@ -25,11 +26,11 @@ struct MadeMesh {
   std::exception_ptr failure;  ///< that the file has nothing to do with, as too little memory
 };
 
-/// How messages put a file that cannot be used.
+/// The message about a file that cannot be used.
 MadeMesh unusable(const MeshFileError& error);
 
-/// Scales what a file holds (negative: mirrors), and makes a mesh of it, with its cover if there is
-/// where that may come from. Throws nothing.
+/// Scales a file's content (a negative scale mirrors) and makes a mesh of it. Makes its cover too
+/// where a cache is given for it. Throws nothing.
 MadeMesh makeMesh(MeshFileContent content, const Eigen::Vector3d& scale,
                   CoverCache* covers) noexcept;
 

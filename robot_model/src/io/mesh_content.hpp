@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// Of a face without a material, or whose material is a picture.
+/// The colour of a face without a material, or whose material is a texture.
 inline constexpr std::uint32_t kNoColour = 0xFFFFFFFF;
 
 /// What a mesh file holds, before it is welded.
@@ -30,8 +30,8 @@ struct MeshFileError : std::runtime_error {
 /// Throws MeshFileError for more than 20 million.
 void requireFewTriangles(std::uint64_t count);
 
-/// Drops the vertices that no triangle has, which must not count for the size of the mesh. What is
-/// left is in the order of its first use.
+/// Drops the vertices that no triangle uses, which must not count for the size of the mesh. The
+/// rest is in the order of its first use.
 void keepUsedVertices(MeshFileContent& content);
 
 }  // namespace swept::detail

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{256} << 20;
 
-/// Assimp reads some 10 MB in a second and takes some 50 times a file's size.
+/// Assimp reads about 10 MB per second and takes about 50 times a file's size.
 constexpr unsigned kSeconds = 3;
 constexpr unsigned kBytesPerSecond = 1 << 18;
 constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
@@ -48,7 +48,7 @@ std::string_view textOf(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Null: it is none of ours.
+/// The reader of ours for this name; null: we have none.
 MeshFileContent (*readerOf(const std::string& ending))(std::string_view, const InputSource&) {
   if (ending == ".stl") return readStlMesh;
   if (ending == ".obj") return readObjMesh;
@@ -89,7 +89,7 @@ std::string extent(const Eigen::AlignedBox3d& box) {
   return text + ")";
 }
 
-/// First letter of what a child says; what follows is the content, or a message.
+/// The first letter of a child's answer; the content or a message follows it.
 enum class Kind : char { Content = 'c', Error = 'e' };
 
 template <typename Item>
@@ -103,7 +103,7 @@ void append(const std::vector<Item>& items, std::string& text) {
   throw MeshFileError("cannot be read: assimp returned no mesh");
 }
 
-/// A file that overwrote the child's memory may have it say anything.
+/// A file that overwrote the child's memory may make it answer anything.
 template <typename Item>
 std::string_view take(std::string_view text, std::vector<Item>& items) {
   std::uint64_t count = 0;
@@ -111,13 +111,13 @@ std::string_view take(std::string_view text, std::vector<Item>& items) {
   std::memcpy(&count, text.data(), sizeof count);
   if (count > (text.size() - sizeof count) / sizeof(Item)) refuseContent();
   items.resize(count);
-  // Of no items the address may be null, which memcpy must not be given.
+  // An empty array may have a null address, which memcpy must not get.
   if (count > 0)
     std::memcpy(static_cast<void*>(items.data()), text.data() + sizeof count, count * sizeof(Item));
   return text.substr(sizeof count + count * sizeof(Item));
 }
 
-/// Of a request: a name, a line break, and the bytes of the file.
+/// The parts of a request: a name, a line break, and the bytes of the file.
 std::string saidOf(std::string_view request, const MeshImport& import) {
   const auto end = request.find('\n');
   const std::string_view file = request.substr(end + 1);
@@ -137,7 +137,7 @@ std::string saidOf(std::string_view request, const MeshImport& import) {
   }
 }
 
-/// Holds what assimp made of a file against what there is to be made of it.
+/// Compares what assimp made of a file with the file's summary.
 void requireWhole(const MeshSummary& summary, const MeshFileContent& content) {
   constexpr double kSame = 1e-4;  // of the largest coordinate: a thousand times single precision
   if (content.triangles.size() != summary.triangles) {
@@ -156,7 +156,7 @@ void requireWhole(const MeshSummary& summary, const MeshFileContent& content) {
       std::max(summary.box.min().cwiseAbs().maxCoeff(), summary.box.max().cwiseAbs().maxCoeff());
   const double beyond = std::max((summary.box.min() - box.min()).maxCoeff(),
                                  (box.max() - summary.box.max()).maxCoeff());
-  // NaN fails it.
+  // The test fails for NaN.
   if (!(beyond <= kSame * largest)) {
     throw MeshFileError("cannot be read: its faces reach no farther than " + extent(summary.box) +
                         ", and those that assimp makes of them " + extent(box));
@@ -207,7 +207,7 @@ MeshFileContent MeshFileReader::askForWhole(const std::string& name, std::string
     requireWhole(summary, content);
     return content;
   } catch (const MeshFileError&) {
-    // Whatever that file has done to the process: it reads no other.
+    // A file may have damaged the process, so it reads no other file.
     child_.end();
     throw;
   }
@@ -225,7 +225,8 @@ MeshFileContent MeshFileReader::import(const std::string& name, std::string_view
     try {
       return askForWhole(name, text, summary);
     } catch (const MeshFileError&) {
-      // Not this file's fault, perhaps, but of those before it: a process that has read none says.
+      // An earlier file may be the cause, not this one. So a process that has read no other file
+      // decides.
     }
   }
   return askForWhole(name, text, summary);
@@ -251,7 +252,7 @@ MeshFileContent MeshFileReader::readAs(const std::filesystem::path& file, FaceMa
       return gltfSummary(text, ending == ".glb", source);
     });
     requireSome(summary.triangles);
-    // By a name of ours, whatever the file's has in it.
+    // Under a name of ours, so that the file's own name does not matter.
     return import("mesh" + ending, text, summary);
   }
   MeshFileContent content = readOrRefuse(file, [&](const InputSource& source) {

@@ -15,12 +15,12 @@
 
 namespace swept::detail {
 
-/// What makes a mesh of a file's bytes; the name tells the format. Throws MeshFileError and
+/// Makes a mesh from a file's bytes; the name tells the format. Throws MeshFileError and
 /// std::bad_alloc.
 using MeshImport =
     std::function<MeshFileContent(const std::string& name, std::span<const std::uint8_t> bytes)>;
 
-/// Where files are read that assimp reads.
+/// Where assimp runs.
 enum class ImportPlace { Child, Here };
 
 inline ImportPlace importPlaceOf(const LoadOptions& options) {
@@ -30,24 +30,25 @@ inline ImportPlace importPlaceOf(const LoadOptions& options) {
 /// Reads .stl, .obj, .dae, .ply, .off, .gltf and .glb, in letters of any size. Polygons are
 /// triangulated (FaceCutter), points and lines dropped, node transforms applied.
 ///
-/// All faces are there: what is out of range, cut off or in words that nobody knows is refused.
-/// Nothing else of a file is judged: normals, colours, textures, materials, cameras and lights cost
-/// no file, whatever they hold.
+/// The reader returns all faces. It refuses a file in which something is out of range, cut off or
+/// unknown. It judges nothing else: no normals, colours, textures, materials, cameras or lights
+/// make it refuse a file.
 ///
-/// glTF is read by assimp, in single precision: MeshFileContent::error bounds what that changes. A
-/// small reader of ours (gltf_summary.hpp) counts the triangles first, and what assimp returns must
-/// have as many and reach no farther. Our readers read all others, in double precision.
+/// Assimp reads glTF, in single precision: MeshFileContent::error bounds what that changes. A small
+/// reader of ours (gltf_summary.hpp) counts the triangles first. Assimp's result must have as many
+/// and reach no farther. Our readers read all other formats, in double precision.
 ///
 /// Assimp runs in a process of its own, for as long and with as much memory as a file of that size
-/// can reasonably take: one that makes it crash or hang is refused as any other. That process reads
-/// one file after the other, each within limits of its own, as long as it reads them whole; one
-/// that failed at a file reads no other, and a file is refused only by one that has read no other.
-/// With ImportPlace::Here it runs in this process, without limits.
+/// can reasonably take. A file that makes it crash or hang is refused like any other bad file. That
+/// process reads one file after the other, each within its own limits. After a failure it reads no
+/// other file, and a file is refused only by a process that has read no other. With
+/// ImportPlace::Here assimp runs in this process, without limits.
 ///
 /// No other file is opened, not even one that this file names (materials, textures, buffers).
-/// Throws MeshFileError for another ending, a file over 256 MB, one with more than 20 million
-/// triangles, one that cannot be read whole, or one without triangles, and where no process can be
-/// made, and reads the next file nevertheless. One thread uses it, and outlives it.
+/// Throws MeshFileError for another ending, a file over 256 MB, more than 20 million triangles, a
+/// file that cannot be read whole, and one without triangles. Throws it as well where no process
+/// can be made, and can read the next file nevertheless. Use from one thread, which must outlive
+/// it.
 class MeshFileReader {
  public:
   explicit MeshFileReader(ImportPlace place = ImportPlace::Child);
@@ -55,8 +56,8 @@ class MeshFileReader {
   explicit MeshFileReader(MeshImport import, ImportPlace place = ImportPlace::Child);
 
   MeshFileContent read(const std::filesystem::path& file);
-  /// The same with the colours that a COLLADA file's materials have. What is wrong with these costs
-  /// the colours, not the file.
+  /// The same with the colours of a COLLADA file's materials. A problem with these drops the
+  /// colours, not the file.
   MeshFileContent readWithColours(const std::filesystem::path& file);
 
  private:

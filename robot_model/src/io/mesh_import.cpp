@@ -19,7 +19,7 @@ namespace swept::detail {
 
 namespace {
 
-/// Shows assimp one file, held in memory, and nothing else of the file system.
+/// A file system for assimp that holds one file, in memory.
 class OneFile final : public Assimp::IOSystem {
  public:
   OneFile(std::string name, std::span<const std::uint8_t> bytes)
@@ -43,11 +43,11 @@ Eigen::Matrix4d toEigen(const aiMatrix4x4& matrix) {
   return Eigen::Map<const RowMajor4f>(&matrix.a1).cast<double>();
 }
 
-/// A node of assimp's and those above it: how it places its meshes, and by how much single
-/// precision may have moved what it places.
+/// The transform of one of assimp's nodes, with those above it: how it places its meshes, and a
+/// bound on the error of single precision in what it places.
 class Place {
  public:
-  /// What `node`, a child of what has this place, gives its own.
+  /// The transform of `node`, a child of this node.
   Place of(const aiNode& node) const {
     // Each entry is made of a unit quaternion, a scale and a translation in some 30 roundings, all
     // of them together as one matrix.
@@ -63,13 +63,13 @@ class Place {
   Eigen::Vector3d operator()(const aiVector3D& v) const {
     return (file_from_node_ * Eigen::Vector4d(v.x, v.y, v.z, 1.0)).head<3>();
   }
-  /// Of points no farther than that from the node's origin.
+  /// Bound on the error of points no farther than this from the node's origin.
   double error(double distance) const { return steps_ * (stretch_ * distance + reach_); }
 
  private:
   Eigen::Matrix4d file_from_node_ = Eigen::Matrix4d::Identity();
-  /// What is at a distance of d from the node's origin is no farther from the file's than stretch_
-  /// d + reach_, whatever cancels. The Frobenius norm is no less than what a matrix stretches by.
+  /// A point at distance d from the node's origin is at most stretch_ d + reach_ from the file's
+  /// origin, whatever cancels. The Frobenius norm bounds how much a matrix stretches.
   double stretch_ = 1.0, reach_ = 0.0;
   double steps_ = kSingle;  ///< of that; at first for the coordinates themselves
 };
@@ -102,7 +102,7 @@ void appendNode(const aiScene& scene, const aiNode& node, const Place& parent,
     appendNode(scene, *node.mChildren[i], place, content);
 }
 
-/// Too little memory is no fault of the file, but for Assimp it is as any other.
+/// Too little memory is not the file's fault, but assimp reports it like any other error.
 void rethrowNoMemory(const Assimp::Importer& importer) {
   try {
     if (const std::exception_ptr& thrown = importer.GetException()) std::rethrow_exception(thrown);

@@ -29,7 +29,7 @@ std::string nameOf(const MeshReference& mesh) {
   return "mesh '" + mesh.reference + "' of " + mesh.owner;
 }
 
-/// What files of the same content have in common. No size: it cannot be told.
+/// What files with the same content share. It has no size: that is unknown.
 std::pair<std::string, std::uintmax_t> endingAndSize(const fs::path& file) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
@@ -41,7 +41,7 @@ class Counted {
  public:
   using Progress = std::function<void(std::size_t, std::size_t)>;
   Counted(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
-  /// What the caller's function throws is lost: it is not to.
+  /// An exception from the caller's function is lost: the function must not throw.
   void addOne() noexcept {
     const std::lock_guard lock(mutex_);
     ++done_;
@@ -55,8 +55,8 @@ class Counted {
   const std::size_t total_;
 };
 
-/// The same for all names of a file; its own where the system tells none, as of an open file that
-/// is in no folder any more.
+/// A name that is the same for all names of a file. It is the file's own name where the system
+/// knows no other, as for an open file that is in no folder any more.
 fs::path oneName(const fs::path& file) {
   std::error_code error;
   const fs::path whole = fs::canonical(file, error);
@@ -125,7 +125,7 @@ std::vector<MeshStore::Key> MeshStore::newOnes(const std::vector<MeshReference>&
     if (place.problem.empty() && !made_.contains(key) && known.insert(key).second)
       keys.push_back(key);
   }
-  // Robots have the same file under several names: of a left and a right hand, say.
+  // Robots have the same file under several names, for example for a left and a right hand.
   std::map<std::pair<std::string, std::uintmax_t>, int> alike;
   for (const Key& key : keys) ++alike[endingAndSize(key.first)];
   std::map<std::tuple<std::string, ContentHash::Digest, std::array<double, 3>>, Key> firstWith;
@@ -152,7 +152,7 @@ void MeshStore::prepare(const std::vector<MeshReference>& references) {
   CoverCache covers(source_.options().cache);
   {
     WorkCrew crew(0);
-    // What follows one that cannot be read is of no use any more.
+    // After a file that cannot be read, the later ones are not needed.
     bool isReadable = true;
     for (std::size_t i = 0; i < wanted.size() && isReadable; ++i) {
       MadeMesh& made = made_[wanted[i]];

@@ -25,8 +25,7 @@ struct MeshReference {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< per axis; negative: mirrored
 };
 
-/// Where the file of a reference is; else what kept it from being found, as messages go on after
-/// its name.
+/// The path of a reference's file, or why it was not found, as messages go on after its name.
 struct MeshPlace {
   std::filesystem::path file;
   std::string problem;
@@ -39,25 +38,25 @@ class MeshStore {
   explicit MeshStore(const InputSource& source)
       : source_(source), files_(importPlaceOf(source.options())) {}
 
-  /// Throws one InputError that names all files that are not there, ten at the most and how many
-  /// more.
+  /// Throws one InputError that names all missing files: at most ten, and how many more.
   void requireFound(const std::vector<MeshReference>& references) const;
 
-  /// Makes these, with their covers, on all processors, and tells LoadOptions::progress. Those that
-  /// follow a file that cannot be read are left out. What is wrong or remarkable get() says, of
-  /// each when its turn comes, so that no message depends on the order in which they are done.
+  /// Makes these meshes, with their covers, on all processors, and reports to
+  /// LoadOptions::progress. Leaves out those after a file that cannot be read. get() gives the
+  /// errors and warnings of each mesh when its turn comes, so that no message depends on the order
+  /// in which the meshes are made.
   void prepare(const std::vector<MeshReference>& references);
 
-  /// The mesh that is named; unless it was prepared it is made now, without a cover. The same file
-  /// at the same scale is one mesh. Cracks of up to 1e-5 of its size, or what rounding explains,
-  /// are filled: a warning names those that rounding does not explain. Line and owner go into the
-  /// messages: an open surface is a warning, a mesh that cannot be used an InputError.
+  /// The mesh of a reference; unless it was prepared it is made now, without a cover. The same file
+  /// at the same scale is one mesh. Cracks are filled up to 1e-5 of the mesh's size, or up to what
+  /// rounding explains; a warning names those that rounding does not explain. Line and owner go
+  /// into the messages. An open surface is a warning, a mesh that cannot be used an InputError.
   const MadeMesh& get(const MeshReference& mesh);
 
  private:
   using Key = std::pair<std::filesystem::path, std::array<double, 3>>;
   static Key keyOf(const std::filesystem::path& file, const Eigen::Vector3d& scale);
-  /// One for each mesh that is not made yet. Files of the same content are one mesh, too.
+  /// One for each mesh that is not made yet. Files with the same content are one mesh, too.
   std::vector<Key> newOnes(const std::vector<MeshReference>& references);
   MadeMesh readNow(const std::filesystem::path& file, const Eigen::Vector3d& scale);
 
@@ -68,10 +67,10 @@ class MeshStore {
   std::set<Key> told_;         ///< warned of
 };
 
-/// Warns when part of `mesh` does not enclose anything.
+/// Warns when part of `mesh` encloses nothing.
 void warnIfOpen(const TriangleMesh& mesh, const std::string& name, int line,
                 const InputSource& source);
-/// The same, of a mesh with this report and `opening` (m, TriangleMesh::opening()).
+/// The same, for a mesh with this report and `opening` (m, TriangleMesh::opening()).
 void warnIfOpen(const MeshReport& report, double opening, const std::string& name, int line,
                 const InputSource& source);
 

@@ -17,8 +17,8 @@ namespace swept::detail {
 
 namespace {
 
-/// What has no faces, and is not looked at. Others (`fo`, `curv`, `surf`, `call`) have, or may
-/// have.
+/// Statements that have no faces, which are ignored. Others (`fo`, `curv`, `surf`, `call`) have
+/// faces, or may have.
 constexpr std::array<std::string_view, 13> kNoFaces{
     "vt", "vn", "vp", "p", "l", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib"};
 
@@ -36,7 +36,7 @@ class ObjReader {
   void readLine();
   void readVertex(const std::vector<std::string_view>& line);
   void readFace(const std::vector<std::string_view>& line);
-  /// From 0; of a vertex that may follow later. What follows a slash is of no account.
+  /// The index of a vertex, from 0; the vertex may follow later. What follows a slash is ignored.
   std::size_t readCorner(std::string_view word) const;
   std::int64_t readIndex(std::string_view text, std::string_view corner) const;
   void requireIndices(std::string_view text, std::string_view corner) const;
@@ -82,7 +82,7 @@ void ObjReader::failCorner(std::string_view corner) const {
               " of a face must be V, V/T, V//N or V/T/N, of whole numbers other than 0");
 }
 
-/// Of texture and normal: there may be none of that number, or none at all.
+/// For texture and normal indices: the one of that number need not exist.
 void ObjReader::requireIndices(std::string_view text, std::string_view corner) const {
   if (std::ranges::count(text, '/') > 1 ||
       text.find_first_not_of("0123456789-/") != std::string_view::npos)

@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kLevels = 16;  ///< below the root; OctoMap's trees have no more
 
-/// A cube of the tree: which one of 2^depth along each axis, counted from the middle of the map.
+/// A cube of the tree, by its index among 2^depth along each axis, counted from the middle of the
+/// map.
 struct Cell {
   std::array<int, 3> index{};
   int depth = 0;
@@ -83,7 +84,7 @@ void TreeReader::addOccupied(const Cell& cell) {
   OccupancyMap::Cube cube;
   cube.side = std::ldexp(header_.resolution, kLevels - cell.depth);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // The root is the only cell in whose middle the origin is.
+    // The root is the only cell that has the origin in its middle.
     const double middle = cell.depth == 0 ? 0.0 : cell.index[axis] + 0.5;
     cube.center[static_cast<Eigen::Index>(axis)] = middle * cube.side;
   }
@@ -103,7 +104,7 @@ void TreeReader::openBinary(const Cell& cell) {
   const std::size_t offset = at_;
   const unsigned bits = bytesAs<std::uint16_t>(take(2), std::endian::little);
   if (bits == 0) {
-    // Not even OctoMap knows what a root without children was when it was written.
+    // Not even OctoMap can tell what a root without children was. It counts as occupied.
     if (cell.depth == 0) return addOccupied(cell);
     file_.failAt(offset, "a node that should have children has none");
   }

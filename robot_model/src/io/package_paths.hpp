@@ -9,8 +9,8 @@
 
 namespace swept::detail {
 
-/// What a mesh reference may mean: the places to look, in order. Empty for a scheme other than
-/// `package://`, `model://` and `file://`.
+/// The places where a mesh reference may be, in the order of the search. Empty for a scheme other
+/// than `package://`, `model://` and `file://`.
 ///
 /// `folder` is the absolute folder of the file that holds the reference. `package://NAME/rest` (and
 /// `model://`, the same in simulators; slashes before NAME are passed over) means

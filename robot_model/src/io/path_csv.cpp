@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// A line at a time, without lines of nothing but blanks.
+/// Reads line by line, and skips lines of blanks.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {

@@ -15,7 +15,7 @@ namespace swept::detail {
 
 namespace {
 
-/// Between two values, of which angles may be turns apart.
+/// The distance between two values. Angles may be whole turns apart.
 double off(double value, double other, bool turns) {
   const double apart = value - other;
   return std::abs(turns ? std::remainder(apart, 2.0 * std::numbers::pi) : apart);

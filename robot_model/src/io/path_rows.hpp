@@ -16,11 +16,11 @@
 
 namespace swept::detail {
 
-/// Throws InputError with the place of what is wrong.
+/// Throws InputError with the place of the error.
 using FailAt = std::function<void(const std::string& message)>;
 
-/// Puts the rows of a table, whose columns have names of joints and variables, into the order of a
-/// group's variables, and judges each.
+/// Reads the rows of a table whose columns have names of joints and variables. Puts each into the
+/// order of a group's variables and judges it.
 class PathRows {
  public:
   /// `reference`: a value for each of the robot's variables, for those outside of the group.
@@ -37,18 +37,18 @@ class PathRows {
   void setSomeColumns(std::span<const std::string> names,
                       const std::function<void(std::size_t, const std::string&)>& failAt);
 
-  /// A value for each column, each finite. `line`: for remarks. `mayJump`: an angle without limits
-  /// says nothing about the way to it from the row before.
+  /// Adds a row with a value for each column, each finite. `line`: for warnings. `mayJump`: an
+  /// angle without limits does not say which way the motion from the row before turns.
   void add(std::span<const double> values, int line, const FailAt& fail, bool mayJump);
-  /// Values of setSomeColumns(): those of the group have to be those of `state`, others where the
-  /// reference has them. `where` names `state`.
+  /// The values of setSomeColumns(). Those of the group must equal those of `state`, the others
+  /// those of the reference. `where` names `state`.
   void requireLike(std::span<const double> values, const std::vector<double>& state,
                    const std::string& where, const FailAt& fail) const;
 
-  /// Tells of what was taken to limits, and of more than half turns.
+  /// Warns of values that were moved to limits, and of turns of more than half.
   void tellRemarks() const;
   const std::vector<std::vector<double>>& states() const { return states_; }
-  /// Of two states, by their numbers: to within tolerance::kLimit.
+  /// Whether two states have the same values, to within tolerance::kLimit.
   bool areAlike(std::size_t a, std::size_t b) const;
   std::vector<std::vector<double>> take() { return std::move(states_); }
 

@@ -55,7 +55,7 @@ class Reader {
     if (const YamlPlace start = root.at("trajectory_start"); start.present()) requireStart(start);
   }
 
-  /// A path from one end to the next beginning is in nobody's plan.
+  /// No planner has planned the gap between the end of one trajectory and the start of the next.
   void requireGoesOn(const YamlPlace& part, std::size_t begin) const {
     if (!rows_.areAlike(begin - 1, begin))
       part.fail("begins elsewhere than the one before it ends; a path goes on where it is");

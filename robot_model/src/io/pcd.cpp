@@ -37,8 +37,8 @@ Points collect(const PointFile& file, const std::array<CoordinateData, 3>& axes,
   return points.finish(file.source());
 }
 
-/// Of the file's bytes those up to `end` were read. Writers that map a file into memory leave up
-/// to a page of zeros behind.
+/// Only the file's bytes up to `end` were read. Writers that map a file into memory leave up to a
+/// page of zeros after them.
 void requireEnd(const PointFile& file, std::size_t end) {
   const std::size_t more = file.bytes().find_first_not_of('\0', end);
   if (more != std::string_view::npos) file.failAt(more, "more follows after the last point");
@@ -61,7 +61,7 @@ Points readBinary(const PointFile& file, std::size_t begin, const PcdHeader& hea
   return collect(file, axes, header.points);
 }
 
-/// The numbers of bytes that the compressed data have and stand for come first.
+/// The sizes of the compressed and of the expanded data come first.
 std::span<const char> compressedData(const PointFile& file, std::size_t begin,
                                      std::size_t expanded) {
   const std::size_t rest = file.bytes().size() - begin;

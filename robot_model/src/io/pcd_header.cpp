@@ -36,7 +36,7 @@ class HeaderReader {
   void readEntries();
   const Entry* find(std::string_view name) const;
   const Entry& require(std::string_view name) const;
-  /// Of an entry that has one value for each of `count` fields.
+  /// The values of an entry that has one for each of `count` fields.
   const Entry& requireValues(std::string_view name, std::size_t count) const;
   std::uint64_t wholeNumber(std::string_view name, std::size_t index, std::uint64_t least,
                             std::uint64_t most) const;
@@ -157,7 +157,7 @@ void HeaderReader::readSize(Field& field, std::size_t index) const {
   std::string_view type = types.values[index];
   if (type == "f") type = "F";
   if (type == "i") type = "I";
-  // Its newest type is a truth value of one byte.
+  // The newest type of this format is a boolean of one byte.
   if (type == "u" || ((type == "B" || type == "b") && size == "1")) type = "U";
   if (size != "1" && size != "2" && size != "4" && size != "8") {
     source_.fail(sizes.line, "SIZE of " + shown(field.name) + " is " + shown(size) +
@@ -188,7 +188,8 @@ std::vector<Field> HeaderReader::readFields() const {
     Field field;
     field.name = names.values[i];
     if (sized) readSize(field, i);
-    // Drivers of lidars write padding of 0 values; the Point Cloud Library reads it as none.
+    // Drivers of lidars write padding with a COUNT of 0; the Point Cloud Library reads it as
+    // absent.
     if (counted) field.count = static_cast<std::size_t>(wholeNumber("COUNT", i, 0, kMaxCount));
     fields.push_back(std::move(field));
   }
@@ -242,9 +243,9 @@ void HeaderReader::placeAxes(const std::vector<Field>& fields, PcdHeader& header
   }
 }
 
-/// From where the points were recorded, in their own frame: so the Point Cloud Library's
-/// NormalEstimation and VoxelGridOcclusionEstimation take it. Some programs write how the points
-/// are to be moved instead; its readers never move them, and the remark is for those who expect it.
+/// The sensor's position in the points' own frame. The Point Cloud Library's NormalEstimation and
+/// VoxelGridOcclusionEstimation take it so. Some programs write the transform to apply to the
+/// points instead. The library's readers never apply it. The remark is for users who expect it.
 Eigen::Vector3d HeaderReader::readViewpoint() const {
   if (find("VIEWPOINT") == nullptr) return Eigen::Vector3d::Zero();
   const Entry& entry = requireValues("VIEWPOINT", 7);

@@ -14,7 +14,7 @@ namespace swept::detail {
 
 enum class PcdForm : std::uint8_t { Ascii, Binary, Compressed };
 
-/// One of x, y and z: where it is, and as what.
+/// Where x, y or z is in a point, and its type.
 struct PcdAxis {
   Scalar type = Scalar::Float32;
   std::size_t offset = 0;  ///< in bytes, within a point
@@ -26,15 +26,16 @@ struct PcdHeader {
   std::array<PcdAxis, 3> axes;
   std::size_t pointSize = 0;    ///< in bytes, at most kMaxFileBytes
   std::vector<Column> columns;  ///< of a point in a line of text
-  /// Where the sensor was (m, the points' frame): of VIEWPOINT.
+  /// The sensor's position (m, the points' frame), from VIEWPOINT.
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
 };
 
 /// Reads the header of PCD 0.5, 0.6 or 0.7 (Point Cloud Library, "The PCD file format") and leaves
-/// `lines` at its last line. What the library reads of short and old headers is read likewise: no
-/// VERSION; COLUMNS for FIELDS; neither SIZE, TYPE nor COUNT, for single floats; a field of COUNT
-/// 0, which is not there; no HEIGHT or 0, for 1; neither WIDTH nor HEIGHT, for POINTS. Throws
-/// InputError; a VIEWPOINT that moves or turns gives a remark.
+/// `lines` at its last line. Short and old headers are read as the library reads them: without
+/// VERSION; with COLUMNS for FIELDS; without SIZE, TYPE and COUNT, which means single floats; with
+/// a COUNT of 0, which means that the field is absent; with HEIGHT missing or 0, which means 1;
+/// without WIDTH and HEIGHT, which POINTS replaces. Throws InputError. A VIEWPOINT that moves or
+/// turns gives a remark.
 PcdHeader readPcdHeader(LineReader& lines, const InputSource& source);
 
 }  // namespace swept::detail

@@ -22,7 +22,7 @@ using detail::YamlPlace;
 constexpr double kPositionTolerance = 1e-3;     // m, where the request has none
 constexpr double kOrientationTolerance = 1e-2;  // rad, likewise
 
-/// A joint's name, which is none of the `known`, to which it is added.
+/// Checks a joint's name, which must not be among the `known`, and adds it to them.
 std::string newName(const YamlPlace& place, std::set<std::string>& known) {
   std::string name = place.text();
   if (!known.insert(name).second) place.fail("is '" + name + "' a second time");
@@ -36,7 +36,7 @@ struct Context {
   const detail::SceneFrames& frames;  ///< of goals, and of bases
 };
 
-/// Another frame than the link's would need the state of what the request says nothing about.
+/// A frame other than the link's would depend on joints that the request does not mention.
 void requireFrameOfLink(const YamlPlace& attached) {
   const YamlPlace object = attached.at("object");
   if (!object.present()) object.fail("is missing");
@@ -97,7 +97,7 @@ PlanningRequest::JointValues readJointGoal(const std::vector<YamlPlace>& constra
   return values;
 }
 
-/// Middle and size of the region that a link's origin is to be in.
+/// The centre and size of the region that must contain a link's origin.
 struct Region {
   Eigen::Vector3d middle;
   double tolerance;  ///< m
@@ -138,8 +138,8 @@ Region readRegion(const YamlPlace& constraint) {
   return {.middle = poses[0].pose("position", "orientation").translation(), .tolerance = least};
 }
 
-/// Of tolerances about axes: Euler angles (0) or a rotation vector (1). An angle that is no more
-/// than the least of them keeps either.
+/// The angle that satisfies tolerances about axes, which are Euler angles (0) or a rotation vector
+/// (1). A rotation by no more than the least of them satisfies either.
 void requireParameterization(const YamlPlace& place) {
   if (!place.present() || place.integer() == 0 || place.integer() == 1) return;
   place.fail("is " + place.text() + "; allowed are 0 (Euler angles) and 1 (a rotation vector)");
@@ -180,7 +180,7 @@ PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& position, const YamlPlac
   return pose;
 }
 
-/// Of moveit_msgs/Constraints.
+/// Reads moveit_msgs/Constraints.
 constexpr std::array<const char*, 4> kKinds{"joint_constraints", "position_constraints",
                                             "orientation_constraints", "visibility_constraints"};
 
@@ -219,7 +219,7 @@ void refuseAlongPath(const YamlPlace& root) {
   }
 }
 
-/// Two corners at the origin: none is given.
+/// Two corners at the origin mean that no box is given.
 void readWorkspace(const YamlPlace& workspace, const Context& context, PlanningRequest& request) {
   if (!workspace.present()) return;
   workspace.allowOnly({"header", "min_corner", "max_corner"});

@@ -18,7 +18,7 @@ constexpr double kPlane = 1e-6;  // m, and of an axis: rounding of what a progra
   throw std::invalid_argument("multi_dof_joint_state of '" + base.joint + "': " + reason);
 }
 
-/// x, y, theta. The plane of an SRDF's virtual joint is that of x and y.
+/// x, y, theta, in the plane of an SRDF's virtual joint, which is that of x and y.
 std::array<double, 3> planarValues(const PlanningRequest::BasePose& base, const Joint& joint) {
   if (joint.axis != Eigen::Vector3d::UnitZ())
     refuse(base, "only a planar joint whose axis is z can be given so");

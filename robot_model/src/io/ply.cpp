@@ -26,7 +26,7 @@ struct Seen {
   }
 };
 
-/// Of a camera with a place; others say nothing about the points.
+/// The position of a camera that has one; other cameras say nothing about the points.
 void checkCamera(const PlyHeader& header, const InputSource& source) {
   const auto camera = std::ranges::find_if(header.elements, isCamera);
   if (camera == header.elements.end()) return;
@@ -60,7 +60,7 @@ std::vector<Column> columnsOf(const PlyElement& element) {
 Seen readAscii(const PointFile& file, LineReader& lines, const PlyHeader& header) {
   Seen seen;
   for (const PlyElement& element : header.elements) {
-    // Without properties it has no lines that could be counted.
+    // An element without properties has no lines to count.
     if (element.properties.empty()) continue;
     const std::vector<Column> columns = columnsOf(element);
     if (isVertex(element)) {
@@ -87,7 +87,7 @@ class BinaryReader {
 
  private:
   std::size_t rest() const { return file_.bytes().size() - at_; }
-  /// Bytes of the property at the present place.
+  /// The bytes of the property at the present position.
   std::size_t sizeHere(const PlyElement& element, const PlyProperty& property) const;
   [[noreturn]] void failEnd(const PlyElement& element) const;
   void readOneByOne(const PlyElement& element, Seen& seen);

@@ -33,12 +33,12 @@ struct PlyHeader {
   std::vector<PlyElement> elements;  ///< in the order of the data
 };
 
-/// True of the element that has the points.
+/// True for the element that has the points.
 inline bool isVertex(const PlyElement& element) {
   return element.name == "vertex";
 }
 
-/// True of the element that says from where the points were seen.
+/// True for the element that has the position of the camera.
 inline bool isCamera(const PlyElement& element) {
   return element.name == "camera";
 }

@@ -24,7 +24,7 @@ bool isCorners(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-/// What the header must have for all faces to be seen.
+/// Requires what the header must have for the reader to find all faces.
 void checkHeader(const PlyHeader& header, const InputSource& source) {
   const auto face = std::ranges::find_if(header.elements, isFace);
   if (face == header.elements.end()) source.fail(0, "the header has no element 'face'");
@@ -54,16 +54,16 @@ class PlyBody {
   PlyBody(LineReader& lines, PlyForm form, std::string_view bytes, const InputSource& source)
       : lines_(lines), form_(form), bytes_(bytes), at_(lines.offset()), source_(source) {}
 
-  /// To be called ahead of each element: in text it has a line.
+  /// Call it before each element: in text an element has a line.
   void begin(const PlyElement& element, std::uint64_t index);
   /// A finite number.
   double next(const PlyElement& element, const PlyProperty& property, Scalar type);
   bool isText() const { return form_ == PlyForm::Ascii; }
   /// The line of the present element; 0: it has none.
   int line() const { return isText() ? lines_.number() : 0; }
-  /// One that is nothing to a face: any word, or any bytes.
+  /// Skips a value that does not concern a face: any word, or any bytes.
   void skip(const PlyElement& element, const PlyProperty& property);
-  /// After each element, and after the last.
+  /// Call it after each element, and after the last.
   void end() const;
   void endFile();
   [[noreturn]] void fail(const std::string& problem) const;
@@ -165,7 +165,7 @@ class PlyReader {
 std::uint64_t PlyReader::wholeNumber(const PlyElement& element, const PlyProperty& property,
                                      Scalar type) {
   const double value = body_.next(element, property, type);
-  // NaN fails it.
+  // The test fails for NaN.
   if (!(value >= 0.0 && value < 4294967296.0 && value == std::floor(value)))
     body_.fail(shown(property.name) + " has " + formatNumber(value) +
                " where a whole number from 0 to 2^32 - 1 has to be");
@@ -210,7 +210,7 @@ void PlyReader::readElement(const PlyElement& element) {
 
 MeshFileContent PlyReader::read() {
   for (const PlyElement& element : header_.elements) {
-    // Without properties it has nothing that could be counted.
+    // An element without properties has nothing to count.
     if (element.properties.empty()) continue;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       body_.begin(element, i);

@@ -25,8 +25,8 @@ class PointFaces {
   PointFaces(std::span<const Eigen::Vector3d> vertices, std::span<const Eigen::Vector3i> triangles)
       : vertices_(vertices), triangles_(triangles) {}
 
-  /// The places of faces that are points, and corners of no others; each with the first of its
-  /// faces.
+  /// The positions of faces that are points and no corner of other faces, each with the first such
+  /// face.
   std::map<Point, std::size_t> alone() const {
     std::map<Point, std::size_t> points;
     for (std::size_t i = 0; i < triangles_.size(); ++i)
@@ -72,7 +72,7 @@ void refuseLonePoints(std::span<const Eigen::Vector3d> vertices,
                       std::span<const Eigen::Vector3i> triangles) {
   const PointFaces faces(vertices, triangles);
   const auto alone = faces.alone();
-  // build() has a message for no other faces at all.
+  // If there are no other faces at all, build() has a message.
   if (alone.empty() || !faces.anyHasArea()) return;
   const auto& [point, triangle] = *alone.begin();
   throw MeshFileError("has a face, its triangle " + std::to_string(triangle) +

@@ -16,7 +16,8 @@ constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kLeastRoom = std::size_t{1} << 16;
 constexpr std::size_t kShown = 40;  ///< bytes of a file's text in a message
 
-/// What the file system says: 0 of pipes, and of files that are made as they are read.
+/// The file's size as the file system gives it: 0 for pipes, and for files that are made while they
+/// are read.
 std::size_t statedSize(const std::filesystem::path& file, const InputSource& source) {
   const std::string reason = whyNoBytes(file);
   if (!reason.empty()) source.fail(0, reason);
@@ -34,7 +35,7 @@ std::size_t statedSize(const std::filesystem::path& file, const InputSource& sou
 
 PointFile::PointFile(const std::filesystem::path& file, const LoadOptions& options)
     : source_(file.string(), options) {
-  // With one byte more, the end is met without another room.
+  // With one byte more, the read meets the end without another buffer.
   std::size_t room = std::max(statedSize(file, source_) + 1, kLeastRoom);
   bytes_ = std::make_unique_for_overwrite<char[]>(room);
   std::ifstream stream(file, std::ios::binary);
@@ -64,7 +65,7 @@ bool LineReader::next() {
   const std::string_view rest = bytes_.substr(offset_);
   if (rest.empty()) return false;
   ++number_;
-  // One byte more than the longest line, for its end.
+  // One byte more than the longest line, for its end of line.
   const std::size_t end = rest.substr(0, kMaxLine + 1).find('\n');
   const bool ends = end != std::string_view::npos;
   if (!ends && rest.size() > kMaxLine) {

@@ -20,26 +20,27 @@
 
 namespace swept::detail {
 
-/// 2 GiB, less one so that an int counts the lines of any file. Far beyond what one robot senses;
-/// larger: more memory taken at once, before anything is known about a file.
+/// The largest file, in bytes: 2 GiB, less one so that an int counts the lines of any file. That is
+/// far more than one robot senses. A larger bound would let the program take more memory at once
+/// before it knows anything about a file.
 inline constexpr std::size_t kMaxFileBytes = (std::size_t{1} << 31) - 1;
-/// Of points and of cubes: 1.2 and 1.6 GB of memory. Larger: a small file of binary zeros, or of a
-/// compressed cloud, takes more than that.
+/// The most points and cubes: 1.2 and 1.6 GB of memory. With a larger bound, a small file of binary
+/// zeros or of a compressed cloud could take more than that.
 inline constexpr std::size_t kMaxPoints = 50'000'000;
-/// Bytes in a line of text: some 100 thousand numbers. Larger: files that are no text are searched
-/// for ends of lines.
+/// The most bytes in a line of text: some 100 thousand numbers. With a larger bound, files that are
+/// not text would be searched for ends of lines.
 inline constexpr std::size_t kMaxLine = std::size_t{1} << 20;
 
 /// A file of sensed points or cubes, whole in memory.
 class PointFile {
  public:
-  /// Throws InputError (line 0) for a file that is not there, neither regular nor a pipe or the
-  /// like, empty, too large, or cannot be read.
+  /// Throws InputError (line 0) for a file that is missing, neither regular nor a pipe or the like,
+  /// empty, too large, or unreadable.
   PointFile(const std::filesystem::path& file, const LoadOptions& options);
 
   const InputSource& source() const { return source_; }
   std::string_view bytes() const { return {bytes_.get(), size_}; }
-  /// With line 0 and the offset in the message, for the parts of files that have no lines.
+  /// Throws with line 0 and the offset in the message, for the parts of files that have no lines.
   [[noreturn]] void failAt(std::size_t offset, const std::string& message) const;
 
  private:
@@ -48,20 +49,20 @@ class PointFile {
   std::size_t size_ = 0;
 };
 
-/// The lines of a file, one after the other, without what ends them (LF, or CR and LF).
+/// The lines of a file in order, without their ends (LF, or CR and LF).
 class LineReader {
  public:
   explicit LineReader(const PointFile& file) : LineReader(file.source(), file.bytes()) {}
   /// Both outlive it.
   LineReader(const InputSource& source, std::string_view bytes) : source_(source), bytes_(bytes) {}
-  /// False: there are no more. Throws InputError for one that is too long.
+  /// Moves to the next line; false: there is none. Throws InputError for a line that is too long.
   bool next();
-  /// The same, of lines with something else than white space in them.
+  /// Moves to the next line that has more than white space.
   bool nextFilled();
-  /// The present one.
+  /// The present line.
   std::string_view line() const { return line_; }
   int number() const { return number_; }
-  /// Of the byte behind the end of the present line.
+  /// The offset of the byte after the end of the present line.
   std::size_t offset() const { return offset_; }
   [[noreturn]] void fail(const std::string& message) const { source_.fail(number_, message); }
 
@@ -73,7 +74,7 @@ class LineReader {
   std::size_t offset_ = 0;
 };
 
-/// What a file turned out to hold, less the points that are not finite.
+/// The content of a file, without the points that are not finite.
 class PointList {
  public:
   void reserve(std::size_t count) { points_.reserve(count); }
@@ -84,7 +85,7 @@ class PointList {
     }
   }
   std::size_t given() const { return given_; }
-  /// With a remark on those left out. Throws InputError if none are left.
+  /// Adds a remark on the points left out. Throws InputError if none are left.
   std::vector<Eigen::Vector3d> finish(const InputSource& source);
 
  private:
@@ -92,14 +93,14 @@ class PointList {
   std::size_t given_ = 0;
 };
 
-/// Where one coordinate of the points of a binary file is.
+/// The location of one coordinate of the points in a binary file.
 struct CoordinateData {
   Scalar type = Scalar::Float32;
   const char* first = nullptr;
   std::size_t step = 0;  ///< in bytes, from a point to the next
 };
 
-/// Adds so many points; `axes` are x, y and z.
+/// Adds this many points; `axes` are x, y and z.
 void addPoints(const std::array<CoordinateData, 3>& axes, std::size_t count, std::endian order,
                PointList& points);
 
@@ -109,7 +110,7 @@ std::string lowerEnding(const std::filesystem::path& file);
 /// Separated by blanks and tabs.
 std::vector<std::string_view> words(std::string_view line);
 
-/// As messages show what a file has: in quotes, what is not printable as `?`, long text cut.
+/// A file's text as messages show it: in quotes, unprintable characters as `?`, long text cut.
 std::string shown(std::string_view text);
 
 /// A whole number from 0 to 9e15, which doubles and 64 bits hold.
@@ -120,7 +121,7 @@ SensedPoints readPcd(const PointFile& file);
 SensedPoints readPly(const PointFile& file);
 SensedPoints readXyz(const PointFile& file);
 
-/// Behind what a file calls its sensor's pose.
+/// Appended to a sensor's pose in messages.
 inline constexpr std::string_view kSensorRemark =
     "is where the sensor was, in the frame of the points; it does not move them";
 

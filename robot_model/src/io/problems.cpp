@@ -30,7 +30,8 @@ Eigen::Isometry3d readWholePose(const JsonPlace& place) {
   return pose;
 }
 
-/// A file may keep the two poses that a body's pose was made of. They have to make it.
+/// A file may keep the two poses that a body's pose is the product of. Their product must be that
+/// pose.
 void requireFactors(const JsonPlace& body, const Eigen::Isometry3d& pose, bool oriented) {
   constexpr double kRounding = 1e-6;  // m, and of an axis
   Eigen::Isometry3d product = Eigen::Isometry3d::Identity();
@@ -138,8 +139,8 @@ PlanningProblem readProblem(const std::string& set, const JsonPlace& entry) {
   return problem;
 }
 
-/// As they are given; of many their number, and those on either side of where `wanted` would stand
-/// in order.
+/// The names as they are given. If there are many: their number, and the two between which `wanted`
+/// would stand in order.
 template <typename Value>
 std::string listed(std::vector<Value> values, const Value& wanted) {
   constexpr std::ptrdiff_t kMost = 10;

@@ -9,13 +9,13 @@ namespace swept::detail {
 
 inline constexpr std::string_view kNoSuchFile = "file not found";
 
-/// What keeps a path from being that of a file with bytes to read, as messages say it; empty:
-/// nothing does. Throws nothing of what the file system says: kNoSuchFile, a folder, links that
-/// lead in a circle, a name that is too long, a folder that may not be looked into.
+/// Why a path is not that of a regular file, as messages say it; empty: it is one. Throws nothing
+/// for errors of the file system: kNoSuchFile, a folder, symbolic links in a circle, a name that is
+/// too long, a folder without permission.
 std::string whyUnreadable(const std::filesystem::path& file);
 
-/// The same for who reads a file once, from its front to its end: a pipe, or a device such as
-/// /dev/stdin, will do.
+/// The same for a reader that reads a file once from front to end, so a pipe, or a device such as
+/// /dev/stdin, is fine.
 std::string whyNoBytes(const std::filesystem::path& file);
 
 }  // namespace swept::detail

@@ -50,7 +50,7 @@ std::size_t sizeOf(const Task& task) {
 
 void addCovers(std::vector<Link>& links, unsigned threads) {
   std::vector<Task> tasks = tasksOf(links);
-  // The large ones first, lest the last thread be left with one.
+  // The large ones first, so that the last thread is not left with one of them.
   std::vector<Task*> order;
   for (Task& task : tasks) order.push_back(&task);
   std::stable_sort(order.begin(), order.end(),

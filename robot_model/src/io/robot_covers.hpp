@@ -7,10 +7,10 @@
 
 namespace swept::detail {
 
-/// Gives every bounded collision geometry that has none its cover. Equal primitives share one, and
-/// so do meshes that are copies of each other. Covers are built on so many threads (0: as many as
-/// there are processors) and do not depend on their number; what building one throws is thrown
-/// here.
+/// Gives a cover to each bounded collision geometry that has none. Equal primitives share one, and
+/// so do meshes that are copies of each other. Builds covers on this many threads (0: one per
+/// processor). The covers do not depend on the number of threads. Rethrows what building one
+/// throws.
 void addCovers(std::vector<Link>& links, unsigned threads);
 
 }  // namespace swept::detail

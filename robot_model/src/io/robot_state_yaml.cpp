@@ -87,7 +87,7 @@ class StateReader {
     }
   }
 
-  /// It goes where its master takes it, and one that is fixed stays at 0.
+  /// A mimic joint goes where its master takes it, and a fixed joint stays at 0.
   void requireFollows(const Follower& follower) const {
     const std::string why = whyElsewhere(robot_, follower.joint, follower.value.number(),
                                          [this](int variable) { return state_[variable]; });

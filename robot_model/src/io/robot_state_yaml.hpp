@@ -13,7 +13,7 @@
 
 namespace swept::detail {
 
-/// Where a joint of several values puts its child.
+/// The pose that a joint with several values gives its child.
 struct BasePose {
   std::string joint;
   Eigen::Isometry3d parent_from_child;
@@ -22,19 +22,19 @@ struct BasePose {
 /// The keys of moveit_msgs/RobotState. Throws InputError for others.
 void allowRobotState(const YamlPlace& state);
 
-/// Of sensor_msgs/MultiDOFJointState; none when absent. Throws InputError.
+/// The poses of sensor_msgs/MultiDOFJointState; none when absent. Throws InputError.
 std::vector<BasePose> readBasePoses(const YamlPlace& joints);
 
-/// Poses of bases are those of the joint's child in its parent: the model frame. MoveIt makes
-/// something else of another frame than its pose (multiDofJointsToRobotState). Throws InputError
-/// for any that is named together with a joint.
+/// Poses of bases are those of the joint's child in its parent, which is the model frame. MoveIt
+/// converts a pose in another frame differently (multiDofJointsToRobotState). Throws InputError for
+/// another frame that is named together with a joint.
 void requireBasesInModelFrame(const YamlPlace& joints, const SceneFrames& frames);
 
-/// A value for each of the robot's variables: those of a moveit_msgs/RobotState, over the default
-/// state. Values that are a little beyond a limit are taken to it, with a warning. Empty when the
-/// state names no joint. Throws InputError for joints that the robot does not have, numbers of
-/// names and positions that differ, and a value of a joint that mimics another or does not move
-/// which is not the one that it has.
+/// A value for each of the robot's variables: those of a moveit_msgs/RobotState, and the default
+/// state for the rest. A value a little beyond a limit is moved to it, with a warning. Empty when
+/// the state names no joint. Throws InputError for joints that the robot does not have, and when
+/// the numbers of names and positions differ. Throws it as well for a value that a mimic or fixed
+/// joint does not have.
 std::optional<Eigen::VectorXd> readRobotState(const YamlPlace& state, const Robot& robot);
 /// Throws as readRobotState does, and warns of nothing.
 void checkRobotState(const YamlPlace& state, const Robot& robot);

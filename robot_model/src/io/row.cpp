@@ -16,7 +16,7 @@ const char* skipWord(const char* at, const char* end) {
   return at;
 }
 
-/// The beginning of the next word, which has to be there.
+/// Returns the beginning of the next word, which must exist.
 const char* nextWord(const char* at, const char* end, const Column& column,
                      const LineReader& lines) {
   at = skipBlanks(at, end);

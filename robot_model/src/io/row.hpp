@@ -18,16 +18,17 @@ struct Column {
   bool isList = false;     ///< a whole number, then so many values
 };
 
-/// The point in the present line of blank-separated numbers, one of which may be nan or infinite.
-/// Throws InputError for too few values, too many, and an x, y or z that is no number.
+/// Reads the point in the present line of blank-separated numbers; a number may be NaN or infinite.
+/// Throws InputError for too few values, too many, and an x, y or z that is not a number.
 Eigen::Vector3d readRow(const LineReader& lines, std::span<const Column> columns);
 
-/// The number at `at`, which is moved behind it, and what ends it: one of these or the end of the
-/// line. `name` is for messages. Throws InputError if there is none that a double can hold.
+/// Reads the number at `at` and moves `at` past it. The number ends at one of these characters or
+/// at the end of the line. `name` is for messages. Throws InputError if there is no number that a
+/// double can hold.
 double readNumber(const char*& at, const char* end, std::string_view separators,
                   std::string_view name, const LineReader& lines);
 
-/// The first of [at, end) that is no blank or tab.
+/// The first character of [at, end) that is not a blank or tab.
 const char* skipBlanks(const char* at, const char* end);
 
 }  // namespace swept::detail

@@ -10,7 +10,7 @@
 
 namespace swept::detail {
 
-/// A number as binary files have it.
+/// A number type of binary files.
 enum class Scalar : std::uint8_t {
   Int8,
   UInt8,
@@ -28,7 +28,7 @@ inline bool isFloat(Scalar type) {
   return type == Scalar::Float32 || type == Scalar::Float64;
 }
 
-/// In bytes.
+/// The size in bytes.
 inline std::size_t sizeOf(Scalar type) {
   constexpr std::array<std::size_t, 10> kSizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return kSizes[static_cast<std::size_t>(type)];
@@ -42,7 +42,7 @@ T bytesAs(const char* bytes, std::endian order) {
   return std::bit_cast<T>(own);
 }
 
-/// The number at `bytes`, of which there must be enough.
+/// The number at `bytes`, which must hold enough bytes.
 inline double decode(Scalar type, const char* bytes, std::endian order) {
   switch (type) {
     case Scalar::Int8:

@@ -25,7 +25,7 @@ PlanningScene readAnyScene(const std::filesystem::path& scene, const Robot* robo
   return {.world = readSceneText(text, source)};
 }
 
-/// Who names a scene takes Free for an answer about it.
+/// A user who names a scene takes Free for an answer about that scene.
 void warnIfEmpty(const World& world, const InputSource& source) {
   // Readers refuse bodies without geometry.
   if (world.bodies().empty() && world.obstacles().empty())

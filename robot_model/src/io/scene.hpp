@@ -15,16 +15,16 @@ namespace swept::detail {
 PlanningScene readScene(const std::filesystem::path& scene, const Robot* robot,
                         const LoadOptions& options);
 
-/// Planning-scene YAML, in the layout of moveit_msgs/PlanningScene: the bodies of `world:
-/// collision_objects:` or of a `collision_objects:` at the top, and what else is said of `robot`,
-/// unless that is null. Throws InputError.
+/// Planning-scene YAML, in the layout of moveit_msgs/PlanningScene. Reads the bodies of `world:
+/// collision_objects:` or of a `collision_objects:` at the top. Unless `robot` is null, reads as
+/// well what the scene says about the robot. Throws InputError.
 PlanningScene readSceneYaml(const std::string& text, const InputSource& source, const Robot* robot);
 
 /// MoveIt's text format, with poses per object (since Noetic) or without. Throws InputError.
 World readSceneText(const std::string& text, const InputSource& source);
 
-/// A URDF as surroundings: its links, in their default state, with the root link in the model
-/// frame. Throws InputError.
+/// A URDF as obstacles: its links, in their default state, with the root link in the model frame.
+/// Throws InputError.
 World readSceneUrdf(const std::filesystem::path& scene, const LoadOptions& options);
 
 }  // namespace swept::detail

@@ -21,8 +21,8 @@ void refuseOctomap(const YamlPlace& stamped) {
   data.fail("holds an octomap, which is not supported in a scene");
 }
 
-/// A list of moveit_msgs/LinkPadding or LinkScale, which often has an entry for each link that says
-/// nothing.
+/// A list of moveit_msgs/LinkPadding or LinkScale. It often has an entry without effect for each
+/// link.
 void refuseEnlarged(const YamlPlace& list, const char* key, double neutral, const char* instead) {
   for (const YamlPlace& entry : list.elements()) {
     entry.allowOnly({"link_name", key});
@@ -55,7 +55,7 @@ void refuseUnread(const YamlPlace& root) {
 
 void refuseRobot(const YamlPlace& root) {
   refuseState(root.at("robot_state"));
-  // Even one that allows all of its pairs checks others that the SRDF disables.
+  // Even a matrix that allows all of its pairs checks others that the SRDF disables.
   if (!readMatrix(root).isEmpty())
     root.at("allowed_collision_matrix").fail("stands in place of the SRDF's: " + kInstead);
 }

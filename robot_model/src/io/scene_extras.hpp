@@ -6,19 +6,19 @@
 
 namespace swept::detail {
 
-/// Throws InputError for what a planning scene may hold and is not read, with or without a robot:
-/// an octomap, padded or scaled links.
+/// Throws InputError for content of a planning scene that is not supported, with or without a
+/// robot: an octomap, padded or scaled links.
 void refuseUnread(const YamlPlace& root);
 
-/// Throws InputError for what a planning scene says of a robot that makes more to collide with,
-/// where the world alone is read: attached objects, a moved base, a collision matrix.
+/// Where only the world is read, throws InputError for content about a robot that adds collisions:
+/// attached objects, a moved base, a collision matrix.
 void refuseRobot(const YamlPlace& root);
 
 /// Warns of the name of another robot, as MoveIt does.
 void compareRobotName(const YamlPlace& name, const Robot& robot);
 
-/// The scene's matrix. Throws InputError for one that is wrong (SceneMatrix), and for defaults
-/// without entries in a scene that is a diff, which MoveIt does not read
+/// The scene's matrix. Throws InputError for an invalid one (SceneMatrix). Throws it as well for
+/// defaults without entries in a scene that is a diff, which MoveIt does not read
 /// (PlanningScene::setPlanningSceneDiffMsg).
 SceneMatrix readMatrix(const YamlPlace& root);
 

@@ -76,7 +76,8 @@ void SceneFrames::readOne(const YamlPlace& entry) {
   }
   const bool itself = frame.empty() || frame == child || frame == source_.options().modelFrame;
   if (itself) {
-    // Scenes often say so of the planning frame, by one name or another, or by none.
+    // Scenes often give this transform for the planning frame, by one of its names or without a
+    // name.
     if (pose.matrix() == Eigen::Matrix4d::Identity()) return;
     entry.fail(
         "moves the planning frame: child_frame_id has to name that one, header.frame_id "

@@ -11,12 +11,12 @@
 
 namespace swept::detail {
 
-/// The frames that poses of a file are given in. As in MoveIt (PlanningScene::getFrameTransform)
-/// these are, in this order: the model frame, links of the robot, attached bodies, objects of the
-/// world, and the scene's `fixed_frame_transforms`; then the model frame's other names.
+/// The frames in which a file gives poses. As in MoveIt (PlanningScene::getFrameTransform) a name
+/// is looked up in this order: the model frame, links of the robot, attached bodies, objects of the
+/// world, the scene's `fixed_frame_transforms`, the model frame's other names.
 ///
-/// MoveIt has fixed transforms the other way round than tf: a transform is the pose of the frame
-/// `header.frame_id` in the planning frame, which `child_frame_id` names
+/// MoveIt reads fixed transforms in the direction opposite to tf: a transform is the pose of the
+/// frame `header.frame_id` in the planning frame, which `child_frame_id` names
 /// (moveit::core::Transforms::setTransform).
 class SceneFrames {
  public:
@@ -26,20 +26,20 @@ class SceneFrames {
 
   /// Poses of all links at a state of the robot: a value for each variable.
   void addLinks(const Robot& robot, const Eigen::VectorXd& state);
-  /// Likewise, of the links alone that no joint moves.
+  /// Likewise, only for links that no joint moves.
   void addStillLinks(const Robot& robot);
-  /// A frame that the file itself makes: an object, or `object/subframe`. The first of a name
+  /// Adds a frame that the file defines: an object, or `object/subframe`. The first with a name
   /// counts.
   void add(const std::string& name, const Eigen::Isometry3d& model_from_frame);
 
-  /// `fixed_frame_transforms`. Throws InputError for transforms into more than one frame, of no
-  /// frame, two of one frame, and one that moves the model frame or a link.
+  /// Reads `fixed_frame_transforms`. Throws InputError for transforms into more than one frame, a
+  /// transform of no frame, two of one frame, and one that moves the model frame or a link.
   void read(const YamlPlace& list);
-  /// Pose of the frame that a std_msgs/Header names. Throws InputError for one that nobody knows.
+  /// The pose of the frame that a std_msgs/Header names. Throws InputError for an unknown frame.
   Eigen::Isometry3d model_from(const YamlPlace& header) const;
-  /// Pose of a link that was added.
+  /// The pose of a link that was added.
   const Eigen::Isometry3d& model_from_link(const std::string& link) const;
-  /// Whether the header names the model frame, or one that is where that is. Throws likewise.
+  /// Whether the header names the model frame, or a frame at the same pose. Throws likewise.
   bool isModelFrame(const YamlPlace& header) const;
 
  private:
@@ -57,8 +57,8 @@ class SceneFrames {
   ///@}
 };
 
-/// Of a std_msgs/Header; empty when it names none. MoveIt lets a name begin with a slash, as tf
-/// did.
+/// The frame's name in a std_msgs/Header; empty when it names none. MoveIt lets a name begin with a
+/// slash, as tf did.
 std::string frameName(const YamlPlace& header);
 
 }  // namespace swept::detail

@@ -23,11 +23,12 @@ class SceneMatrix {
   /// a value that is neither true nor false.
   explicit SceneMatrix(const YamlPlace& matrix);
 
-  /// It says nothing: the robot's own matrix counts.
+  /// The matrix is empty: the robot's own matrix counts.
   bool isEmpty() const { return places_.empty() && defaults_.empty(); }
   bool hasEntries() const { return !places_.empty(); }
-  /// As MoveIt looks a pair up (AllowedCollisionMatrix::getAllowedCollision): the entry, where both
-  /// names have one; else the defaults, of which one that checks is enough to check; else checked.
+  /// Looks a pair up as MoveIt does (AllowedCollisionMatrix::getAllowedCollision). If both names
+  /// have an entry, the entry counts. Otherwise the defaults count, and one that checks is enough
+  /// to check. Without either the pair is checked.
   bool allows(const std::string& a, const std::string& b) const;
 
  private:
@@ -43,11 +44,11 @@ class SceneMatrix {
 /// Pairs of bodies, by their names.
 using NamePairs = std::vector<std::pair<std::string, std::string>>;
 
-/// What the matrix, standing in place of the SRDF's, makes other than the SRDF and the robot's
-/// joints have it: links that a joint connects are checked where it does not allow them. Touch
-/// links may touch, and attached bodies of `touching`, whatever the matrix says (MoveIt's
-/// collisionCallback). Names that nothing here is called have no meaning. Throws
-/// std::invalid_argument for a body with a `*` in its name that a rule would have to name.
+/// The rules by which the matrix, in place of the SRDF's, differs from the SRDF and the robot's
+/// joints. Links that a joint connects are checked where the matrix does not allow them. Touch
+/// links may touch, and so may the attached bodies of `touching`, whatever the matrix says
+/// (MoveIt's collisionCallback). Names of nothing here have no effect. Throws std::invalid_argument
+/// for a body with a `*` in its name that a rule would have to name.
 CollisionRules rulesOf(const SceneMatrix& matrix, const Robot& robot,
                        const std::vector<AttachedBody>& attached, const World& world,
                        const NamePairs& touching);

@@ -50,7 +50,7 @@ std::vector<double> sizes(const YamlPlace& place, std::size_t count, const std::
 }
 
 Shape readPrimitive(const YamlPlace& place) {
-  place.allowOnly({"type", "dimensions", "polygon"});  // of prisms, which no type here is
+  place.allowOnly({"type", "dimensions", "polygon"});  // of prisms, which are not supported
   const YamlPlace dimensions = place.at("dimensions");
   switch (primitiveType(place.at("type"))) {
     case PrimitiveType::Box: {
@@ -86,7 +86,7 @@ Shape readPlane(const YamlPlace& place) {
   }
 }
 
-/// A factor for each axis. Robowflex's name for it in scenes is `dimensions`.
+/// A scale factor for each axis. Robowflex calls it `dimensions` in scenes.
 Eigen::Vector3d meshScale(const YamlPlace& place) {
   const YamlPlace scale = place.at("scale");
   const YamlPlace dimensions = place.at("dimensions");
@@ -144,8 +144,8 @@ SceneObject SceneObjects::read(const YamlPlace& object, const std::string& id) {
   addShapes(object, "meshes", "mesh_poses", result);
   addShapes(object, "planes", "plane_poses", result);
   const Eigen::Isometry3d pose = object.at("pose").pose("position", "orientation");
-  // Of one shape in an object without a pose, MoveIt takes the shape's pose for the object's
-  // (PlanningScene::shapesAndPosesFromCollisionObjectMessage): frames begin there.
+  // If an object without a pose has one shape, MoveIt takes the shape's pose for the object's
+  // (PlanningScene::shapesAndPosesFromCollisionObjectMessage): subframes are relative to it.
   const bool isShape = result.parts.size() == 1 && pose.matrix() == Eigen::Matrix4d::Identity();
   addFrames(object, isShape ? result.parts.front().header_from_shape : pose, result);
   for (SceneObject::Part& part : result.parts)

@@ -14,7 +14,7 @@
 
 namespace swept::detail {
 
-/// What a moveit_msgs/CollisionObject holds, in the frame that its header names.
+/// The content of a moveit_msgs/CollisionObject, in the frame that its header names.
 struct SceneObject {
   struct Part {
     Shape shape;
@@ -22,7 +22,7 @@ struct SceneObject {
   };
   std::string id;
   std::vector<Part> parts;
-  /// The object itself (`id`) and its subframes (`id/name`), as other poses may name them.
+  /// The frames of the object (`id`) and of its subframes (`id/name`), which other poses may name.
   std::vector<std::pair<std::string, Eigen::Isometry3d>> header_from_frame;
 };
 
@@ -32,10 +32,10 @@ class SceneObjects {
   explicit SceneObjects(const InputSource& source)
       : source_(source), meshes_(source), warnings_(source) {}
 
-  /// Throws InputError for an operation other than ADD, and what else is wrong in it. It may have
-  /// no parts.
+  /// Throws InputError for an operation other than ADD, and for any other error in it. The object
+  /// may have no parts.
   SceneObject read(const YamlPlace& object, const std::string& id);
-  /// What there is to warn of only once all are read.
+  /// Gives the warnings that need all objects to be read.
   void flushWarnings() { warnings_.flush(); }
 
  private:
@@ -48,7 +48,7 @@ class SceneObjects {
   WarningKinds warnings_;
 };
 
-/// The `id`. Throws InputError for none.
+/// The `id`. Throws InputError if it is missing.
 std::string idOf(const YamlPlace& object);
 
 }  // namespace swept::detail

@@ -17,8 +17,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// What end effectors, grasps, contacts of feet, motors and coarse models are for those who need
-/// them says nothing about links, pairs or groups. Of srdfdom, HPP and Pinocchio.
+/// Elements of srdfdom, HPP and Pinocchio without meaning for links, pairs or groups: end
+/// effectors, grasps, contacts of feet, motors, coarse models.
 constexpr std::array kWithoutMeaning{
     "end_effector", "link_sphere_approximation", "gripper", "handle", "contact", "rotor_params",
     "specificities"};
@@ -38,7 +38,7 @@ class SrdfReader {
     requireKnown(element, {"name"});
     return {nameIn(element, "name", owner), element.GetLineNum()};
   }
-  /// srdfdom takes blanks around names away.
+  /// srdfdom strips blanks around names.
   std::string nameIn(const XMLElement& element, const char* attribute, const std::string& owner) {
     const std::string text = xml_.text(element, attribute, owner);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -48,7 +48,7 @@ class SrdfReader {
   }
   /// Refuses other attributes.
   void requireKnown(const XMLElement& element, std::initializer_list<std::string_view> known) const;
-  /// Refuses what stands in an element that has nothing inside.
+  /// Refuses children of an element that must be empty.
   void requireEmpty(const XMLElement& element) const {
     if (const XMLElement* inner = element.FirstChildElement()) refuse(*inner, element.Name());
   }

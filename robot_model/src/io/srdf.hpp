@@ -10,7 +10,7 @@
 
 namespace swept::detail {
 
-/// What an SRDF says, names not yet looked up. Empty without an SRDF.
+/// The content of an SRDF, with names not yet looked up. Empty without an SRDF.
 struct SrdfDocument {
   struct Name {
     std::string name;
@@ -70,14 +70,14 @@ struct SrdfDocument {
   std::vector<JointProperty> properties;
 };
 
-/// Throws InputError for XML that is malformed, elements that lack what they need, and elements and
+/// Throws InputError for malformed XML, elements that lack something they need, and elements and
 /// attributes that no SRDF has.
 SrdfDocument readSrdf(const std::string& text, const InputSource& source);
 
 /// Marks passive joints, then adds groups, named states, disabled and enabled pairs to `robot`.
-/// SRDFs often keep links and joints of other variants of a robot: a group that names one is left
-/// out, with its states; so are a value of such a joint, and a pair of such a link; warnings say
-/// so. Throws InputError.
+/// SRDFs often keep links and joints of other variants of a robot. A group that names one is left
+/// out, with its states. A value of such a joint is left out, and so is a pair with such a link.
+/// Warnings say so. Throws InputError.
 void applySrdf(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot);
 
 /// Adds the groups; `all` when the SRDF has none.

@@ -30,16 +30,16 @@ class GroupResolver {
         progress_(srdf.groups.size(), Progress::New),
         members_(srdf.groups.size()) {}
 
-  /// Nothing, with a warning and an entry in `leftOut`, where the URDF lacks a member.
+  /// Returns nothing where the URDF lacks a member; it then warns and adds an entry to `leftOut`.
   std::optional<Group> resolve(int index, std::vector<LeftOut>& leftOut);
 
  private:
   enum class Progress : std::uint8_t { New, Open, Done };
 
-  /// `level`: 1 for a group that is not asked for by another.
+  /// `level`: 1 for a group that no other group contains.
   const Members& members(int index, int line, int level);
   void requireShallow(int depth, int line, const SrdfDocument::Group& group) const;
-  /// -1, and said in `result`, where there is none.
+  /// Returns -1 where there is none, and records it in `result`.
   int link(const std::string& name, int line, Members& result) const;
   void addChain(const SrdfDocument::Chain& chain, Members& result) const;
 
@@ -63,7 +63,7 @@ int GroupResolver::link(const std::string& name, int line, Members& result) cons
   return index;
 }
 
-/// The joints between the two links: what their paths from the root do not share.
+/// The joints between the two links: those that are on only one of their paths from the root.
 void GroupResolver::addChain(const SrdfDocument::Chain& chain, Members& result) const {
   const int base = link(chain.base, chain.line, result);
   const int tip = link(chain.tip, chain.line, result);
@@ -134,8 +134,8 @@ const Members& GroupResolver::members(int index, int line, int level) {
   return members_[index];
 }
 
-/// MoveIt's planar joint with this property turns, drives and turns: other motions than those that
-/// are checked here. Empty, or what is wrong with the joint.
+/// MoveIt's planar joint with this property turns, drives and turns. Those are other motions than
+/// the ones checked here. Returns what is wrong with the joint, or an empty text.
 std::string otherMotion(const SrdfDocument& srdf, const InputSource& source,
                         const std::string& joint) {
   for (const SrdfDocument::JointProperty& property : srdf.properties) {
@@ -147,7 +147,7 @@ std::string otherMotion(const SrdfDocument& srdf, const InputSource& source,
   return {};
 }
 
-/// The same of the first of a group's joints that has something.
+/// The same for the first of a group's joints that has a problem.
 std::string otherMotionOf(const Group& group, const SrdfDocument& srdf, const InputSource& source,
                           const std::vector<Joint>& joints) {
   for (const int j : group.joints)

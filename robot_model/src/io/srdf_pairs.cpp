@@ -79,7 +79,7 @@ std::string inLines(const std::vector<std::string>& elements, const std::string&
   return text;
 }
 
-/// The elements with these numbers give way to the new ones.
+/// Replaces the elements with these numbers by the new ones.
 std::string replaced(const std::string& text, const XmlPlaces& places,
                      const std::vector<std::size_t>& numbers,
                      const std::vector<std::string>& elements) {
@@ -106,7 +106,7 @@ std::string appended(const std::string& text, const XmlPlaces& places,
   if (elements.empty()) return text;
   const std::string lines = inLines(elements, "  ", "\n");
   if (places.rootIsEmpty) {
-    // <robot .../> becomes <robot ...> with an end of its own.
+    // <robot .../> becomes <robot ...> with a closing tag.
     const std::size_t slash = text.rfind('/', places.rootEnd.begin);
     return text.substr(0, slash) + ">\n" + lines + "</robot>" + text.substr(places.rootEnd.end);
   }

@@ -12,7 +12,7 @@ namespace {
 
 using LinkPair = std::pair<int, int>;
 
-/// The two links, smaller index first; equal when the entry means no pair.
+/// The two links, smaller index first; equal when the entry names no pair.
 LinkPair lookUp(const SrdfDocument::Pair& pair, const RobotParts& robot, WarningKinds& warnings) {
   const std::string element = pair.enable ? "<enable_collisions>" : "<disable_collisions>";
   for (const std::string& name : {pair.link1, pair.link2}) {
@@ -32,10 +32,10 @@ LinkPair lookUp(const SrdfDocument::Pair& pair, const RobotParts& robot, Warning
 
 }  // namespace
 
-/// MoveIt makes a matrix of allowed collisions of these: `<disable_default_collisions>` sets the
-/// entry that counts for a link where no pair has one, `<enable_collisions>` sets pairs to be
-/// checked, and `<disable_collisions>` sets pairs to be left out. It also leaves out a link of the
-/// first against the world.
+/// MoveIt makes an allowed collision matrix of these. `<disable_default_collisions>` sets the
+/// default of a link, which counts where no pair has an entry. `<enable_collisions>` sets pairs to
+/// be checked, and `<disable_collisions>` sets pairs to be left out. A link of the first kind is
+/// also left out against the world.
 void addPairs(const SrdfDocument& srdf, const InputSource& source, RobotParts& robot) {
   WarningKinds warnings(source);
   std::set<LinkPair> enabled;
@@ -49,7 +49,8 @@ void addPairs(const SrdfDocument& srdf, const InputSource& source, RobotParts& r
     if (pair.enable) continue;
     const auto [a, b] = lookUp(pair, robot, warnings);
     if (a == b) continue;
-    // An enabled pair wins wherever it stands, unlike in MoveIt: checking more is never unsound.
+    // An enabled pair wins wherever it stands, which differs from MoveIt: checking more pairs is
+    // never unsound.
     if (enabled.contains({a, b}))
       warnings.add(pair.line,
                    "<disable_collisions>: the pair '" + pair.link1 + "' - '" + pair.link2 +

@@ -27,7 +27,8 @@ bool isBinary(std::string_view bytes) {
   return bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * countOf(bytes);
 }
 
-/// Of a text that begins with `solid` and has no zeros, as the headers of binary files may have.
+/// Whether a text begins with `solid` and has no zero bytes, which headers of binary files may
+/// have.
 bool isText(std::string_view bytes) {
   const auto first = bytes.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && bytes.substr(first).starts_with("solid") &&
@@ -74,8 +75,8 @@ MeshFileContent readBinary(std::string_view bytes, const InputSource& source) {
   return content;
 }
 
-/// The lines of a text: solids of facets of three corners, each line as it has to be. Normals may
-/// be anything, as in `-nan(ind)`: the corners say which way a facet looks.
+/// The lines of a text file: solids of facets with three corners. Each line must have its exact
+/// form. Normals may be anything, as in `-nan(ind)`: the corners say which way a facet looks.
 class TextReader {
  public:
   TextReader(std::string_view bytes, const InputSource& source) : lines_(source, bytes) {}
@@ -84,7 +85,7 @@ class TextReader {
  private:
   /// The words of the next line, if there is one.
   bool next();
-  /// Fails unless the present line has these words first and so many in all.
+  /// Throws unless the present line begins with these words and has this many words in all.
   void require(std::string_view wanted, std::size_t count) const;
   bool startsWith(std::string_view wanted) const;
   void readNext(std::string_view wanted, std::size_t count);

@@ -29,7 +29,8 @@ char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// How many letters have to be changed, put in or left out; those of either size are the same.
+/// The edit distance: how many letters have to be changed, inserted or removed. Case does not
+/// count.
 std::size_t editsBetween(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -45,7 +46,7 @@ std::size_t editsBetween(std::string_view a, std::string_view b) {
 }
 
 bool isMisspelt(std::string_view name, std::string_view key) {
-  constexpr std::size_t kLongest = 64;  // no key is near to being so long
+  constexpr std::size_t kLongest = 64;  // no key is nearly as long
   if (name.size() > kLongest) return false;
   return editsBetween(name, key) <= (key.size() < 5 ? 1 : 2);
 }

@@ -12,7 +12,7 @@
 
 namespace swept::detail {
 
-/// What reading links and reading joints share: both check elements and leave them in the reduced
+/// What the readers of links and joints share: both check elements and leave them in the reduced
 /// form.
 class UrdfElements {
  public:

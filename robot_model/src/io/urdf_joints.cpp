@@ -65,7 +65,7 @@ void UrdfJointReader::readAxis(Element& joint, JointType type, const std::string
     return;
   }
   if (!hasAxis(type)) {
-    joint.DeleteChild(axis);  // means nothing there, and exporters write zeros
+    joint.DeleteChild(axis);  // the axis has no meaning there, and exporters write zeros
     return;
   }
   refuseUnknownAttributes(*axis, {"xyz"}, owner);
@@ -74,7 +74,7 @@ void UrdfJointReader::readAxis(Element& joint, JointType type, const std::string
   if (!(largest > 0.0)) {
     xml_.fail(*axis, XmlFile::quote(*axis, "xyz") + " of " + owner + " must not be zero");
   }
-  // Scaled first: the squares of very small or large components would not be numbers.
+  // Scaled first: the squares of very small or large components would underflow or overflow.
   setVector(*axis, "xyz", (value / largest).normalized());
 }
 

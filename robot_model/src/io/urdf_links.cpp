@@ -81,7 +81,7 @@ void UrdfLinkReader::readShape(Element& shape, UrdfOutline::Collision& collision
     }
     collision.withoutVolume = radius == 0.0;
     collision.capsule = makeCapsule(radius, length);
-    // A stand-in of a kind that urdfdom accepts; the capsule itself is taken from the outline.
+    // A placeholder of a kind that urdfdom accepts; the outline gives the capsule itself.
     shape.SetName("sphere");
     setNumber(shape, "radius", 1.0);
   } else if (name == "mesh") {

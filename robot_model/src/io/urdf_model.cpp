@@ -117,7 +117,7 @@ void Assembler::addVirtualJoint(const SrdfDocument& srdf, const InputSource& srd
   if (model_->getJoint(given.name)) {
     srdfSource.fail(given.line, owner + ": the URDF has a joint of that name");
   }
-  // The root link is no name of a frame that it may move in.
+  // The frame that the root link moves in needs a name other than the link's.
   parts_.modelFrame = given.parentFrame.empty() ? "world" : given.parentFrame;
   Joint joint;
   joint.name = given.name;
@@ -127,7 +127,7 @@ void Assembler::addVirtualJoint(const SrdfDocument& srdf, const InputSource& srd
   parts_.joints.push_back(joint);
 }
 
-/// Before the first is read, so that all that are missing are named at once.
+/// Called before the first mesh is read, so that one message names all that are missing.
 void Assembler::requireMeshes() const {
   std::vector<MeshReference> references;
   for (const UrdfOutline::Link& link : outline_.links)

@@ -7,23 +7,23 @@
 
 namespace swept::detail {
 
-/// The last body that carries both of two. All that have one body in common are found together, in
-/// time proportional to the number of bodies: going up from each pair takes, for a chain of n
-/// bodies, n times as long for all its pairs.
+/// The last body that carries both of two bodies. All pairs with one common body are found
+/// together, in time proportional to the number of bodies. Going up from each pair would take n
+/// times as long for all pairs of a chain of n bodies.
 class CommonAncestors {
  public:
   /// `model` must outlive this.
   explicit CommonAncestors(const KinematicModel& model);
 
-  /// The first body of the pairs that are asked about from now on.
+  /// Sets the first body of the following pairs.
   void setFirst(int body);
   int first() const { return first_; }
-  /// Of the first body and this one.
+  /// The common ancestor of the first body and this one.
   int with(int body) const { return common_[body]; }
 
-  /// Joints between the model frame and a body.
+  /// Number of joints between the model frame and a body.
   int depth(int body) const { return depths_[body]; }
-  /// Joints between the first body and this one.
+  /// Number of joints between the first body and this one.
   int jointsTo(int body) const {
     return depths_[first_] + depths_[body] - 2 * depths_[common_[body]];
   }

@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// `state` has a finite value for each variable of the robot, and quaternions with a direction.
+/// Requires that `state` has a finite value for each variable of the robot, and no zero quaternion.
 /// Throws std::invalid_argument, which begins with `who` and calls the state `what`.
 void requireFullState(const Robot& robot, const Eigen::Ref<const Eigen::VectorXd>& state,
                       const std::string& who, const std::string& what);

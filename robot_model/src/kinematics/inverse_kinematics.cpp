@@ -23,9 +23,9 @@ namespace swept {
 
 namespace detail {
 
-/// One way a configuration can change: a variable's value, or a turn of a quaternion.
+/// One degree of freedom of a configuration: a variable's value, or a rotation of a quaternion.
 struct Degree {
-  int variable = 0;     ///< of a turn: the first of the quaternion's four
+  int variable = 0;     ///< of a rotation: the first of the quaternion's four
   bool turn = false;    ///< of a quaternion
   bool cyclic = false;  ///< an angle modulo 2 pi
   bool slides = false;  ///< in m
@@ -33,7 +33,7 @@ struct Degree {
   double high = std::numeric_limits<double>::infinity();  ///< rad or m
 };
 
-/// The moving frames between the model's and a tool's, and what the group's variables mean.
+/// The moving frames between the model's and a tool's, and the meaning of the group's variables.
 struct ToolChain {
   std::shared_ptr<const Robot> robot;
   const Group* group = nullptr;
@@ -41,7 +41,7 @@ struct ToolChain {
   std::vector<int> path;                                             ///< bodies, root first
   Eigen::Isometry3d body_from_tool = Eigen::Isometry3d::Identity();  ///< of the last body
   std::vector<Degree> degrees;
-  std::vector<int> degreeOf;     ///< per variable; a quaternion's four have the first turn
+  std::vector<int> degreeOf;     ///< per variable; a quaternion's four have the first rotation
   std::vector<int> quaternions;  ///< the first variable of each
   double scale = 1.0;            ///< m that count as much as a radian
 };
@@ -80,12 +80,12 @@ void requireRigid(const Isometry3d& pose, const std::string& what) {
   if (!detail::isRigid(pose)) refuse(what + " is not a rigid transform");
 }
 
-/// The rotation vector (rad) of a rotation, at most half a turn long.
+/// The rotation vector (rad) of a rotation by at most half a turn.
 Vector3d rotationVector(const Matrix3d& rotation) {
   Quaterniond q(rotation);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
-  // Half the vector is the sine where that rounds to the angle.
+  // Half the vector is the sine if that rounds to the angle.
   if (sine < 1e-12) return 2.0 * q.vec();
   return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
 }
@@ -119,14 +119,14 @@ void addVariable(ToolChain& chain, int value) {
   if (rotates) chain.quaternions.push_back(value);
 }
 
-/// Metres are compared with radians at the longest lever of the chain.
+/// Metres are compared with radians at the longest lever arm of the chain.
 double scaleOf(const detail::LeverArms& levers) {
   const double longest = *std::max_element(levers.arms.begin(), levers.arms.end());
   return longest > 0.0 && std::isfinite(longest) ? longest : 1.0;
 }
 
-/// Goes along the chain and shows each joint's frame and that of its body. False for what
-/// compileJoint refuses.
+/// Walks along the chain and passes on each joint's frame and that of its body. False for
+/// configurations that compileJoint refuses.
 template <typename Visit>
 bool walk(const ToolChain& chain, std::span<const double> q, const Visit& visit) {
   detail::BodyState state;
@@ -159,7 +159,7 @@ Vector6 slidingColumn(const Vector3d& direction) {
   return column;
 }
 
-/// Adds what one joint contributes; several may follow one variable.
+/// Adds the contribution of one joint; several joints may follow one variable.
 void addColumns(const ToolChain& chain, const MovingBody& body, const Matrix3d& axes,
                 const Vector3d& center, const Vector3d& p, Jacobian& jacobian) {
   const int first = chain.degreeOf[body.variable];
@@ -321,7 +321,7 @@ void fillJacobian(const ToolChain& chain, const std::vector<Isometry3d>& world_f
   }
 }
 
-/// Onto the limits, into [-pi, pi], to unit length.
+/// Moves values to the limits, into [-pi, pi], and to unit length.
 void putInPlace(const ToolChain& chain, std::span<double> q) {
   for (const Degree& degree : chain.degrees) {
     if (degree.turn) continue;
@@ -378,12 +378,12 @@ Jacobian InverseKinematics::jacobian(ConfigurationView q) const {
   return workspace.jacobian_;
 }
 
-/// From one seed downhill in the squared error, lengths divided by the chain's scale.
+/// Descends from one seed in the squared error, where lengths are divided by the chain's scale.
 ///
-/// A step is J^T (J J^T + damping 1)^-1 e over the degrees that are free: those that are not at a
-/// limit beyond which the error would fall. It is cut off at the limits. Steps that do not lower
-/// the error are taken back and damped more; with enough damping they follow the projected
-/// gradient, so that only a stationary point has none that does.
+/// A step is J^T (J J^T + damping 1)^-1 e over the free degrees: those that are not at a limit
+/// beyond which the error would fall. It is cut off at the limits. Steps that do not lower the
+/// error are undone and damped more. With enough damping they follow the projected gradient, so
+/// that only a stationary point has no step that lowers the error.
 class InverseKinematics::Search {
  public:
   Search(const ToolChain& chain, const Isometry3d& wanted, std::span<double> q,
@@ -417,9 +417,9 @@ class InverseKinematics::Search {
   }
 
  private:
-  // Relative to squared lever arms of at most about 1 each. Less damping than the least would only
-  // amplify rounding where the chain has lost a direction; with more than the most, steps are
-  // shorter than 1e-8 of the error.
+  // Relative to squared lever arms of at most about 1 each. Less damping than the minimum would
+  // only amplify rounding where the chain has lost a direction; with more than the maximum, steps
+  // are shorter than 1e-8 of the error.
   static constexpr double kFirstDamping = 1e-2;
   static constexpr double kLeastDamping = 1e-8;
   static constexpr double kMostDamping = 1e8;
@@ -432,7 +432,7 @@ class InverseKinematics::Search {
       workspace_.world_from_joint_[i] = joint;
       workspace_.world_from_body_[i] = body;
     };
-    walk(chain_, q, keep);  // refuses nothing that is in place
+    walk(chain_, q, keep);  // refuses nothing that a limit allows
     const Isometry3d actual = workspace_.world_from_body_.back() * chain_.body_from_tool;
     Vector6 error;
     error << (wanted_.translation() - actual.translation()) / chain_.scale,
@@ -499,7 +499,7 @@ class InverseKinematics::Search {
   const std::span<double> q_;
   const InverseKinematicsOptions& options_;
   Workspace& workspace_;
-  Vector6 counts_;  ///< 1, or 0 for what has no tolerance to keep
+  Vector6 counts_;  ///< 1, or 0 for components without a tolerance
   Vector6 error_;   ///< rad; at q_
 };
 

@@ -28,7 +28,7 @@ void StraightPath::interpolate(double t, std::span<double> q) const {
 
 namespace {
 
-/// By t' with t = begin + width t'.
+/// The derivative by t' with t = begin + width t'.
 void rescale(double begin, double width, JointMotion& joint) {
   joint.anchor = width > 0.0 ? (joint.anchor - begin) / width : 0.0;
   joint.rate *= width;

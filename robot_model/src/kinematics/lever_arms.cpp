@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where a point can be while the joints beyond vary: within `radius` of an axis through the
-/// frame's origin and between `low` and `high` along it, and within `ball` of the origin.
+/// The possible positions of a point while the joints beyond vary: within `radius` of an axis
+/// through the frame's origin and between `low` and `high` along it, and within `ball` of the
+/// origin.
 struct ReachableSet {
   Vector3d axis;
   double radius;
@@ -40,12 +41,12 @@ Vector3d axisOf(const MovingBody& body) {
 }
 
 /// The set in the parent's frame, as a set of revolution about that frame's own axis. A disc of the
-/// old set with centre c is within |c across| + radius of the new axis; both coordinates are convex
+/// old set with centre c is within |c across| + radius of the new axis. Both coordinates are convex
 /// in c, so the two end discs decide.
 ReachableSet inParent(const ReachableSet& set, const Eigen::Isometry3d& parent_from_joint,
                       const Vector3d& parentAxis) {
   const Vector3d direction = parent_from_joint.linear() * set.axis;
-  // Of nearly parallel axes the cosine says next to nothing.
+  // For nearly parallel axes the cosine has hardly any digits.
   const double tilt = parentAxis.cross(direction).norm() * kArithmeticOutward;
   ReachableSet result;
   result.axis = parentAxis;
@@ -98,7 +99,7 @@ ReachableSet setOf(const MovingBody& body, const Vector3d& center) {
   return {first, (center - along * first).norm(), along, along, center.norm()};
 }
 
-/// m; see LeverArms::span. The set of the points goes inwards with the frames that are passed.
+/// m; see LeverArms::span. The set of the points moves inwards with the frames that are passed.
 template <typename RangeOf>
 double spanOf(const KinematicModel& model, int body, ReachableSet set, const RangeOf& rangeOf) {
   double span = set.ball;
@@ -116,8 +117,8 @@ double spanOf(const KinematicModel& model, int body, ReachableSet set, const Ran
   return (span + detours) * kArithmeticOutward;
 }
 
-/// Goes inwards and shows each joint's body, the arm of the ball's points (m) about its axis, and
-/// how far (m) they get from the origin of its joint frame.
+/// Walks inwards and passes on each joint's body, the lever arm of the ball's points (m) about its
+/// axis, and their largest distance (m) from the origin of its joint frame.
 template <typename RangeOf, typename Visit>
 void visitArms(const KinematicModel& model, int body, const Vector3d& center, double radius,
                const RangeOf& rangeOf, const Visit& visit) {
@@ -135,9 +136,9 @@ Range atRest(int /*body*/) {
   return {0.0, 0.0};
 }
 
-/// Lemma: of what a slide s along u adds to a point, s times the part of u across an axis is across
-/// that. In the frame of the axis u is in the set that joints between the two turn it through: a
-/// vector is placed as a point is, but for the translations.
+/// Lemma: a slide by s along u adds to a point s times the component of u orthogonal to an axis,
+/// orthogonally to that axis. In the frame of the axis, u is in the set of its rotations by the
+/// joints between the two: a vector is placed like a point, without the translations.
 void addGrowths(const KinematicModel& model, int slide, std::span<const int> path,
                 std::vector<RestArms::Growth>& growths) {
   ReachableSet set{axisOf(model.bodies[slide]), 0.0, 1.0, 1.0, 1.0};
@@ -214,8 +215,8 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
   // L3 of ERROR_MODEL.md. A joint that both slides and turns slides first, then turns about its
   // moved origin.
   //
-  // Planar and floating joints beyond path[i] carry the ball away from its axis. Each sum is made
-  // anew: a difference of large sums would lose what is small.
+  // Planar and floating joints beyond path[i] carry the ball away from its axis. Each sum is
+  // computed anew: a difference of large sums would lose small terms.
   const auto slidBeyond = [&](std::size_t i) {
     double slid = 0.0;
     for (std::size_t k = path.size(); --k > i;) slid += motion[path[k]].maxTranslation;

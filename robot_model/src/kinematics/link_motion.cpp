@@ -18,13 +18,13 @@ namespace swept {
 
 namespace detail {
 
-/// The joints between the model frame and a link that move; those that stand still are part of the
+/// The moving joints between the model frame and a link. Joints that stand still are part of the
 /// frames between them.
 struct LinkPath {
   std::vector<MovingBody> bodies;  ///< from the model frame to the link
   std::vector<JointMotion> joints;
   Eigen::Isometry3d body_from_link = Eigen::Isometry3d::Identity();  ///< of the last body
-  double transforms = 0.0;  ///< joints, with those that stand still
+  double transforms = 0.0;  ///< number of joints, including those that stand still
   MotionRates rates;
   double span = 0.0;        ///< m, of the link's origin: see LeverArms::spanAtRest, and the slides
   double perUnit = 0.0;     ///< 1 + the sum of the joints' spins, rad per unit of t
@@ -60,7 +60,7 @@ void requireSize(std::size_t size, std::size_t expected, const std::string& what
   refuse(what + " has " + std::to_string(size) + " values instead of " + std::to_string(expected));
 }
 
-// Lemma: the angular velocity is the sum of the joints' spins, each of which changes by its own
+// Lemma: the angular velocity is the sum of the joints' spins. Each of them changes by its own
 // acceleration and turns with the joints before it, at most as fast as these turn together.
 MotionRates ratesOf(const KinematicModel& kinematics, const detail::LeverArms& levers,
                     const Vector3d& center, const std::vector<JointMotion>& motion) {
@@ -119,7 +119,7 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   path->span = levers.spanAtRest + fixedChain.detour(path->body_from_link);
   path->perUnit = 1.0;
   path->transforms = levers.transforms + fixedChain.transforms;
-  detail::BodyState still;  // since the last joint that moves
+  detail::BodyState still;  // since the last moving joint
   for (const int member : levers.path) {
     MovingBody body = kinematics.bodies[static_cast<std::size_t>(member)];
     const JointMotion& joint = motion[static_cast<std::size_t>(member)];
@@ -176,7 +176,8 @@ double LinkMotion::rounding(double reach) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, reach] { return LinkMotion::rounding(reach); });
   }
-  // Of places and of velocities: joints that turn take the span to these, the others their speeds.
+  // Bound for positions and velocities: turning joints carry the span along, sliding joints add
+  // their speeds.
   const double relative = tolerance::kRoundingPerJoint * (path_->transforms + 2.0);
   const double span = path_->span + reach;
   const double turned = relative + path_->carried.angleError;

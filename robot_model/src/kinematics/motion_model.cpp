@@ -21,13 +21,13 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Product of two quaternions x, y, z, w, as given and summed in the order that OMPL's
-/// SO3StateSpace has: between opposite orientations its rounding decides which way round is taken.
+/// Product of two quaternions x, y, z, w, as given and summed in the order of OMPL's SO3StateSpace:
+/// between opposite orientations its rounding decides which way round is taken.
 double dot(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// Of the turn from one orientation to another, or to the same with the other sign.
+/// The rotation from one orientation to another, or to the same with the other sign.
 Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to, bool negated) {
   Quaterniond relative = to * from.conjugate();
   if (negated) relative.coeffs() = -relative.coeffs();
@@ -36,7 +36,7 @@ Vector3d rotationVector(const Quaterniond& from, const Quaterniond& to, bool neg
   return (2.0 * std::atan2(sine, relative.w()) / sine) * relative.vec();
 }
 
-/// `since`: t less the anchor.
+/// `since`: t minus the anchor.
 Matrix3d turnOf(const Vector3d& axis, const JointMotion& motion, double since) {
   return Eigen::AngleAxisd(motion.angle + since * motion.angleRate, axis).toRotationMatrix();
 }
@@ -94,7 +94,7 @@ Isometry3d heldTransform(const Robot& robot, const Joint& joint, const Eigen::Ve
   return jointTransform(body, motion, 0.0);
 }
 
-/// With one joint more, which is held; its frame and its child's are `joint` and `child`.
+/// The chain with one more fixed joint, whose frame is `joint` and whose child's frame is `child`.
 FixedJointChain withHeldJoint(FixedJointChain fixedChain, const Robot& robot, const Joint& held,
                               const Eigen::VectorXd& reference, const Isometry3d& joint,
                               const Isometry3d& child) {
@@ -127,8 +127,8 @@ MovingBody moveJoint(const Robot& robot, const Joint& joint, const Group& group)
   const Variable& variable = robot.variables()[source.firstVariable];
   const double atLower = body.multiplier * variable.lower + body.offset;
   const double atUpper = body.multiplier * variable.upper + body.offset;
-  // compileMotion lets values pass their limits by this much: as far as isWithin() does, and, of
-  // what slides and is refused beyond, by what is computed of such a value.
+  // compileMotion lets values pass their limits by this much: the allowance of isWithin() plus, for
+  // sliding joints, which are refused beyond, the rounding of such a value.
   if (body.type == JointType::Prismatic)
     body.valueRounding =
         kValueRounding *
@@ -271,7 +271,7 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       break;
     }
     case JointType::Prismatic: {
-      // A prismatic joint may mimic a cyclic one and then moves the way its master does.
+      // A prismatic joint may mimic a cyclic one and then moves the way that its master does.
       const double difference =
           model.cyclic[body.variable] ? cyclicDifference(*q0, *q1) : *q1 - *q0;
       const double start = body.multiplier * *q0 + body.offset;
@@ -301,8 +301,8 @@ bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span
       break;
     case JointType::Floating:
       if (!compileFloating(q0, q1, motion)) return false;
-      // Of an obstacle, which is on its way between waypoints that may be far away. Lemma: of each
-      // of three coordinates that, the share and its product round by less than 14 parts in 2^53.
+      // For an obstacle between waypoints that may be far away. Lemma: the value, the share and its
+      // product round, for each of three coordinates, by less than 14 parts in 2^53.
       if (body.variable >= model.dimension) {
         const double largest = 4.0 * std::max(q0[7], q1[7]);
         motion.slideError =
@@ -342,7 +342,7 @@ BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
   const double since = t - joint.anchor;
   const Vector3d spin = axes * joint.spin;
   state.angular = parent.angular + spin;
-  // The joint turns the body about its own moving origin o: v += rate + spin x (p - o).
+  // The joint rotates the body about its own moving origin o: v += rate + spin x (p - o).
   if (turns(body.type)) {
     // Most joints only turn: what slides is zero. This gives the same bits.
     state.world_from_body.linear() = axes * turnOf(body.axis, joint, since);

@@ -15,11 +15,11 @@ namespace swept::detail {
 
 /// Joints that stand still, multiplied into one frame.
 struct FixedJointChain {
-  /// So many. A joint held at a large angle rounds as several.
+  /// Their number. A joint fixed at a large angle rounds like several joints.
   double transforms = 0.0;
-  double farthest = 0.0;  ///< m, of the frames between, and of what they are made of
+  double farthest = 0.0;  ///< m, largest size of the frames between, and of their terms
 
-  /// m. How far these go beyond where they lead.
+  /// m. How far these frames go beyond the last one.
   double detour(const Eigen::Isometry3d& frame) const {
     return std::max(0.0, farthest - frame.translation().norm());
   }
@@ -39,43 +39,42 @@ struct MovingBody {
   double offset = 0.0;              ///< rad or m
   double lower = 0.0;  ///< m or rad: range of the joint value, with the slack of limits
   double upper = 0.0;  ///< m or rad
-  /// m, prismatic: by how much a value computed within the range may be beyond it in truth. An
-  /// offset may leave little of what rounds.
+  /// m, prismatic: how far the true value may be outside the range if a computed value is within
+  /// it. An offset may cancel most of the terms that round.
   double valueRounding = 0.0;
 };
 
 /// The group's tree of moving frames. Joints outside the group are folded at their reference
-/// values, so that nothing that does not move costs anything. Behind the bodies of the robot are
-/// those that are attached to it, on joints that never move, and moving obstacles, each on a
-/// floating joint of its own.
+/// values, so that parts that do not move cost nothing. After the bodies of the robot come those
+/// attached to it, on joints that never move, and moving obstacles, each on its own floating joint.
 ///
-/// A configuration is that of the group, followed by the time where there are moving obstacles. The
-/// functions on motions read whole configurations: with the poses of the obstacles behind it, and
-/// how large (m) the coordinates are that each was made of.
+/// A configuration is that of the group, followed by the time if there are moving obstacles. The
+/// functions on motions read full configurations: these also have the poses of the obstacles, and
+/// the size (m) of the coordinates that each was computed from.
 struct KinematicModel {
   std::vector<MovingBody> bodies;  ///< parents first; [0] is the model frame itself
   std::vector<int> bodyOfLink;
   std::vector<Eigen::Isometry3d> body_from_link;
-  std::vector<FixedJointChain> fixedChainOfLink;  ///< of what is folded into these
+  std::vector<FixedJointChain> fixedChainOfLink;  ///< of the joints folded into these frames
   std::vector<char> cyclic;                       ///< per value of a configuration
   std::vector<double> lower, upper;               ///< likewise: rad, m or s
   int dimension = 0;                              ///< of a configuration
   int fullDimension = 0;                          ///< of a full configuration
-  int firstObstacle = 0;  ///< of the bodies: from here on they are moving obstacles
+  int firstObstacle = 0;  ///< index of the first body that is a moving obstacle
 };
 
 /// `reference` has a value for every variable of the robot.
 KinematicModel compileKinematics(const Robot& robot, const Group& group,
                                  const Eigen::VectorXd& reference);
 
-/// A frame that is fixed in a moving body; its index.
+/// Adds a frame that is fixed in a moving body; returns its index.
 int addAttachedFrame(KinematicModel& model, int body, const Eigen::Isometry3d& body_from_frame);
-/// Frames for so many obstacles; the index of the first one.
+/// Adds frames for this many obstacles; returns the index of the first one.
 int addObstacleFrames(KinematicModel& model, std::size_t count);
 
-/// How one joint moves during an interval of t: at `anchor + s` its child frame is
-/// [ exp(s spin) rotation | translation + s rate ], all in the joint frame, but for what the bounds
-/// on accelerations let it leave that. Where both are 0 its rates are constant.
+/// The motion of one joint during an interval of t: at `anchor + s` its child frame is [ exp(s
+/// spin) rotation | translation + s rate ], all in the joint frame, up to the bounds on
+/// accelerations. If both accelerations are 0, its rates are constant.
 struct JointMotion {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< m, at the anchor
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();                ///< m per unit t, likewise
@@ -85,7 +84,7 @@ struct JointMotion {
   double angle = 0.0;      ///< rad, at the anchor: a revolute joint's value, about its axis
   double angleRate = 0.0;  ///< rad per unit t, likewise
   ///@{
-  /// Over the interval.
+  /// Bounds over the interval.
   double speed = 0.0;             ///< m per unit t, no less than |rate|
   double spinSpeed = 0.0;         ///< rad per unit t, no less than |spin|
   double acceleration = 0.0;      ///< m per unit t squared, bounds that of the translation
@@ -95,26 +94,26 @@ struct JointMotion {
   double high = 0.0;              ///< m
   double lowAngle = 0.0;          ///< rad, revolute: range of its value
   double highAngle = 0.0;         ///< rad
-  double largestAngle = 0.0;      ///< rad, of what the joint's angle is made of, for its rounding
-  double slideError = 0.0;        ///< m, what a translation rounds by beyond what its size tells
+  double largestAngle = 0.0;      ///< rad, size of the terms of the joint's angle, for its rounding
+  double slideError = 0.0;        ///< m, rounding of a translation beyond what its size gives
   ///@}
 
-  /// m. Largest |translation| over the interval, whatever the type.
+  /// m. Largest |translation| over the interval, for any type.
   double slid() const { return std::max({maxTranslation, -low, high}); }
   bool hasConstantRates() const { return acceleration == 0.0 && spinAcceleration == 0.0; }
 };
 
-/// What the joints that carry a body add to the rounding of its place in one motion, beyond what
-/// they do with all translations at zero. It is as large as the values that the motion uses.
+/// The rounding that the joints carrying a body add to its position in one motion, beyond that with
+/// all translations at zero. It is proportional to the values that the motion uses.
 struct CarriedRounding {
   double slid = 0.0;        ///< m, all translations together
   double angleError = 0.0;  ///< rad, of angles larger than a few turns, and the shorter ways
-  /// m. Of translations made of much larger values than they are: a mimic joint's whose offset
-  /// takes back most of what its master gives, an obstacle's between waypoints far away.
+  /// m. From translations that are small sums of much larger terms: a mimic joint's whose offset
+  /// cancels most of its master's value, or an obstacle's between waypoints far away.
   double slideError = 0.0;
 };
 
-/// Of what `joint` moves, whose parent has `before`.
+/// For a body that `joint` moves, whose parent has `before`.
 CarriedRounding carriedRounding(const CarriedRounding& before, const JointMotion& joint);
 
 /// Frame and velocity field of a body at one t: the point p (m, model frame) has velocity
@@ -125,11 +124,11 @@ struct BodyState {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
 
-/// Of x, y, z, w. False, too, where the squares overflow, or a component is not finite.
+/// The norm of x, y, z, w. False, too, if the squares overflow, or a component is not finite.
 bool hasDirection(const double* quaternion);
 
-/// The way a cyclic value goes: the given difference when it is at most half a turn, else the
-/// shorter.
+/// The difference by which a cyclic value moves: the given one if it is at most half a turn, else
+/// the shorter one.
 inline double cyclicDifference(double from, double to) {
   const double difference = to - from;
   return std::abs(difference) <= std::numbers::pi
@@ -141,8 +140,8 @@ inline double cyclicDifference(double from, double to) {
 bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span<const double> from,
                   std::span<const double> to, JointMotion& motion);
 
-/// False when a value is not finite, a quaternion has no direction, or a prismatic value is outside
-/// its limits (what is left out as out of reach may be within it there).
+/// False if a value is not finite, a quaternion is zero, or a prismatic value is outside its limits
+/// (pairs that were left out as out of reach may be within it there).
 bool compileMotion(const KinematicModel& model, std::span<const double> from,
                    std::span<const double> to, std::span<JointMotion> motion);
 
@@ -153,7 +152,8 @@ BodyState bodyAt(const MovingBody& body, const JointMotion& joint, double t,
 void evaluateBody(const KinematicModel& model, std::span<const JointMotion> motion, double t,
                   int body, std::span<BodyState> states);
 
-/// Configuration at t on the motion: of configurations, or of whole ones, whose rest is left out.
+/// Configuration at t on the motion between configurations, or between full ones, whose rest is
+/// ignored.
 void interpolateMotion(const KinematicModel& model, std::span<const double> from,
                        std::span<const double> to, double t, std::span<double> q);
 

@@ -12,8 +12,8 @@
 
 namespace swept::detail {
 
-/// rad per unit t; bounds the angular velocity of a body relative to its parent's parent, of which
-/// both joints only turn. Two consecutive axes keep the angle between them: their velocities add as
+/// rad per unit t; bounds the angular velocity of a body relative to its parent's parent, if both
+/// joints only turn. Two consecutive axes keep the angle between them, so their velocities add as
 /// vectors.
 inline double boundTogether(const KinematicModel& model, const MovingBody& body, double parentRate,
                             double rate) {
@@ -24,9 +24,9 @@ inline double boundTogether(const KinematicModel& model, const MovingBody& body,
          kArithmeticOutward;
 }
 
-/// What pointMotionBound says, relative to all of a ball's ancestors together: bounds[first], with
-/// `first` up to the number of joints of the path. One by one takes a time proportional to the
-/// square of that, so that a motion of a chain of n bodies took one proportional to n^3. `path` and
+/// The bounds of pointMotionBound, relative to all of a ball's ancestors together: bounds[first],
+/// with `first` up to the number of joints of the path. One by one they take a time proportional to
+/// the square of that, and a motion of a chain of n bodies a time proportional to n^3. `path` and
 /// `arms` as in LeverArms.
 ///
 /// Lemma. Let V(i) bound the angular velocity of body i of the path relative to the model frame as

@@ -5,7 +5,7 @@
 
 namespace swept::detail {
 
-/// A finite rotation and translation. A matrix that comes from a file or from products is as far
+/// Whether it is a finite rotation and translation. A matrix from a file or from products is as far
 /// from orthonormal as their rounding.
 inline bool isRigid(const Eigen::Isometry3d& pose) {
   constexpr double kOrthonormal = 1e-9;
@@ -15,9 +15,10 @@ inline bool isRigid(const Eigen::Isometry3d& pose) {
          r.determinant() > 0.0 && pose.matrix().row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
 }
 
-/// A rigid transform (see isRigid) with a rotation in place of what is up to 1e-9 from one: a
-/// pose's inverse is taken by its transpose, and 1e-9 of coordinates is more than kRoundingPerJoint
-/// allows for. What is as good as a product of rotations is left as it is.
+/// A rigid transform (see isRigid) with a rotation instead of a matrix up to 1e-9 from one: the
+/// transpose serves as the inverse of a pose, and 1e-9 of coordinates is more than
+/// kRoundingPerJoint allows for. A matrix that is as accurate as a product of rotations is not
+/// changed.
 inline Eigen::Isometry3d orthonormalized(const Eigen::Isometry3d& rigid) {
   constexpr double kAsGoodAsProducts = 1e-14;
   const Eigen::Matrix3d r = rigid.linear();

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// A piece of geometry as it was given.
+/// A piece of geometry as given.
 struct GivenPiece {
   const Shape* shape;
   Isometry3d frame_from_shape;               ///< the collision body's frame
@@ -49,7 +49,7 @@ bool samePose(const Isometry3d& a, const Isometry3d& b) {
   return a.matrix() == b.matrix();
 }
 
-/// m. No point of the shape is farther from where its source has it.
+/// m. Bound on the distance of the shape's points from their places in the source.
 double sourceErrorOf(const Shape& shape) {
   const auto* mesh = std::get_if<TriangleMesh>(&shape);
   return mesh != nullptr ? mesh->sourceError() : 0.0;
@@ -66,7 +66,7 @@ class BodyCompiler {
     addObstacles();
     for (std::size_t i = 0; i < model_.collisionBodies.size(); ++i)
       addGeometry(static_cast<int>(i));
-    // Frames that carry no geometry count as well.
+    // Frames without geometry count as well.
     const bool same = like_ != nullptr && kept_ == geometry_.size() &&
                       like_->robotGeometry.size() == geometry_.size() &&
                       like_->kinematics.bodies.size() == model_.kinematics.bodies.size();
@@ -106,7 +106,7 @@ class BodyCompiler {
     CollisionBody collisionBody = model_.collisionBodies[*link];
     collisionBody.kind = CollisionBody::Kind::Attached;
     collisionBody.name = BodyName(body.name);
-    // A frame of its own keeps what is known about the link's as it is.
+    // A separate frame keeps the data about the link unchanged.
     if (collisionBody.body != 0) {
       collisionBody.body =
           addAttachedFrame(model_.kinematics, collisionBody.body, collisionBody.body_from_frame);
@@ -124,7 +124,7 @@ class BodyCompiler {
     for (std::size_t i = 0; i < model_.collisionBodies.size(); ++i) requireOwnName(i);
   }
 
-  /// The robot's parts and those of the world are told apart by their names.
+  /// The robot's parts and those of the world are distinguished by their names.
   void requireOwnName(std::size_t index) const {
     const CollisionBody& collisionBody = model_.collisionBodies[index];
     const bool taken =
@@ -151,7 +151,7 @@ class BodyCompiler {
           known == nullptr || known->body != collisionBody.body || known->collisionBody != index;
       if (moved) place(collisionBody, pieces[i].frame_from_shape, geometry);
       geometry.collisionBody = index;
-      // Whether all of them are where they were.
+      // Whether all of them have not moved.
       if (!moved && known == like_->robotGeometry.begin() + geometry_.size()) ++kept_;
       geometry_.push_back(std::move(geometry));
     }
@@ -241,7 +241,7 @@ class BodyCompiler {
     model_.worldGeometry.push_back(std::move(geometry));
   }
 
-  /// A mesh that an earlier version has scaled is not built once more.
+  /// A mesh that an earlier version has scaled is not built again.
   Shape scaledAsBefore(const Shape& shape, double scale) const {
     if (like_ != nullptr) {
       for (const WorldGeometry& other : like_->worldGeometry)

@@ -6,13 +6,13 @@ namespace swept::detail {
 struct GeometryPair;
 struct PairModel;
 
-/// The frames that move, and all geometry of the robot, of what is attached to it and of the world.
-/// What is the same in `like` (may be null; see compilePairModel) is taken from there. Throws
+/// The moving frames, and all geometry of the robot, of its attached bodies and of the world. Parts
+/// that are the same in `like` (may be null; see compilePairModel) are taken from there. Throws
 /// std::invalid_argument as the constructor of Checker does for attached bodies.
 void compileBodies(const PairModel* like, PairModel& model);
 
-/// Which pairs of the model's geometry are checked, with their margins, and the lists of pairs of
-/// bodies. Throws std::invalid_argument for a rule about a body that is not there.
+/// The checked pairs of the model's geometry, with their margins, and the lists of pairs of bodies.
+/// Throws std::invalid_argument for a rule about an unknown body.
 void compilePairs(PairModel& model);
 
 /// A pair with this piece of the world of the geometry that `like` is a pair of, or one of
@@ -20,7 +20,7 @@ void compilePairs(PairModel& model);
 GeometryPair worldPair(const PairModel& model, const GeometryPair& like, int worldGeometry);
 
 /// Finds the pairs of links that never meet within the limits of the robot's joints, with a small
-/// budget for each: BodyPair::never. `like`: as for compilePairModel; nothing is proven anew then.
+/// budget for each: BodyPair::never. `like`: as for compilePairModel; then nothing is proven anew.
 void findNever(const PairModel* like, PairModel& model);
 
 }  // namespace swept::detail

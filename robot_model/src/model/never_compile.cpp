@@ -15,17 +15,18 @@ namespace swept::detail {
 
 namespace {
 
-/// Of NeverProof, per pair: a fraction of a millisecond. Of a Panda without SRDF (42 pairs) it
-/// proves 14, ten times as much 19, and 300 times as much 20; of a UR5 with a gripper (81) all
-/// of 23.
+/// Effort of NeverProof per pair: a fraction of a millisecond. For a Panda without SRDF (42 pairs)
+/// it proves 14, ten times as much 19, and 300 times as much 20; for a UR5 with a gripper (81
+/// pairs) all of 23.
 constexpr std::int64_t kBudget = 3'000;
 
-/// Of all pairs together, some ns each (see NeverProof::work()). A chain of 60 links, with 1711
-/// pairs, takes 0.8 of it; in what has more, links that are far apart along the chain go without.
+/// Work for all pairs together, some ns each (see NeverProof::work()). A chain of 60 links, with
+/// 1711 pairs, takes 0.8 of it. Robots with more pairs do without those that are far apart along
+/// the chain.
 constexpr std::int64_t kMostWork = 1'000'000'000;
 
-/// Values of joints outside the group, too: proofs are about values within the limits, and as far
-/// beyond as isWithin() has it (LinkChain::box).
+/// Also for values of joints outside the group: proofs are about values within the limits, and as
+/// far beyond as isWithin() allows (LinkChain::box).
 bool referenceWithinLimits(const PairModel& model) {
   const std::vector<Variable>& variables = model.robot->variables();
   for (std::size_t v = 0; v < variables.size(); ++v) {
@@ -36,7 +37,8 @@ bool referenceWithinLimits(const PairModel& model) {
   return true;
 }
 
-/// Which pairs can be proven: the checked ones of two links as they come from the URDF.
+/// The pairs that can be proven: the checked ones of two links with unchanged geometry from the
+/// URDF.
 class Provable {
  public:
   explicit Provable(const PairModel& model) {

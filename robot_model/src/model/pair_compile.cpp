@@ -21,23 +21,23 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// m. More than a norm is off by whose squares underflow, and than what is made of it.
+/// m. More than the error of a norm whose squares underflow, and of values computed from it.
 constexpr double kUnderflow = 1e-140;
 
-/// Shapes that come nearer than the errors of their sources may be in contact.
+/// Shapes nearer than the errors of their sources may be in contact.
 bool touch(const Shape& a, const Shape& b, const Isometry3d& a_from_b, double sourceError) {
   if (sourceError > 0.0) return !(distance(a, b, a_from_b).lower > sourceError);
   return collide(a, b, a_from_b) != Contact::Separate;
 }
 
-/// Rounding of the relative pose of two geometries, in metres at their points: proportional to
-/// the coordinates and to the number of transforms that were multiplied.
+/// Rounding of the relative pose of two geometries, in metres at their points: proportional to the
+/// coordinates and to the number of multiplied transforms.
 double poseRounding(double magnitudes, double transforms) {
   if (!(magnitudes < kLargestNorm)) return std::numeric_limits<double>::infinity();
   return tolerance::kRoundingPerJoint * magnitudes * (transforms + 2.0) + kUnderflow;
 }
 
-/// m. At rest: what a motion's translations add is known with it.
+/// m. At rest: the rounding from a motion's translations is computed with the motion.
 double magnitudeOf(const RobotGeometry& robot) {
   return std::max(robot.levers.spanAtRest, robot.magnitude);
 }
@@ -120,14 +120,15 @@ class PairCompiler {
     return slots[first];
   }
 
-  /// Farthest any point of the geometry gets from its first moving joint, if that is bounded.
+  /// The largest distance of any point of the geometry from its first moving joint, if it is
+  /// bounded.
   bool outOfReach(const RobotGeometry& robot, const WorldGeometry& world, double margin) const {
     for (const int i : robot.levers.path)
       if (slidesFreely(model_.kinematics.bodies[i].type)) return false;
     const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
     const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
     const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
-    // Wherever it is within the limits: compileMotion refuses what is beyond them.
+    // Anywhere within the limits: compileMotion refuses values beyond them.
     const double magnitude = std::max(robot.levers.span, robot.magnitude);
     const double slack = poseRounding(magnitude + world.magnitude, robot.transforms);
     return outside.stableNorm() >
@@ -191,9 +192,9 @@ class PairCompiler {
     add(worldPair(model_, pair, b), model_.pairs, "shapes");
   }
 
-  /// A piece that is out of reach is left out of verdicts, which ask whether some piece comes near.
-  /// A distance between two bodies is that of the nearest of all of their pieces: beside one that
-  /// is in reach, and far away, the nearest may be out of reach, however little.
+  /// Verdicts leave out a piece that is out of reach, since they ask whether some piece comes near.
+  /// A distance between two bodies is that of the nearest of all of their pieces: the nearest piece
+  /// may be just out of reach, beside one that is in reach and far away.
   void measureAll(std::size_t collisionBody, std::size_t firstBodyPair) {
     double farthest = 0.0, sourceError = 0.0;
     std::int64_t parts = 0;
@@ -216,7 +217,7 @@ class PairCompiler {
     }
   }
 
-  /// The body that what is fixed in `body` moves with, and its frame from the one of `body`.
+  /// The body with which a frame fixed in `body` moves, and its frame from that of `body`.
   int movingBody(int body, Isometry3d& moving_from_body) const {
     moving_from_body.setIdentity();
     for (; body != 0 && model_.kinematics.bodies[body].type == JointType::Fixed;
@@ -262,7 +263,7 @@ class PairCompiler {
     return pair;
   }
 
-  /// The first geometry is of the collision body whose body `ancestors_` has as the first.
+  /// The first geometry belongs to the collision body whose body is the first one of `ancestors_`.
   void pairGeometries(int i, int j, BodyPair& bodies) {
     const RobotGeometry& a = model_.robotGeometry[i];
     const RobotGeometry& b = model_.robotGeometry[j];
@@ -296,8 +297,8 @@ class PairCompiler {
   std::vector<double> paddings_;  ///< m, per collision body
   std::vector<int> firstOf_;      ///< per collision body: of its geometry, the first
   CommonAncestors ancestors_;
-  /// Per geometry and number of joints in front of the first that counts: of motionBounds; -1: none
-  /// yet.
+  /// Per geometry and number of joints before the first that counts: index into motionBounds; -1:
+  /// none yet.
   std::vector<std::vector<int>> slots_;
 };
 

@@ -18,11 +18,11 @@
 
 namespace swept::detail {
 
-/// m. Far below where squares overflow: an infinite distance would prove bodies apart that are not.
-/// Of coordinates that may be larger nothing is proven.
+/// m. Far below where squares overflow: an infinite distance would wrongly prove bodies apart.
+/// Nothing is proven for coordinates that may be larger.
 inline constexpr double kLargestNorm = 1e150;
 
-/// What pairs are made of, but for bodies of the world that stand still.
+/// The data of pairs, except for static bodies of the world.
 struct CollisionBody {
   enum class Kind : std::uint8_t { Link, Attached, Obstacle };
   Kind kind = Kind::Link;
@@ -36,7 +36,7 @@ struct CollisionBody {
 struct RobotGeometry {
   int collisionBody = -1;
   int piece = 0;       ///< of the collision body
-  double scale = 1.0;  ///< that the shape has been changed by
+  double scale = 1.0;  ///< factor that scaled the shape
   int body = 0;        ///< the collision body's
   Shape shape;
   Eigen::Isometry3d body_from_shape;
@@ -54,7 +54,7 @@ struct RobotGeometry {
 struct WorldGeometry {
   int body = -1;       ///< index into World::bodies()
   int part = 0;        ///< of the body
-  double scale = 1.0;  ///< that the shape has been changed by
+  double scale = 1.0;  ///< factor that scaled the shape
   Shape shape;
   Eigen::Isometry3d world_from_shape;
   Eigen::Isometry3d box_from_world;  ///< frame centred in the box, along its axes
@@ -85,7 +85,7 @@ struct GeometryPair {
   double kept() const { return margin + sourceError; }
 };
 
-/// Why a pair of bodies is checked or not.
+/// Whether a pair of bodies is checked, or why not.
 enum class PairReason : std::uint8_t {
   Checked,
   Allowed,     ///< by a rule
@@ -101,17 +101,17 @@ struct BodyPair {
   int b = 0;              ///< index into World::bodies(), or of the second collision body
   bool ofRobot = false;   ///< two collision bodies
   bool touching = false;  ///< of those that do not move: in contact
-  /// Of checked links: proven apart within the limits of the joints, so that they are looked at
-  /// outside of these alone.
+  /// For checked links: proven apart within the limits of the joints, so they are tested only
+  /// outside of these.
   bool never = false;
   PairReason reason = PairReason::Checked;
   double margin = 0.0;  ///< m
 };
 
-/// m, per pair of links (the smaller index first): that they are proven to keep.
+/// m, per pair of links (the smaller index first): the distance that they are proven to keep.
 using NeverMargins = std::map<std::pair<int, int>, double>;
 
-/// For people to read; made when it is first asked for.
+/// For people to read; computed on the first request.
 struct PairLists {
   std::once_flag made;
   std::vector<Checker::Pair> checked, skipped, standing;
@@ -123,8 +123,8 @@ struct MotionBoundSlot {
   std::size_t firstJoint = 0;  ///< index into the geometry's path
 };
 
-/// Robot x group x world, compiled: only what can move, only the pairs that can meet. It is in
-/// double precision; the single-precision tier compiles its own model of it (SimdModel).
+/// Robot x group x world, compiled: only moving parts, only pairs that can meet. It is in double
+/// precision; the single-precision tier compiles its own model from it (SimdModel).
 struct PairModel {
   std::uint64_t version = 0;  ///< no two have the same
   std::shared_ptr<const Robot> robot;
@@ -143,13 +143,13 @@ struct PairModel {
   std::uint32_t firstSelfPair = 0;
   ///@{
   /// Distances are measured between all pieces of the bodies that are checked against each other.
-  /// Those out of reach of each other are in none of the pairs, and are not listed anywhere: they
-  /// may be many.
+  /// Pieces out of reach of each other are in none of the pairs, and are not listed anywhere, since
+  /// there may be many.
   /// Per collision body: its pair with the world's first body, into bodyPairs; -1: it is checked
   /// against none.
   std::vector<int> firstBodyPair;
-  /// Per robot geometry of the other collision bodies: what its pairs with the world have in
-  /// common, with the largest rounding of them.
+  /// Per robot geometry of the other collision bodies: the common part of its pairs with the world,
+  /// with the largest rounding among them.
   std::vector<GeometryPair> likeWorldPairs;
   std::int64_t measuredPairs =
       0;  ///< how many pairs of pieces that is, two collision bodies' among them
@@ -166,12 +166,12 @@ struct PairModel {
   BodyName nameOfB(const GeometryPair& pair) const;
   bool isSelfPair(
       const GeometryPair& pair) const;  ///< as Witness has it: moving obstacles are none
-  /// Whether the pair of bodies is checked that these two pieces are of.
+  /// Whether the pair of bodies of these two pieces is checked.
   bool checksWorld(int ofRobot, int ofWorld) const;
 };
 
-/// m. No point of the pair's geometry of the robot is farther from a joint that carries it, of both
-/// together, but for translations.
+/// m. Upper bound on the distance of the pair's robot geometry from a joint that carries it, for
+/// both together, without translations.
 inline double spanOf(const PairModel& model, const GeometryPair& pair) {
   const double span = model.robotGeometry[pair.a].levers.spanAtRest;
   return pair.self ? span + model.robotGeometry[pair.b].levers.spanAtRest : span;
@@ -183,7 +183,7 @@ inline double transformsOf(const PairModel& model, const GeometryPair& pair) {
 }
 
 /// `model` has the robot, the world, the group and the options. `like`: null, or an earlier version
-/// for the same robot, group and reference; what is the same is taken from there. Throws
+/// for the same robot, group and reference, from which unchanged parts are taken. Throws
 /// std::invalid_argument for attached bodies and rules as the constructor of Checker does.
 void compilePairModel(const PairModel* like, PairModel& model);
 

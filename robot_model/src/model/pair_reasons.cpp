@@ -14,7 +14,7 @@ namespace {
 
 using CollisionBodyPair = std::pair<int, int>;
 
-/// With why; the first reason counts. Not those that the SRDF enables.
+/// Pairs with reasons; the first reason counts. Without the pairs that the SRDF enables.
 std::map<CollisionBodyPair, std::string> disabledReasons(const PairModel& model) {
   std::map<CollisionBodyPair, std::string> reasons;
   const Robot& robot = *model.robot;
@@ -86,7 +86,7 @@ std::string metres(double value) {
   return text.str();
 }
 
-/// What the margin is made of.
+/// The terms of the margin.
 std::string marginText(const PairModel& model, const Checker::Pair& pair) {
   const CollisionRules& rules = model.options.rules;
   std::string text = metres(pair.margin);
@@ -101,7 +101,7 @@ std::string marginText(const PairModel& model, const Checker::Pair& pair) {
              : text + " (margin " + metres(model.options.marginOf(pair.selfPair)) + parts + ")";
 }
 
-/// Who has the pair checked, where defaults do not say it alone.
+/// Says which rule checks the pair, if it is not only the default.
 std::string asked(const PairModel& model, std::string_view bodyA, std::string_view bodyB) {
   if (const auto* rule = model.options.rules.decisive(bodyA, bodyB))
     return rule->reason.empty() ? " (a rule asks for it)" : " (" + rule->reason + ")";

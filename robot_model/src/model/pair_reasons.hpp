@@ -11,7 +11,7 @@
 namespace swept::detail {
 
 /// Pairs of collision bodies, the smaller index first, that the SRDF, a joint between the two or a
-/// body's touch links take out.
+/// body's touch links exclude.
 std::set<std::pair<int, int>> disabledCarriers(const PairModel& model);
 
 /// All pairs of bodies as the Checker lists them.

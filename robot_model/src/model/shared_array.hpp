@@ -8,8 +8,8 @@
 
 namespace swept::detail {
 
-/// Elements that do not change any more and that several versions of a checker read: copies share
-/// them. Reading one is as quick as from a std::vector.
+/// Immutable elements that several versions of a checker read: copies share them. Reading one is as
+/// quick as from a std::vector.
 template <typename T>
 class SharedArray {
  public:
@@ -25,7 +25,7 @@ class SharedArray {
   const T* end() const { return data_ + size_; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// The same elements in the same place, not only equal ones.
+  /// Whether the two share the same elements, not only equal ones.
   bool shares(const SharedArray& other) const { return owner_ == other.owner_; }
 
  private:

@@ -84,7 +84,7 @@ std::shared_ptr<const Robot> Robot::withChain(const std::string& name, const std
   const int tip = linkNamed(*this, tipLink);
   const std::vector<int> toBase = detail::pathFromRoot(links_, joints_, linkNamed(*this, baseLink));
   const std::vector<int> toTip = detail::pathFromRoot(links_, joints_, tip);
-  // What the paths from the root do not share.
+  // The parts of the two paths from the root that they do not share.
   const auto [forkBase, forkTip] =
       std::mismatch(toBase.begin(), toBase.end(), toTip.begin(), toTip.end());
   std::set<int> members(forkBase, toBase.end());

@@ -5,11 +5,11 @@
 
 #include "swept/robot_model/robot.hpp"
 
-/// What the joints of each type have and do. Each function is a switch over all types, so that a new
-/// type does not compile before all of this is said of it.
+/// The properties of each joint type. Each function is a switch over all types, so a new type does
+/// not compile until all of them are defined.
 namespace swept::detail {
 
-/// How many values a joint has that mimics none.
+/// Number of values of a joint that mimics none.
 constexpr int valueCount(JointType type) {
   switch (type) {
     case JointType::Fixed:
@@ -26,7 +26,7 @@ constexpr int valueCount(JointType type) {
   return 7;
 }
 
-/// The place of the first of four values that are a quaternion: x, y, z, w.
+/// Index of the first of four values that are a quaternion: x, y, z, w.
 constexpr std::optional<int> quaternionPlace(JointType type) {
   switch (type) {
     case JointType::Floating:
@@ -41,7 +41,7 @@ constexpr std::optional<int> quaternionPlace(JointType type) {
   return std::nullopt;
 }
 
-/// The value at this place is in metres.
+/// Whether the value at this index is in metres.
 constexpr bool isLength(JointType type, int place) {
   switch (type) {
     case JointType::Prismatic:
@@ -58,7 +58,7 @@ constexpr bool isLength(JointType type, int place) {
   return false;
 }
 
-/// A URDF says along or about what the joint moves.
+/// Whether a URDF gives the axis that the joint moves along or about.
 constexpr bool hasAxis(JointType type) {
   switch (type) {
     case JointType::Revolute:
@@ -73,7 +73,7 @@ constexpr bool hasAxis(JointType type) {
   return false;
 }
 
-/// A URDF says how far the joint goes.
+/// Whether a URDF gives limits of the joint.
 constexpr bool hasLimits(JointType type) {
   switch (type) {
     case JointType::Revolute:
@@ -88,7 +88,7 @@ constexpr bool hasLimits(JointType type) {
   return false;
 }
 
-/// The joint only turns, about an axis that is fixed in the parent.
+/// Whether the joint only turns, about an axis that is fixed in the parent.
 constexpr bool turns(JointType type) {
   switch (type) {
     case JointType::Revolute:
@@ -103,7 +103,7 @@ constexpr bool turns(JointType type) {
   return false;
 }
 
-/// The joint only slides, along an axis that is fixed in the parent, and within limits.
+/// Whether the joint only slides, along an axis that is fixed in the parent, and within limits.
 constexpr bool slidesWithinLimits(JointType type) {
   switch (type) {
     case JointType::Prismatic:
@@ -118,7 +118,7 @@ constexpr bool slidesWithinLimits(JointType type) {
   return false;
 }
 
-/// The joint lets a body slide without limits.
+/// Whether the joint lets a body slide without limits.
 constexpr bool slidesFreely(JointType type) {
   switch (type) {
     case JointType::Planar:

@@ -22,8 +22,8 @@ std::string withDigits(double value, int digits) {
   return buffer.data();
 }
 
-/// Whether the texts are apart as the values are: to a twentieth, so that none are alike that
-/// differ.
+/// Whether the texts differ as much as the values do, to a twentieth, so that different values
+/// never look alike.
 bool showDifferences(std::span<const double> values, std::span<const std::string> texts) {
   constexpr double kShare = 0.05;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -34,7 +34,7 @@ bool showDifferences(std::span<const double> values, std::span<const std::string
       if (std::abs(shown - difference) > kShare * std::abs(difference)) return false;
     }
   }
-  return true;  // of what is infinite or no number, six digits are as good as more
+  return true;  // for infinity and NaN, six digits are as good as more
 }
 
 /// Of the variable among its joint's.
@@ -118,7 +118,7 @@ std::vector<std::string> distinctNumbers(std::span<const double> values) {
     return inDefaultEnvironment([&] { return distinctNumbers(values); });
   }
   constexpr int kFewest = 6;
-  constexpr int kMost = 17;  // tell all doubles apart
+  constexpr int kMost = 17;  // distinguishes all doubles
   std::vector<std::string> texts(values.size());
   for (int digits = kFewest; digits <= kMost; ++digits) {
     std::ranges::transform(values, texts.begin(),

@@ -38,7 +38,7 @@ std::string whyNoVariable(const Robot& robot, int index) {
          " values, each by its name: " + namesOf(robot, own);
 }
 
-/// Index of a variable. Throws for a name that is not one.
+/// Index of a variable. Throws for an unknown name.
 int variableOf(const Robot& robot, const std::string& name) {
   if (const auto variable = robot.findVariable(name)) return *variable;
   if (const auto joint = robot.findJoint(name))
@@ -49,7 +49,7 @@ int variableOf(const Robot& robot, const std::string& name) {
                               didYouMean(name, known));
 }
 
-/// Place of a variable in the group's configuration. Throws where it has none.
+/// Index of a variable in the group's configuration. Throws if it has none.
 std::size_t placeOf(const Robot& robot, const Group& group, const std::string& name) {
   const auto found = std::ranges::find(group.variables, variableOf(robot, name));
   if (found != group.variables.end())

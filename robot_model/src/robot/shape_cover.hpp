@@ -8,19 +8,19 @@
 
 namespace swept::detail {
 
-/// Whether a ball contains it: neither a plane nor a half-space.
+/// Whether a ball can contain it: it is neither a plane nor a half-space.
 bool isBounded(const Shape& shape);
 
-/// Equal sizes, or copies of the same mesh, hull or cloud.
+/// Whether two shapes have equal sizes, or are copies of the same mesh, hull or cloud.
 bool areSame(const Shape& a, const Shape& b);
 
-/// How fine the covers of bodies that move are.
+/// Resolution of the covers of moving bodies.
 inline constexpr double kCoverOverhang = 0.005;       ///< m, of the finest level, but ...
 inline constexpr double kCoverRelative = 1.0 / 32.0;  ///< ... not less of the first ball's radius
-/// Balls inside a link: where contacts are looked for first.
+/// Balls inside a link: the search for contacts starts with them.
 inline constexpr int kMostInnerBalls = 64;
 
-/// The balls that stand for a body that moves; null for an unbounded shape.
+/// The balls that stand for a moving body; null for an unbounded shape.
 std::shared_ptr<const SphereCover> coverOf(const Shape& shape);
 
 }  // namespace swept::detail

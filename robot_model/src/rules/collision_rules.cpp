@@ -38,12 +38,12 @@ bool hasPattern(const Rule& rule) {
   return isPattern(rule.bodyA) || isPattern(rule.bodyB);
 }
 
-/// The smaller the more it counts: how many patterns stand for bodies.
+/// Rank of a rule: the number of patterns among its names. Smaller is stronger.
 int patternsOf(const Rule& rule) {
   return static_cast<int>(isPattern(rule.bodyA)) + static_cast<int>(isPattern(rule.bodyB));
 }
 
-/// Both orders have the same; names hold no zero byte.
+/// A key that is the same in both orders; names contain no zero byte.
 std::string keyOf(std::string_view a, std::string_view b) {
   const auto& [first, second] = std::minmax(a, b);
   return std::string(first).append(1, '\0').append(second);
@@ -113,7 +113,7 @@ const Rule* CollisionRules::findStrongest(std::string_view bodyA, std::string_vi
   const auto consider = [&](const Rule& rule) {
     if (!wanted(rule)) return;
     const auto rank = [](const Rule& one) { return std::pair(one.layer, patternsOf(one)); };
-    // Of one rank the later: addresses are in the order in which they were added.
+    // The later one of equal rank: addresses are in the order in which they were added.
     if (best == nullptr || rank(rule) < rank(*best) || (rank(rule) == rank(*best) && best < &rule))
       best = &rule;
   };
@@ -154,7 +154,7 @@ double CollisionRules::scale(std::string_view body) const {
 }
 
 CollisionRules CollisionRules::without(std::string_view body) const {
-  // A body may be called `*`: what is said of all is not gone with it.
+  // A body may be called `*`: rules about all bodies are not removed with it.
   if (detail::isPattern(body)) return *this;
   CollisionRules result;
   for (const Rule& rule : rules_)

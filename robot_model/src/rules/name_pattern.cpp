@@ -5,7 +5,7 @@
 
 namespace swept::detail {
 
-/// Going back to the last `*` is enough: what earlier ones take could as well be taken by it.
+/// Backtracking to the last `*` is enough: it can match anything that earlier ones match.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0;
   std::size_t n = 0;

@@ -8,7 +8,7 @@ namespace swept::detail {
 /// A `*` in the pattern stands for any characters, or none.
 bool matches(std::string_view pattern, std::string_view name);
 
-/// Holds a `*`. A name without one has to be that of something; a pattern may match nothing.
+/// Whether the text contains a `*`. A name without one must exist; a pattern may match nothing.
 bool isPattern(std::string_view name);
 
 }  // namespace swept::detail

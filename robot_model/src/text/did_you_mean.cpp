@@ -9,15 +9,15 @@
 namespace swept {
 namespace {
 
-/// Of longer ones nothing is looked for: the time grows with the square.
+/// Longer names get no suggestion: the time grows with the square.
 constexpr std::size_t kLongest = 256;
 
-/// Capital letters count as small ones.
+/// Capital letters count as lower case.
 bool same(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-/// Changes from one text to the other; see didYouMean.
+/// Number of changes from one text to the other; see didYouMean.
 std::size_t changes(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> least(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i)
@@ -40,7 +40,7 @@ std::size_t changes(const std::string& a, const std::string& b) {
 std::string didYouMean(const std::string& name, std::span<const std::string> known) {
   if (name.size() > kLongest) return {};
   const std::string* nearest = nullptr;
-  // A third of the letters: what is farther is another name.
+  // A third of the letters: a name that is farther is another name.
   std::size_t least = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
     if (candidate.size() > kLongest || candidate.empty()) continue;

@@ -7,7 +7,7 @@
 namespace swept {
 namespace {
 
-/// Bytes of the UTF-8 character at the front of `text`; 1 for what is none.
+/// Bytes of the UTF-8 character at the front of `text`; 1 if there is none.
 std::size_t sizeOfCharacter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t size = byte(0) < 0xc2 ? 1 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
@@ -17,7 +17,7 @@ std::size_t sizeOfCharacter(std::string_view text) {
   return size;
 }
 
-/// Those below blank, 0x7f to 0x9f in UTF-8, and the latter as single bytes.
+/// Control characters: those below blank, 0x7f to 0x9f in UTF-8, and the latter as single bytes.
 bool isControl(unsigned code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }

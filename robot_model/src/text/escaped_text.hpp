@@ -4,14 +4,14 @@
 #include <string>
 #include <string_view>
 
-/// What names and values of files may say to a terminal: nothing. Control characters of theirs
-/// would move its cursor, change its title or make up lines.
+/// Names and values of files must not control a terminal. Control characters in them would move its
+/// cursor, change its title or fake lines.
 namespace swept {
 
-/// One line: control characters are `\u001b`, as JSON has them, and ends of lines `\n`. Tabs, and
-/// bytes that are not UTF-8 and no control characters of Latin-1 either, stay.
+/// One line: control characters become `\u001b`, as in JSON, and line ends `\n`. Tabs stay, and so
+/// do bytes that are neither UTF-8 nor control characters of Latin-1.
 std::string escapedLine(std::string_view text);
-/// The same, but ends of lines stay.
+/// The same, but line ends stay.
 std::string escapedText(std::string_view text);
 
 }  // namespace swept

@@ -8,7 +8,7 @@ namespace swept {
 
 namespace {
 
-/// Bytes of the UTF-8 character at the front of `text`; 0 for what is none.
+/// Bytes of the UTF-8 character at the front of `text`; 0 if there is none.
 std::size_t sizeOfCharacter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80) return 1;

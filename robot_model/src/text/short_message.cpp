@@ -13,7 +13,7 @@ bool isInsideCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-/// `text` with `first` bytes at most of its beginning and `last` of its end.
+/// `text` with at most `first` bytes of its beginning and `last` bytes of its end.
 std::string withoutMiddle(std::string_view text, std::size_t first, std::size_t last) {
   std::size_t end = first, begin = text.size() - last;
   while (end > 0 && isInsideCharacter(text[end])) --end;
@@ -25,7 +25,7 @@ std::string withoutMiddle(std::string_view text, std::size_t first, std::size_t 
 }  // namespace
 
 std::string shortMessage(std::string_view message) {
-  // Longer than a foreignText(), and than the paths of files that there are.
+  // Longer than a foreignText(), and than usual paths of files.
   constexpr std::size_t kMostOfWord = 512;
   static_assert(kMostOfWord > kMaxForeignBytes);
   constexpr std::size_t kFirstOfWord = 200, kLastOfWord = 60;

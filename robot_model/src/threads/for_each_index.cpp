@@ -31,7 +31,7 @@ void forEachIndex(std::size_t count, unsigned threads,
       for (std::size_t i = 1; i < std::min<std::size_t>(wanted, count); ++i)
         others.emplace_back(some);
     } catch (const std::system_error&) {
-      // No more threads to be had.
+      // No more threads are available.
     }
     some();
   }

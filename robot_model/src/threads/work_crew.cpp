@@ -12,7 +12,7 @@ WorkCrew::WorkCrew(unsigned threads) {
   try {
     for (unsigned i = 1; i < wanted; ++i) others_.emplace_back([this] { workUntilNoneIsLeft(); });
   } catch (const std::system_error&) {
-    // No more threads to be had.
+    // No more threads are available.
   }
   most_ = kMostPerThread * others_.size();
 }

@@ -11,34 +11,34 @@
 
 namespace swept::detail {
 
-/// Threads that do what they are given, the first first. They end with this, as those of
-/// forEachIndex do with the call, and for the same reason.
+/// Threads that process a queue of work, first in, first out. They end with this object, for the
+/// same reason as those of forEachIndex end with the call.
 class WorkCrew {
  public:
-  /// On at most so many threads, the one that gives included (0: as many as there are processors).
-  /// Where no more can be started, those that there are do it all.
+  /// At most this many threads, including the one that adds work (0: as many as processors). If no
+  /// more can be started, the existing ones do all the work.
   explicit WorkCrew(unsigned threads);
-  /// All that was given is done.
+  /// Waits until all work is done.
   ~WorkCrew();
   WorkCrew(const WorkCrew&) = delete;
   WorkCrew& operator=(const WorkCrew&) = delete;
 
-  /// `work` must not throw. One thread gives; it does some itself where much is waiting, so that
-  /// what waits takes little memory.
+  /// Adds work, which must not throw. Only one thread adds; it does some work itself if much is
+  /// waiting, so that the queue takes little memory.
   void give(std::function<void()> work);
 
  private:
   void workUntilNoneIsLeft();
-  /// Some work that waits; empty: there is none, and no more to come.
+  /// Takes waiting work; empty: there is none, and no more will come.
   std::function<void()> next();
-  /// The same, but for what is to come.
+  /// The same, but does not wait for more.
   std::function<void()> nextAtOnce();
 
   std::mutex mutex_;
   std::condition_variable given_;
   std::deque<std::function<void()>> waiting_;
   bool isAll_ = false;
-  std::size_t most_ = 0;  ///< that may wait
+  std::size_t most_ = 0;  ///< largest number that may wait
   std::vector<std::thread> others_;
 };
 

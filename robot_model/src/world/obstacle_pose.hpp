@@ -7,7 +7,7 @@ namespace swept::detail {
 
 struct ObstaclePose {
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
-  /// m. No coordinate that the translation is made of is larger, however near what comes of them.
+  /// m. Upper bound on the terms of the translation's coordinates, however small their sums are.
   double magnitude = 0.0;
 };
 

@@ -65,7 +65,7 @@ bool isWithin(const Piece& piece, const Vector3d& point, double reach) {
   return distance(piece.shape, kPoint, shape_from_point, options).upper <= reach;
 }
 
-/// The robot's geometry where it was seen.
+/// The robot's geometry at its observed pose.
 class PlacedRobot {
  public:
   PlacedRobot(const Robot& robot, std::span<const double> state, double margin) {
@@ -76,7 +76,7 @@ class PlacedRobot {
     const auto size = static_cast<Eigen::Index>(state.size());
     detail::requireFullState(robot, Eigen::Map<const Eigen::VectorXd>(state.data(), size),
                              "withoutRobot", "the state");
-    // A group that moves nothing: every link hangs on the model frame, at the state.
+    // A group that moves nothing: every link is fixed to the model frame, at the state.
     const detail::KinematicModel model = detail::compileKinematics(
         robot, Group{},
         Eigen::Map<const Eigen::VectorXd>(state.data(), static_cast<Eigen::Index>(state.size())));
@@ -86,7 +86,7 @@ class PlacedRobot {
     }
   }
 
-  /// Some of it is within `reach` (m) of the point.
+  /// Whether some of it is within `reach` (m) of the point.
   bool isNear(const Vector3d& point, double reach) const {
     return std::ranges::any_of(links_, [&](const PlacedLink& link) {
       return link.box.inflated(reach).contains(point) &&
@@ -99,7 +99,7 @@ class PlacedRobot {
   std::vector<PlacedLink> links_;
 };
 
-/// Takes cubes of a map apart where they come near the robot.
+/// Divides cubes of a map where they come near the robot.
 class CubeFilter {
  public:
   CubeFilter(const PlacedRobot& robot, const Isometry3d& world_from_map, double margin,
@@ -109,7 +109,7 @@ class CubeFilter {
   void add(const OccupancyMap::Cube& cube) { addPart(cube, Vector3d::Zero(), 1.0); }
 
  private:
-  /// `middle` and `share`: of the part, in sides of the cube. All parts are rounded but once.
+  /// `middle` and `share`: of the part, in sides of the cube. All parts are rounded only once.
   void addPart(const OccupancyMap::Cube& cube, const Vector3d& middle, double share) {
     if (++parts_ > kMostParts) {
       refuse("cubes near the robot have more than " + std::to_string(kMostParts) +
@@ -124,7 +124,7 @@ class CubeFilter {
       kept_.occupied.push_back(part);
       return;
     }
-    // Of what is left out as a whole, no point is farther away than the margin.
+    // All points of a part that is removed as a whole are within the margin.
     if (smallest || (margin_ >= halfDiagonal && robot_.isNear(center, margin_ - halfDiagonal)))
       return;
     for (int corner = 0; corner < 8; ++corner) {
@@ -141,7 +141,7 @@ class CubeFilter {
   const Isometry3d& world_from_map_;
   double margin_;
   OccupancyMap& kept_;
-  int parts_ = 0;  ///< looked at
+  int parts_ = 0;  ///< parts tested
 };
 
 }  // namespace

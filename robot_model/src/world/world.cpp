@@ -37,7 +37,7 @@ void makeRigid(WorldBody& body) {
   }
 }
 
-/// Both or, where memory runs out, neither: a place without a body would be read.
+/// Adds both or, if memory runs out, neither: a place without a body would be read.
 template <typename Body, typename Places>
 void append(Body body, std::vector<Body>& all, Places& places) {
   const auto place = places.emplace(body.name, all.size()).first;
@@ -49,7 +49,7 @@ void append(Body body, std::vector<Body>& all, Places& places) {
   }
 }
 
-/// False: none of them has this name.
+/// Returns false if none has this name.
 template <typename Body, typename Places>
 bool removeNamed(std::string_view name, std::vector<Body>& all, Places& places) {
   const auto found = places.find(name);

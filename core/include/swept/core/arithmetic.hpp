@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// What the proofs assume of floating point, here and in each program that includes a header of
-/// swept, whose templates and inline functions are compiled with the program's flags: an operation
-/// is done as it is written, rounds once, to its own type, and knows NaN and infinity. No macro
-/// tells of fused multiply-adds; the CMake target and the pkg-config file of the core ask for
+/// What the proofs assume about floating point: an operation is done as written, rounds once, to
+/// its own type, and knows NaN and infinity. This must also hold in each program that includes a
+/// header of swept, since the program's flags apply to templates and inline functions. No macro
+/// reveals fused multiply-adds; so the CMake target and the pkg-config file of the core set
 /// -ffp-contract=off.
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ != 0)

@@ -8,10 +8,10 @@
 
 namespace swept {
 
-/// The rotation by the least angle that takes z to the direction of `axis`, whose length does not
-/// matter; for -z, where all directions are as near, the half turn about x. `axis` is finite and
-/// not zero. Within a few roundings of a rotation for every axis; the quaternion between the two
-/// vectors is not, for axes near -z.
+/// The rotation by the least angle that takes z to the direction of `axis`; for -z the half turn
+/// about x. `axis` is finite and not zero; its length does not matter. The result is within a few
+/// roundings of a rotation for every axis. (The quaternion between the two vectors is not, for axes
+/// near -z.)
 inline Eigen::Matrix3d axisFrame(const Eigen::Vector3d& axis) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return axisFrame(axis); });

@@ -7,7 +7,7 @@
 
 namespace swept {
 
-/// Ball that contains a shape; of infinite radius for planes and half-spaces.
+/// Ball that contains a shape. Its radius is infinite for planes and half-spaces.
 struct BoundingSphere {
   Eigen::Vector3d center;  ///< m, in the shape's frame
   double radius;           ///< m, rounded outward

@@ -16,56 +16,59 @@ namespace detail {
 struct ClearanceField;
 }
 
-/// Where clearances are wanted, and what they may cost.
+/// Options of ClearanceGrid::build().
 struct ClearanceGridOptions {
-  /// m, the shape's frame: where clearances are wanted. Where it does not meet the shape's box, the
-  /// grid is that of the whole shape.
+  /// m, the shape's frame: the region of interest. If it does not meet the shape's box, the grid
+  /// covers the whole shape.
   Aabb window{Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
               Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
-  /// About how many at most, of two to four bytes each; 1000 to 2^27. There are fewer where a voxel
-  /// would be below 3 mm, or so small that it would take long to mark those that the shape meets.
+  /// About the largest number of cells, of two to four bytes each; 1000 to 2^27. There are fewer if
+  /// a voxel would be below 3 mm, or so small that it would take long to mark the occupied voxels.
   std::size_t cells = std::size_t{1} << 19;
 };
 
 /// Proven lower bounds of the distance from a triangle mesh (with what it encloses, unless it is
-/// MeshInterior::Surface) or a point cloud's balls, looked up in some nanoseconds: a grid of cells,
-/// and one of voxels, half as large, near the shape. Immutable; copies share the data. Queries
-/// allocate nothing, and any thread may ask.
+/// MeshInterior::Surface) or from a point cloud's balls. A look-up takes some nanoseconds. There is
+/// a grid of cells, and near the shape one of voxels, half as large. Immutable; copies share the
+/// data. Queries allocate nothing, and any thread may call them.
 class ClearanceGrid {
  public:
   /// Throws std::invalid_argument for a shape of another kind, for a window whose lower corner is
-  /// not below the upper one or the same, for a number of cells out of range, and for a shape that
-  /// reaches beyond 1e30 m within the window, or 1e40 m at all.
+  /// above the upper one, for a number of cells out of range, and for a shape that reaches beyond
+  /// 1e30 m within the window, or 1e40 m at all.
   static ClearanceGrid build(const Shape& shape, const ClearanceGridOptions& options = {});
 
-  /// m; the point (m, the shape's frame) is at least this far from the shape, all roundings
-  /// included; 0 where it may be in it, and for a point that is not finite.
+  /// m. Proven lower bound of the distance of `point` (m, the shape's frame) from the shape, all
+  /// roundings included. 0 if the point may be in the shape or is not finite.
   ///
-  /// How much less than the distance d it can be, for points in box(): at least the lesser of
-  /// d - error() and reach(), up to rounding (1e-11 of the coordinates). For a cloud no less than
-  /// d - 3.5 voxel() where d is below 4 voxels. Two things count as the shape: everything beyond a
-  /// face of box() where the window cut the shape off; and what the triangles of a solid shut off
-  /// from the outside where there are less than four cells, or a thousand larger rooms.
-  /// For points beyond box(): the root of the sum of the squares of the distance from it and of the
-  /// clearance of its nearest point; zero beyond a face where the shape was cut off. That is never
-  /// less than the distance from box(). For coordinates above 1e150 m a third of it at least.
+  /// For points in box() at distance d, the bound is at least the lesser of d - error() and
+  /// reach(), up to rounding (1e-11 of the coordinates). For a cloud it is at least d - 3.5 voxel()
+  /// if d is below 4 voxels. Two things count as part of the shape: everything beyond a face of
+  /// box() where the window cut the shape off; and space that the triangles of a solid shut off
+  /// from the outside, if it has less than four cells, or if there are already a thousand larger
+  /// rooms.
+  /// For points beyond box(), the bound is the root of the sum of two squares: that of the distance
+  /// from box(), and that of the clearance of the nearest point of box(). It is zero beyond a face
+  /// where the shape was cut off. It is never less than the distance from box(); for coordinates
+  /// above 1e150 m, at least a third of it.
   double clearance(const Eigen::Vector3d& point) const;
 
-  /// The same of many, in less than half the time each. Throws std::invalid_argument unless there
-  /// are as many bounds.
+  /// m. clearance() of many points, in less than half the time each. Throws std::invalid_argument
+  /// unless `bounds` has as many elements as `points`.
   void clearances(std::span<const Eigen::Vector3d> points, std::span<double> bounds) const;
 
-  /// Whether the ball (m, the shape's frame) is proven to keep off the shape: clearance(center) >
-  /// radius, found sooner. False for what is not a number. Where it is false, isFarther of
-  /// segment_query.hpp tells.
+  /// Whether the ball (m, the shape's frame) is proven not to touch the shape: clearance(center) >
+  /// radius, but found sooner. False for NaN. If it is false, isFarther() of segment_query.hpp
+  /// decides.
   bool isFarther(const Eigen::Vector3d& center, double radius) const;
 
   double voxel() const;  ///< m, side of a voxel
-  /// m, 9 voxels; see clearance(). Of a cloud less than 7.1. The mean is about a quarter of it.
+  /// m, 9 voxels; see clearance(). For a cloud less than 7.1. The mean error is about a quarter of
+  /// it.
   double error() const;
   double reach() const;     ///< m, 37 voxels; see clearance()
-  const Aabb& box() const;  ///< m, around the shape, or its part in the window, and a bit larger
-  /// On the heap, of both grids.
+  const Aabb& box() const;  ///< m. Contains the shape, or its part in the window; slightly larger
+  /// Bytes on the heap of both grids.
   std::size_t bytes() const;
   /// The arrays (clearance_field.hpp).
   const std::shared_ptr<const detail::ClearanceField>& field() const;

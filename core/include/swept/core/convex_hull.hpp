@@ -17,18 +17,18 @@ class SupportPoints;
 
 /// Solid convex hull of a set of points.
 ///
-/// Keeps the points that are extreme; every given point lies in the hull of the kept ones grown by
-/// `error()`. Queries against a hull add that error to their rounding bound, so dropping a point
-/// can never make something Free.
+/// It keeps the extreme points. Every given point lies in the hull of the kept points grown by
+/// `error()`. Queries add that error to their rounding bound, so a dropped point can never make
+/// something Free.
 class ConvexHull {
  public:
-  /// Throws std::invalid_argument when `points` is empty or holds a non-finite coordinate. Flat and
-  /// degenerate sets (a point, a segment, a polygon) are hulls too.
+  /// The hull of `points` (m). Flat and degenerate sets (a point, a segment, a polygon) are hulls
+  /// too. Throws std::invalid_argument when `points` is empty or holds a non-finite coordinate.
   static ConvexHull of(std::span<const Eigen::Vector3d> points);
-  /// Of at most kCoarse vertices of `hull`, those farthest along directions that are spread evenly;
-  /// the others lie within `error()` of it. A hull of no more than kFew vertices stays as it is.
+  /// The hull of at most kCoarse vertices of `hull`: those farthest along evenly spread directions.
+  /// The other vertices lie within `error()` of it. A hull of at most kFew vertices stays as it is.
   static ConvexHull coarser(const ConvexHull& hull);
-  /// Larger by a factor above zero from a middle (m), and so is `error()`.
+  /// The hull scaled by a factor above zero about the point `middle` (m); `error()` is scaled, too.
   static ConvexHull scaled(const ConvexHull& hull, double factor, const Eigen::Vector3d& middle);
   static constexpr std::size_t kFew = 400;  ///< vertices
   static constexpr int kCoarse = 192;       ///< vertices
@@ -39,9 +39,9 @@ class ConvexHull {
   const std::vector<Eigen::Vector3i>& faces() const { return data_->faces; }
   double error() const { return data_->error; }    ///< m
   double extent() const { return data_->extent; }  ///< m, no vertex is farther from the origin
-  /// Of the vertices: the smallest, but for rounding. The hull itself is larger by `error()`.
+  /// The smallest ball around the vertices, up to rounding. The hull itself is larger by `error()`.
   const BoundingSphere& ball() const { return data_->ball; }
-  /// The vertices as support queries read them.
+  /// The vertices in the form that support queries read.
   const detail::SupportPoints& supportPoints() const { return *data_->supportPoints; }
 
  private:

@@ -10,25 +10,26 @@
 
 #include "swept/core/arithmetic.hpp"
 
-/// The proofs count roundings to nearest, of results that may be denormal: the default environment.
-/// A program may have set another one for its thread (std::fesetround, flush to zero or denormals
-/// are zero for an audio or solver library, a compiler's start code for -ffast-math).
+/// The proofs assume the default environment: rounding to nearest, with denormal results. A program
+/// may have set another one for its thread (std::fesetround; flush to zero or denormals are zero
+/// for an audio or solver library; a compiler's start code for -ffast-math).
 ///
 /// Every function of swept that computes runs in the default environment, whatever the caller's is,
-/// and gives the same bits. The caller's comes back when it ends, by return or exception, with the
-/// exceptions masked that were masked; flags that the function raised stay raised, as with any
-/// arithmetic. What the function calls of the program's own (visitors, motions, rules, distance
-/// functions, OMPL's callbacks) runs in the default environment, too, but for a shorter long
-/// double, and leaves it as it was.
-/// Left out are members defined within a class that compare or add a few numbers (Aabb::overlaps,
-/// center(), ApproachBound::along() ...): they compute where they are called. Comparisons err
-/// towards overlap there, and the bounds that queries put on roundings are wide enough for both.
+/// and gives the same bits. The caller's environment is back when the function ends, by return or
+/// exception. Masks of exceptions do not change; flags that the function raised stay raised, as
+/// with any arithmetic. Callbacks of the program (visitors, motions, rules, distance functions,
+/// OMPL's callbacks) run in the default environment, too, except for a shorter long double, and
+/// leave it as it was.
+/// Members defined within a class that compare or add a few numbers (Aabb::overlaps, center(),
+/// ApproachBound::along() ...) are left out: they compute in the caller's environment. There,
+/// comparisons err towards overlap, and the bounds that queries put on roundings are wide enough
+/// for both.
 namespace swept {
 
 namespace detail {
 
-/// What is not the default in the control register of the thread: rounding that is not to nearest,
-/// results or operands of denormals that count as zero.
+/// Whether the thread's control register differs from the default: rounding is not to nearest, or
+/// denormal results or operands count as zero.
 inline bool inForeignEnvironment() {
 #if defined(__GNUC__) && defined(__SSE2__)
   constexpr std::uint32_t kRoundingOrZeros = 0xE040;
@@ -45,8 +46,8 @@ inline bool inForeignEnvironment() {
 #endif
 }
 
-/// The same of long double, where that has a register of its own: rounding, or a precision that is
-/// less than its type's.
+/// The same for long double, if it has its own register: rounding is not to nearest, or the
+/// precision is less than its type's.
 inline bool inForeignPrecision() {
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__))
   constexpr std::uint16_t kRoundingAndPrecision = 0x0F00, kDefault = 0x0300;
@@ -64,13 +65,14 @@ void runInDefaultEnvironment(void (*query)(void*), void* closure);
 
 }  // namespace detail
 
-/// What `query()` returns, computed in the default environment: for code of one's own that calls
-/// many functions of swept, or OMPL's planners, which compute between its calls.
+/// Returns query(), computed in the default environment. Use it for your own code that calls many
+/// functions of swept, or for OMPL's planners, which compute between its calls.
 ///
-/// An object that changes the environment and restores it would not do: to a compiler a change of
-/// the control register has nothing to do with arithmetic, which it moves across. Here all of it is
-/// in a function that is called by an address the compiler cannot know, from a function that does
-/// no arithmetic. So none gets out, and results are in memory before the environment changes back.
+/// An object that changes the environment and restores it would not work. A compiler sees no
+/// connection between the control register and arithmetic, and moves arithmetic across the change.
+/// Here all arithmetic is in a function called through an address that the compiler cannot know,
+/// from a function that does no arithmetic. So no arithmetic moves out, and results are in memory
+/// before the environment changes back.
 ///
 /// swept's own functions begin with
 ///
@@ -78,7 +80,8 @@ void runInDefaultEnvironment(void (*query)(void*), void* closure);
 ///       return inDefaultEnvironment([&] { return f(x); });  // itself
 ///     }
 ///
-/// What follows, and may move before the question, is used in the default environment alone.
+/// The code after this runs only in the default environment, even if the compiler moves it before
+/// the question.
 template <typename Query>
 #if defined(__GNUC__)
 [[gnu::noinline]]

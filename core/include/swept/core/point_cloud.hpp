@@ -15,34 +15,36 @@ namespace detail {
 class WideBvh;
 }
 
-/// Points, each standing for a ball (what a sensor may be off by, or half a voxel), with a
-/// hierarchy over them. A union of solids: what its balls surround is not part of it. Immutable;
-/// copies share the data: less than 40 bytes a point, and 8 more where radii differ.
+/// Points with a hierarchy over them. Each point stands for a ball, whose radius is the sensor's
+/// error or half a voxel. The cloud is the union of these solid balls; space that the balls
+/// surround is not part of it. Immutable; copies share the data: less than 40 bytes a point, and 8
+/// more if radii differ.
 class PointCloud {
  public:
-  /// `radius`: m. At most 2^30 points. Throws std::invalid_argument when `points` is empty, for a
-  /// non-finite coordinate, and for a radius that is negative or not finite; names the point or the
-  /// value.
+  /// A cloud of at most 2^30 points (m) with one radius (m). Throws std::invalid_argument when
+  /// `points` is empty, for a non-finite coordinate, and for a radius that is negative or not
+  /// finite; names the point or the value.
   static PointCloud build(std::span<const Eigen::Vector3d> points, double radius);
-  /// With a radius (m) for each point. Throws likewise, and for another number of radii.
+  /// With a radius (m) for each point. Throws likewise, and if the numbers of points and radii
+  /// differ.
   static PointCloud build(std::span<const Eigen::Vector3d> points, std::span<const double> radii);
 
   /// m, in the order of the hierarchy.
   const std::vector<Eigen::Vector3d>& points() const { return data_->points; }
   /// For each of points(), its index among the points given.
   const std::vector<int>& sourceIndices() const { return data_->sourceIndices; }
-  /// m, of points()[point].
+  /// m, radius of the ball around points()[point].
   double radius(std::size_t point) const {
     return data_->radii.empty() ? data_->largestRadius : data_->radii[point];
   }
   double largestRadius() const { return data_->largestRadius; }  ///< m
   double leastRadius() const { return data_->leastRadius; }      ///< m
-  /// Contains the points, without their balls: their convex hull, or for more than
-  /// ConvexHull::kFew of them a body of few vertices around it.
+  /// Contains the points, without their balls. It is their convex hull, or a body of few vertices
+  /// around it if there are more than ConvexHull::kFew points.
   const ConvexHull& hull() const { return data_->hull; }
   /// The hierarchy, for the queries.
   const detail::WideBvh& bvh() const { return *data_->bvh; }
-  /// On the heap.
+  /// Bytes on the heap.
   std::size_t bytes() const;
 
  private:

@@ -10,32 +10,33 @@
 
 namespace swept {
 
-/// The points center + s half, |s| <= 1, such as the middle of a moving ball passes.
+/// The points center + s half, |s| <= 1, such as the path of a moving ball's centre.
 struct LineSegment {
   Eigen::Vector3d center;                          ///< m
   Eigen::Vector3d half = Eigen::Vector3d::Zero();  ///< m
 };
 
 ///@{
-/// Whether the triangles (not what they enclose), or the balls of a cloud, are all proven to be
-/// farther than `radius` (m, not negative) from the whole segment (in their frame). Does not find
-/// the distance, which makes it many times faster than distance(). May miss a proof where the two
-/// are within about 1e-6 of the shape's size of that radius. False for what is not finite.
+/// Whether all triangles (not what they enclose), or all balls of a cloud, are proven to be farther
+/// than `radius` (m, not negative) from the whole segment (in their frame). It does not compute the
+/// distance, and is therefore many times faster than distance(). It may miss a proof if the
+/// distance is within about 1e-6 of the shape's size of that radius. False for non-finite input.
 bool isFarther(const TriangleMesh& mesh, const LineSegment& segment, double radius);
 bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radius);
 ///@}
 
-/// m; proven: how far `point` (m, the cloud's frame) is from the nearest ball at least, less by
-/// some roundings of the coordinates alone; within balls, minus the depth in the one where it is
-/// deepest. Where that is `enough` (m) or more, `enough`, which is found sooner. Minus infinity for
-/// a point that is not finite. The clearance of a ball around the point is less by its radius.
+/// m. Proven lower bound of the distance from `point` (m, the cloud's frame) to the nearest ball;
+/// it is too small only by some roundings of the coordinates. Within balls it is minus the depth in
+/// the ball where the point is deepest. If the bound is `enough` (m) or more, returns `enough`,
+/// which is faster. Minus infinity for a non-finite point. For a ball around the point, subtract
+/// its radius.
 double clearance(const PointCloud& cloud, const Eigen::Vector3d& point,
                  double enough = std::numeric_limits<double>::infinity());
 
 ///@{
-/// A point (m) of a triangle, or in a ball of a cloud, that is not farther than `radius` (m) from
-/// `point`, up to rounding in double precision; the first one found. None: there is no such point,
-/// but perhaps where it is within about 1e-6 of the shape's size of that radius.
+/// A point (m) of a triangle, or in a ball of a cloud, that is at most `radius` (m) from `point`,
+/// up to rounding in double precision; the first one found. No value: there is no such point. (One
+/// whose distance is within about 1e-6 of the shape's size of that radius may be missed.)
 std::optional<Eigen::Vector3d> pointWithin(const TriangleMesh& mesh, const Eigen::Vector3d& point,
                                            double radius);
 std::optional<Eigen::Vector3d> pointWithin(const PointCloud& cloud, const Eigen::Vector3d& point,

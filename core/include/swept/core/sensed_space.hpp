@@ -9,10 +9,10 @@
 
 namespace swept {
 
-/// m; from each of cloud.points() to the k-th nearest other one (k >= 1), balls not counted. About
-/// how far apart samples of a surface are: balls of half of that for k = 4 nearly touch their
-/// neighbours, and a point whose distance is many times the usual one is likely to be noise. Of a
-/// cloud of k points or fewer infinite. Throws std::invalid_argument for k < 1.
+/// m. Distance from each of cloud.points() to its k-th nearest other point (k >= 1), without radii.
+/// It measures the spacing of samples of a surface: with k = 4, balls of half that distance nearly
+/// touch their neighbours. A point whose distance is many times the usual one is probably noise.
+/// Infinite for a cloud of k points or fewer. Throws std::invalid_argument for k < 1.
 std::vector<double> neighborDistances(const PointCloud& cloud, int k);
 
 /// Balls of different sizes, as PointCloud::build takes them.
@@ -21,12 +21,12 @@ struct Balls {
   std::vector<double> radii;             ///< m
 };
 
-/// What a sensor at `sensor` (m) cannot have seen, to be taken for occupied: for each point that it
-/// saw, balls along the ray from the point on, up to `range` (m) from the sensor. They contain
-/// whatever the point's ball of `radius` (m) hides, that is all points behind it whose straight way
-/// to the sensor meets it. Where the balls of neighbouring points overlap, there is no gap between
-/// their shadows. About ln(range / d) d / radius balls for a point at the distance d; those of the
-/// points themselves are not among them. A point whose ball contains the sensor, or that is out of
+/// The space that a sensor at `sensor` (m) cannot have seen, to be treated as occupied. For each
+/// point that the sensor saw, balls follow the ray beyond the point, up to `range` (m) from the
+/// sensor. They contain everything that the point's ball of `radius` (m) hides: all points behind
+/// it whose straight line to the sensor meets it. Where the balls of neighbouring points overlap,
+/// their shadows have no gap. A point at the distance d gives about ln(range / d) d / radius balls,
+/// not counting the point's own ball. A point whose ball contains the sensor, or that is out of
 /// range, hides nothing.
 ///
 /// Throws std::invalid_argument for numbers that are not finite, for a radius or a range that is

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Which of the instruction sets that a kernel is compiled for runs. For sources of swept that are
-/// compiled with Highway; not installed.
+/// Selects the instruction set that a kernel runs with. For sources of swept that are compiled with
+/// Highway; not installed.
 ///
-/// Highway's own library does the same (HWY_EXPORT, HWY_DYNAMIC_DISPATCH), but measures the
+/// Highway's own library does the same (HWY_EXPORT, HWY_DYNAMIC_DISPATCH). But it measures the
 /// processor's clock when it is loaded, with an instruction (`rdtscp`) that valgrind does not know
-/// on every processor: a program linked to it ends before `main`. So of Highway only headers are
-/// used.
+/// on every processor, and such a program ends before `main`. So swept uses only Highway's headers.
 #pragma once
 
 #include <hwy/targets.h>
@@ -14,18 +13,18 @@
 
 namespace swept::detail {
 
-/// Bits of Highway (`HWY_AVX2`, ...): instruction sets that the processor has and the operating
-/// system saves, and the one that the library is compiled for anyway. On other processors than
-/// x86-64, the latter alone.
+/// Bits of Highway (`HWY_AVX2`, ...) for the instruction sets that the processor has and the
+/// operating system saves, and for the one that the library is compiled for anyway. On processors
+/// other than x86-64, only the latter.
 std::int64_t processorTargets();
 
-/// What dispatch goes by: processorTargets(), until a test says otherwise (`Update`).
+/// The target that dispatch uses: processorTargets(), until a test changes it (`Update`).
 hwy::ChosenTarget& chosenTarget();
 
 }  // namespace swept::detail
 
-/// After Highway's `HWY_ONCE`, in the namespace around HWY_NAMESPACE: makes FUNCTION, compiled for
-/// several instruction sets, known to SWEPT_DISPATCH.
+/// Use after Highway's `HWY_ONCE`, in the namespace around HWY_NAMESPACE. Registers FUNCTION,
+/// compiled for several instruction sets, for SWEPT_DISPATCH.
 #define SWEPT_DISPATCH_TABLE(FUNCTION)                                               \
   static constexpr decltype(&HWY_STATIC_DISPATCH(FUNCTION)) FUNCTION##ByTarget[] = { \
       nullptr, HWY_CHOOSE_TARGET_LIST(FUNCTION), HWY_CHOOSE_FALLBACK(FUNCTION)}

@@ -7,11 +7,11 @@
 
 namespace swept {
 
-/// m, proven: the ball of this radius around `point` (m, the shape's frame) lies in the solid. 0
-/// where the point is outside or on its surface, for surfaces (see `MeshInterior`), and for a point
-/// that is not finite. For meshes and for primitives it is the distance from the surface but for
-/// roundings, for meshes 4e-6 of their extent and of the point's distance from their middle
-/// (1-norms); a mesh of several closed components that overlap may be deeper.
+/// m. Proven radius of a ball around `point` (m, the shape's frame) that lies in the solid. 0 if
+/// the point is outside or on the surface, for surfaces (see `MeshInterior`), and for a non-finite
+/// point. For meshes and primitives it is the distance from the surface up to rounding; for meshes
+/// 4e-6 of their extent and of the point's distance from their centre (1-norms). A mesh of several
+/// overlapping closed components may be deeper.
 double solidDepth(const Shape& shape, const Eigen::Vector3d& point);
 
 }  // namespace swept

@@ -13,34 +13,34 @@ namespace swept {
 
 class WorkspacePool;
 
-/// Of which pairs a clearance is.
+/// The pairs that a clearance covers.
 enum class ClearanceOf : std::uint8_t {
-  World,  ///< of links and attached bodies with the world
-  Self,   ///< of links and attached bodies with each other
+  World,  ///< pairs of links and attached bodies with the world
+  Self,   ///< pairs of links and attached bodies with each other
   All,    ///< whichever is less
 };
 
-/// The least clearance (m) along a path is to be as large as possible; of a motion it is a proven
-/// lower bound for every instant, where OMPL's MaximizeMinClearanceObjective looks at the ends
-/// only. For planners that optimise; any number of threads may ask.
+/// Maximises the least clearance (m) along a path. For a motion it is a proven lower bound for
+/// every instant; OMPL's MaximizeMinClearanceObjective tests only the ends. For planners that
+/// optimise. Any number of threads may use it.
 ///
-/// It is that to the world unless told otherwise. Many arms have links that are a constant
-/// centimetre apart in every state (forearm and wrist, say): the least of all pairs is that of
-/// those two on every path that comes no nearer to an obstacle, so that an optimising planner sees
-/// no difference between a path along a wall and one through the open. Which pairs count says
-/// nothing of what is valid: that is the space information's.
+/// By default it is the clearance to the world. Many arms have links that are a constant centimetre
+/// apart in every state (forearm and wrist, say). These two then have the least clearance on every
+/// path that comes no nearer to an obstacle, and an optimising planner would see no difference
+/// between a path along a wall and one through the open. The choice of pairs does not affect
+/// validity, which the space information decides.
 class CertifiedClearanceObjective : public ompl::base::MaximizeMinClearanceObjective {
  public:
-  /// `accuracy`: m, of the bounds of motions: the smaller, the more work. Where the checker has no
+  /// `accuracy`: m, of the bounds for motions; a smaller one needs more work. If the checker has no
   /// pair of the kind, all paths have an infinite clearance. Throws std::invalid_argument as
-  /// ValidityChecker, and for an accuracy that is not a positive number.
+  /// ValidityChecker does, and for an accuracy that is not a positive number.
   CertifiedClearanceObjective(const ompl::base::SpaceInformationPtr& si,
                               std::shared_ptr<const Checker> checker, double accuracy = 1e-3,
                               ClearanceOf pairs = ClearanceOf::World);
   ~CertifiedClearanceObjective() override;
-  /// m, as of StateReport: a proven lower bound; 0 in contact.
+  /// m. Proven lower bound for a state, as in StateReport; 0 in contact.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
-  /// m, proven for the whole motion between the two states.
+  /// m. Proven lower bound for the whole motion between the two states.
   ompl::base::Cost motionCost(const ompl::base::State* s1,
                               const ompl::base::State* s2) const override;
 

@@ -25,13 +25,13 @@ namespace swept {
 
 namespace detail {
 
-/// States of one space of limited joints, by numbers that the caller gives them.
+/// States of one space of limited joints, with numbers that the caller gives them.
 class JointTree {
  public:
-  /// Told of the states that may be near enough.
+  /// Receives the states that may be near enough.
   class Candidates {
    public:
-    /// Returns the distance from which on states are of no interest any more.
+    /// Returns the distance from which on states do not matter any more.
     virtual double consider(std::uint32_t index) = 0;
 
    protected:
@@ -42,16 +42,17 @@ class JointTree {
   ~JointTree();
 
   void clear();
-  /// False, and nothing has happened, for a state that makeStateSpace's space of a group of limited
-  /// joints has not made, or another one than the space of those before.
+  /// Adds a state. Returns false, and changes nothing, for a state that is not from
+  /// makeStateSpace's space of a group of limited joints, or from another space than the states
+  /// before.
   bool add(const ompl::base::State* state, std::uint32_t index);
-  /// The values have to be those that were added.
+  /// Removes a state. Its values must be those that were added.
   void remove(const ompl::base::State* state, std::uint32_t index);
-  /// Offers all that are nearer than what `consider` returned last, at first `within`, and a few
-  /// more. False, and nothing is offered, for a state of another space.
+  /// Offers all states nearer than the last return value of `consider`, at first `within`, and a
+  /// few more. Returns false, and offers nothing, for a state of another space.
   bool search(const ompl::base::State* state, double within, Candidates& candidates) const;
-  /// Adds those that may be the nearest one, in single precision: mostly it alone. False, and
-  /// nothing is added, for a state of another space.
+  /// Adds the states that may be the nearest, in single precision: usually one. Returns false, and
+  /// adds nothing, for a state of another space.
   bool nearest(const ompl::base::State* state, std::vector<std::uint32_t>& nearest) const;
 
  private:
@@ -64,17 +65,17 @@ class JointTree {
 }  // namespace detail
 
 /// Nearest neighbours for OMPL's planners, several times as fast as OMPL's own for groups whose
-/// joints all have limits, up to large trees:
+/// joints all have limits, up to large trees. Call
 ///
 ///     swept::useNearestStates(*planner);
 ///
 /// before the planner's tree has grown. Answers are exact: those of the planner's distance
-/// function, sorted; of states that are equally near any. For states of other spaces, and for what
-/// has no `state` (the vertices of PRM), it is OMPL's NearestNeighborsGNAT. Threads may ask at the
-/// same time while none adds or removes.
+/// function, sorted; among states that are equally near, any. For states of other spaces, and for
+/// elements without a `state` (the vertices of PRM), it uses OMPL's NearestNeighborsGNAT. Several
+/// threads may query at the same time while none adds or removes.
 ///
-/// A k-d tree (Bentley, Multidimensional binary search trees, CACM 1975) whose leaves hold many
-/// states and are looked through in SIMD lanes, in single precision with a bound on its error; the
+/// It is a k-d tree (Bentley, Multidimensional binary search trees, CACM 1975). Its leaves hold
+/// many states and are scanned in SIMD lanes, in single precision with a bound on its error. The
 /// distance function decides about the few that may be the nearest.
 template <typename T>
 class NearestStates : public ompl::NearestNeighbors<T> {
@@ -82,16 +83,16 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   /// Distance of two elements.
   using DistanceFunction = typename ompl::NearestNeighbors<T>::DistanceFunction;
 
-  /// The metric of the planner's space; call it before anything is added.
+  /// Sets the metric of the planner's space; call it before anything is added.
   void setDistanceFunction(const DistanceFunction& distance) override {
     ompl::NearestNeighbors<T>::setDistanceFunction(distance);
     if (others_) others_->setDistanceFunction(distance);
   }
 
-  /// True: nearest first.
+  /// Always true: nearest first.
   bool reportsSortedResults() const override { return true; }
 
-  /// Forgets all elements, and what kind of states they had.
+  /// Forgets all elements, and the kind of their states.
   void clear() override {
     tree_.clear();
     items_.clear();
@@ -100,7 +101,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   }
 
   using ompl::NearestNeighbors<T>::add;
-  /// Its state must not change until it is removed.
+  /// Adds an element. Its state must not change until it is removed.
   void add(const T& data) override {
     if (detail::inForeignEnvironment()) {
       return inDefaultEnvironment([&] { return NearestStates::add(data); });
@@ -110,7 +111,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     others_->add(data);
   }
 
-  /// False: it is not there.
+  /// Removes an element. Returns false if it is not there.
   bool remove(const T& data) override {
     if (detail::inForeignEnvironment()) {
       return inDefaultEnvironment([&] { return NearestStates::remove(data); });
@@ -126,7 +127,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     return false;
   }
 
-  /// Throws ompl::Exception when there is none.
+  /// The nearest element. Throws ompl::Exception if there is none.
   T nearest(const T& data) const override {
     if (detail::inForeignEnvironment()) {
       return inDefaultEnvironment([&] { return NearestStates::nearest(data); });
@@ -140,7 +141,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     return *items_[closest(data, 1, kAnywhere).front().second];
   }
 
-  /// The k nearest, or all if there are fewer; instead of what is in `found`.
+  /// Replaces `found` by the k nearest elements, or all if there are fewer.
   void nearestK(const T& data, std::size_t k, std::vector<T>& found) const override {
     if (detail::inForeignEnvironment()) {
       return inDefaultEnvironment([&, k] { return NearestStates::nearestK(data, k, found); });
@@ -150,7 +151,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     if (k > 0) collect(closest(data, k, kAnywhere), found);
   }
 
-  /// Those not farther than `radius`, in the metric; instead of what is in `found`.
+  /// Replaces `found` by the elements not farther than `radius`, in the metric.
   void nearestR(const T& data, double radius, std::vector<T>& found) const override {
     if (detail::inForeignEnvironment()) {
       return inDefaultEnvironment(
@@ -161,12 +162,12 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     collect(closest(data, items_.size(), radius), found);
   }
 
-  /// Elements that are there.
+  /// Number of elements.
   std::size_t size() const override {
     return others_ ? others_->size() : items_.size() - unused_.size();
   }
 
-  /// All elements, in no particular order; instead of what is in `all`.
+  /// Replaces `all` by all elements, in no particular order.
   void list(std::vector<T>& all) const override {
     if (others_) return others_->list(all);
     all.clear();
@@ -180,7 +181,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   static constexpr bool kHasState = requires(const T& data) {
     static_cast<const ompl::base::State*>(data->state);
   };
-  using Found = std::vector<std::pair<double, std::uint32_t>>;  ///< distances, and of which items
+  using Found = std::vector<std::pair<double, std::uint32_t>>;  ///< distances and item numbers
 
   /// The k nearest within a radius, as a heap with the farthest on top.
   class Closest final : public detail::JointTree::Candidates {
@@ -213,7 +214,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     Found found_;
   };
 
-  /// The distance function is not asked where there is no choice.
+  /// The nearest of the candidates. Does not call the distance function if there is only one.
   std::uint32_t nearestOf(const std::vector<std::uint32_t>& candidates, const T& data) const {
     std::uint32_t nearest = candidates.front();
     if (candidates.size() == 1) return nearest;
@@ -225,7 +226,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     return nearest;
   }
 
-  /// k > 0.
+  /// The k nearest elements within the radius; k > 0.
   Found closest(const T& data, std::size_t k, double radius) const {
     Closest closest(*this, data, k, radius);
     if constexpr (kHasState) {
@@ -268,22 +269,22 @@ class NearestStates : public ompl::NearestNeighbors<T> {
 
   detail::JointTree tree_;
   std::vector<std::optional<T>> items_;                ///< by their numbers in the tree
-  std::vector<std::uint32_t> unused_;                  ///< of the numbers
-  std::unique_ptr<ompl::NearestNeighbors<T>> others_;  ///< instead, for other states
+  std::vector<std::uint32_t> unused_;                  ///< unused numbers
+  std::unique_ptr<ompl::NearestNeighbors<T>> others_;  ///< used instead for other states
 };
 
-/// Gives a planner these nearest neighbours where OMPL lets it have others than its own and they
-/// help. Its tree is cleared. False, and nothing has happened, for all others.
+/// Gives a planner these nearest neighbours, if OMPL accepts others than its own and they help.
+/// Clears the planner's tree. Returns false, and changes nothing, for all other planners.
 ///
-/// Done: RRT, RRTConnect, RRTstar, InformedRRTstar, SORRTstar, LazyRRT, LBTRRT, LazyLBTRRT, BiTRRT,
-/// pRRT, and what derives from these. RRTXstatic and RRTsharp, too, once they have their problem
-/// definition, which OMPL wants first.
+/// Supported: RRT, RRTConnect, RRTstar, InformedRRTstar, SORRTstar, LazyRRT, LBTRRT, LazyLBTRRT,
+/// BiTRRT, pRRT, and derived planners. RRTXstatic and RRTsharp, too, once they have their problem
+/// definition, which OMPL needs first.
 ///
-/// Not done: BITstar, ABITstar and AITstar, whose setNearestNeighbors is in none of OMPL's
-/// libraries, so that a program that calls it does not link (seen with 1.5.2). PRM, LazyPRM, SPARS
-/// and SPARStwo, whose vertices have no `state`; and of these, those that were given others before
-/// setup() never tell them the metric, so that a query throws std::bad_function_call. TRRT, which
-/// asks for the size of a tree that it does not have yet. SST, and planners that take no others.
+/// Not supported: BITstar, ABITstar and AITstar, whose setNearestNeighbors is in none of OMPL's
+/// libraries, so a program that calls it does not link (seen with 1.5.2). PRM, LazyPRM, SPARS and
+/// SPARStwo, whose vertices have no `state`; if they are given other nearest neighbours before
+/// setup(), some never set the metric, and a query throws std::bad_function_call. TRRT, which asks
+/// for the size of a tree that does not exist yet. SST, and planners that accept no others.
 bool useNearestStates(ompl::base::Planner& planner);
 
 }  // namespace swept

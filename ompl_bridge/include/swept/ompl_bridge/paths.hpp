@@ -11,11 +11,11 @@
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 
-/// What planners have found: its configurations, and certificates for it.
+/// Paths and roadmaps of planners: their configurations and certificates.
 namespace swept {
 
-/// The states of a path, in order, as configurations of the checker's group. Throws
-/// std::invalid_argument when the path is not of that group.
+/// The states of a path, in order, as configurations of the checker's group (rad, m). Throws
+/// std::invalid_argument if the path is not of that group.
 std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeometric& path,
                                                   const Checker& checker);
 
@@ -25,35 +25,35 @@ std::vector<std::vector<double>> configurationsOf(const ompl::geometric::PathGeo
 std::vector<MotionCertificate> certifyPath(const ompl::geometric::PathGeometric& path,
                                            const Checker& checker);
 
-/// Simplifies a path with OMPL's PathSimplifier, as its space information checks motions, for about
-/// `time` s; `goal`, if given, lets it shorten the path's end. What comes out is certified anew:
-/// the path becomes that only if every segment is proven free and it is not longer, and stays as it
-/// was otherwise. Returns the certificates of the path as it is then. Throws as certifyPath, and
-/// for a time that is not a positive number.
+/// Simplifies a path with OMPL's PathSimplifier, using the motion validator of its space
+/// information, for about `time` s. `goal`, if given, lets it shorten the path's end. The
+/// simplified path is certified anew. It replaces the path only if every segment is proven free and
+/// it is not longer. Returns the certificates of the resulting path. Throws as certifyPath does,
+/// and for a time that is not a positive number.
 std::vector<MotionCertificate> simplifyPath(ompl::geometric::PathGeometric& path,
                                             const Checker& checker, double time,
                                             const ompl::base::GoalPtr& goal = nullptr);
 
-/// An edge of a roadmap or tree, with what is known about its motion.
+/// An edge of a roadmap or tree, with the certificate of its motion.
 class CertifiedEdge : public ompl::base::PlannerDataEdge {
  public:
-  /// Of the motion from the source of the edge to its target.
+  /// `certificate`: of the motion from the source of the edge to its target.
   explicit CertifiedEdge(MotionCertificate certificate) : certificate_(std::move(certificate)) {}
-  /// The caller owns it, as OMPL asks.
+  /// A copy that the caller owns, as OMPL requires.
   ompl::base::PlannerDataEdge* clone() const override { return new CertifiedEdge(certificate_); }
-  /// As certifyEdges found it.
+  /// The certificate from certifyEdges().
   const MotionCertificate& certificate() const { return certificate_; }
 
  private:
   MotionCertificate certificate_;
 };
 
-/// Makes every edge of a planner's data a CertifiedEdge, with the weight that it had. Returns how
-/// many are proven free. Planners that check their edges lazily leave some that are not. Throws
-/// std::invalid_argument when the data is not of the checker's group.
+/// Turns every edge of a planner's data into a CertifiedEdge with the same weight. Returns how many
+/// are proven free. Planners that check their edges lazily leave some that are not. Throws
+/// std::invalid_argument if the data is not of the checker's group.
 ///
-/// A certificate is of the checker's world and is not for keeping: PlannerDataStorage stores no
-/// such edges (of OMPL, only the log says so). Store the data before, and certify what is loaded.
+/// A certificate holds only for the checker's world, and PlannerDataStorage does not store such
+/// edges (OMPL only logs this). Store the data before, and certify the loaded data.
 unsigned certifyEdges(ompl::base::PlannerData& data, const Checker& checker);
 
 }  // namespace swept

@@ -14,15 +14,14 @@ namespace swept {
 /// Hands workspaces to threads: one is leased for the duration of a call.
 class WorkspacePool;
 
-/// isValid: within the bounds of the space and proven free.
+/// isValid is true if the state is within the bounds of the space and proven free.
 ///
-/// clearance (m): proven lower bound of the least distance, to within tolerance::kDistance and
-/// rounding; in contact not more than minus the depth (Checker::signedClearance), which of meshes
-/// may be a good deal less; minus infinity for a state of which nothing is known. Whatever the
-/// bounds and the margin.
+/// clearance (m) is a proven lower bound of the least distance, to within tolerance::kDistance and
+/// rounding. In contact it is at most minus the depth (Checker::signedClearance); for meshes it may
+/// be much less. It is minus infinity if nothing is known. It ignores the bounds and the margin.
 ///
-/// The overloads with a valid state: of a state that is not valid, they follow the clearance uphill
-/// until the state is, if that takes few steps. A state that is valid gets none.
+/// The overloads with a valid state follow the clearance uphill from an invalid state until it is
+/// valid, if that takes few steps. For a valid state they return none.
 ///
 /// Any number of threads may call it.
 class ValidityChecker : public ompl::base::StateValidityChecker {
@@ -32,17 +31,17 @@ class ValidityChecker : public ompl::base::StateValidityChecker {
   ValidityChecker(const ompl::base::SpaceInformationPtr& si,
                   std::shared_ptr<const Checker> checker);
   ~ValidityChecker() override;
-  /// Asks this checker from now on; see swept::setChecker. No other call may be in flight. Throws
-  /// as the constructor, and goes on with the checker that it had then.
+  /// Uses this checker from now on; see swept::setChecker. No other call may be running. Throws as
+  /// the constructor does, and then keeps the old checker.
   void setChecker(std::shared_ptr<const Checker> checker);
-  /// Who is asked; never null.
+  /// The checker in use; never null.
   const std::shared_ptr<const Checker>& checker() const { return checker_; }
   using ompl::base::StateValidityChecker::clearance;
   using ompl::base::StateValidityChecker::isValid;
-  /// See the class. Undecided is not valid.
+  /// See the class. Undecided counts as not valid.
   bool isValid(const ompl::base::State* state) const override;
   ///@{
-  /// See the class; m.
+  /// m; see the class.
   double clearance(const ompl::base::State* state) const override;
   double clearance(const ompl::base::State* state, ompl::base::State* validState,
                    bool& validStateAvailable) const override;

@@ -27,36 +27,36 @@ struct CheckerModel;
 struct WorkspaceData;
 }  // namespace detail
 
-/// What is checked, how far apart things have to be, and how hard to try.
+/// What is checked, the margins and tolerances, and the work allowed.
 struct CheckerOptions {
-  /// m. Free means: every checked pair keeps more than this, or than what the rules say.
+  /// m. Free means that every checked pair keeps more than this, or than its margin in the rules.
   double margin = 0.0;
   /// m. A motion that keeps more than margin + tolerance everywhere is Free, never Undecided.
   double tolerance = tolerance::kMotion;
-  /// All of the robot's variables; those outside the group keep these values (wholeStateOf() has
+  /// Values of all of the robot's variables; those outside the group keep them (wholeStateOf() sets
   /// them by name). Default: Robot::defaultState().
   std::optional<Eigen::VectorXd> reference = {};
-  /// Cap on the intervals examined per motion; a motion that needs more is Undecided. So is one
-  /// that needs more than 64 times as many looks at a pair of shapes, beyond the first at each, or
-  /// as many sub-intervals in single precision; and one of which more than 2^24 pairs would have to
-  /// wait for shorter intervals.
+  /// Cap on the intervals examined per motion; a motion that needs more is Undecided. So is a
+  /// motion that needs more than 64 times as many tests of a pair of shapes (beyond the first of
+  /// each), or as many sub-intervals in single precision, or in which more than 2^24 pairs would
+  /// have to wait for shorter intervals.
   int maxIntervals = tolerance::kMaxIntervals;
-  /// Cap on the pairs of shapes that are checked, some 300 bytes each, and on the pairs of bodies.
+  /// Cap on the checked pairs of shapes, some 300 bytes each, and on the pairs of bodies.
   std::size_t maxPairs = 10'000'000;
-  /// Above what the SRDF says, and `margin`. Of a pair of links, of what is said explicitly the
-  /// strongest counts: these rules, layer by layer; then the SRDF's `<enable_collisions>`; then its
-  /// `<disable_collisions>` and `<disable_default_collisions>`; then the defaults: a joint connects
-  /// the two. Of an attached body: these rules, then its touch links and the link that has it.
+  /// These rules override the SRDF and `margin`. For a pair of links the first of these decides:
+  /// these rules, layer by layer; the SRDF's `<enable_collisions>`; its `<disable_collisions>` and
+  /// `<disable_default_collisions>`; the default that two links which a joint connects are not
+  /// checked. For an attached body: these rules, then its touch links and the link that carries it.
   CollisionRules rules = {};
-  /// What links carry.
+  /// Bodies that links carry.
   std::vector<AttachedBody> attached = {};
   ///@{
-  /// m. In the place of `margin` for pairs of two links or attached bodies, and for pairs with the
-  /// world, moving obstacles among it.
+  /// m. Used instead of `margin` for pairs of two links or attached bodies, and for pairs with the
+  /// world, including moving obstacles.
   std::optional<double> selfMargin = {}, worldMargin = {};
   ///@}
 
-  /// m. What pairs keep of which no rule says anything. `selfPair`: as Witness::selfPair.
+  /// m. Margin of pairs without a rule. `selfPair`: see Witness::selfPair.
   double marginOf(bool selfPair) const {
     return (selfPair ? selfMargin : worldMargin).value_or(margin);
   }
@@ -64,12 +64,11 @@ struct CheckerOptions {
 
 class Checker;
 
-/// Scratch memory for one thread. No result depends on what it held before. It grows when it is
-/// used with another checker than before; used with one, queries but reportState()
-/// allocate nothing.
+/// Scratch memory for one thread. No result depends on its content. It grows when it is used with
+/// another checker than before. Used with one checker, no query but reportState() allocates memory.
 class Workspace {
  public:
-  /// For this checker and its versions; any other may use it too, see above.
+  /// For this checker and its versions; any other checker may use it too, see above.
   explicit Workspace(const Checker& checker);
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
@@ -81,75 +80,75 @@ class Workspace {
 };
 
 /// Validity of states and motions of one group of a robot in one world. Immutable: any number of
-/// threads may use one Checker, each with a Workspace of its own.
+/// threads may use one Checker, each with its own Workspace.
 ///
-/// A configuration has the values of the group's variables, in a vector of whichever kind (see
-/// configuration.hpp). If the world has moving obstacles, one more follows: the time on their
+/// A configuration has the values of the group's variables (rad, m), in any vector type (see
+/// configuration.hpp). If the world has moving obstacles, one more value follows: the time on their
 /// clock, in s.
 ///
-/// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0), cyclic variables the shorter way, floating
-/// orientations by slerp along the shorter arc, mimicking joints following. Checked are: each link
-/// that the group moves, and each body attached to one, against each world body, and each pair of
-/// links or attached bodies whose relative pose the group changes, unless the rules, the SRDF, or
-/// by default a joint between the two, leave the pair out: see CheckerOptions::rules. Queries never
-/// throw on configurations of the right size (std::invalid_argument otherwise).
+/// The motion from q0 to q1 is q(t) = q0 + t (q1 - q0). Cyclic variables take the shorter way,
+/// floating orientations slerp along the shorter arc, and mimicking joints follow. The checker
+/// tests each link that the group moves, and each body attached to one, against each world body. It
+/// also tests each pair of links or attached bodies whose relative pose the group changes. The
+/// rules, the SRDF, or by default a joint between the two may leave a pair out: see
+/// CheckerOptions::rules. Queries never throw on configurations of the right size (otherwise
+/// std::invalid_argument).
 ///
-/// What changes makes a new version: `with...` and `without...` return another Checker that shares
-/// with this one what is the same, and is built in a fraction of the time. This one stays as it is,
-/// for whoever uses it.
+/// A change makes a new version: `with...` and `without...` return another Checker that shares the
+/// unchanged parts with this one, and is built in a fraction of the time. This one stays as it is
+/// for its users.
 class Checker {
  public:
-  /// Throws std::invalid_argument for an unknown group, a negative or non-finite margin (of
-  /// either kind) or tolerance, a reference of the wrong size, not finite or with a quaternion
-  /// without direction, a rule that names a body that is not there, an attached body whose link or
-  /// touch link is not there, whose name is taken, or with a shape or pose that AttachedBody does
-  /// not allow, and for more pairs than CheckerOptions::maxPairs.
+  /// Throws std::invalid_argument for an unknown group; a negative or non-finite margin (of either
+  /// kind) or tolerance; a reference of the wrong size, not finite or with a zero quaternion; a
+  /// rule that names an unknown body; an attached body whose link or touch link is unknown, whose
+  /// name is taken, or with a shape or pose that AttachedBody does not allow; and more pairs than
+  /// CheckerOptions::maxPairs.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
-  /// In another world. Rules that name a body that was in the world, and is no more, are dropped.
-  /// Throws std::invalid_argument for null, a body with the name of an attached one, and a moving
-  /// obstacle with that of a link.
+  /// This checker in another world. Rules that name a body of the old world that is not in the new
+  /// one are dropped. Throws std::invalid_argument for null, a body with the name of an attached
+  /// one, and a moving obstacle with that of a link.
   Checker withWorld(std::shared_ptr<const World> world) const;
   ///@{
-  /// The world with one more body, here of one shape. Throws as World::add and withWorld.
+  /// Adds a body to the world, here of one shape. Throws as World::add and withWorld do.
   Checker withBody(WorldBody body) const;
   Checker withBody(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape) const;
   ///@}
-  /// The world with this body in the place of the one of the same name, and all rules kept: what a
-  /// deforming surface (TriangleMesh::moved), or a sensor's next cloud, is for planners that start
-  /// from now on. Takes time in proportion to what the body is made of. Throws as World::replace.
+  /// Replaces the body of the same name in the world, and keeps all rules. Use it for a deforming
+  /// surface (TriangleMesh::moved) or a sensor's next cloud; planners that start now use the new
+  /// version. Its time is proportional to the size of the body. Throws as World::replace does.
   Checker withReplaced(WorldBody body) const;
   /// The same with a body of one shape.
   Checker withReplaced(std::string name, Shape shape,
                        const Eigen::Isometry3d& world_from_shape) const;
-  /// The world with one more moving obstacle: a configuration has a time then. Throws as World::add
-  /// and withWorld.
+  /// Adds a moving obstacle to the world: a configuration then has a time. Throws as World::add and
+  /// withWorld do.
   Checker withObstacle(MovingObstacle obstacle) const;
-  /// The world without a body or moving obstacle. Throws std::invalid_argument for a name that is
-  /// not there.
+  /// Removes a body or moving obstacle from the world. Throws std::invalid_argument for an unknown
+  /// name.
   Checker withoutBody(std::string_view name) const;
   ///@{
-  /// With one more attached body, here of one shape. Throws as the constructor.
+  /// Adds an attached body, here of one shape. Throws as the constructor does.
   Checker withAttached(AttachedBody body) const;
   Checker withAttached(std::string name, std::string link, Shape shape,
                        const Eigen::Isometry3d& link_from_shape,
                        std::vector<std::string> touchLinks = {}) const;
   ///@}
-  /// Throws std::invalid_argument for a name that is not there.
+  /// Removes an attached body. Throws std::invalid_argument for an unknown name.
   Checker withoutAttached(std::string_view name) const;
-  /// Instead of the ones so far. A pair that has to keep more than it had to when the first version
-  /// was made, and one with a scaled body, may take more time than in a Checker made with these
-  /// rules.
+  /// Replaces the rules. A pair that must now keep more than in the first version, and one with a
+  /// scaled body, may take more time than in a Checker made with these rules.
   Checker withRules(CollisionRules rules) const;
 
-  /// An attached body where it is at a configuration, as a body of the world: what a gripper lets
-  /// go of. Throws std::invalid_argument for a name that is not there, and a configuration in which
-  /// no pose is known (see checkState).
+  /// An attached body at its pose in a configuration, as a body of the world: the object that a
+  /// gripper releases. Throws std::invalid_argument for an unknown name, and for a configuration in
+  /// which no pose is known (see checkState).
   WorldBody detachedBody(std::string_view attached, ConfigurationView q) const;
 
   ///@{
-  /// What this version checks. The references live as long as it does.
+  /// What this version checks. The references live as long as this checker.
   const Robot& robot() const;
   const World& world() const;
   const Group& group() const;
@@ -157,89 +156,94 @@ class Checker {
   ///@}
   int dimension() const;  ///< size of a configuration of the group
 
-  /// Free: proven. Collision: witnessed. Undecided: within rounding of the margin, not finite, or a
-  /// prismatic value more than tolerance::kLimit outside its limits (what is out of reach up to
-  /// there is not looked at). The answer is about `q` as it is, not about what limits would make of
-  /// it.
+  /// Verdict on a state. Free: proven. Collision: witnessed. Undecided: within rounding of the
+  /// margin, not finite, or with a prismatic value more than tolerance::kLimit outside its limits
+  /// (pairs out of reach within that range are not tested). The answer is about `q` as given,
+  /// without moving it to its limits.
   Verdict checkState(ConfigurationView q, Workspace& workspace) const;
-  /// The same verdicts for many states, which follow each other in `states` or are the columns of a
+  /// The same verdicts for many states, which are consecutive in `states` or the columns of a
   /// matrix; faster than one by one. Throws std::invalid_argument unless there is one verdict for
-  /// each.
+  /// each state.
   void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                    Workspace& workspace) const;
-  /// The same on up to so many threads of oneTBB's (0: as many as there are processors), whatever
-  /// their number. There are no more than the program lets oneTBB have, which is left as it is.
+  /// The same on up to `threads` threads of oneTBB (0: as many as processors), with the same result
+  /// for any number. It uses no more threads than the program lets oneTBB have, and does not change
+  /// that limit.
   void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
                    unsigned threads = 0) const;
-  /// Every violating pair and the clearance. Measures distances where checkState proves them large
-  /// enough: about a millisecond for an arm, hundreds to thousands of times what that takes.
+  /// All violating pairs and the clearance. It measures distances where checkState only proves them
+  /// large enough: about a millisecond for an arm, hundreds to thousands of times the time of
+  /// checkState.
   StateReport reportState(ConfigurationView q, Workspace& workspace) const;
-  /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or when not
-  /// finite. Takes as long as reportState: nothing to ask while planning.
+  /// m. Proven lower bound of the least distance over all checked pairs; 0 in contact or for
+  /// non-finite values. As slow as reportState: do not call it while planning.
   double clearance(ConfigurationView q, Workspace& workspace) const;
-  /// Negative in contact; more work than clearance(). `gradient`, if not empty, receives the
-  /// derivatives of the pair's signed distance by the values of the configuration (m per rad, m per
-  /// m, m per s; of a quaternion's components as it is scaled to unit length): zero where `normal`
-  /// is. Where several pairs are equally near, of one of them. Throws std::invalid_argument for a
-  /// gradient that has another size than a configuration.
+  /// Signed distance of the nearest checked pair, negative in contact; more work than clearance().
+  /// `gradient`, if not empty, receives the derivatives of that pair's signed distance by the
+  /// values of the configuration (m per rad, m per m, m per s; for a quaternion's components as
+  /// scaled to unit length). It is zero if `normal` is. If several pairs are equally near, it
+  /// belongs to one of them. Throws std::invalid_argument for a gradient of another size than a
+  /// configuration.
   SignedClearance signedClearance(ConfigurationView q, Workspace& workspace,
                                   ConfigurationSpan gradient = {}) const;
 
-  /// What is proven about the motion from one configuration to another. Undecided, too, where an
-  /// end is not finite. Limits do not enter it, but for those of prismatic joints (see checkState):
-  /// an end that is a little beyond a limit is where it is given.
+  /// What is proven about the motion from one configuration to another. Also Undecided if an end is
+  /// not finite. Limits do not matter, except those of prismatic joints (see checkState): an end
+  /// slightly beyond a limit is used as given.
   /// Every query gives the same verdict.
   MotionCertificate certifyMotion(ConfigurationView from, ConfigurationView to,
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
-  /// Many at once, which follow each other in `from` and `to`, on up to so many threads, as
-  /// checkStates has them. The certificates do not depend on their number. Throws
-  /// std::invalid_argument unless there is one certificate for each.
+  /// Certificates of many motions, which are consecutive in `from` and `to`, on up to `threads`
+  /// threads, as in checkStates. They do not depend on the number of threads. Throws
+  /// std::invalid_argument unless there is one certificate for each motion.
   void certifyMotions(PackedConfigurations from, PackedConfigurations to,
                       std::span<MotionCertificate> certificates,
                       MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
-  /// Of each kind of pairs that is asked for: upper - lower <= accuracy (m), and lower >= upper / 2
-  /// while upper >= accuracy / 50, unless the cap on intervals ends the search. For a path see
-  /// pathClearance().
+  /// Least distances over a motion. For each requested kind of pairs: upper - lower <= accuracy
+  /// (m), and lower >= upper / 2 while upper >= accuracy / 50, unless the cap on intervals ends the
+  /// search. For a path see pathClearance().
   MotionClearance motionClearance(ConfigurationView from, ConfigurationView to, double accuracy,
                                   Workspace& workspace,
                                   ClearanceQuery query = ClearanceQuery::ByKind) const;
 
-  /// Each variable is within its limits, or at most tolerance::kLimit beyond (isWithin()). False
-  /// for what is not finite. Who wants the robot at the limit then uses takeToLimits() first.
+  /// Whether each variable is within its limits, or at most tolerance::kLimit beyond (isWithin()).
+  /// False for non-finite values. If the robot must be at the limit itself, use takeToLimits()
+  /// first.
   bool withinLimits(ConfigurationView q) const;
-  /// The configuration at t on the motion that certifyMotion checks.
+  /// The configuration at t in [0, 1] on the motion that certifyMotion checks.
   Eigen::VectorXd interpolate(ConfigurationView from, ConfigurationView to, double t) const;
-  /// The same into `q`, which is neither `from` nor `to`; nothing is allocated.
+  /// The same into `q`, which is neither `from` nor `to`; allocates nothing.
   void interpolate(ConfigurationView from, ConfigurationView to, double t,
                    ConfigurationSpan q) const;
 
-  /// One checked pair of bodies, and one that is left out with the reason.
+  /// A checked pair of bodies, or a skipped pair with the reason.
   struct Pair {
     std::string bodyA;      ///< a robot link or an attached body
     std::string bodyB;      ///< likewise, or a world body
     bool selfPair = false;  ///< both are links or attached bodies
-    double margin = 0.0;    ///< m, what they have to keep where they are checked
-    /// Of a pair that is left out: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ... Of a
-    /// checked one `never` if it is proven, once for all, for all values within the joints' limits;
-    /// else empty.
+    double margin = 0.0;    ///< m, what they must keep if they are checked
+    /// For a skipped pair: `adjacent`, `SRDF: Never`, `out of reach`, `rigid`, ... For a checked
+    /// pair: `never` if it is proven, once for all values within the joints' limits; otherwise
+    /// empty.
     std::string reason;
   };
   ///@{
-  /// In a fixed order: the same for the same robot, world and rules.
+  /// In a fixed order, which depends only on the robot, the world and the rules.
   const std::vector<Pair>& checkedPairs() const;
   const std::vector<Pair>& skippedPairs() const;
   ///@}
-  /// Of Robot::linksWithoutGeometry() those that the group moves: Free says nothing about them.
+  /// The links of Robot::linksWithoutGeometry() that the group moves: Free says nothing about them.
   std::vector<std::string> linksWithoutGeometry() const;
-  /// No pair is checked, and none is proven out of reach either: Free says nothing at all.
+  /// Whether no pair is checked, and none is proven out of reach either: Free then says nothing at
+  /// all.
   bool checksNothing() const;
-  /// Pairs the group cannot change that are in contact: a base standing on a table, say. Checked
-  /// once, here; they do not enter the verdicts.
+  /// Pairs that the group cannot change and that are in contact, such as a base standing on a
+  /// table. They are checked once, when the checker is built, and do not enter the verdicts.
   const std::vector<Pair>& staticContacts() const;
-  /// Why a pair is checked or not, who says so, and what it has to keep: one sentence. The names
-  /// may come in either order. Throws std::invalid_argument for a name that is neither a link's nor
-  /// a body's.
+  /// One sentence that says whether a pair is checked, which rule decides, and what margin it must
+  /// keep. The names may come in either order. Throws std::invalid_argument for a name that is
+  /// neither a link's nor a body's.
   std::string explain(std::string_view bodyA, std::string_view bodyB) const;
 
  private:

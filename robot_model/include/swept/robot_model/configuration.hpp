@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-/// A configuration is any numbers of type double that follow each other in memory: a
-/// `std::vector<double>` (what namedConfiguration() and readers return), an `Eigen::VectorXd` (what
-/// Checker::interpolate and Robot::defaultState return) or an Eigen vector of fixed size, a column
-/// of a matrix, `std::array`, `std::span`, an array, or `{0.1, 0.2}`. All functions take them as
-/// they are, by the types below, which cost nothing: they are spans.
+/// A configuration is any sequence of doubles that are contiguous in memory: a
+/// `std::vector<double>` (the result of namedConfiguration() and readers), an `Eigen::VectorXd`
+/// (the result of Checker::interpolate and Robot::defaultState) or an Eigen vector of fixed size, a
+/// column of a matrix, `std::array`, `std::span`, an array, or `{0.1, 0.2}`. All functions take
+/// them through the types below, which are spans and cost nothing.
 namespace swept {
 
 namespace detail {
@@ -34,11 +34,11 @@ using EigenType = decltype(eigenTypeOf(std::declval<const Values&>()));
 template <typename Values>
 using PlainType = EigenType<std::remove_cvref_t<Values>>;
 
-/// Each value is where the one before it ends. Of expressions, which are nowhere, the stride is 0.
+/// Whether the values are contiguous. Expressions, which are not in memory, have the stride 0.
 template <typename Type>
 concept PackedVector = Type::IsVectorAtCompileTime != 0 && Type::InnerStrideAtCompileTime == 1;
 
-/// Ends with the call, so that what is written into it is lost.
+/// Temporaries: they end with the call, so anything written into them is lost.
 template <typename Values>
 concept Ending =
     !std::is_lvalue_reference_v<Values> &&
@@ -53,14 +53,14 @@ concept PackedEigenVector = EigenValues<std::remove_cvref_t<Values>> &&
     PackedVector<PlainType<Values>> && HasData<Values, Number> &&
     (std::is_const_v<Number> || !Ending<Values>);
 
-/// Eigen matrices of whole columns that follow each other.
+/// Eigen matrices whose columns are contiguous and follow each other.
 template <typename Values>
 concept ColumnMatrix =
     EigenValues<Values> && std::derived_from<Values, Eigen::PlainObjectBase<EigenType<Values>>> &&
     !EigenType<Values>::IsRowMajor &&
     !EigenType<Values>::IsVectorAtCompileTime && HasData<Values, const double>;
 
-/// Anything else that a span refers to.
+/// Anything else that a span can refer to.
 template <typename Values, typename Number>
 concept SpanSource =
     !EigenValues<std::remove_cvref_t<Values>> && std::convertible_to<Values, std::span<Number>>;
@@ -73,27 +73,27 @@ concept Iterable = requires(Values& values) {
 template <typename Values>
 concept ManyValues = Iterable<Values> || EigenValues<std::remove_cvref_t<Values>>;
 
-/// Numbers of another type, numbers that do not follow each other, and Eigen's expressions, which
-/// are no numbers before they are evaluated.
+/// Numbers of another type, numbers that are not contiguous, and Eigen's expressions, which must be
+/// evaluated first.
 template <typename Values, typename Number>
 concept NotPacked =
     ManyValues<Values> && !SpanSource<Values, Number> && !PackedEigenVector<Values, Number>;
 
 }  // namespace detail
 
-// A view that is made of another one is a copy of it, by whichever constructor.
+// A view made from another view is a copy of it, by whichever constructor.
 // NOLINTBEGIN(bugprone-forwarding-reference-overload): a copy that they make is the same span
 
-/// A configuration of a group: how functions take it, and a span of it.
+/// A view of a group's configuration, as functions take it: a span.
 template <typename Number>
 class BasicConfigurationView : public std::span<Number> {
  public:
-  /// Of no values.
+  /// An empty view.
   constexpr BasicConfigurationView() = default;
-  /// So many values from here on.
+  /// `count` values from `first` on.
   constexpr BasicConfigurationView(Number* first, std::size_t count)
       : std::span<Number>(first, count) {}
-  /// Whatever a span refers to.
+  /// Anything that a span can refer to.
   template <detail::SpanSource<Number> Values>
   constexpr BasicConfigurationView(Values&& values)
       : std::span<Number>(static_cast<std::span<Number>>(std::forward<Values>(values))) {}
@@ -105,22 +105,22 @@ class BasicConfigurationView : public std::span<Number> {
   constexpr BasicConfigurationView(
       std::initializer_list<double> values) requires std::is_const_v<Number>
       : std::span<Number>(values.begin(), values.size()) {}
-  /// Refused.
+  /// Not allowed: the values are not contiguous doubles.
   template <detail::NotPacked<Number> Values>
   BasicConfigurationView(Values&& notDoublesInARow) = delete;  // expressions of Eigen: .eval()
 };
 
-/// One that is read.
+/// A configuration that is read.
 using ConfigurationView = BasicConfigurationView<const double>;
-/// One that is written: of the right size already.
+/// A configuration that is written; it already has the right size.
 using ConfigurationSpan = BasicConfigurationView<double>;
 
-/// Many configurations that follow each other in one array, or are the columns of a matrix.
+/// Many configurations that are consecutive in one array, or the columns of a matrix.
 class PackedConfigurations : public std::span<const double> {
  public:
-  /// So many values from here on.
+  /// `count` values from `first` on.
   constexpr PackedConfigurations(const double* first, std::size_t count) : span(first, count) {}
-  /// Whatever a configuration may be, with the values of all.
+  /// Any type that a configuration may have, with the values of all.
   template <std::convertible_to<ConfigurationView> Values>
   constexpr PackedConfigurations(Values&& values)
       : span(ConfigurationView(std::forward<Values>(values))) {}
@@ -139,7 +139,7 @@ concept IsSpan =
 template <Iterable Range>
 using ElementOf = decltype(*std::begin(std::declval<Range&>()));
 
-/// Configurations that are there without the range's iterator.
+/// A range whose configurations exist independently of the range's iterator.
 template <typename Range>
 concept ConfigurationRange = Iterable<Range> &&
     std::convertible_to<ElementOf<Range>, ConfigurationView> &&
@@ -147,8 +147,7 @@ concept ConfigurationRange = Iterable<Range> &&
 
 }  // namespace detail
 
-/// Several configurations, one after the other, wherever each of them is: the states of a path.
-/// Refers to them.
+/// Several configurations, each anywhere in memory, such as the states of a path. Refers to them.
 class ConfigurationList {
  public:
   /// A range of configurations that outlive the call: `std::vector<std::vector<double>>`,
@@ -162,7 +161,7 @@ class ConfigurationList {
   ConfigurationList(std::initializer_list<ConfigurationView> states) : states_(states) {}
 
   ///@{
-  /// As of a vector.
+  /// As for a vector.
   std::size_t size() const { return states_.size(); }
   bool empty() const { return states_.empty(); }
   const ConfigurationView& operator[](std::size_t i) const { return states_[i]; }

@@ -6,8 +6,8 @@
 
 namespace swept {
 
-/// `; did you mean 'elbow'?`, of the known name that takes the fewest letters to be put in, left
-/// out, changed, or exchanged with the next one. Empty when none is near.
+/// Returns `; did you mean 'elbow'?` for the known name at the least edit distance (insert, delete
+/// or change a letter, or exchange two neighbours). Empty if no name is near.
 std::string didYouMean(const std::string& name, std::span<const std::string> known);
 
 }  // namespace swept

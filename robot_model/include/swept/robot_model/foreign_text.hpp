@@ -7,14 +7,14 @@
 
 namespace swept {
 
-/// Bytes of another library's text that a message takes. What says why is at its beginning, and
-/// some libraries put all the rest of a file behind it.
+/// Bytes of another library's text that a message quotes. The reason is at the beginning; some
+/// libraries append the rest of a file.
 inline constexpr std::size_t kMaxForeignBytes = 300;
 
-/// Another library's error, or a value of a file, as a message has it: one line of at most
-/// kMaxForeignBytes bytes of `text` in whole characters, with `...` where more follows. Ends of
-/// lines are `\n`, and other control characters `\u001b`, as JSON has them; so are bytes that are
-/// no UTF-8, by their number. White space around it is left out.
+/// Another library's error, or a value in a file, for use in a message: one line of at most
+/// kMaxForeignBytes bytes of `text` in whole characters, with `...` if more follows. Line ends
+/// become `\n`, other control characters `\u001b`, as in JSON, and bytes that are not UTF-8
+/// likewise by their number. Surrounding white space is removed.
 std::string foreignText(std::string_view text);
 
 }  // namespace swept

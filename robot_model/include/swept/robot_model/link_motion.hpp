@@ -16,16 +16,16 @@ namespace detail {
 struct LinkPath;
 }
 
-/// One link's motion while its robot goes from one configuration of a group to another, as Checker
-/// has it: cyclic variables the shorter way, floating orientations by slerp, mimicking joints
-/// following. The world frame is the model's; the body frame is the link's, and its origin the
-/// reference point. For `continuousCollide` of a single link.
+/// The motion of one link while its robot moves from one configuration of a group to another, as
+/// Checker defines it: cyclic variables take the shorter way, floating orientations slerp, and
+/// mimicking joints follow. The world frame is the robot's model frame. The body frame is the
+/// link's, and its origin the reference point. For `continuousCollide` of a single link.
 class LinkMotion : public Motion {
  public:
   /// `reference` has a value for each variable of the robot; those outside the group keep it.
-  /// Default: Robot::defaultState(). Throws std::invalid_argument for a group or link that is not
-  /// there, a span or reference of the wrong size, a value that is not finite, a quaternion without
-  /// direction, and a prismatic value outside its limits by more than tolerance::kLimit.
+  /// Default: Robot::defaultState(). Throws std::invalid_argument for an unknown group or link, a
+  /// span or reference of the wrong size, a non-finite value, a zero quaternion, and a prismatic
+  /// value outside its limits by more than tolerance::kLimit.
   LinkMotion(const Robot& robot, std::string_view group, std::string_view link,
              ConfigurationView from, ConfigurationView to,
              const std::optional<Eigen::VectorXd>& reference = {});
@@ -33,7 +33,7 @@ class LinkMotion : public Motion {
   Eigen::Isometry3d at(double t) const override;
   Twist velocity(double t) const override;
   MotionState state(double t) const override;
-  /// The same for any part of the motion.
+  /// Bounds that hold for any part of the motion.
   MotionRates rates(double from, double to) const override;
   double rounding(double reach) const override;
 
@@ -41,8 +41,8 @@ class LinkMotion : public Motion {
   std::shared_ptr<const detail::LinkPath> path_;
 };
 
-/// model_from_link: where a link is at one configuration of a group. `reference` and what it throws
-/// are LinkMotion's, which is quicker for many configurations along one motion.
+/// Pose of a link at one configuration of a group: model_from_link. `reference` and exceptions are
+/// those of LinkMotion, which is faster for many configurations along one motion.
 Eigen::Isometry3d linkPose(const Robot& robot, std::string_view group, std::string_view link,
                            ConfigurationView q,
                            const std::optional<Eigen::VectorXd>& reference = {});

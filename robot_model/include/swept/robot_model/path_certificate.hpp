@@ -16,7 +16,7 @@ namespace swept {
 /// The motion from one state of a path to the next.
 struct CertifiedSegment {
   MotionCertificate certificate;  ///< by MotionQuery::FirstContact
-  /// By kinds of pairs. None where the verdict is Collision, or it was not asked for.
+  /// By kinds of pairs. No value if the verdict is Collision, or it was not requested.
   std::optional<MotionClearance> clearance;
 };
 
@@ -25,24 +25,24 @@ struct PathCertificate {
   /// The i-th leads from state i to state i + 1.
   std::vector<CertifiedSegment> segments;
 
-  /// Free where all segments are; Collision where one is that; else Undecided.
+  /// Free if all segments are; Collision if one is; else Undecided.
   Verdict verdict() const;
-  std::size_t count(Verdict verdict) const;  ///< of segments
+  std::size_t count(Verdict verdict) const;  ///< number of segments with this verdict
 };
 
-/// What is asked about a path.
+/// Options of certifyPath().
 struct PathQuery {
   bool clearances = true;  ///< writeProof() needs them
   unsigned threads = 0;    ///< 0: as many as there are processors
-  /// Called between segments with the number of those that are done, on the caller's thread.
+  /// Called between segments with the number of finished ones, on the caller's thread.
   std::function<void(std::size_t done)> progress = {};
 };
 
-/// Certificates of all segments of a path that any planner has made; of a single state, of the
-/// motion that stays there. They do not depend on the number of threads. Clearances are as exact as
-/// `swept` prints them: a tenth of CheckerOptions::tolerance, but no less than 1e-5 m. Limits are
-/// not looked at: see Checker::withinLimits() and readPath(). Throws std::invalid_argument for a
-/// path without a state, and for a state of another size than the group's.
+/// Certificates of all segments of a path from any planner. For a single state, of the motion that
+/// stays there. They do not depend on the number of threads. Clearances have the accuracy that
+/// `swept` uses: a tenth of CheckerOptions::tolerance, but at least 1e-5 m. Limits are not checked:
+/// see Checker::withinLimits() and readPath(). Throws std::invalid_argument for a path without a
+/// state, and for a state of another size than the group's.
 PathCertificate certifyPath(const Checker& checker, const ConfigurationList& states,
                             const PathQuery& query = {});
 

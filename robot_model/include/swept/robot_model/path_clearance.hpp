@@ -7,13 +7,13 @@
 
 namespace swept {
 
-/// How near the checked pairs come on the way through these configurations, by straight motions
-/// from each to the next: as Checker::motionClearance of all of them together, with where on the
-/// path that is. One configuration alone is a motion on the spot.
+/// The least distances of the checked pairs along a path: the straight motions from each
+/// configuration to the next. The result is like Checker::motionClearance over all of them
+/// together, with its place on the path. A single configuration is a motion that stays there.
 ///
-/// Takes less time than a loop: motions that stay farther away than others come are not looked at
-/// more closely than shows that. The cap on intervals counts for each motion. A pair in contact
-/// ends the search for its kind: of those after it, too, `lower` is 0 and nothing is known.
+/// It takes less time than a loop: motions that stay farther away than others are examined only
+/// until that is clear. The cap on intervals applies to each motion. A pair in contact ends the
+/// search for its kind: for later pairs of the kind, too, `lower` is 0 and nothing is known.
 ///
 /// `accuracy`: m. Throws std::invalid_argument for no configurations, one of the wrong size, and an
 /// accuracy that is not greater than zero.

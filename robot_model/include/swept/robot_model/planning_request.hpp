@@ -16,47 +16,48 @@ namespace swept {
 
 class Robot;
 
-/// From where to where, in the layout of moveit_msgs/MotionPlanRequest.
+/// A start and goals, in the layout of moveit_msgs/MotionPlanRequest.
 struct PlanningRequest {
   using JointValues = std::vector<std::pair<std::string, double>>;  ///< rad or m, by joint
-  /// Where a link's frame is to be.
+  /// A goal pose of a link's frame.
   struct PoseGoal {
     std::string link;                   ///< whose frame
-    Eigen::Isometry3d model_from_link;  ///< wanted
+    Eigen::Isometry3d model_from_link;  ///< the goal pose
     double positionTolerance;           ///< m: radius of a ball, or half the least side of a box
     double orientationTolerance;        ///< rad: the least of the three about the axes
   };
-  /// Where a joint of several values, such as a mobile base's virtual joint, has its child.
+  /// The pose that a joint of several values, such as a mobile base's virtual joint, gives its
+  /// child link.
   struct BasePose {
     std::string joint;                    ///< planar or floating
-    Eigen::Isometry3d parent_from_child;  ///< in the frame that the joint hangs on
+    Eigen::Isometry3d parent_from_child;  ///< in the parent frame of the joint
   };
-  std::string group;                ///< empty: the request does not say
+  std::string group;                ///< empty: the request names none
   JointValues start;                ///< of the start state; may have joints outside the group
   std::vector<BasePose> bases;      ///< of the start state: its `multi_dof_joint_state`
-  std::vector<JointValues> goals;   ///< each may be reached
+  std::vector<JointValues> goals;   ///< the planner may reach any of them
   std::vector<PoseGoal> poseGoals;  ///< likewise
-  /// m, model frame: where bases may go, as MoveIt has it (planar and floating joints' positions).
+  /// m, model frame: the space for bases (positions of planar and floating joints), as in MoveIt.
   std::optional<Eigen::AlignedBox3d> workspace = {};
-  std::vector<AttachedBody> attached = {};  ///< of the start state, at links
-  CollisionRules rules = {};                ///< of attached bodies that may touch each other
+  std::vector<AttachedBody> attached = {};  ///< of the start state, in their links' frames
+  CollisionRules rules = {};                ///< allow attached bodies that may touch each other
 
-  /// Reads a YAML file. Tolerances of joint goals are left out: their values are reached. Throws
-  /// InputError for what it lacks (a start, a goal), for a goal that is neither joint values nor a
+  /// Reads a YAML file. Tolerances of joint goals are ignored: the path reaches their values.
+  /// Throws InputError for a missing start or goal, for a goal that is neither joint values nor a
   /// link's position and orientation, for keys that are unknown or given twice, for frames that are
-  /// not the model frame, and for what would be left out: constraints of the path, attached
+  /// not the model frame, and for content that it cannot keep: constraints of the path, attached
   /// objects.
   static PlanningRequest load(const std::filesystem::path& yaml, const LoadOptions& options = {});
-  /// For a robot: attached objects are read, whose poses are in the frame of their link, and goals
-  /// may be in frames of links that no joint moves. Throws InputError, too, for joints and links
-  /// that the robot does not have, and a value of a joint that mimics another which is not the one
-  /// that it has.
+  /// The same for a robot. It also reads attached objects, whose poses are in the frame of their
+  /// link, and goals in frames of links that no joint moves. Throws InputError, too, for joints and
+  /// links that the robot lacks, and for a mimicking joint with a value that does not follow its
+  /// master.
   static PlanningRequest load(const std::filesystem::path& yaml, const Robot& robot,
                               const LoadOptions& options = {});
 
   /// `start` with the values of `bases`, by the robot's names (`base/x`, `base/rot_w`). Throws
-  /// std::invalid_argument for a base that is moved and that the robot does not have, or not as a
-  /// planar or floating joint; and for one that leaves its plane.
+  /// std::invalid_argument for a moved base that the robot does not have as a planar or floating
+  /// joint, and for one that leaves its plane.
   JointValues startOf(const Robot& robot) const;
 };
 

@@ -12,13 +12,13 @@ namespace swept {
 
 /// A start, goals and a world for some joints of a robot.
 struct PlanningProblem {
-  std::string set;                         ///< as the file calls it
-  int index = 0;                           ///< as the file numbers it
+  std::string set;                         ///< its name in the file
+  int index = 0;                           ///< its number in the file
   World world;                             ///< around the robot, model frame
-  std::vector<std::string> jointNames;     ///< that start and goals have values of
+  std::vector<std::string> jointNames;     ///< joints of start and goals
   std::vector<double> start;               ///< rad or m, in the order of jointNames
   std::vector<std::vector<double>> goals;  ///< likewise
-  /// Bodies with a size of 0: checked as the points, segments and surfaces that they are.
+  /// Bodies with a size of 0, which are checked as points, segments and surfaces.
   std::vector<std::string> withZeroSize;
 };
 
@@ -28,15 +28,15 @@ struct PlanningProblem {
 /// full length.
 class ProblemFile {
  public:
-  /// Throws InputError.
+  /// Reads a file. Throws InputError.
   static ProblemFile load(const std::filesystem::path& json);
 
-  /// Those that have problems, by name.
+  /// Names of the sets that have problems.
   std::vector<std::string> sets() const;
-  /// Of the problems of a set, in the order of the file; none for an unknown set.
+  /// Indices of the problems of a set, in the order of the file; none for an unknown set.
   std::vector<int> indices(const std::string& set) const;
-  /// Throws InputError when there is no such set or index, and names those there are: of more than
-  /// ten their number, and the nearest in order.
+  /// A problem. Throws InputError if there is no such set or index, and lists those there are; for
+  /// more than ten, their number and the nearest ones.
   PlanningProblem problem(const std::string& set, int index) const;
 
  private:

@@ -9,9 +9,9 @@
 
 namespace swept {
 
-/// The occupied cubes of a map as a body of the world: the smallest ones, of which there are most,
-/// as a cloud of the balls that just contain them (each reaches 0.37 of the cube's side beyond its
-/// faces), the others as boxes. A map that is empty gives a body without parts.
+/// The occupied cubes of a map as a body of the world. The smallest cubes, which are most of them,
+/// become a cloud of balls that just contain them (each reaches 0.37 of the cube's side beyond its
+/// faces). The others become boxes. An empty map gives a body without parts.
 WorldBody occupiedBody(std::string name, const OccupancyMap& map,
                        const Eigen::Isometry3d& world_from_map);
 

@@ -5,8 +5,8 @@
 
 namespace swept {
 
-/// What a caller asks for and cannot be done, where no file that is read is to blame: an option, a
-/// state, a file that cannot be written. what() is one line.
+/// A request that cannot be fulfilled although no input file is at fault: an option, a state, a
+/// file that cannot be written. what() is one line.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -17,35 +17,35 @@ namespace swept {
 
 /// A named rigid obstacle: one or more shapes, fixed in the robot's model frame.
 struct WorldBody {
-  /// A shape where it stands.
+  /// A shape with its pose.
   struct Part {
     Shape shape;                         ///< in its own frame
     Eigen::Isometry3d world_from_shape;  ///< pose in the model frame
   };
   std::string name;              ///< unique in its world
-  std::vector<Part> parts = {};  ///< its geometry; none: it is checked against nothing
+  std::vector<Part> parts = {};  ///< its geometry; none: it is not checked
 };
 
-/// A named rigid obstacle that moves in a known way.
+/// A named rigid obstacle with a known motion.
 struct MovingObstacle {
   /// A shape on the body.
   struct Part {
     Shape shape;                        ///< no plane and no half-space
     Eigen::Isometry3d body_from_shape;  ///< pose in the body's frame
   };
-  /// Where the body is at one time.
+  /// The pose of the body at one time.
   struct Waypoint {
     double time;                        ///< s
     Eigen::Isometry3d world_from_body;  ///< pose in the model frame
   };
   std::string name;              ///< unique in its world
   std::vector<Part> parts = {};  ///< its geometry
-  /// At least one, in order of time. Between two of them the body's origin moves on a straight line
-  /// and its orientation by slerp along the shorter arc, both evenly; before the first and after
+  /// At least one, in order of time. Between two of them the body's origin moves straight and its
+  /// orientation by slerp along the shorter arc, both at constant speed. Before the first and after
   /// the last it stands still.
   std::vector<Waypoint> waypoints = {};
 
-  /// world_from_body; s.
+  /// Pose world_from_body at a time (s).
   Eigen::Isometry3d poseAt(double time) const;
 };
 
@@ -55,27 +55,29 @@ class World {
  public:
   /// Reads planning-scene YAML (moveit_msgs layout, `.yaml`/`.yml`), MoveIt text (`.scene`) or a
   /// URDF (`.urdf`: its links in their default state are the bodies, the root link in the model
-  /// frame), told apart by the file's ending. Throws InputError.
+  /// frame). The extension gives the format. Throws InputError.
   ///
-  /// This is the world alone. The joint values of the scene's robot are left out. What else the
-  /// scene says of the robot makes more to collide with, and is refused: attached objects, a moved
-  /// base, objects placed by a link of the robot, a collision matrix. PlanningScene::load reads
-  /// all of these.
+  /// It reads only the world and ignores the joint values of the scene's robot. Other data about
+  /// the robot would add things to collide with, and is refused: attached objects, a moved base,
+  /// objects placed in a frame of a link of the robot, a collision matrix. PlanningScene::load
+  /// reads all of these.
   static World load(const std::filesystem::path& scene, const LoadOptions& options = {});
 
-  /// Throws std::invalid_argument when the name is taken or a pose is not a rigid finite transform.
+  /// Adds a body. Throws std::invalid_argument if the name is taken or a pose is not a finite rigid
+  /// transform.
   void add(WorldBody body);
-  /// A body of one shape. Throws likewise.
+  /// Adds a body of one shape. Throws likewise.
   void add(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape);
-  /// Throws likewise, and for no waypoints, times that are not finite or do not increase, and
-  /// shapes without bounds.
+  /// Adds a moving obstacle. Throws likewise, and for no waypoints, times that are not finite or do
+  /// not increase, and unbounded shapes.
   void add(MovingObstacle obstacle);
-  /// In the place of the body of this name, for what is elsewhere or has another shape by now.
-  /// Throws std::invalid_argument for a name that no body which stands still has, and a pose that
-  /// is not a rigid finite transform.
+  /// Replaces the body of this name, which has moved or changed its shape. Throws
+  /// std::invalid_argument for a name that no static body has, and a pose that is not a finite
+  /// rigid transform.
   void replace(WorldBody body);
-  /// A body of one shape. Throws likewise.
+  /// Replaces it by a body of one shape. Throws likewise.
   void replace(std::string name, Shape shape, const Eigen::Isometry3d& world_from_shape);
+  /// Removes a body or moving obstacle. Returns false if nothing has this name.
   /// Either kind. False: nothing has this name.
   bool remove(std::string_view name);
 
@@ -85,7 +87,7 @@ class World {
   const std::vector<MovingObstacle>& obstacles() const { return obstacles_; }
   ///@}
   ///@{
-  /// Null if there is none of this name; until the world changes.
+  /// Null if none has this name; valid until the world changes.
   const WorldBody* find(std::string_view name) const;
   const MovingObstacle* findObstacle(std::string_view name) const;
   ///@}

@@ -51,7 +51,7 @@ std::string htmlOf(const Json& data) {
       scripts += "<script>\n" + text + "\n</script>\n";
   }
   fill(page, "styles", styles);
-  // The data last: no text of it is searched for marks.
+  // The data goes in last, so that its text is not searched for marks.
   fill(page, "scripts", "<script>\n" + licences + "</script>\n" + scripts);
   fill(page, "data",
        "<script id=\"data\" type=\"application/json\">" + harmless(data) + "</script>\n");

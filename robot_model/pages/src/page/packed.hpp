@@ -32,7 +32,7 @@ requires(std::integral<Number> || std::floating_point<Number>) std::string
   return base64Of(bytes);
 }
 
-/// m. The largest float that is not above `value`: what is proven stays proven.
+/// The largest float that is not above `value` (m), so that a proven lower bound stays one.
 float roundedDown(double value);
 
 /// Position (m), then quaternion x, y, z, w.

@@ -12,10 +12,11 @@
 namespace swept {
 namespace {
 
-/// Balls that show well what a cover is: of the finest level with no more than so many per shape.
+/// The balls of a cover that show it well: those of the finest level with no more than so many per
+/// shape.
 constexpr int kMostShownBalls = 96;
 
-/// Of one cloud: more make a page large and a browser slow.
+/// The most points of one cloud: more make a page large and a browser slow.
 constexpr std::size_t kMostDrawnBalls = 100'000;
 
 class Collector {

@@ -30,14 +30,13 @@ struct PageBody {
   double padding = 0.0;          ///< m
 };
 
-/// Links with collision geometry, attached bodies, bodies of the world, in this order. `checker`
-/// may be null: then there are no rules and nothing is attached. `visuals` may be, too: then no
-/// link has a colour.
+/// Links with collision geometry, attached bodies, bodies of the world, in this order. A null
+/// `checker` means no rules and no attached bodies. Null `visuals` mean no colours.
 std::vector<PageBody> pageBodies(const Robot& robot, const World& world, const Checker* checker,
                                  const VisualModel* visuals);
 
-/// Geometries and covers, each once however many bodies share it. A page's `geometries` and
-/// `covers`.
+/// The geometries and covers of a page: its `geometries` and `covers`. A shape that several bodies
+/// share is stored once.
 class PageGeometries {
  public:
   /// `parts` of a body, which name geometries and covers by their index.

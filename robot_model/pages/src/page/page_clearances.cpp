@@ -50,7 +50,7 @@ std::vector<Placed> placedParts(const PageBody& body, const PageFrames& frames, 
   return placed;
 }
 
-/// 0 for planes and half-spaces, which no ball contains.
+/// The radius is 0 for planes and half-spaces, which no ball contains.
 double gapOf(const BoundingSphere& a, const BoundingSphere& b) {
   const double gap = (a.center - b.center).norm() - a.radius - b.radius;
   return gap > 0.0 ? gap : 0.0;
@@ -63,8 +63,8 @@ double gapOf(const std::vector<Placed>& a, const std::vector<Placed>& b) {
   return least;
 }
 
-/// m. Lower bound of the distance; the distance itself, to the accuracy, where it is below
-/// `enough`.
+/// A lower bound of the distance (m). It is the distance itself, to the accuracy, where that is
+/// below `enough`.
 double distanceOf(const std::vector<Placed>& a, const std::vector<Placed>& b, double enough) {
   double least = kInfinity;
   for (const Placed& first : a)
@@ -84,7 +84,7 @@ class Nearest {
  public:
   explicit Nearest(std::size_t bodies) : distance_(bodies, kInfinity), partner_(bodies, -1) {}
 
-  /// Beyond this the pair is of no interest to either of its bodies.
+  /// The distance beyond which the pair matters to neither of its bodies.
   double enough(const Pair& pair) const { return std::max(distance_[pair.a], distance_[pair.b]); }
   void offer(const Pair& pair, double metres) {
     offer(pair.a, pair.b, metres);

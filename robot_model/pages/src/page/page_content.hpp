@@ -12,7 +12,7 @@
 
 namespace swept {
 
-/// What is to be seen, and what is said of it.
+/// What a page shows and says.
 struct PageContent {
   /// How the headline is coloured.
   enum class Tone { Good, Bad, Unsure, Plain };
@@ -26,7 +26,7 @@ struct PageContent {
     std::string label;
     std::vector<double> q;
   };
-  /// One of several that are shown in turn.
+  /// One of several paths that are shown in turn.
   struct Path {
     std::string label;
     Tone tone = Tone::Plain;
@@ -47,32 +47,32 @@ struct PageContent {
 
 PageContent::Tone toneOf(Verdict verdict);
 
-/// What is said of a state, a motion or a path.
+/// The verdict on a state, a motion or a path.
 struct Finding {
   Verdict verdict = Verdict::Free;
   bool apart = false;  ///< in Collision: no two bodies touch that are within their margin
 };
 Finding findingOf(const MotionCertificate& certificate);
 
-/// One in Collision if there is one, that touches before that which does not; else one that is
-/// Undecided if there is one; else Free.
+/// The worst finding: Collision before Undecided before Free. Among collisions, one in which bodies
+/// touch comes before one in which they are only within their margin.
 Finding worst(const std::vector<Finding>& findings);
 /// `3 motions: 1 free, 2 in collision`, of `what` = `motion`.
 std::string countsText(const std::string& what, const std::vector<Finding>& findings);
 
-/// Where nothing is checked green would say too much: in the tone, and in the headline.
+/// Where nothing is checked, green would say too much. So the tone and the headline say it.
 void sayIfNothingIsChecked(PageContent& content, const Checker& checker);
 
 /// Judges states, to be shown one at a time.
 PageContent statesContent(const Checker& checker, std::vector<PageContent::State> states);
 
-/// Everything a page shows, computed: what robot_model/pages/page/data.js reads. `checker` may be
-/// null; then nothing is judged, and there may be states of the robot's first group, but no
+/// Everything that a page shows, computed: what robot_model/pages/page/data.js reads. `checker` may
+/// be null. Then nothing is judged, and the page may show states of the robot's first group, but no
 /// motions.
 Json pageJson(const Robot& robot, const World& world, const Checker* checker,
               const PageContent& content, const VisualModel& visuals);
 
-/// The whole file. Text of `data` cannot end the element it is in, whatever it is.
+/// The whole file. No text in `data` can end the element that holds it.
 std::string htmlOf(const Json& data);
 
 }  // namespace swept

@@ -9,8 +9,8 @@
 
 namespace swept {
 
-/// A motion that is drawn as `steps` + 1 frames, kFramesPerPiece for each of its parts, or, with 0
-/// steps, a state: then `to` is `from`.
+/// A motion that is drawn as `steps` + 1 frames, kFramesPerPiece for each of its parts. With 0
+/// steps it is a state, and `to` is `from`.
 struct PageSpan {
   std::vector<double> from, to;
   int steps = 0;
@@ -26,14 +26,15 @@ struct PageFrames {
   const Eigen::Isometry3d& pose(std::size_t frame, int link) const;
 };
 
-/// The frames of all spans, one after the other. Between two frames t steps evenly, and poses are
-/// those that the checker checks. `reference` as LinkMotion takes it.
+/// The frames of all spans, one after the other. The parameter t of a motion advances evenly from
+/// frame to frame, and the poses are those that the checker checks. `reference` is as LinkMotion
+/// takes it.
 PageFrames framesOf(const Robot& robot, const Group& group,
                     const std::optional<Eigen::VectorXd>& reference,
                     const std::vector<PageSpan>& spans, std::vector<int> links);
 
-/// Parts that are certified by themselves, for each of so many motions: few enough that all of them
-/// stay a page.
+/// How many parts of each motion are certified by themselves, for this many motions: few enough for
+/// the page to stay small.
 int piecesPerMotion(std::size_t motions);
 /// Frames within a part: a browser draws what is between two of them on straight lines.
 inline constexpr int kFramesPerPiece = 2;

@@ -7,8 +7,8 @@ namespace swept {
 
 namespace {
 
-/// m. A tenth of the tolerance that decides, but no less: where two bodies stay equally far apart
-/// all the way, the work grows with the inverse.
+/// The tolerance (m): a tenth of the one that decides, but no less than this. Where two bodies stay
+/// equally far apart during the whole motion, the work grows with the inverse of the tolerance.
 double clearanceAccuracy(const Checker& checker) {
   return std::max(0.1 * checker.options().tolerance, 1e-5);
 }

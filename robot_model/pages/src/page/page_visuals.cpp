@@ -28,7 +28,7 @@ bool isSameMesh(const TriangleMesh& checked, const VisualMesh& shown) {
   return off <= 1e-5 * a.sizes().maxCoeff();
 }
 
-/// The collision geometry of the link that is the same file at the same scale; null: none is.
+/// The collision geometry of the link that has the same file at the same scale; null: none has.
 const Shape* checkedShape(const Link& link, const Visual& visual) {
   const auto* mesh = std::get_if<MeshPointer>(&visual.shape);
   if (mesh == nullptr) return nullptr;

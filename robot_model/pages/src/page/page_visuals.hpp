@@ -9,7 +9,7 @@
 #include "page/page_frames.hpp"
 #include "swept/robot_model/visual_model.hpp"
 
-/// What the robot looks like, for the page's switch between that and what is proven.
+/// The visual geometry of the robot, which a page can show in place of the collision geometry.
 namespace swept {
 
 /// Indices of the links that have visuals.
@@ -18,12 +18,12 @@ std::vector<int> linksWithVisuals(const Robot& robot, const VisualModel& visuals
 /// `#rrggbb`.
 std::string cssColour(const Colour& colour);
 
-/// One entry for each visual; `frames` has all their links. A mesh that the link is also checked
-/// with is in the page once.
+/// One entry for each visual. `frames` must hold all their links. A mesh that is also collision
+/// geometry of the link is stored once.
 Json visualsJson(const Robot& robot, const VisualModel& visuals, const PageFrames& frames,
                  PageGeometries& geometries);
 
-/// `36 shapes, 150000 of 812345 triangles, 2 left out`; empty: there is nothing to say.
+/// For example `36 shapes, 150000 of 812345 triangles, 2 left out`; empty: nothing to report.
 std::string visualsText(const VisualModel& visuals);
 
 }  // namespace swept

@@ -23,7 +23,7 @@ Isometry3d along(const Vector3d& axis, const Vector3d& middle) {
   return pose;
 }
 
-/// The element itself, where the library has its shape; else the hull of its points.
+/// The element itself, where the library has its shape, otherwise the hull of its points.
 CertifiedBody::Part shapeOfElement(const verify::Element& element) {
   if (element.ellipsoid) {
     const Vector3d axes = element.ellipsoid->axes.colwise().norm();

@@ -10,8 +10,8 @@
 
 namespace swept {
 
-/// What the search for a proof knows about a body besides what its checker does: shapes for the
-/// parts of its tree, so that the library can say in which direction two of them are apart.
+/// A body and the shapes of the parts of its tree. With these the library computes in which
+/// direction two parts are separated.
 class SearchedBody {
  public:
   SearchedBody(const verify::Body& body, const CertifiedBody& source);
@@ -19,7 +19,7 @@ class SearchedBody {
   const verify::Body& body() const { return body_; }
   /// As it is checked; of bounded parts only.
   const std::vector<CertifiedBody::Part>& parts() const { return parts_; }
-  /// What a node holds: a single element as it is, more of them by the hull of points on them.
+  /// The shape of a node: a single element as it is, several by the hull of points on them.
   const CertifiedBody::Part& shapeOf(int node);
   double sizeOf(int node);         ///< m, radius of a ball around it
   double grownBy(int node) const;  ///< m, that what it holds may reach beyond its shape

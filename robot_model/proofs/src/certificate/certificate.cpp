@@ -14,7 +14,7 @@
 namespace swept {
 namespace {
 
-/// Of the clearance beyond the margin: what the planes have to show.
+/// The share of the clearance beyond the margin that the planes have to prove.
 constexpr double kShareOfClearance = 0.5;
 
 class CertificateSearch {
@@ -27,7 +27,7 @@ class CertificateSearch {
     findMeasured(checker, sources);
   }
 
-  /// Null, and `missing`, where a pair is not proven.
+  /// Null where a pair is not proven; then `missing` says why.
   Json segment(std::span<const double> from, std::span<const double> to, double clearance,
                std::string& missing) {
     const verify::Motion motion(model_, from, to);
@@ -63,8 +63,8 @@ class CertificateSearch {
   verify::Model model_;
   std::vector<verify::PairToProve> pairs_;
   std::deque<SearchedBody> bodies_;
-  /// Pairs that the clearances are about. Bodies out of reach have to be proven apart as well, and
-  /// may be nearer than these.
+  /// Pairs that the clearances cover. Bodies out of a link's reach have to be proven apart as well,
+  /// and may be nearer than these.
   std::set<std::pair<int, int>> measured_;
 };
 

@@ -18,10 +18,11 @@ struct Certificate {
   std::string missing;  ///< why; empty: there is one
 };
 
-/// Looks for planes that prove every segment of a path, of which each is proven free by the
-/// checker already. They show that what has to keep apart keeps more than half of what
-/// `clearances` (m, one per segment, proven) has above the margin; bodies that are out of a link's
-/// reach, which these are not about, more than the margin. Throws UsageError for moving obstacles.
+/// Looks for planes that prove each segment of a path. The checker has proven each segment free
+/// before. The planes prove that the bodies of each pair stay farther apart than the margin plus
+/// half of the rest of `clearances` (m, one per segment, proven). Bodies out of a link's reach are
+/// not part of the clearances; the planes prove that they stay farther apart than the margin.
+/// Throws UsageError for moving obstacles.
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
                           std::span<const double> clearances);
 

@@ -20,7 +20,7 @@ using Eigen::Isometry3d;
 
 using Names = std::map<std::string, std::string>;
 
-/// What a proof calls the bodies of the world, which may have the names of links, by their names.
+/// Names of the world's bodies in a proof, by their own names, which may be those of links.
 Names proofNamesInWorld(const Checker& checker) {
   std::set<std::string> taken;
   for (const Link& link : checker.robot().links()) taken.insert(link.name);
@@ -90,7 +90,8 @@ Json bodyJson(const Checker& checker, const CertifiedBody& body) {
   return json;
 }
 
-/// Joints and links the group does not move need no word of anyone: the checker of proofs knows.
+/// Joints and links that the group does not move need no rule: the verifier leaves them out by
+/// itself.
 bool isAllowed(const Checker::Pair& pair) {
   for (const char* word : {"allowed", "SRDF", "touch link", "attached to"})
     if (pair.reason.starts_with(word)) return true;
@@ -108,8 +109,8 @@ Json allowedJson(const Checker& checker) {
   return allowed;
 }
 
-/// Links that a joint connects, which the checker of proofs would leave out by itself, and that are
-/// checked all the same.
+/// Links that a joint connects and that are checked all the same. The verifier would leave them out
+/// by itself.
 Json askedJson(const Checker& checker) {
   std::set<std::pair<std::string, std::string>> connected;
   for (const Joint& joint : checker.robot().joints()) {

@@ -22,14 +22,14 @@ struct CertifiedBody {
   std::vector<Part> parts;
 };
 
-/// Those with geometry, the robot's first: in the order of modelJson()'s bodies. In a proof, a body
-/// of the world that has the name of a link has ` (world)` behind its own, as often as it takes for
-/// no other to have that name.
+/// The bodies with geometry, the robot's first, in the order of modelJson()'s bodies. Where a body
+/// of the world has the name of a link, its name in the proof ends in ` (world)`, repeated until no
+/// other body has that name.
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 
-/// What a proof is about, in the form that robot_model/verify reads: kinematics, geometry bit for
-/// bit, margins, pairs that may touch. Throws UsageError for moving obstacles, which have no place
-/// in it.
+/// The model that a proof is about, in the form that robot_model/verify reads: kinematics, geometry
+/// bit for bit, margins, pairs that may touch. Throws UsageError for moving obstacles, which the
+/// form cannot express.
 Json modelJson(const Checker& checker);
 
 /// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is

@@ -14,9 +14,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Halvings of a motion: shorter intervals are not worth their place.
+/// The most halvings of a motion: shorter intervals are not worth the space in the file.
 constexpr int kDepth = 24;
-/// Pairs of nodes looked at in one interval.
+/// The most pairs of nodes that are examined in one interval.
 constexpr int kNodes = 20'000;
 /// Two nodes that keep this share of what the bodies have to spare in the middle of an interval
 /// need less time, not smaller parts.
@@ -32,7 +32,7 @@ double rounded(double value, double digits) {
 double roundedDown(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 3.0);
   const double candidate = std::floor(value / unit) * unit;
-  // The nearest number of few digits may be above.
+  // The nearest number with few digits may be larger than the value.
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", candidate);
   const double few = std::strtod(text, nullptr);

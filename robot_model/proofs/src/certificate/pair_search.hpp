@@ -8,9 +8,9 @@
 
 namespace swept {
 
-/// Looks for intervals and planes that prove two bodies apart during a motion, as checkPair() of
-/// robot_model/verify takes them. The library's distances say where to put a plane; whether it
-/// holds, and how far, that checker's own bound does.
+/// Looks for intervals and planes that prove two bodies apart during a motion, in the form that
+/// checkPair() of robot_model/verify takes. The library's distances say where to put a plane. The
+/// verifier's own bound says whether and for how long it separates the bodies.
 class PairSearch {
  public:
   /// `keep`: m; what the planes have to show, more than the margin of the pair.
@@ -18,8 +18,8 @@ class PairSearch {
              SearchedBody& a, SearchedBody& b, double keep)
       : model_(model), motion_(motion), pair_(pair), a_(a), b_(b), keep_(keep) {}
 
-  /// The pair's entry without its digest; null where nothing was found: the bodies come nearer than
-  /// `keep`, or so near that it takes intervals that are too many.
+  /// The pair's entry without its digest. Null where no proof was found: the bodies come nearer
+  /// than `keep`, or so near that the proof would need too many intervals.
   Json run();
 
  private:

@@ -14,8 +14,8 @@
 namespace swept {
 namespace {
 
-/// A line for each of what the first two levels hold, and for each pair of a proof: short enough to
-/// look at, and to compare.
+/// Writes each member of the first two levels, and each pair of a proof, on a line of its own. The
+/// lines are short enough to read and to compare.
 std::string linesOf(const Json& json) {
   std::string text = "{";
   for (const auto& [key, value] : json.items()) {

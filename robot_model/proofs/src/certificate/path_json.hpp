@@ -22,7 +22,7 @@ struct SegmentRecord {
   Clearances clearances;   ///< likewise
 };
 
-/// What a path file says besides what its checker and its proof do.
+/// The entries of a path file besides those of its checker and its proof.
 struct PathRecord {
   Json maker = Json::object();  ///< who has made the path: `planner`, `seed`
   std::span<const std::vector<double>> states;
@@ -42,8 +42,8 @@ struct ProvenPath {
 ProvenPath provenPath(const ConfigurationList& states, const PathCertificate& certificate);
 
 /// The path file that robot_model/verify and readPath() read. `embed`: with the robot and the
-/// world. Throws UsageError, beginning with `where`, for names that are not UTF-8, and for more
-/// text than is read of a file.
+/// world. Throws UsageError, beginning with `where`, for names that are not UTF-8, and for a file
+/// larger than the reader accepts.
 std::string pathJsonText(const Checker& checker, const PathRecord& record,
                          const Certificate& certificate, bool embed, const std::string& where);
 

@@ -11,7 +11,7 @@ namespace swept {
 namespace {
 
 std::string packed(std::span<const Eigen::Vector3d> points) {
-  // Three doubles each, without anything between them.
+  // Three doubles each, without padding.
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
   return verify::base64Of(points.empty() ? std::span<const double>()
                                          : std::span(points.front().data(), 3 * points.size()));

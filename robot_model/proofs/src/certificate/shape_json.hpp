@@ -6,7 +6,7 @@
 
 namespace swept {
 
-/// A shape as robot_model/verify reads it, bit for bit: small ones in numbers, the others in
+/// A shape as robot_model/verify reads it, bit for bit: small shapes as numbers, the others in
 /// base64.
 Json exactShapeJson(const Shape& shape);
 

@@ -8,7 +8,7 @@
 
 namespace swept {
 
-/// What came of checking a proof.
+/// The result of verifying a proof.
 struct VerifyOutcome {
   std::string refusal;      ///< the first place where it does not hold; empty: it holds
   verify::Summary summary;  ///< where it holds
@@ -16,11 +16,12 @@ struct VerifyOutcome {
   bool holds() const { return refusal.empty(); }
 };
 
-/// A path file that has a `proof`. Throws InputError where it is none.
+/// Reads a path file that has a `proof`. Throws InputError for any other file.
 Json pathWithProof(const std::string& file);
 
-/// Checks the proof of a path against the model that is in it, where there is one, and `other`,
-/// which is null or another one of what has to be the same. One of them is there.
+/// Verifies the proof of a path against the model in its file, where there is one, and against
+/// `other`, where that is not null. At least one of the two must be there. The other model must be
+/// the same.
 VerifyOutcome verified(const Json& path, const Json& other);
 
 }  // namespace swept

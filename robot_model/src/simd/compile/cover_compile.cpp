@@ -29,7 +29,7 @@ class CoverCompiler {
       const RobotGeometry& geometry = model_.robotGeometry[i];
       geometriesOf[geometry.body].push_back(static_cast<int>(i));
       geometryBody_.push_back(geometry.body);
-      // What places a shape in its body is rounded in double alone.
+      // The placement of a shape in its body rounds only in double.
       const LeverArms& levers = geometry.levers;
       const double span = std::max(levers.spanAtRest, kSingle * geometry.magnitude);
       simd_.reach = std::max(simd_.reach, static_cast<float>(span) * kReachOutward);
@@ -76,7 +76,7 @@ class CoverCompiler {
     root.childCount = static_cast<std::int32_t>(geometries.size());
   }
 
-  /// Contains the balls of consecutive nodes.
+  /// A ball that contains the balls of consecutive nodes.
   SimdNode ballAround(std::int32_t first, int count) const {
     const auto centerOf = [&](int i) {
       const float(&c)[3] = nodes_[first + i].center;
@@ -112,7 +112,7 @@ class CoverCompiler {
     const RobotGeometry& geometry = model_.robotGeometry[index];
     rootOfGeometry_[index] = at;
     if (geometry.cover == nullptr) {
-      // Unbounded: never proven here.
+      // Unbounded: nothing is proven for it here.
       nodes_[at].geometry = index;
       nodes_[at].radius = nodes_[at].beyond = std::numeric_limits<float>::infinity();
       return;
@@ -206,8 +206,8 @@ class CoverCompiler {
     simd_.hulls = std::move(hulls);
   }
 
-  /// Growths are as many as pairs of a joint that turns and one beyond that slides: too many for
-  /// long paths (SimdHull::growsByAll).
+  /// The number of growths is that of pairs of a turning joint and a sliding joint beyond it: too
+  /// many for long paths (SimdHull::growsByAll).
   RestArms hullArms(const RobotGeometry& geometry) const {
     if (!isLong(geometry))
       return restArms(model_.kinematics, geometry.body, geometry.center, geometry.radius);

@@ -11,7 +11,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// Halves the balls across where they reach farthest, until eight or fewer are left: a row of each.
+/// Halves the balls along their largest extent, until eight or fewer are left in each part: these
+/// make a row.
 void divide(std::span<MeetingBall> balls, std::vector<std::span<MeetingBall>>& eights) {
   if (balls.size() <= kLanes) {
     if (!balls.empty()) eights.push_back(balls);
@@ -27,7 +28,7 @@ void divide(std::span<MeetingBall> balls, std::vector<std::span<MeetingBall>>& e
   (upper - lower).maxCoeff(&axis);
   std::ranges::stable_sort(balls, {},
                            [axis](const MeetingBall& ball) { return ball.center[axis]; });
-  // Full rows but for the last.
+  // All rows are full except the last.
   const std::size_t rows = (balls.size() + kLanes - 1) / kLanes;
   const std::size_t half = rows / 2 * kLanes;
   divide(balls.first(half), eights);
@@ -41,7 +42,7 @@ void setLane(SimdModel::Probes& row, int lane, const Vector3f& center, float rad
   row.inside.lane[lane] = radius;
 }
 
-/// What it leaves out by rounding is not looked at: no answer rests on it.
+/// Balls that it misses by rounding are not tested: no answer depends on it.
 MeetingBall ballAround(std::span<const MeetingBall> balls) {
   MeetingBall around{Vector3f::Zero(), 0.0F};
   for (const MeetingBall& ball : balls) around.center += ball.center;

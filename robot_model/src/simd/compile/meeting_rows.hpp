@@ -18,13 +18,13 @@ struct MeetingBall {
 /// As many rows as a row of balls around them has lanes.
 inline constexpr int kMostMeetingBalls = kLanes * kLanes;
 
-/// Puts balls that are near each other into the same row, behind a row of balls around these; see
-/// SimdModel::meetingRows. Of more than kMostMeetingBalls the first ones.
+/// Puts balls that are near each other into the same row, after a row of balls around these rows;
+/// see SimdModel::meetingRows. If there are more than kMostMeetingBalls, it uses the first ones.
 SimdModel::InnerBalls addMeetingRows(std::vector<MeetingBall> balls,
                                      std::vector<SimdModel::Probes>& rows);
 
 /// At most `count` of the points, each the farthest from those before; the first one is the
-/// farthest from the middle of all.
+/// farthest from the centre of all.
 std::vector<Eigen::Vector3d> spreadPoints(std::span<const Eigen::Vector3d> points, int count);
 
 }  // namespace swept::detail

@@ -30,7 +30,7 @@ class BoxTree {
     }
     if (world.empty()) return;
     nodes_.emplace_back();
-    // Unbounded boxes would spoil the ones around them.
+    // Unbounded boxes would spoil the boxes around them.
     std::vector<Entry> root;
     while (unbounded.size() >= kLanes) {
       const Entry packed = pack(std::span(unbounded).last(kLanes - 1));
@@ -82,7 +82,7 @@ class BoxTree {
     for (int lane = 0; lane < kLanes; ++lane) {
       const bool used = lane < static_cast<int>(entries.size());
       for (int i = 0; i < 3; ++i) {
-        // Nothing meets an empty box.
+        // Nothing overlaps an empty box.
         nodes_[node].lower[i].lane[lane] =
             used ? singleBelow(entries[lane].center[i] - entries[lane].half[i]) : kInfinity;
         nodes_[node].upper[i].lane[lane] =

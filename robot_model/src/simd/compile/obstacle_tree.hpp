@@ -8,8 +8,8 @@
 
 namespace swept::detail {
 
-/// Over the boxes of all geometries; [0] is the root, empty without any. `reach` (m) and `extras`:
-/// as for compileObstacles.
+/// A tree over the boxes of all geometries; [0] is the root; empty without geometries. `reach` (m)
+/// and `extras`: as for compileObstacles.
 std::vector<SimdWorldNode> buildObstacleTree(const std::vector<WorldGeometry>& world, double reach,
                                              std::span<const float> extras);
 

@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// m. Far below where squares overflow in single precision: an infinite one would be apart.
+/// m. Far below where squares overflow in single precision: an infinite square would count as
+/// apart.
 constexpr double kLargestSquared = 1e15;
 
 class ObstacleCompiler {
@@ -30,7 +31,7 @@ class ObstacleCompiler {
   void add(const WorldGeometry& geometry) {
     geometry_ = &geometry;
     slack_ = obstacleRounding(reach_, geometry.magnitude);  // L8: each set is grown by that
-    // Of a box no square is taken but of what lies outside it.
+    // For a box, only the part outside it is squared.
     if (!(geometry.magnitude < kLargestSquared)) return addBox();
     std::visit([&](const auto& shape) { addShape(shape); }, geometry.shape);
   }
@@ -76,7 +77,7 @@ class ObstacleCompiler {
     return result_.obstacles.back();
   }
 
-  /// The box that contains the geometry; for a box that is the box.
+  /// The box that contains the geometry; for a box, the box itself.
   void addBox() {
     const bool isBox = std::holds_alternative<Box>(geometry_->shape);
     addBox(geometry_->box_from_world, geometry_->halfExtents,
@@ -92,7 +93,7 @@ class ObstacleCompiler {
     result_.boxes.push_back(box);
   }
 
-  /// Thin, in the triangle's own plane, along its longest side.
+  /// A thin box in the triangle's own plane, along its longest side.
   void addTriangle(const Triangle& triangle);
 
   void addEllipsoid(const Ellipsoid& shape) {
@@ -134,7 +135,7 @@ class ObstacleCompiler {
     const double along = slant > 0.0 ? cone.radius / slant : 0.0;
     round.across = static_cast<float>(across);
     round.along = static_cast<float>(along);
-    // The side goes through the apex, at height halfLength on the axis.
+    // The side passes through the apex, at height halfLength on the axis.
     round.offset = singleAbove(along * cone.halfLength + slack_);
   }
 
@@ -161,7 +162,7 @@ class ObstacleCompiler {
 
 constexpr std::size_t kMostPlanes = 32;
 
-/// Directions of faces, the largest ones first, none twice.
+/// Directions of faces, the largest ones first, without duplicates.
 std::vector<Vector3d> faceNormals(const ConvexHull& hull) {
   constexpr double kSame = 1.0 - 1e-6;
   std::vector<Vector3d> scaled;
@@ -182,7 +183,7 @@ std::vector<Vector3d> faceNormals(const ConvexHull& hull) {
   return normals;
 }
 
-/// The set is the intersection of half-spaces that touch the hull, whatever their normals.
+/// The set is the intersection of half-spaces that touch the hull, for any normals.
 void ObstacleCompiler::addHull(const ConvexHull& hull) {
   const std::vector<Vector3d> normals = faceNormals(hull);
   if (normals.size() < 4) return addBox();
@@ -205,7 +206,7 @@ void ObstacleCompiler::addTriangle(const Triangle& triangle) {
     if (side.squaredNorm() > longest.squaredNorm()) longest = side;
   }
   const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  // Any orthonormal axes will do: the box is around the corners as they are in them.
+  // Any orthonormal axes will do: the box is around the corners in these axes.
   const Vector3d first = longest.norm() > 0.0 ? longest.normalized() : Vector3d::UnitX();
   Vector3d third = normal - normal.dot(first) * first;
   third = third.norm() > 1e-9 * longest.squaredNorm() ? third.normalized() : first.unitOrthogonal();

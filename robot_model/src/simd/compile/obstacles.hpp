@@ -10,7 +10,7 @@
 
 namespace swept::detail {
 
-/// What bounds a world geometry from outside, one kernel each.
+/// The bounding shapes of world geometries, one kernel each.
 enum class ObstacleKind : std::uint8_t {
   Box,
   Ball,
@@ -23,12 +23,12 @@ enum class ObstacleKind : std::uint8_t {
   Field
 };
 
-/// What a bound on the distance from an obstacle says of being near it.
+/// What a bound on the distance from an obstacle means near it.
 enum class NearProof : std::uint8_t {
   None,
-  Inside,    ///< where it is zero the point is in the obstacle, but for rounding
-  Distance,  ///< it is the distance of points, but for rounding
-  Query,     ///< None, but there is a query for it
+  Inside,    ///< if it is zero, the point is in the obstacle, up to rounding
+  Distance,  ///< it is the distance of points, up to rounding
+  Query,     ///< nothing, but there is a query for it
 };
 
 /// { x : |axes[i] . x + offset[i]| <= half[i] }
@@ -44,8 +44,8 @@ struct SimdRound {
   float axis[3];     ///< unit; cone: towards the apex
   float halfLength;  ///< m
   float radius;      ///< m
-  /// Cone: of the side's outward normal, across and along the axis, and its offset: the side is
-  /// across * |radial| + along * axial = offset.
+  /// Cone: the side's outward normal, across and along the axis, and its offset. The side is across
+  /// * |radial| + along * axial = offset.
   float across = 0.0F;
   float along = 0.0F;
   float offset = 0.0F;  ///< m
@@ -58,7 +58,7 @@ struct SimdEllipsoid {
   float axes[3][3];   ///< unit
   float offset[3];    ///< m
   float semiAxes[3];  ///< m
-  float inverse[3];   ///< 1/m, of the semi-axes; near to them is enough
+  float inverse[3];   ///< 1/m, of the semi-axes; need not be exact
   float slack;        ///< m
 };
 
@@ -70,8 +70,8 @@ struct LanePlane {
   float slack;      ///< m
 };
 
-/// Each set is larger than the obstacle by at least what single precision does to a distance from
-/// it, for points within the robot's reach.
+/// Each set is larger than the obstacle by at least the rounding of a distance from it in single
+/// precision, for points within the robot's reach.
 struct SimdObstacle {
   ObstacleKind kind = ObstacleKind::Box;
   NearProof near = NearProof::None;
@@ -86,7 +86,7 @@ struct SimdWorldNode {
   std::int32_t child[kLanes];  ///< a node's index, or ~index of an obstacle
 };
 
-/// The world in lanes; indices of obstacles are those of PairModel::worldGeometry.
+/// The world for the SIMD kernels; indices of obstacles are those of PairModel::worldGeometry.
 struct SimdObstacles {
   std::vector<SimdObstacle> obstacles;
   std::vector<SimdBox> boxes;
@@ -97,10 +97,10 @@ struct SimdObstacles {
   std::vector<SimdWorldNode> nodes;  ///< [0] is the root; empty: no obstacles
 };
 
-/// `reach`: m, no point of the robot is farther from the model frame's origin, but for what slides;
-/// `bounded`: none slides freely, the others no farther than by `farther` (m). `extras`: m, per
-/// geometry, how much farther around it must be looked for the robot; empty: not at all. `like`:
-/// null, or another world, whose fields are shared.
+/// `reach`: m, upper bound on the distance of the robot's points from the model frame's origin,
+/// without slides. `bounded`: no joint slides freely, the others at most by `farther` (m).
+/// `extras`: m, per geometry, how much farther around it the robot must be searched; empty: not at
+/// all. `like`: null, or another world, whose fields are shared.
 SimdObstacles compileObstacles(const std::vector<WorldGeometry>& world, double reach, bool bounded,
                                std::span<const float> extras = {},
                                const SimdObstacles* like = nullptr, double farther = 0.0);

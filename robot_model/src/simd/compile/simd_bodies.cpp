@@ -35,16 +35,17 @@ SimdJointKind kindOf(JointType type) {
   return SimdJointKind::Turn;
 }
 
-/// rad. What is left of an angle by an offset rounds in double as the angle does: up to this offset
-/// by less than it rounds in single precision, which is counted. What so slides says by how much.
+/// rad. An angle from which an offset cancels most rounds in double as the whole angle does. Up to
+/// this offset, that is less than its rounding in single precision, which is counted. Sliding
+/// joints give their own error.
 constexpr double kLargestOffset = 1e6;
 
 bool roundsInSingle(const MovingBody& body) {
   return !turns(body.type) || std::abs(body.offset) <= kLargestOffset;
 }
 
-/// The arms do not count what planar and floating joints farther out let a body slide; in front of
-/// all other joints, as the base of a mobile robot, they are harmless.
+/// The lever arms do not count the slides of planar and floating joints farther out. In front of
+/// all other joints, as the base of a mobile robot, such joints are harmless.
 bool boundsHold(const KinematicModel& kinematics) {
   return std::ranges::all_of(kinematics.bodies, [](const MovingBody& body) {
     const bool slidesFarOut = slidesFreely(body.type) && body.parent > 0;
@@ -52,7 +53,7 @@ bool boundsHold(const KinematicModel& kinematics) {
   });
 }
 
-/// Frames are turned so that the joint's axis is z.
+/// Frames are rotated so that the joint's axis is z.
 Matrix3d bodyFromLane(const MovingBody& body) {
   switch (body.type) {
     case JointType::Revolute:
@@ -68,7 +69,7 @@ Matrix3d bodyFromLane(const MovingBody& body) {
   return Matrix3d::Identity();
 }
 
-/// Of the angle between the axes of a joint and its parent's, as SimdBody has it.
+/// Cosine of the angle between the axes of a joint and its parent's, as SimdBody stores it.
 float cosineBetween(const MovingBody& body, const MovingBody& parent) {
   if (!turns(body.type) || !turns(parent.type)) return -1.0F;
   const Vector3d inParent = body.parent_from_joint.linear() * body.axis;

@@ -5,11 +5,12 @@
 
 namespace swept::detail {
 
-/// The moving bodies, in the lanes' frames, and their covers: what depends on neither pairs nor the
-/// world. False where the lanes' bounds on motions do not hold; nothing is compiled then.
+/// The moving bodies, in the SIMD tier's frames, and their covers: the data that depends on neither
+/// pairs nor the world. False if the SIMD tier's bounds on motions do not hold; then nothing is
+/// compiled.
 bool compileSimdBodies(const PairModel& model, SimdModel& simd);
 
-/// The same as another model has.
+/// Copies the same data from another model.
 void shareSimdBodies(const SimdModel& like, SimdModel& simd);
 
 }  // namespace swept::detail

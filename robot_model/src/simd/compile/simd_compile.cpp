@@ -16,7 +16,7 @@ namespace swept::detail {
 
 namespace {
 
-/// The pairs of a model as the lanes see them, and the obstacles.
+/// The pairs of a model in the form of the SIMD tier, and the obstacles.
 class SimdCompiler {
  public:
   SimdCompiler(const PairModel& model, const PairModel* like, const SimdModel* likeSimd)
@@ -39,7 +39,7 @@ class SimdCompiler {
   }
 
  private:
-  /// Only of what is paired with the obstacles.
+  /// Only for geometry that is paired with the obstacles.
   bool reachIsBounded() const {
     return std::ranges::none_of(simd_.worldBodies, [this](int body) {
       return std::ranges::any_of(simd_.ancestors[body], [this](int ancestor) {
@@ -57,7 +57,7 @@ class SimdCompiler {
     references_.assign(simd_.bodies.size(), -1);
     references_[0] = 0;
     std::vector<char> meetsWorld(simd_.bodies.size(), 0);
-    // Of a first body and each second one, the index into bodyPairs; -1: none yet.
+    // For a first body and each second one, the index into bodyPairs; -1: none yet.
     std::vector<std::vector<std::int32_t>> known(simd_.bodies.size());
     for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
       const GeometryPair& pair = model_.pairs[i];
@@ -133,7 +133,7 @@ class SimdCompiler {
   const SimdModel* likeSimd_;
   SimdModel simd_;
   std::vector<int> referenceBodies_{0};
-  std::vector<int> references_;  ///< per body: of referenceBodies_; -1: none
+  std::vector<int> references_;  ///< per body: its index into referenceBodies_; -1: none
 };
 
 }  // namespace
@@ -141,7 +141,7 @@ class SimdCompiler {
 std::vector<SimdRootRow> compileRootRows(const SimdModel& simd) {
   const auto radiusOf = [&](int body) { return simd.nodes[simd.rootOfBody[body]].radius; };
   const std::size_t eights = (simd.bodies.size() + kLanes - 1) / kLanes;
-  // Of a first body and each eight others, the index into rows; -1: none yet.
+  // For a first body and each group of eight others, the index into rows; -1: none yet.
   std::vector<std::vector<std::int32_t>> known(simd.bodies.size());
   std::vector<SimdRootRow> rows;
   for (std::size_t i = 0; i < simd.bodyPairs.size(); ++i) {

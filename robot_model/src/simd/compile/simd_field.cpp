@@ -21,13 +21,13 @@ bool wantsField(const WorldGeometry& geometry) {
          std::holds_alternative<PointCloud>(geometry.shape);
 }
 
-/// Copies of a mesh or of a cloud share it.
+/// Copies of a mesh or of a cloud share a field.
 const void* dataOf(const Shape& shape) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return &mesh->bvh();
   return &std::get<PointCloud>(shape).bvh();
 }
 
-/// Cells of one field and of all of a world.
+/// Number of cells of one field, and of all fields of a world.
 constexpr std::size_t kMostFieldCells = std::size_t{1} << 19;
 constexpr std::size_t kLeastFieldCells = std::size_t{1} << 12;
 constexpr std::size_t kMostCells = std::size_t{1} << 22;
@@ -63,7 +63,7 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, SimdFie
   const Aabb box = boundingBox(geometry.shape);
   const Vector3d unlimited = Vector3d::Constant(std::numeric_limits<double>::infinity());
   Aabb window{-unlimited, unlimited};
-  // Where it cuts nothing off, whatever the pose, the field can be shared.
+  // If the window cuts nothing off, for any pose, the field can be shared.
   const Vector3d origin = shape_from_world.translation();
   for (int i = 0; i < 3; ++i) {
     if (origin[i] - room_ > box.lower[i]) window.lower[i] = origin[i] - room_;
@@ -101,7 +101,7 @@ bool isApart(const SimdField& field, const MovingPoint& point, float radius, boo
   const LineSegment segment = {
       field.shape_from_world * Vector3d(point.x[0], point.x[1], point.x[2]),
       field.shape_from_world.linear() * Vector3d(point.g[0], point.g[1], point.g[2])};
-  // The slack is more than what the pose is rounded by.
+  // The slack is more than the rounding of the pose.
   const double within = static_cast<double>(radius) + static_cast<double>(field.slack);
   if (const auto* cloud = std::get_if<PointCloud>(&field.shape))
     return isFarther(*cloud, segment, within);

@@ -22,7 +22,7 @@ struct Grown {
   bool ofGeometry = false;
 };
 
-/// Corners of a polygon around a circle across z.
+/// Corners of a polygon around a circle, orthogonal to z.
 void addCircle(double radius, double z, std::vector<Vector3d>& points) {
   const double outer = radius / std::cos(std::numbers::pi / kSides) * kArithmeticOutward;
   for (int i = 0; i < kSides; ++i) {
@@ -60,7 +60,7 @@ struct GrownHull {
   Grown operator()(const Triangle& triangle) const {
     return {{triangle.corners.begin(), triangle.corners.end()}, 0.0, true};
   }
-  /// More points than a coarser hull has take longer than exact geometry does.
+  /// More points than a coarser hull has would take longer than exact geometry.
   Grown operator()(const ConvexHull& hull) const { return ofCoarse(ConvexHull::coarser(hull)); }
   Grown operator()(const TriangleMesh& mesh) const { return ofCoarse(mesh.coarseHull()); }
   static Grown ofCoarse(const ConvexHull& hull) { return {hull.vertices(), hull.error(), true}; }

@@ -17,13 +17,13 @@ struct PairModel;
 struct PairSeparationTable;
 struct PairSeparationTables;
 
-/// How a body moves in its parent's frame. Frames of the lane tier are turned so that a joint turns
-/// about z.
+/// The motion of a body in its parent's frame. Frames of the SIMD tier are rotated so that a joint
+/// turns about z.
 enum class SimdJointKind : std::uint8_t {
   Turn,      ///< revolute and continuous
   Slide,     ///< prismatic
   Planar,    ///< slides, then turns
-  Floating,  ///< slides, then turns about an axis that the motion chooses
+  Floating,  ///< slides, then turns about an axis that depends on the motion
 };
 
 constexpr bool slides(SimdJointKind kind) {
@@ -50,7 +50,7 @@ constexpr bool turns(SimdJointKind kind) {
   return false;
 }
 
-/// The motion chooses the axis.
+/// Whether the axis depends on the motion.
 constexpr bool floats(SimdJointKind kind) {
   switch (kind) {
     case SimdJointKind::Floating:
@@ -63,19 +63,19 @@ constexpr bool floats(SimdJointKind kind) {
   return false;
 }
 
-/// One moving body. Single precision: what that costs is part of SimdModel::rounding.
+/// One moving body. SimdModel::rounding includes the error of single precision.
 struct SimdBody {
   int parent = 0;
   SimdJointKind kind = SimdJointKind::Turn;
   float rotation[9] = {};     ///< parent's frame from the joint's, row by row
   float translation[3] = {};  ///< m, parent's frame
-  /// Of the angle between this joint's axis and its parent's, absolute, rounded up; negative where
-  /// not both turn about an axis that is fixed in the parent.
+  /// Absolute cosine of the angle between this joint's axis and its parent's, rounded up; negative
+  /// unless both turn about an axis that is fixed in the parent.
   float cosine = -1.0F;
 };
 
-/// A ball of a link's cover, in the frame of its body. The first node of a body that has several
-/// pieces of geometry holds all of them.
+/// A ball of a link's cover, in the frame of its body. If a body has several pieces of geometry,
+/// its first node contains all of them.
 struct SimdNode {
   float center[3] = {};  ///< m
   float radius = 0.0F;   ///< m
@@ -83,15 +83,15 @@ struct SimdNode {
   float beyond = 0.0F;   ///< m, how far the ball reaches beyond the link
   std::int32_t firstChild = 0;
   std::int32_t childCount = 0;
-  std::int32_t childRow = 0;   ///< of SimdModel::children, the first of as many as they fill
+  std::int32_t childRow = 0;   ///< first of its rows of SimdModel::children
   std::int32_t geometry = -1;  ///< index into PairModel::robotGeometry; -1: several
 };
 
-/// Bounds on how the bodies that move relative to a reference body do so.
+/// Bounds on the motion of the bodies that move relative to a reference body.
 ///
-/// Rows go over the moving bodies, padded; `arms[step][body]` bounds the distance of each ball
-/// centre of the body from the axis of the step's joint while all prismatic joints are at zero, 0
-/// where that does not carry the body. What a motion slides makes it longer: see Growth. Where
+/// Rows run over the moving bodies, padded. `arms[step][body]` bounds the distance of each ball
+/// centre of the body from the axis of the step's joint while all prismatic joints are at zero; it
+/// is 0 if the joint does not carry the body. A motion's slides lengthen it: see Growth. If
 /// SimdModel::carried has them, there are no steps, arms and `carried` here.
 struct SimdReference {
   struct Step {
@@ -100,7 +100,7 @@ struct SimdReference {
     int grandparent = -1;     ///< step; meaningful when `turnsAfter`
     bool turnsAfter = false;  ///< both this joint and its parent's turn, relative to the reference
   };
-  /// By how much more, per m that a prismatic joint is off zero.
+  /// Growth of the lever arms per m that a prismatic joint is off zero.
   struct Growth {
     int slide = 0;            ///< index into SimdModel::bodies
     std::vector<Row> shares;  ///< as `arms`
@@ -111,16 +111,17 @@ struct SimdReference {
   std::vector<Row> arms;        ///< m, [step * rows + row]
   std::vector<Row> carried;     ///< 1 or 0, likewise
   std::vector<Growth> growths;  ///< one per prismatic joint behind one that turns
-  std::vector<int> slot;        ///< per body: where it is in the rows; -1: not moved
+  std::vector<int> slot;        ///< per body: its place in the rows; -1: not moved
 };
 
-/// The bodies that one joint carries. References have arms each of their own, whose number grows
-/// with the third power of that of the bodies in a chain; where that is too many, these are for all
+/// The bodies that one joint carries. Each reference has its own arms, and their number grows with
+/// the third power of that of the bodies in a chain. If there are too many, these serve all
 /// references: see boundCarried.
 struct SimdCarried {
-  std::vector<int> bodies;   ///< its own one included, ascending
-  std::vector<float> arms;   ///< m, of each, see armsAtRest
-  std::int32_t around = -1;  ///< of SimdModel::references, that of the body it hangs on; -1: none
+  std::vector<int> bodies;  ///< its own one included, ascending
+  std::vector<float> arms;  ///< m, of each, see armsAtRest
+  std::int32_t around =
+      -1;  ///< index into SimdModel::references, that of the body it hangs on; -1: none
 };
 
 /// Two bodies with pairs of their geometry to check.
@@ -129,36 +130,36 @@ struct SimdBodyPair {
   int bodyB = 0;
   int reference = 0;                                 ///< index into SimdModel::references
   std::shared_ptr<const PairSeparationTable> table;  ///< null: none
-  float extra = 0.0F;  ///< m, most that a pair of them keeps beyond the margin
+  float extra = 0.0F;  ///< m, the most that a pair of them keeps beyond the margin
 };
 
-/// A body with eight consecutive ones, as far as pairs of them are checked.
+/// A body with eight consecutive ones, for the pairs that are checked.
 struct SimdRootRow {
-  Row radii;                        ///< m, sums of those of the balls around all of their geometry
-  Row keep;                         ///< m, what the pairs have to keep
+  Row radii;  ///< m, sums of the radii of the balls around all of their geometry
+  Row keep;   ///< m, what the pairs must keep
   std::int32_t pairs[kLanes] = {};  ///< index into SimdModel::bodyPairs
   std::uint32_t checked = 0;        ///< lanes that are a pair
   int body = 0;
   int eight = 0;  ///< with bodies 8 eight, 8 eight + 1, ...
 };
 
-/// What a pair of the model is here.
+/// The source of a pair in the model.
 struct SimdPairSource {
   int geometry = 0;
   std::int32_t obstacle = -1;  ///< -1: a pair of two links
-  int other = 0;               ///< of two links: the second one's geometry,
-  int bodyPair = 0;            ///< and of which of SimdModel::bodyPairs it is one
+  int other = 0;               ///< of two links: the second one's geometry
+  int bodyPair = 0;            ///< index into SimdModel::bodyPairs
 };
 
-/// Robot x world for the vector kernels: single precision, eight lanes.
+/// Robot x world for the SIMD kernels: single precision, eight lanes.
 struct SimdModel {
   bool usable = false;
   SharedArray<SimdBody> bodies;  ///< [0] is the model frame
-  /// Per body: its parent's frame as it is here, from the parent's frame in KinematicModel.
+  /// Per body: its parent's frame here from the parent's frame in KinematicModel.
   SharedArray<Eigen::Matrix3d> parentLaneFromParent;
   SharedArray<Eigen::Matrix3d> bodyFromLane;  ///< per body, KinematicModel's frame from this one
   SharedArray<SimdNode> nodes;
-  /// Eight children of a node; the last one is repeated to fill up a row.
+  /// Eight children of a node; the last one is repeated to fill a row.
   struct Children {
     Row x, y, z;  ///< m, in the body's frame
     Row radius;   ///< m
@@ -172,16 +173,16 @@ struct SimdModel {
     std::int32_t count = 0;
   };
   SharedArray<InnerBalls> innerBalls;
-  /// Eight balls inside a geometry; the last ones of a geometry are repeated to fill it up.
+  /// Eight balls inside a geometry; the last one of a geometry is repeated to fill its last row.
   struct Probes {
     Row x, y, z;  ///< m, in the body's frame
     Row inside;   ///< m
   };
   SharedArray<Probes> probes;
   SharedArray<InnerBalls> probesOf;  ///< per geometry, into `probes`
-  /// Per geometry: where another link may be found to meet it. First a row of balls, the i-th
-  /// around all of the i-th row behind it; these, `count` of them, are balls inside the geometry,
-  /// or of a mesh that has none points of its surface.
+  /// Per geometry: where another link may meet it. First a row of balls, the i-th around all of the
+  /// i-th row after it. The `count` rows after it are balls inside the geometry, or, for a mesh
+  /// without any, points of its surface.
   SharedArray<Probes> meetingRows;
   SharedArray<InnerBalls> meetingRowsOf;  ///< `first` is the row of balls around the others
   std::shared_ptr<const SimdHulls> hulls;
@@ -197,28 +198,28 @@ struct SimdModel {
   std::vector<std::int32_t> pairOf;
   std::vector<std::int32_t> pairOfGeometries;  ///< of two links, likewise: [a * geometries + b]
   std::vector<SimdPairSource> sources;         ///< per pair of the model
-  /// m, per pair: what it has to keep beyond `margin`. Empty where all margins are the same.
+  /// m, per pair: what it must keep beyond `margin`. Empty if all margins are the same.
   std::vector<float> extras;
-  std::vector<float> obstacleExtras;  ///< m, per obstacle: the most of its pairs; empty likewise
-  SharedArray<int> allBodies;         ///< that move, parents first
+  std::vector<float> obstacleExtras;  ///< m, per obstacle: the largest of its pairs; empty likewise
+  SharedArray<int> allBodies;         ///< the moving ones, parents first
   SharedArray<std::vector<int>> ancestors;  ///< per body, itself included, root first
   bool slides = false;                      ///< some joint does not only turn
   bool floats = false;                      ///< some joint is floating
-  float margin = 0.0F;                      ///< m, the least of all pairs
+  float margin = 0.0F;                      ///< relative, of positions; see simd_motion.cpp
   float rounding = 0.0F;                    ///< relative, of positions; see frameRounding()
-  float reach = 0.0F;    ///< m, see LeverArms::spanAtRest: the largest, but for what slides
+  float reach = 0.0F;    ///< m, see LeverArms::spanAtRest: the largest, without slides
   double farther = 0.0;  ///< m, how much farther prismatic joints reach within their limits
   std::shared_ptr<const PairSeparationTables> tables;  ///< all that were built
 
-  /// m. What the pair has to keep beyond `margin`.
+  /// m. What the pair must keep beyond `margin`.
   float extraOf(std::uint32_t pair) const { return extras.empty() ? 0.0F : extras[pair]; }
 };
 
-/// All of SimdModel::bodyPairs, those with the same first body side by side.
+/// All of SimdModel::bodyPairs, those with the same first body together.
 std::vector<SimdRootRow> compileRootRows(const SimdModel& simd);
 
 /// Without tables, which addTables adds. `like`: null, or an earlier version for the same robot,
-/// group and reference, with what was compiled of it; what the two have in common is shared.
+/// group and reference, with its compiled model; common parts are shared.
 SimdModel compileSimdModel(const PairModel& model, const PairModel* like = nullptr,
                            const SimdModel* likeSimd = nullptr);
 

@@ -19,7 +19,7 @@ class ReferenceCompiler {
  public:
   ReferenceCompiler(const PairModel& model, const SimdModel& simd) : model_(model), simd_(simd) {}
 
-  /// Before any steps are added.
+  /// A reference before any steps are added.
   void findArms() {
     levers_.resize(simd_.bodies.size());
     for (std::size_t body = 1; body < simd_.bodies.size(); ++body) {
@@ -30,13 +30,13 @@ class ReferenceCompiler {
     }
   }
 
-  /// Where each body is in the rows.
+  /// The place of each body in the rows.
   SimdReference places(int body) const {
     SimdReference reference;
     reference.body = body;
     reference.slot.assign(simd_.bodies.size(), -1);
     int moved = 0;
-    // Parents come first: what hangs on a moved body is moved.
+    // Parents come first: a body that hangs on a moved body is moved.
     for (std::size_t i = 1; i < simd_.bodies.size(); ++i) {
       const int parent = simd_.bodies[i].parent;
       if (parent == body || reference.slot[parent] >= 0) reference.slot[i] = moved++;
@@ -78,7 +78,7 @@ class ReferenceCompiler {
   }
 
  private:
-  /// All ball centres of a body as one ball, in the body's frame.
+  /// A ball around all ball centres of a body, in the body's frame.
   void centersOf(std::size_t body, Vector3d& middle, double& radius) const {
     std::vector<Vector3d> centers;
     std::vector<std::int32_t> stack;
@@ -127,7 +127,7 @@ class ReferenceCompiler {
     }
   }
 
-  /// Of a prismatic joint.
+  /// The growths of a prismatic joint.
   static std::vector<Row>& sharesOf(int slide, SimdReference& reference) {
     const auto known = std::ranges::find(reference.growths, slide, &SimdReference::Growth::slide);
     if (known != reference.growths.end()) return known->shares;

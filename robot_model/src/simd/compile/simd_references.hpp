@@ -8,12 +8,13 @@
 
 namespace swept::detail {
 
-/// Of all references together, 4 bytes each, and as many that are 0 or 1: what a chain of 140
-/// bodies has.
+/// Number of arms of all references together, 4 bytes each, plus as many 0s or 1s: that of a chain
+/// of 140 bodies.
 inline constexpr std::size_t kMostArms = std::size_t{1} << 20;
 
 /// SimdModel::references for these bodies; the first one is 0, the model frame. With more than
-/// `mostArms`, SimdModel::carried in place of their arms. Needs the bodies and covers of the lanes.
+/// `mostArms`, SimdModel::carried instead of their arms. Needs the bodies and covers of the SIMD
+/// tier.
 void compileReferences(const PairModel& model, const std::vector<int>& bodies, SimdModel& simd,
                        std::size_t mostArms = kMostArms);
 

@@ -7,14 +7,14 @@
 
 namespace swept::detail {
 
-/// Single precision, never below `value`.
+/// Single precision, at least `value`.
 inline float singleAbove(double value) {
   const auto single = static_cast<float>(value);
   if (static_cast<double>(single) >= value) return single;
   return std::nextafter(single, std::numeric_limits<float>::infinity());
 }
 
-/// Never above `value`.
+/// Single precision, at most `value`.
 inline float singleBelow(double value) {
   return -singleAbove(-value);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eight floats as a value, for the instruction set that the including source is being compiled
-// for. Included once per instruction set.
+// Eight floats as a value, for the instruction set of the including source. Included once per
+// instruction set.
 #if defined(SWEPT_SIMD_F8) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWEPT_SIMD_F8
 #undef SWEPT_SIMD_F8
@@ -86,7 +86,7 @@ HWY_INLINE Lanes bitsOf(const hn::Mask<Part>& mask) {
   hn::StoreMaskBits(Part(), mask, bits);
   return bits[0];
 }
-/// Lanes in which a > b; none where either is no number.
+/// Lanes in which a > b; none if either is NaN.
 HWY_INLINE Lanes above(const F8& a, const F8& b) {
   Lanes lanes = 0;
   for (int i = 0; i < kParts; ++i)

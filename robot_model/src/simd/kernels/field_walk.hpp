@@ -24,9 +24,9 @@ class FieldWalk {
 
   void clear() { scratch_.queries.clear(); }
 
-  /// Of a ball and the lanes in which it is not apart yet. Leaves that only a query can settle are
-  /// put off: where something else is in contact, nobody needs to know. Adds to the hits what the
-  /// children of a node that `divides` have to look at; `final`: else shorter intervals would not
+  /// A ball and the lanes in which it is not proven apart yet. Leaves that only a query can settle
+  /// are postponed: if something else is in contact, they need no query. Adds to the hits those
+  /// that the children of a node that `divides` must test; `final`: shorter intervals would not
   /// help. True: the walk is over.
   bool visit(const SimdNode& node, const Segment& segment, const F8& radius, SimdHit hit,
              std::uint32_t pair, bool divides, bool final) {
@@ -43,7 +43,7 @@ class FieldWalk {
       scratch_.hits.push_back(hit);
       return false;
     }
-    // A field tells up to about a cell less than there is.
+    // A field's value may be up to about a cell less than the distance.
     const F8 depths = set(node.radius - 0.5F * node.beyond - field.cell) - answer.middle;
     if (scratch_.queries.size() < kMostQueries && (hit.lanes & ~answer.worthQuery) != hit.lanes) {
       SimdQuery& query = scratch_.queries.emplace_back();
@@ -67,7 +67,7 @@ class FieldWalk {
       Lanes left = query.lanes & ~block_.contactLanes;
       left &= ~static_cast<Lanes>(block_.openLanes[query.pair]);
       const SimdField& field = model_.obstacles.fields[query.field];
-      // One that stays open leaves the pair open: the others are not worth the time.
+      // If one stays open, the pair stays open: the others are not worth the time.
       for (; left != 0; left &= left - 1) {
         const int lane = std::countr_zero(left);
         const bool outside = (query.outside >> lane & 1U) != 0;
@@ -79,15 +79,15 @@ class FieldWalk {
   }
 
  private:
-  /// A ball inside the link in the field's shape: the first lane that a query confirms. `bounds`:
-  /// m, on the distance.
+  /// Tests a ball inside the link against the field's shape: in the first lane, a query confirms
+  /// contact. `bounds`: m, on the distance.
   bool touches(const SimdNode& node, const Segment& segment, const SimdField& field,
                const F8& bounds, Lanes lanes, std::uint32_t pair) {
     if (!block_.stopAtContact) return false;
     const float within = node.inside - scratch_.rounding;
     if (!(within > 0.0F)) return false;
     const Lanes outside = above(bounds, set(0.0F));
-    // Not sure, but a query costs less than what is left open.
+    // Not certain, but a query costs less than an open pair.
     Lanes left = lanes & below(bounds, set(within - 0.25F * field.cell));
     if (left == 0) return false;
     Row x[3];
@@ -110,7 +110,7 @@ class FieldWalk {
     return point;
   }
 
-  /// Put off at most: the time of a query is that of several nodes.
+  /// Largest number of postponed leaves: a query takes as long as several nodes.
   static constexpr std::size_t kMostQueries = 256;
 
   const SimdModel& model_;

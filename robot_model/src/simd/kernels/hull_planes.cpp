@@ -22,16 +22,16 @@ struct HalfMotion {
   V3 angular;  ///< rad
 };
 
-/// How far a hull reaches along a direction at both ends of the interval, as if its points moved
-/// straight on.
+/// How far a hull reaches along a direction at both ends of the interval, if its points moved
+/// straight.
 struct Reach {
   F8 before;  ///< m
   F8 after;
 };
 
-/// Lemma: n . (x_p + s g_p) is affine in the point p and in s, so that over a hull of points and
-/// |s| <= 1 it is largest at a point and at s = -1 or 1. Of a ball of radius r around each point it
-/// is larger by at most r |c|, c the coefficients of p.
+/// Lemma: n . (x_p + s g_p) is affine in the point p and in s. So over a hull of points and |s| <=
+/// 1 it is largest at a point and at s = -1 or 1. For a ball of radius r around each point it is
+/// larger by at most r |c|, with c the coefficients of p.
 HWY_INLINE Reach reachOf(const SimdHulls& hulls, const SimdHull& hull, const V3& n,
                          const SimdBodyState& state, const HalfMotion& motion) {
   const V3 w = cross(n, motion.angular);
@@ -108,13 +108,14 @@ class DividedPair {
     reference_ = self_ ? model.bodyPairs[source_.bodyPair].reference : 0;
     float acceleration = accelerationOfPoints(model, reference_, source_.geometry, scratch);
     if (self_) acceleration += accelerationOfPoints(model, reference_, source_.other, scratch);
-    // Two rounded positions, and as much for what is computed of them here.
+    // Two rounded positions, and as much again for the computations here.
     const float margin = (model.margin + model.extraOf(pair)) * kMarginOutward;
     required_ = (set(4.0F * scratch.rounding + margin) + inflation(half_, acceleration)) *
                 set(kPairOutward);
   }
 
-  /// By planes across a direction that is fixed in the frame of the first body, then of the other.
+  /// Planes orthogonal to a direction that is fixed in the frame of the first body, then of the
+  /// other.
   Lanes divide(const float (&towards)[3], int lane, Lanes lanes) const {
     const V3 n = set3(towards);
     Lanes apart = lanes & above(gap(turnedWith(bodyA_, n, lane)), required_);
@@ -123,7 +124,7 @@ class DividedPair {
   }
 
  private:
-  /// What a direction in one lane becomes in the others as the body turns.
+  /// The direction of one lane in the other lanes, as the body turns.
   V3 turnedWith(int body, const V3& n, int lane) const {
     if (body == 0) return n;
     const SimdBodyState& state = block_.states[body];
@@ -140,9 +141,9 @@ class DividedPair {
             half_ * (load3(own.angular) - load3(base.angular))};
   }
 
-  /// m; along n divided by its length. Lemma: the bodies' points are at x + s g + w, |w| within
-  /// what `required_` counts, and n . (x + s g) of the one is below that of the other by the gap
-  /// for s = -1 and s = 1, so between them too: the largest over a body is convex in s.
+  /// m; along n divided by its length. Lemma: the bodies' points are at x + s g + w, with |w|
+  /// within what `required_` counts. n . (x + s g) of the one is below that of the other by the gap
+  /// for s = -1 and s = 1, so between them too: the maximum over a body is convex in s.
   F8 gap(const V3& direction) const {
     const V3 n = (set(1.0F) / root(larger(dot(direction, direction), set(1e-20F)))) * direction;
     const Reach ofA = reachOf(*model_.hulls, model_.hulls->of[source_.geometry], n,

@@ -8,8 +8,7 @@
 
 namespace swept::detail {
 
-/// Unit vector in the model frame, from a pair's first body to its second, as it is at the middle
-/// of a lane.
+/// Unit vector in the model frame, from a pair's first body to its second, at the middle of a lane.
 struct SimdDirection {
   float towards[3] = {};
   int lane = 0;
@@ -19,8 +18,9 @@ struct SimdDirection {
 /// capsule, a cylinder or a box.
 bool canDivide(const SimdModel& model, std::uint32_t pair);
 
-/// Of the given lanes, those in which a plane across the direction is proven to lie between the two
-/// bodies of a pair that can be divided for the whole sub-interval; their frames have to be placed.
+/// The lanes, among the given ones, in which a plane orthogonal to the direction is proven to
+/// separate the two bodies of a pair for the whole sub-interval. The pair must be one that can be
+/// divided; the frames of its bodies must be placed.
 std::uint32_t lanesDivided(const SimdModel& model, std::uint32_t pair,
                            const SimdDirection& direction, std::uint32_t lanes,
                            SimdScratch& scratch);

@@ -9,7 +9,7 @@
 namespace swept::detail {
 
 /// Points of the link that seem to lie in the obstacle in that lane, at its middle: indices of
-/// SimdHulls::inBody. At most eight; none for obstacles that have no sure inside here.
+/// SimdHulls::inBody. At most eight; none for obstacles without a reliable inside here.
 struct PointsInside {
   std::int32_t count = 0;
   std::int32_t index[kLanes] = {};

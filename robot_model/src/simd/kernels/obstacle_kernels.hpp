@@ -44,10 +44,10 @@ HWY_INLINE F8 ballSquared(const SimdRound& ball, const Segment& segment) {
   return square(positive(root(squared) - set(ball.radius)));
 }
 
-/// Along an axis and across it. The least of each part bounds both together.
+/// Parts along an axis and orthogonal to it. The least of each part bounds both together.
 struct AxialParts {
   F8 axial;   ///< of the middle, signed
-  F8 sweep;   ///< half of what the segment covers along the axis
+  F8 sweep;   ///< half of the segment's extent along the axis
   F8 radial;  ///< least distance from the axis
 };
 HWY_INLINE AxialParts axialParts(const SimdRound& shape, const Segment& segment) {
@@ -73,7 +73,7 @@ HWY_INLINE F8 cylinderSquared(const SimdRound& shape, const Segment& segment) {
   return multiplyAdd(beyond, beyond, square(outside));
 }
 
-/// A cone is in its cylinder and under its side.
+/// A cone lies in its cylinder and under its side.
 HWY_INLINE F8 coneSquared(const SimdRound& shape, const Segment& segment) {
   const AxialParts parts = axialParts(shape, segment);
   const F8 beyond = positive(absolute(parts.axial) - parts.sweep - set(shape.halfLength));
@@ -94,16 +94,16 @@ HWY_INLINE F8 planesSquared(const LanePlane* planes, int count, const Segment& s
   return square(most);
 }
 
-/// A plane, whose sides are the same to it. Its slab is as thick as rounding makes it.
+/// A plane, both sides of which are alike. Its slab is as thick as its rounding.
 HWY_INLINE F8 slabSquared(const LanePlane& plane, const Segment& segment) {
   const V3 normal = set3(plane.normal);
   const F8 at = absolute(dot(normal, segment.x) - set(plane.offset));
   return square(positive(at - absolute(dot(normal, segment.g)) - set(plane.slack)));
 }
 
-/// Lemma: for any unit vector n, the segment keeps n . x - |n . g| - h(n) of distance, h(n) = |S n|
-/// the ellipsoid's support. n is the normal where it would be hit first if it were a sphere; beside
-/// a thin one its box says more.
+/// Lemma: for any unit vector n, the segment keeps the distance n . x - |n . g| - h(n), with h(n) =
+/// |S n| the ellipsoid's support. n is the normal at the first hit point if the ellipsoid were a
+/// sphere; near a thin ellipsoid its box gives a better bound.
 HWY_INLINE F8 ellipsoidSquared(const SimdEllipsoid& shape, const Segment& segment) {
   F8 x[3];
   F8 g[3];
@@ -137,8 +137,8 @@ HWY_INLINE F8 bytesAt(const std::uint32_t* words, const hn::Vec<LanePart> (&inde
   F8 value;
   for (int i = 0; i < kParts; ++i) {
     const auto found = hn::GatherIndex(word, words, hn::ShiftRight<2>(index[i]));
-    // Up and down again: where SSE4 shifts right by 0, Highway converts 2^32 to an integer, which
-    // is an invalid operation to whoever traps these.
+    // Shifts up and down again: for a right shift by 0 on SSE4, Highway converts 2^32 to an
+    // integer, which is an invalid operation for programs that trap these.
     const auto above = hn::BitCast(word, hn::AndNot(index[i], hn::Set(LanePart(), 3)));
     const auto byte = hn::ShiftRight<24>(hn::Shl(found, hn::ShiftLeft<3>(above)));
     value.part[i] = hn::ConvertTo(Part(), hn::BitCast(LanePart(), byte));
@@ -146,8 +146,8 @@ HWY_INLINE F8 bytesAt(const std::uint32_t* words, const hn::Vec<LanePart> (&inde
   return value;
 }
 
-/// The cell of a coordinate, cut off at the grid's ends whatever the number is; and the square of
-/// the distance from its middle, added.
+/// The cell of a coordinate, clamped to the grid, also for NaN; adds the square of the distance
+/// from the cell's centre.
 HWY_INLINE void findCell(const F8& q, float side, float inverse, int count, F8& squared,
                          hn::Vec<LanePart> (&cell)[kParts]) {
   const F8 scaled = q * set(inverse);
@@ -161,7 +161,7 @@ HWY_INLINE void findCell(const F8& q, float side, float inverse, int count, F8& 
   squared = multiplyAdd(off, off, squared);
 }
 
-/// Of points in a field's frame, q in W.
+/// For points in a field's frame, q in W.
 HWY_INLINE F8 cellClearance(const SimdField& field, const V3& q) {
   F8 squared = set(0.0F);
   hn::Vec<LanePart> x[kParts];
@@ -177,7 +177,7 @@ HWY_INLINE F8 cellClearance(const SimdField& field, const V3& q) {
   return bytesAt(field.cells, x) * set(field.step) - root(squared);
 }
 
-/// Negative where there is no brick.
+/// Negative if there is no brick.
 HWY_INLINE F8 voxelClearance(const SimdField& field, const V3& q) {
   F8 squared = set(0.0F);
   hn::Vec<LanePart> x[kParts];
@@ -203,9 +203,9 @@ HWY_INLINE F8 voxelClearance(const SimdField& field, const V3& q) {
   return bytesAt(field.voxels, x) * set(field.fineStep) - root(squared);
 }
 
-/// A bound on the distance of points in a field's frame from the obstacle, with the slack taken
-/// off. Lemmas: ClearanceField. Bricks are looked up where cells do not give `enough` in lanes that
-/// are `wanted`.
+/// A bound on the distance of points in a field's frame from the obstacle, with the slack
+/// subtracted. Lemmas: ClearanceField. Bricks are looked up if cells do not give `enough`, in lanes
+/// that are `wanted`.
 HWY_INLINE F8 clearance(const SimdField& field, const V3& p, const F8& enough, Lanes wanted) {
   const V3 q = {smaller(larger(p.x, set(field.lower[0])), set(field.upper[0])),
                 smaller(larger(p.y, set(field.lower[1])), set(field.upper[1])),
@@ -228,15 +228,16 @@ HWY_INLINE V3 inFrame(const SimdField& field, const V3& x, bool moved) {
   return {y[0], y[1], y[2]};
 }
 
-/// What a field says of a segment.
+/// Answer of a field about a segment.
 struct FieldAnswer {
   Lanes apart = 0;       ///< the obstacle is farther than the radius from the whole segment
-  Lanes worthQuery = 0;  ///< of the others: the field may be what is too coarse
+  Lanes worthQuery = 0;  ///< of the others: a finer test may succeed
   F8 middle;             ///< m; a bound for the segment's middle
 };
 
-/// Lemma: the ball around the middle x with x's clearance less the radius covers a part of the
-/// segment, whose points are all clear; a ball around a point of each rest covers that.
+/// Lemma: the ball around the middle x, whose radius is x's clearance minus the radius, covers a
+/// part of the segment whose points are all clear; a ball around a point of each rest covers that
+/// rest.
 HWY_INLINE FieldAnswer askField(const SimdField& field, const Segment& segment, const F8& radius,
                                 Lanes wanted) {
   const V3 x = inFrame(field, segment.x, true);
@@ -260,7 +261,7 @@ HWY_INLINE FieldAnswer askField(const SimdField& field, const Segment& segment, 
   return answer;
 }
 
-/// Not above the square of the least distance between the segment and the obstacle. Fields have
+/// At most the square of the least distance between the segment and the obstacle. For fields use
 /// askField().
 HWY_INLINE F8 squaredDistance(const SimdObstacles& world, const SimdObstacle& obstacle,
                               const Segment& segment) {

@@ -40,7 +40,7 @@ HWY_INLINE float accelerationOf(const SimdReference& reference, const SimdBounds
   return slot < 0 ? 0.0F : bounds.acceleration[slot / kLanes].lane[slot % kLanes];
 }
 
-/// m; half^2 / 2 of an acceleration, outward by more than the roundings.
+/// m; half^2 / 2 of an acceleration, rounded up by more than the roundings.
 HWY_INLINE F8 inflation(const F8& half, float acceleration) {
   return half * half * set(acceleration * kHalfOutward);
 }
@@ -64,7 +64,7 @@ HWY_INLINE Segment segmentOf(const SimdRoot& ball, bool moving) {
   return {load3(ball.at), load3(ball.by)};
 }
 
-/// Eight points of a link as they are in one lane.
+/// Eight points of a link in one lane.
 template <typename Eight>
 HWY_INLINE V3 placedAt(const SimdBodyState& state, int lane, const Eight& eight) {
   const auto entry = [lane](const Row& row) { return set(row.lane[lane]); };

@@ -23,13 +23,13 @@ struct LinkStates {
   const SimdBodyState* b = nullptr;
 };
 
-/// Looks for contacts of two links, where the block asks for them.
+/// Searches contacts of two links, if the block requests it.
 class SelfContacts {
  public:
   SelfContacts(const SimdModel& model, SimdScratch& scratch, const LinkStates& states)
       : model_(model), scratch_(scratch), block_(scratch.block), states_(states) {}
 
-  /// Looks at balls inside two links, or points of them, in the lane in which they are nearest.
+  /// Tests balls inside two links, or points of them, in the lane in which they are nearest.
   HWY_INLINE bool probe(std::uint32_t pair, const SimdNode& a, const Segment& atA,
                         const SimdNode& b, const Segment& atB, Lanes lanes) {
     if (!block_.stopAtContact) return false;
@@ -60,23 +60,24 @@ class SelfContacts {
     return false;
   }
 
-  /// At a middle, two balls inside the links meet.
+  /// At the middle of a sub-interval, two balls inside the links meet.
   bool touches(std::uint32_t pair, float insideA, const V3& atA, float insideB, const V3& atB,
                Lanes lanes) {
     if (!block_.stopAtContact) return false;
-    // Either ball less what its position, and that of the point, may be off.
+    // Either ball reduced by the rounding of its position, and of the point.
     const float ofA = insideA - 2.0F * scratch_.rounding;
     const float ofB = insideB - 2.0F * scratch_.rounding;
     if (!(ofA > 0.0F && ofB > 0.0F)) return false;
     const V3 between = atB - atA;
     lanes &= below(dot(between, between), set(kMeeting * (ofA + ofB) * (ofA + ofB)));
-    // A point of the line between the centres that is in both balls, by the same share.
+    // A point on the line between the centres that is in both balls, by the same share.
     const F8 share = set(ofA / (ofA + ofB));
     return lanes != 0 && claim(block_, pair, lanes, along(atA, share, between), 0.0F);
   }
 
  private:
-  /// Of the sum of the radii around two links: balls inside farther apart hardly meet.
+  /// Relative to the sum of the radii around two links: balls inside links farther apart hardly
+  /// meet.
   static constexpr float kProbeShare = 0.75F;
 
   /// A row of eight of one link with some rows of the other's.
@@ -95,8 +96,8 @@ class SelfContacts {
     return false;
   }
 
-  /// Whether any two of eight by eight balls seem to meet, with no regard to roundings and with no
-  /// branch: most often none do.
+  /// Whether any two of eight by eight balls seem to meet, ignoring roundings and without branches:
+  /// most often none do.
   HWY_INLINE static bool anyMeets(const V3& atA, const SimdModel::Probes& eightA,
                                   const Row (&centers)[3], const SimdModel::Probes& eightB) {
     const F8 insideA = load(eightA.inside);
@@ -109,12 +110,12 @@ class SelfContacts {
     return below(least, set(0.0F)) != 0;
   }
 
-  /// Whether any two of them do meet, and in which point, m.
+  /// Whether any two of them do meet, and at which point, m.
   ///
-  /// Lemma: either centre is off by at most the rounding, so that balls whose centres are nearer
-  /// than the sum of the radii less 4 roundings have a point in common; and so have a ball and a
-  /// point, which is a ball of radius 0. A motion's witness has to be in both links by more than
-  /// roundings: there, points do not count.
+  /// Lemma: either centre is off by at most the rounding. So balls whose centres are nearer than
+  /// the sum of the radii minus 4 roundings have a common point, and so have a ball and a point,
+  /// which is a ball of radius 0. A motion's witness must be in both links by more than roundings;
+  /// there, points do not count.
   bool meets(const V3& atA, const SimdModel::Probes& eightA, const Row (&centers)[3],
              const SimdModel::Probes& eightB, float (&meeting)[3]) const {
     for (int k = 0; k < kLanes; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What joint tables say of two links, put into a block. Included once per instruction set.
+// Writes the results of joint tables about two links into a block. Included once per instruction
+// set.
 #if defined(SWEPT_SIMD_SELF_TABLES) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWEPT_SIMD_SELF_TABLES
 #undef SWEPT_SIMD_SELF_TABLES
@@ -27,7 +28,7 @@ class SelfTables {
   /// Lanes in which the bodies are apart.
   Lanes proven(const PairSeparationTable& table) const { return tables_.proven(table); }
 
-  /// Looks where the table suggests a contact. True: the walk is over.
+  /// Tests the places where the table suggests a contact. True: the walk is over.
   bool meets(const PairSeparationTable& table, const LinkStates& states, SelfContacts& contacts,
              Lanes lanes) const {
     if (!block_.stopAtContact) return false;
@@ -47,9 +48,9 @@ class SelfTables {
     return false;
   }
 
-  /// Leaves open what the table does; returns the lanes that it knows nothing of.
+  /// Leaves open what the table leaves open; returns the lanes that it does not cover.
   Lanes markUnresolvedOf(const PairSeparationTable& table, Lanes lanes) const {
-    // A bit for many pairs would open them all.
+    // A bit that stands for many pairs would open them all.
     if (table.pairs.size() > PairSeparationTable::kPairBits) return lanes;
     Lanes outside = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
@@ -66,7 +67,8 @@ class SelfTables {
       for (std::size_t k = 0; k < table.pairs.size(); ++k) {
         const std::int32_t pair = pairOf(table.pairs[k]);
         if ((bits >> k & 1U) == 0 || pair < 0) continue;
-        // A contact seen in the cell is likely here, and the deeper the farther from where it ends.
+        // A contact seen in the cell is likely here, and deeper the farther it is from where the
+        // contact ends.
         const bool likely = cell->touching && (cell->openPairs >> k & 1U) != 0;
         markUnresolved(block_, static_cast<std::uint32_t>(pair), 1U << lane, true,
                        set(likely ? kLikelyDepth : 0.0F));
@@ -76,10 +78,10 @@ class SelfTables {
   }
 
  private:
-  /// m. As good a guess as any for a contact in a cell of a table.
+  /// m. A guess for a contact in a cell of a table.
   static constexpr float kLikelyDepth = 0.01F;
 
-  /// -1: not checked. The table may be older than the rule that says so.
+  /// -1: not checked. The table may be older than the rule that excludes the pair.
   std::int32_t pairOf(const PairSeparationTable::Geometries& pair) const {
     return model_.pairOfGeometries[pair.a * model_.geometryBody.size() + pair.b];
   }

@@ -30,7 +30,7 @@ class SelfWalk {
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == SimdMode::Motion) {}
 
-  /// The first balls of all pairs, and balls inside the links, before any more of their covers.
+  /// The root balls of all pairs, and balls inside the links, before the rest of their covers.
   bool all() {
     scratch_.selfVisits.clear();
     first_ = true;
@@ -45,7 +45,7 @@ class SelfWalk {
         start(bodies);
         if (tables_.meets(table, states_, contacts_, lanes)) return true;
         lanes &= ~block_.contactLanes;
-        // Where the table knows of no proof, covers have none either.
+        // If the table knows no proof, covers have none either.
         lanes = tables_.markUnresolvedOf(table, lanes);
         if (lanes == 0) continue;
       }
@@ -161,7 +161,7 @@ class SelfWalk {
   bool turning_ = false;
   V3 angular_;  ///< of the reference, times the half width
   F8 extra_;
-  bool first_ = false;  ///< only the first balls of two links
+  bool first_ = false;  ///< only the root balls of two links
   int bodyPair_ = 0;
   std::uint32_t pair_ = 0;
   int looks_ = 0;

@@ -36,8 +36,8 @@ void addAccelerations(const SimdJointMotion& joint, std::size_t at, SimdScratch&
   scratch.slid[at] = (scratch.slid[at] + joint.acceleration) * kBoundOutward;
 }
 
-/// What boundSteps does, for the joints of a path from the index `first` on alone: `turned` and
-/// `slid` of the scratch, by their index.
+/// Like boundSteps, only for the joints of a path from the index `first` on: `turned` and `slid` of
+/// the scratch, by their index.
 void boundPath(const SimdModel& model, const std::vector<int>& path, std::size_t first,
                SimdScratch& scratch) {
   float before = 0.0F;  // rad per unit t, of the body that the joint hangs on,
@@ -81,7 +81,7 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch) {
     const double largest = around + excess[at];
     for (std::size_t i = 0; i < joint.bodies.size(); ++i) {
       const int body = joint.bodies[i];
-      // What slides beyond this joint takes the body away from its axis.
+      // The slides beyond this joint move the body away from its axis.
       const double grown = slid[body] - slid[at] + rounding * slid[body];
       const double arm = static_cast<double>(joint.arms[i]) + grown;
       const double own = (spin * spin + spinAcceleration) * arm + acceleration;
@@ -118,7 +118,7 @@ float accelerationOfPoints(const SimdModel& model, int index, int geometry, Simd
     if (static_cast<std::size_t>(growth.joint) >= first)
       sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
   }
-  // One rounding for each term, and what the last products round.
+  // One rounding for each term, plus that of the last products.
   const auto terms = static_cast<float>(path.size() * (hull.growsByAll ? 2 : 1) + hull.growthCount);
   return sum * (kBoundOutward + kBoundPerTerm * terms);
 }

@@ -28,12 +28,12 @@ inline void boundSteps(const SimdReference& reference, SimdScratch& scratch) {
   }
 }
 
-/// What the joints' own accelerations add to that.
+/// The contribution of the joints' own accelerations.
 void addAccelerations(const SimdReference& reference, SimdScratch& scratch);
 
-/// SimdScratch::bounds from SimdModel::carried, in time proportional to the number of arms: of
-/// every body relative to each of its ancestors that is a reference. The lemma is that of
-/// nestedMotionBounds, with what boundMotion has of joints.
+/// SimdScratch::bounds from SimdModel::carried, in time proportional to the number of lever arms:
+/// for every body relative to each of its ancestors that is a reference. The lemma is that of
+/// nestedMotionBounds, with boundMotion's data of the joints.
 void boundCarried(const SimdModel& model, SimdScratch& scratch);
 
 /// m per unit t squared; bounds the acceleration of every point of the geometry relative to the

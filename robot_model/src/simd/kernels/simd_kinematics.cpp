@@ -80,7 +80,7 @@ HWY_INLINE void turnAfter(const float (&after)[9], SimdBodyState& state) {
   }
 }
 
-/// The joint's axis, which its own turn does not change, in the model frame.
+/// The joint's axis in the model frame; its own rotation does not change it.
 HWY_INLINE V3 placeFrame(const SimdBody& body, const SimdJointMotion& motion, const Row& angle,
                          const Row* slide, const SimdBodyState& parent, SimdBodyState& state) {
   V3 offset = set3(body.translation);
@@ -101,7 +101,7 @@ HWY_INLINE V3 placeFrame(const SimdBody& body, const SimdJointMotion& motion, co
   return {axis[0], axis[1], axis[2]};
 }
 
-/// What a joint's rates are in the lanes.
+/// The rates of the joints in the lanes.
 struct Rates {
   F8 turn;   ///< rad per unit t
   V3 slide;  ///< m per unit t
@@ -196,7 +196,7 @@ HWY_INLINE void boundAll(const SimdModel& model, SimdScratch& scratch) {
         for (std::size_t i = 0; i < steps; ++i)
           sum = multiplyAdd(set(scratch.turned[i]) * slid, load(growth.shares[i * rows + r]), sum);
       }
-      // One rounding for each term, and what the last products round.
+      // One rounding for each term, plus that of the last products.
       const float outward =
           kBoundOutward +
           kBoundPerTerm * static_cast<float>(steps * (1 + reference.growths.size()));

@@ -10,7 +10,7 @@
 namespace swept::detail {
 
 /// Frames and root balls of `bodies` (parents first) in all lanes, with velocities under
-/// SimdMode::Motion. Of what is not given in the block, values and rates are those of `motion`.
+/// SimdMode::Motion. Values and rates that the block does not give are those of `motion`.
 void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
                  std::span<const int> bodies, SimdBlock& block);
 

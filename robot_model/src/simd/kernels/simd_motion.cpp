@@ -13,8 +13,9 @@ namespace swept::detail {
 
 namespace {
 
-/// Of the lane frame of a body in that of its parent, and of what a floating joint is turned by
-/// before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the axis.
+/// The frame of a body here relative to that of its parent, and the rotation applied to a floating
+/// joint before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the
+/// axis.
 [[gnu::always_inline]] inline void compileFloating(const MovingBody& body, const JointMotion& joint,
                                                    SimdJointMotion& lane) {
   Eigen::Matrix3d toAxis = Eigen::Matrix3d::Identity();
@@ -35,15 +36,15 @@ struct Extent {
   bool withinLimits = true;  ///< all joints that only turn
 };
 
-/// rad. Beyond, the rounding of 2 pi shows in what is left of an angle when turns are taken off.
+/// rad. Beyond it, the rounding of 2 pi shows when turns are subtracted from an angle.
 constexpr double kLargestAngle = 1e6;
 
-/// rad. The same turn, near 0 where the angle is large.
+/// rad. The same rotation, near 0 if the angle is large.
 double nearZero(double angle) {
   return std::abs(angle) > 4.0 ? std::remainder(angle, 2.0 * std::numbers::pi) : angle;
 }
 
-/// `travel`: rad, no less than what the angle is off its value at the anchor.
+/// `travel`: rad, upper bound on the difference of the angle from its value at the anchor.
 bool addTurn(double angle, double rate, double spin, double travel, SimdJointMotion& lane,
              Extent& extent) {
   if (!(std::abs(angle) <= kLargestAngle)) return false;
@@ -71,12 +72,12 @@ bool addTurn(double angle, double rate, double spin, double travel, SimdJointMot
   }
 }
 
-/// Any joint that does not only turn.
+/// For any joint that does not only turn.
 bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::size_t index,
               const JointMotion& joint, SimdJointMotion& lane, Extent& extent) {
   const MovingBody& body = kinematics.bodies[index];
   if (!(joint.largestAngle <= kLargestAngle)) return false;
-  // The largest of several may leave out what is no number: a walk must never see it.
+  // The largest of several may drop a NaN: a walk must never see it.
   if (!std::isfinite(joint.maxTranslation + joint.high - joint.low + joint.speed)) return false;
   setSlides(model, body, index, joint, lane);
   lane.speed = static_cast<float>(joint.speed * kSingleOutward);
@@ -95,8 +96,9 @@ bool isWithin(const MovingBody& body, double low, double high) {
   return (low >= body.lower && high <= body.upper) || body.type == JointType::Continuous;
 }
 
-/// A joint that only turns, at a constant rate: of a straight path, from its ends. What exact
-/// geometry has to know besides would take a tenth of the time of a motion that is soon proven.
+/// For a joint that only turns, at a constant rate: from the ends of a straight path. The
+/// additional data for exact geometry would take a tenth of the time of a motion that is soon
+/// proven.
 bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
                      std::span<const double> from, std::span<const double> to,
                      SimdJointMotion& lane, Extent& extent) {
@@ -104,7 +106,7 @@ bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
   const double end = to[body.variable];
   const bool cyclic = kinematics.cyclic[body.variable] != 0;
   const double angle = body.multiplier * begin + body.offset;
-  // The shorter way from a small angle to a large one is small, and rounds as the large one does.
+  // The shorter way from a small angle to a large one is small, but rounds as the large one does.
   if (!(std::abs(body.multiplier * end) <= kLargestAngle)) return false;
   const double rate = body.multiplier * (cyclic ? cyclicDifference(begin, end) : end - begin);
   if (!addTurn(angle, rate, std::abs(rate), std::abs(rate), lane, extent)) return false;
@@ -113,7 +115,7 @@ bool addStraightTurn(const KinematicModel& kinematics, const MovingBody& body,
   return true;
 }
 
-/// The joints of a straight path, or of a state that stays, and what their error depends on.
+/// The joints of a straight path, or of a state that stays, and the data of their error.
 bool addStraight(const SimdModel& model, const KinematicModel& kinematics,
                  std::span<const double> from, std::span<const double> to, SimdScratch& scratch,
                  Extent& extent) {
@@ -130,7 +132,7 @@ bool addStraight(const SimdModel& model, const KinematicModel& kinematics,
   return true;
 }
 
-/// What it is at the anchor says what it is everywhere.
+/// Its data at the anchor is valid everywhere.
 bool isLinear(const JointMotion& joint) {
   return joint.hasConstantRates() && joint.anchor == 0.0;
 }
@@ -140,7 +142,7 @@ void setAccelerations(const JointMotion& joint, SimdJointMotion& lane) {
   lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kSingleOutward);
 }
 
-/// Those of any path, as it is over the whole motion.
+/// The joints of any path, over the whole motion.
 bool addCurved(const SimdModel& model, const KinematicModel& kinematics,
                std::span<const JointMotion> joints, SimdScratch& scratch, Extent& extent) {
   for (std::size_t i = 1; i < joints.size(); ++i) {
@@ -173,7 +175,7 @@ bool setRounding(const SimdModel& model, const Extent& extent, SimdScratch& scra
   return rounding < 1.0;
 }
 
-/// Takes over the larger bounds.
+/// Takes the larger bounds.
 void widen(const SimdJointMotion& other, SimdJointMotion& motion) {
   motion.spin = std::max(motion.spin, other.spin);
   motion.speed = std::max(motion.speed, other.speed);
@@ -225,7 +227,7 @@ void SimdMotion::linearizeLanes() {
   boundMotion(model_, scratch_);
 }
 
-/// Of a joint whose rate changes, in the interval that `joints` is about.
+/// For a joint whose rate changes, in the interval of `joints`.
 SimdJointMotion SimdMotion::localMotion(std::size_t body) const {
   const JointMotion& joint = joints_[body];
   SimdJointMotion own;

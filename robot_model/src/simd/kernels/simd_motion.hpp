@@ -15,17 +15,16 @@ namespace swept::detail {
 /// sub-intervals, and bounds that hold in these.
 class SimdMotion {
  public:
-  /// `joints`: as many as there are bodies, to work in. All have to outlive this.
+  /// `joints`: work space for as many as there are bodies. All must outlive this.
   SimdMotion(const SimdModel& model, const KinematicModel& kinematics, const JointPath& path,
              std::span<JointMotion> joints, SimdScratch& scratch)
       : model_(model), kinematics_(kinematics), path_(path), joints_(joints), scratch_(scratch) {}
 
-  /// The whole motion, with the bounds on its error and on its accelerations. False: the path says
-  /// nothing of it (see JointPath::linearize), or it turns so far that single precision is not
-  /// enough.
+  /// The whole motion, with the bounds on its error and on its accelerations. False: the path gives
+  /// no bounds (see JointPath::linearize), or it turns so far that single precision is not enough.
   bool compile();
 
-  /// Places bodies, whose ancestors are among these, at the sub-intervals of the scratch's block.
+  /// Places bodies at the sub-intervals of the scratch's block. Their ancestors must be among them.
   void place(std::span<const int> bodies) {
     if (scratch_.curved) linearizeLanes();
     placeBodies(model_, scratch_.motion, bodies, scratch_.block);
@@ -44,13 +43,13 @@ class SimdMotion {
   SimdScratch& scratch_;
 };
 
-/// A single state, without bounds on accelerations. False: a value is not finite or outside what it
-/// may be, or so large that single precision is not enough.
+/// A single state, without bounds on accelerations. False: a value is not finite, outside its
+/// range, or too large for single precision.
 bool compileSimdState(const SimdModel& model, const KinematicModel& kinematics,
                       std::span<const double> q, SimdScratch& scratch);
 
-/// Up to eight states, one after the other in `states`, a lane each; lanes left over repeat the
-/// first. False as above, if for any of them, and for robots with floating joints.
+/// Up to eight states, consecutive in `states`, one per lane; remaining lanes repeat the first.
+/// False as above if it holds for any of them, and for robots with floating joints.
 bool compileSimdStates(const SimdModel& model, const KinematicModel& kinematics,
                        std::span<const double> states, SimdScratch& scratch);
 

@@ -12,20 +12,20 @@ namespace swept::detail {
 
 struct SimdModel;
 
-/// One joint's share of a motion, t in [0, 1]. Its size is a power of two, for it is looked up all
-/// the time.
+/// One joint's share of a motion, t in [0, 1]. Its size is a power of two, since it is looked up
+/// all the time.
 struct alignas(32) SimdJointMotion {
-  float angle = 0.0F;         ///< rad, at t = 0
-  float angleRate = 0.0F;     ///< rad per unit t
-  float slide[3] = {};        ///< m, parent's frame, at t = 0
-  float slideRate[3] = {};    ///< m per unit t
-  float rotation[9] = {};     ///< Floating: in place of SimdBody::rotation
-  float after[9] = {};        ///< Floating: applied to the body before it turns
-  float spin = 0.0F;          ///< rad per unit t, not below |angleRate|
-  float speed = 0.0F;         ///< m per unit t, not below |slideRate|
-  float slid = 0.0F;          ///< m, not below what it is off zero during the motion; 0: only turns
-  float acceleration = 0.0F;  ///< m per unit t squared, bounds that of the slide
-  float spinAcceleration = 0.0F;  ///< rad per unit t squared, bounds that of the turn
+  float angle = 0.0F;       ///< rad, at t = 0
+  float angleRate = 0.0F;   ///< rad per unit t
+  float slide[3] = {};      ///< m, parent's frame, at t = 0
+  float slideRate[3] = {};  ///< m per unit t
+  float rotation[9] = {};   ///< Floating: replaces SimdBody::rotation
+  float after[9] = {};      ///< Floating: applied to the body before it turns
+  float spin = 0.0F;        ///< rad per unit t, at least |angleRate|
+  float speed = 0.0F;       ///< m per unit t, at least |slideRate|
+  float slid = 0.0F;  ///< m, upper bound on its distance from zero during the motion; 0: only turns
+  float acceleration = 0.0F;      ///< m per unit t squared, bounds that of the slide
+  float spinAcceleration = 0.0F;  ///< rad per unit t squared, bounds that of the rotation
 };
 
 /// Frame and velocity field of one body in all lanes: p has velocity linear + angular x p.
@@ -36,7 +36,7 @@ struct SimdBodyState {
   Row linear[3];   ///< m per unit t
 };
 
-/// The ball around all of a body's geometry: the points at + s by, |s| <= 1, of its centre.
+/// The ball around all of a body's geometry: its centre is at + s by, |s| <= 1.
 struct SimdRoot {
   Row at[3];  ///< m
   Row by[3];  ///< m, half the way in the sub-interval; zero at rest
@@ -55,40 +55,40 @@ struct SimdContact {
   float inside = 0.0F;  ///< m, by how much
 };
 
-/// The pair and the lane in which the two covers overlap most at the middle, of those left open.
+/// The open pair and the lane in which the two covers overlap most at the middle.
 struct LikelyContact {
   std::uint32_t pair = 0;
   int lane = -1;
-  float depth = 0.0F;  ///< m, by more than half of what the covers reach beyond the links
+  float depth = 0.0F;  ///< m, minus more than half of how far the covers reach beyond the links
 };
 
 enum class SimdMode : std::uint8_t {
   Motion,  ///< eight sub-intervals
-  State,   ///< the motion's begin in all lanes, at rest
-  States,  ///< eight states, whose angles and slides are given
+  State,   ///< the motion's start in all lanes, at rest
+  States,  ///< eight states with given angles and slides
 };
 
-/// Eight sub-intervals of a motion, or states, and what is found out about them.
+/// Eight sub-intervals of a motion, or states, and the results about them.
 struct SimdBlock {
   Row time;                ///< of the middles
   Row half;                ///< half widths, in units of t
   std::vector<Row> angle;  ///< rad, per body
   std::vector<Row> slide;  ///< m, 3 per body
-  /// `angle` and `slide` are given, and, of a motion, their rates; else a motion's rates are
-  /// constant, and tell.
+  /// `angle` and `slide` are given, and, for a motion, their rates. Otherwise a motion's rates are
+  /// constant.
   bool given = false;
   std::vector<Row> angleRate;         ///< rad per unit t, where it is given
   std::vector<Row> slideRate;         ///< m per unit t, likewise
   std::vector<SimdBodyState> states;  ///< per body
   std::vector<SimdRoot> roots;        ///< per body; of those that have geometry
-  /// Pairs that are open, with their lanes in openLanes.
+  /// Open pairs, with their lanes in openLanes.
   std::vector<std::uint32_t> open;
   std::vector<std::uint8_t> openLanes;  ///< per pair of the model
-  /// Those in which not the motion but the covers are too coarse.
+  /// The open ones for which not the motion but the covers are too coarse.
   std::vector<std::uint8_t> finalLanes;
   SimdMode mode = SimdMode::Motion;
   bool stopAtContact = true;
-  /// Those with a contact, or behind one; these are not looked at any more.
+  /// Lanes with a contact, or after one; these are not tested any more.
   std::uint32_t contactLanes = 0;
   SimdContact contacts[kLanes];
   LikelyContact likelyContact;
@@ -99,8 +99,8 @@ struct SimdBounds {
   std::vector<Row> acceleration;  ///< m per unit t squared; lanes: bodies
 };
 
-/// A leaf that the field of an obstacle is too coarse for: exactly, is the obstacle farther than
-/// the radius from the segments x +- g?
+/// A leaf for which an obstacle's field is too coarse. The exact question: is the obstacle farther
+/// than the radius from the segments x +- g?
 struct SimdQuery {
   Row x[3];    ///< m
   Row g[3];    ///< m
@@ -123,18 +123,18 @@ struct SimdScratch {
   std::vector<float> turning;      ///< rad per unit t, per step of a reference
   std::vector<float> turned;       ///< its factor of the arms
   std::vector<float> slid;
-  /// Of boundCarried, per body; empty but for many bodies.
+  /// For boundCarried, per body; empty except for many bodies.
   struct Nested {
     std::vector<double> turning;  ///< rad per unit t, relative to the model frame
     std::vector<double> excess;   ///< rad per unit t, d of its lemma, where the joint is c
-    std::vector<double> carried;  ///< m per unit t, sum of w of the joints on the way to it so far
+    std::vector<double> carried;  ///< m per unit t, sum of w of the joints on the way so far
     std::vector<double> driven;   ///< m per unit t squared, of 2 V w + s^2 arm
     std::vector<double> slid;     ///< m, of SimdJointMotion::slid on the way to it
   };
   Nested nested;
   SimdBlock block;
   std::vector<SimdHit> hits;  ///< a stack
-  /// A cover that the walk is going to look at more closely, and the hits it is not apart from.
+  /// A cover that the walk is going to divide, and the hits that it is not apart from.
   struct WorldVisit {
     int body = 0;
     std::int32_t node = 0;
@@ -157,7 +157,7 @@ struct SimdScratch {
     float atB[3] = {};     ///< m
     float squared = 0.0F;  ///< m^2, of the distance of their centres
   };
-  /// Those that a state's walk is going to look at more closely.
+  /// The pairs that a state's walk is going to divide.
   struct StateVisit {
     int bodyPair = 0;
     std::uint32_t pair = 0;

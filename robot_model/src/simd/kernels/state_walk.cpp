@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
 
-/// Of a block, the one that is read.
+/// The lane of a block that is read.
 constexpr Lanes kFirst = 1U;
 
 class StateWalk {
@@ -43,7 +43,7 @@ class StateWalk {
     gatherRoots();
     for (const SimdRootRow& row : model_.rootRows)
       if (roots(row)) return true;
-    // Those whose first balls overlap most are in contact most often.
+    // Pairs whose root balls overlap most are in contact most often.
     std::ranges::sort(scratch_.stateVisits, {}, &SimdScratch::StateVisit::spread);
     std::size_t probed = 0;
     for (; probed < scratch_.stateVisits.size(); ++probed) {
@@ -65,7 +65,7 @@ class StateWalk {
   }
 
  private:
-  /// Links with a larger one are hardly in contact: covers are asked first.
+  /// Links with a larger value are hardly in contact: covers are tested first.
   static constexpr float kProbeSpread = 0.5625F;
 
   enum class Found : std::uint8_t { Apart, Open, Contact };
@@ -85,8 +85,8 @@ class StateWalk {
     extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward;
   }
 
-  /// Of eight pairs of balls, those that are not proven apart. Radii are sums, `keep` is beyond
-  /// these, rounding included.
+  /// The pairs, among eight pairs of balls, that are not proven apart. Radii are sums; `keep` is
+  /// added to them, rounding included.
   HWY_INLINE static Lanes notApart(const F8& squared, const F8& radii, const F8& keep) {
     const F8 radius = (radii + keep) * set(kPairOutward);
     return ~above(squared, radius * radius) & kAllLanes;
@@ -118,7 +118,7 @@ class StateWalk {
     return false;
   }
 
-  /// Two bodies whose first balls are not proven apart.
+  /// Two bodies whose root balls are not proven apart.
   bool links(int bodyPair, const BallPair& balls) {
     const SimdBodyPair& bodies = model_.bodyPairs[bodyPair];
     start(bodyPair);
@@ -126,7 +126,7 @@ class StateWalk {
       const PairSeparationTable& table = *bodies.table;
       if ((tables_.proven(table) & kFirst) != 0) return false;
       if (tables_.meets(table, states_, contacts_, kFirst)) return true;
-      // Where the table knows of no proof, covers have none either.
+      // If the table knows no proof, covers have none either.
       if (tables_.markUnresolvedOf(table, kFirst) == 0) return false;
     }
     return shallow(balls);
@@ -155,7 +155,7 @@ class StateWalk {
                            model_.nodes[visit.balls.nodeB].geometry, 0);
   }
 
-  /// Two balls of the covers of two pieces of geometry. Open: and nothing more is asked of these.
+  /// Two balls of the covers of two pieces of geometry. Open: stop testing these pieces.
   Found deep(const BallPair& balls) {
     const SimdNode& a = model_.nodes[balls.nodeA];
     const SimdNode& b = model_.nodes[balls.nodeB];
@@ -172,8 +172,8 @@ class StateWalk {
     return Found::Open;
   }
 
-  /// One ball's children with the other ball, those not proven apart one after the other, until
-  /// one of them is not Apart.
+  /// Tests one ball's children against the other ball, those not proven apart one after the other,
+  /// until one of them is not Apart.
   template <typename Visit>
   Found split(const BallPair& balls, const Visit& visit) {
     const bool ofA = splitsFirst(model_.nodes[balls.nodeA], model_.nodes[balls.nodeB]);
@@ -212,7 +212,7 @@ class StateWalk {
   const SelfTables tables_;
   SelfContacts contacts_;
   LinkStates states_;
-  float extra_ = 0.0F;  ///< m, that the balls of the pair of links keep; rounding included
+  float extra_ = 0.0F;  ///< m, that the balls of the pair of links must keep; rounding included
   int bodyPair_ = 0;
   std::uint32_t pair_ = 0;
   int looks_ = 0;

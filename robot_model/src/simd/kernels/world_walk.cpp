@@ -19,7 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
 namespace {
 
-/// Of the radius around a link: obstacles farther from its centre hardly reach the balls inside.
+/// Relative to the radius around a link: obstacles farther from its centre hardly reach the balls
+/// inside.
 constexpr float kProbeShare = 0.6F;
 
 class WorldWalk {
@@ -33,7 +34,7 @@ class WorldWalk {
         moving_(scratch.block.mode == SimdMode::Motion),
         padded_(!model.extras.empty()) {}
 
-  /// The first balls of all links, and balls inside these, before any more of their covers: most
+  /// The root balls of all links, and balls inside these, before the rest of their covers: most
   /// contacts show there.
   bool bodies() {
     fields_.clear();
@@ -95,7 +96,7 @@ class WorldWalk {
     if (moving_)
       extra_ =
           extra_ + inflation(half_, accelerationOf(model_.references[0], scratch_.bounds[0], body));
-    // Balls this close to the link are not worth another look before the interval is halved.
+    // Balls this close to the link are not worth another test before the interval is halved.
     enough_ = 0.5F * largestLane(extra_);
   }
 
@@ -103,12 +104,12 @@ class WorldWalk {
     return segmentOf(node, *state_, half_, moving_);
   }
 
-  /// m; more than what rounding of squares and roots takes away.
+  /// m; more than the rounding of squares and roots.
   HWY_INLINE F8 inflated(const SimdNode& node) const {
     return (set(node.radius) + extra_) * set(kBallOutward);
   }
 
-  /// Obstacles whose boxes meet the box around all lanes.
+  /// Obstacles whose boxes overlap the box around all lanes.
   void cull(const Segment& segment, const F8& radius) {
     const V3 reach = {absolute(segment.g.x) + radius, absolute(segment.g.y) + radius,
                       absolute(segment.g.z) + radius};
@@ -138,7 +139,7 @@ class WorldWalk {
     }
   }
 
-  /// The hits from `first` to `last` are what the node's parent is not proven apart from.
+  /// The hits from `first` to `last` are those that the node's parent is not proven apart from.
   bool visit(const SimdNode& node, const Segment& segment, std::size_t first, std::size_t last) {
     const std::size_t own = scratch_.hits.size();
     if (sift(node, segment, first, last)) return true;
@@ -156,7 +157,7 @@ class WorldWalk {
     return false;
   }
 
-  /// Adds those of the hits that the node's children have to look at. True: the walk is over.
+  /// Adds the hits that the node's children must test. True: the walk is over.
   bool sift(const SimdNode& node, const Segment& segment, std::size_t first, std::size_t last) {
     const F8 plain = inflated(node);
     F8 radius = plain;
@@ -206,14 +207,14 @@ class WorldWalk {
     return false;
   }
 
-  /// m, rounded up: what the pair keeps beyond the margin of all, or any pair of the obstacle where
-  /// the node has several pieces of geometry.
+  /// m, rounded up: what the pair keeps beyond the margin of all pairs, or what any pair of the
+  /// obstacle keeps if the node has several pieces of geometry.
   float extraOf(const SimdNode& node, std::int32_t obstacle, std::int32_t pair) const {
     const float extra = node.geometry >= 0 ? model_.extras[pair] : model_.obstacleExtras[obstacle];
     return extra * kExtraOutward;
   }
 
-  /// Looks at balls inside the link, in the lane in which it is deepest in the obstacle.
+  /// Tests balls inside the link, in the lane in which it is deepest in the obstacle.
   bool probe(const SimdNode& node, const Segment& segment, const SimdHit& hit, std::uint32_t pair) {
     const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
     if (obstacle.near != NearProof::Inside && obstacle.near != NearProof::Distance) return false;
@@ -265,7 +266,7 @@ class WorldWalk {
     return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(most));
   }
 
-  /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings behind.
+  /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings to visit.
   static constexpr int kMostPending = 64;
 
   const SimdModel& model_;

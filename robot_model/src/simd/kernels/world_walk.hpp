@@ -8,8 +8,8 @@
 
 namespace swept::detail {
 
-/// Proves balls of the covers apart from the world on all sub-intervals of a block, and puts pairs
-/// that are not into its open ones. Returns true if it stopped at a contact.
+/// Proves balls of the covers apart from the world on all sub-intervals of a block, and adds the
+/// other pairs to its open ones. Returns true if it stopped at a contact.
 ///
 /// Lemma: a ball centre c with velocity v and |c''| <= A stays, for |t - m| <= h, within h^2 A / 2
 /// of the segment c(m) +- h v(m) (Taylor with the remainder as a vector). So a ball of radius r

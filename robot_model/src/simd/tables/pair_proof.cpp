@@ -15,18 +15,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// m. Regions in which points travel more than this are not compared exactly; one such comparison
-/// counts as many distances of balls, and each of its steps too.
+/// m. Regions in which points travel more than this are not compared exactly. One such comparison
+/// counts as many distances of balls, and so does each of its steps.
 constexpr double kExactTravel = 0.02;
 constexpr int kExactWork = 50;
 constexpr int kStepWork = 8;
-/// Of what points travel where balls are not proven apart, as much may others do.
+/// Relative to the travel of points where balls are not proven apart: others may travel as much.
 constexpr double kMoreTravel = 1.25;
-/// Of what points travel, as well are distances known.
+/// Relative to the travel of points: accuracy of distances.
 constexpr double kTolerance = 0.25;
-/// Of what points travel: balls that meet by more than this hold a contact in most of a region.
+/// Relative to the travel of points: balls that overlap by more than this have a contact in most of
+/// a region.
 constexpr double kMeetingTravel = 0.5;
-/// Pairs of balls split in search of the points that are close.
+/// Number of pairs of balls that the search for close points splits.
 constexpr int kMostLooks = 24;
 
 using InnerBall = PairSeparationTable::InnerBall;
@@ -90,7 +91,7 @@ PairProof::Balls PairProof::roots() const {
 bool PairProof::apartByBalls(const Place& place) {
   meeting_ = 0.0;
   certain_ = false;
-  // Where the last region was stopped is where this one is likely to be.
+  // Where the last region was stopped is where this one probably is.
   const Balls last = stopped_;
   return (last.a < 0 || apart(place, last)) && apart(place, roots());
 }
@@ -112,9 +113,9 @@ PairProof::Split PairProof::split(const Balls& balls) const {
   return {balls, ofA, parent.firstChild, parent.childCount};
 }
 
-/// False as soon as two balls that are fine against the travel are not proven apart; `stopped_`
-/// are these. `gap_`, less than the distance of the geometries in the middle by the slack, proves
-/// those whose points travel less.
+/// False as soon as two balls that are small compared to the travel are not proven apart;
+/// `stopped_` are these. `gap_`, which is at most the distance of the geometries in the middle
+/// minus the slack, proves those whose points travel less.
 bool PairProof::apart(const Place& place, const Balls& balls) {
   --work;
   const auto [a, b, atA, inB, atB, between] = lookAt(place, balls);
@@ -164,7 +165,7 @@ bool PairProof::noteMeeting(const Place& place, const InnerBall& a, const InnerB
   return always;
 }
 
-/// Where those that met in the last region do so in this one, more need not be known.
+/// If those that met in the last region also meet in this one, no others are needed.
 void PairProof::noteLastMeeting(const Place& place) {
   if (!(meetingOfA_.inside > 0.0F) || meeting_ > 0.0) return;
   noteMeeting(place, InnerBall(meetingOfA_), InnerBall(meetingOfB_));
@@ -205,8 +206,8 @@ void PairProof::findMeeting(const Place& place, const Compared& found) {
   if (!(meeting_ > 0.0)) findAround(place, between, middleA, middleB);
 }
 
-/// The balls around a point (m, A's lane frame). One on the surface of either body is moved towards
-/// the middle of that, by no more than the other has around it.
+/// The balls around a point (m, A's lane frame). A point on the surface of either body is moved
+/// towards the middle of that body, by at most the room that the other body has around it.
 void PairProof::findAround(const Place& place, const Vector3d& point, const Vector3d& middleA,
                            const Vector3d& middleB) {
   work -= 2 * kExactWork;
@@ -276,7 +277,7 @@ PairProof::Compared PairProof::compareWhereStopped(const Place& place, bool sing
                                        static_cast<double>(b.radius));
   const double travel = TableMotion::travel(place, levers);
   if (!(travel <= kExactTravel)) return {};
-  // Whether there is contact is of interest only where it is kept.
+  // Contact matters only where it is recorded.
   const double contact = single ? margin_ : travel + slack_;
   return compare(place, contact, kMoreTravel * travel);
 }

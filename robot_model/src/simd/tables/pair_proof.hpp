@@ -10,19 +10,19 @@
 
 namespace swept::detail {
 
-/// The ball inside a link that a node of its cover has.
+/// The ball inside a link that a node of its cover stores.
 PairSeparationTable::InnerBall innerBall(const SimdNode& node);
 
-/// The largest around `center` (m, frame of SimdNode::center) that is proven to lie in the solid of
-/// a piece of the robot's geometry; a radius of 0 where none is.
+/// The largest ball around `center` (m, frame of SimdNode::center) that is proven to lie in the
+/// solid of a piece of the robot's geometry; a radius of 0 if there is none.
 PairSeparationTable::InnerBall innerBallAround(const PairModel& model, const SimdModel& simd,
                                                int geometry, const Eigen::Vector3d& center);
 
 /// Whether two pieces of geometry are apart for all values of the joints around a middle.
 ///
 /// Each pair of their points is in some pair of balls of their covers. It is apart if these balls
-/// are by more than their centres approach each other, or if the geometries are, in the middle, by
-/// more than points of these balls travel; see TableMotion.
+/// are apart by more than their centres approach each other, or if the geometries in the middle are
+/// apart by more than points of these balls travel; see TableMotion.
 class PairProof {
  public:
   using Place = TableMotion::Place;
@@ -31,7 +31,7 @@ class PairProof {
     std::int32_t a;  ///< of SimdModel::nodes
     std::int32_t b;
   };
-  /// What exact geometry says of the middle.
+  /// The exact result for the middle.
   struct Compared {
     bool tried = false;
     bool touching = false;
@@ -42,36 +42,37 @@ class PairProof {
   PairProof(const PairModel& model, const SimdModel& simd, const SimdBodyPair& bodies,
             const TableMotion& motion);
 
-  /// The pair that is looked at from now on.
+  /// Sets the pair of the following queries.
   void choose(const PairSeparationTable::Geometries& pair);
   bool apartByBalls(const Place& place);
-  /// By the exact geometry as well, which is worth its time only where the covers fail by little:
-  /// where they stopped last. `single`: a contact is of interest too.
+  /// Also uses the exact geometry, which is worth its time only if the covers fail by little: where
+  /// they stopped last. `single`: a contact matters too.
   Compared compareWhereStopped(const Place& place, bool single);
-  /// The distance of the exact geometry, between what is no more than contact and what is enough
-  /// for points that travel so far (m).
+  /// The distance of the exact geometry, between contact and what is enough for points that travel
+  /// this far (m).
   Compared compare(const Place& place, double contact, double travel);
   bool apartWithin(const Place& place, double gap);
-  /// Of points of the geometries that balls do not prove apart: all others are, and these come no
-  /// nearer to each other than the geometries are in the middle, less their travel.
+  /// For points of the geometries that balls do not prove apart: all others are apart, and these
+  /// come no nearer to each other than the geometries are in the middle, minus their travel.
   Levers closeLevers(const Place& place);
 
-  /// Balls inside the two links that meet in the middle, as far as that is known.
+  /// Known balls inside the two links that meet in the middle.
   bool meet() const { return meeting_ > 0.0; }
   /// For all values of the joints.
   bool alwaysMeet() const { return certain_; }
   const PairSeparationTable::InnerBall& meetingOfA() const { return meetingOfA_; }
   const PairSeparationTable::InnerBall& meetingOfB() const { return meetingOfB_; }
-  /// Those that overlap most, among the covers' and what is found in the solids.
+  /// Those that overlap most, among the covers' balls and those found in the solids.
   void findMeeting(const Place& place, const Compared& found);
 
   double margin() const { return margin_; }  ///< m, of the pair
   double slack() const { return slack_; }    ///< m, for the margin and for roundings
-  /// Distances of balls evaluated, or what takes as long, are taken off it; some 30 ns each.
+  /// Remaining work: distances of balls, or equally long steps, are subtracted from it; some 30 ns
+  /// each.
   int work = 0;
 
  private:
-  /// Two balls as they are in the middle.
+  /// Two balls at their middle poses.
   struct Look {
     const SimdNode& a;
     const SimdNode& b;
@@ -115,7 +116,7 @@ class PairProof {
   int geometryB_ = -1;
   Balls stopped_{-1, -1};
   double gap_ = 0.0;      ///< m, see apart
-  double meeting_ = 0.0;  ///< m, the most that balls inside overlap in the middle
+  double meeting_ = 0.0;  ///< m, largest overlap of balls inside the links in the middle
   bool certain_ = false;
   PairSeparationTable::InnerBall meetingOfA_, meetingOfB_;  ///< lately
   Levers close_{};

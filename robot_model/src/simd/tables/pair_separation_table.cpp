@@ -9,7 +9,7 @@ namespace swept::detail {
 namespace {
 
 constexpr std::uint8_t kAllPairs = 0xFF;
-/// Of open cells, looked at one by one.
+/// Number of open cells that are tested one by one.
 constexpr int kMostCells = 256;
 constexpr int kFewCells = 16;
 

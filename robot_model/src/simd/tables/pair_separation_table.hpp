@@ -7,15 +7,16 @@
 
 namespace swept::detail {
 
-/// For two bodies whose relative pose depends on one or two joints that turn: the cells of joint
-/// values in which all pairs of their geometry are proven apart. And for two that are proven apart
-/// for all values of all joints within their limits: a single cell, of no joint.
+/// For two bodies whose relative pose depends on one or two turning joints: the cells of joint
+/// values in which all pairs of their geometry are proven apart. For two that are proven apart for
+/// all values of all joints within their limits: a single cell, with no joint.
 ///
-/// Neighbours but one along an arm come within millimetres of each other in most of their range,
-/// and little else in it changes; proving that once is worth more than proving it in each motion.
+/// Links two joints apart on an arm come within millimetres of each other in most of their range,
+/// and their relative pose depends on little else. Proving that once is better than proving it in
+/// each motion.
 struct PairSeparationTable {
   static constexpr int kMostJoints = 2;
-  /// Parts of a cell along each joint: what is known where some of a cell is proven.
+  /// Number of parts of a cell along each joint: they refine a cell that is partly proven.
   static constexpr int kParts = 8;
   struct Axis {
     int body = 0;        ///< whose joint it is
@@ -33,27 +34,27 @@ struct PairSeparationTable {
   using Values = std::array<float, kMostJoints>;
 
   struct Cell {
-    /// Bit k: not proven is the k-th of `pairs`; with more than kPairBits of them, the last bit
+    /// Bit k: the k-th of `pairs` is not proven; with more than kPairBits of them, the last bit
     /// stands for all from there on.
     std::uint8_t openPairs = 0;
     bool touching = false;    ///< some pair is in contact in the middle
-    bool coarse = false;      ///< work ran out: what is not proven was not tried as finely as this
+    bool coarse = false;      ///< work ran out: the unproven parts were not tried as finely as this
     std::int32_t parts = -1;  ///< of an open cell: index into openParts; -1: all of them are open
     std::int32_t meeting = -1;  ///< index into meetings; -1: none is known
   };
   static constexpr std::size_t kPairBits = 8;
   std::vector<Cell> cells;  ///< [i * axes[1].cells + j]
-  /// Bit (i * kParts + j): not proven is part i along the first joint, j along the second.
+  /// Bit (i * kParts + j): part i along the first joint, j along the second, is not proven.
   std::vector<std::uint64_t> openParts;
   struct Geometries {
     int a = 0;  ///< index into PairModel::robotGeometry
     int b = 0;
-    double margin = 0.0;  ///< m, that they are proven to keep
+    double margin = 0.0;  ///< m, which they are proven to keep
   };
   using Pairs = std::vector<Geometries>;
   Pairs pairs;
 
-  /// In a body's solid.
+  /// A ball in a body's solid.
   struct InnerBall {
     float center[3] = {};  ///< m, frame of SimdNode::center
     float inside = 0.0F;   ///< m, the radius
@@ -66,16 +67,15 @@ struct PairSeparationTable {
   };
   std::vector<Meeting> meetings;
 
-  /// Of two bodies that are never in contact.
+  /// Table of two bodies that are never in contact.
   static PairSeparationTable allApart(Pairs pairs);
 
-  /// The cell with these values; null outside and where it is coarse.
+  /// The cell with these values; null outside and if it is coarse.
   const Cell* cellAt(const Values& values) const;
-  /// Whether all cells, or parts of them, that meet the box are proven. False outside of the table
-  /// and for NaN.
+  /// Whether all cells, or parts of them, that meet the box are proven. False outside the table and
+  /// for NaN.
   bool free(const Values& lower, const Values& upper) const;
-  /// The open pairs of all cells with open parts that meet the box, which has to be inside of the
-  /// table.
+  /// The open pairs of all cells with open parts that meet the box, which must be inside the table.
   std::uint8_t openPairs(const Values& lower, const Values& upper) const;
 
  private:
@@ -84,9 +84,9 @@ struct PairSeparationTable {
     std::array<int, kMostJoints> begin{0, 0};
     std::array<int, kMostJoints> end{1, 1};
   };
-  /// False outside of the table and for NaN.
+  /// False outside the table and for NaN.
   bool find(const Values& lower, const Values& upper, Range& range) const;
-  /// None is open in the rectangle of cells.
+  /// Whether none is open in the rectangle of cells.
   bool allProven(const Range& parts) const;
   /// Pairs of an open cell if one of its open parts is among these.
   std::uint8_t openAmong(const Range& parts, int i, int j) const;

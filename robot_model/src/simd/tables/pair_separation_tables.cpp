@@ -17,11 +17,11 @@ namespace swept::detail {
 
 namespace {
 
-/// See PairProof::work: for the cells of all tables of a robot, and for their parts; some
-/// 30 ns each.
+/// See PairProof::work: for the cells of all tables of a robot, and for their parts; some 30 ns
+/// each.
 constexpr int kMostWork = 12'000'000;
 constexpr int kMostPartWork = 600'000;
-/// What some tables leave of their share goes to the others, so often.
+/// Number of rounds in which the unused shares of some tables go to the others.
 constexpr int kRounds = 4;
 constexpr int kLeastShare = 10'000;
 
@@ -31,7 +31,7 @@ struct Task {
   int work = 0;
 };
 
-/// Work in equal shares for those that are not done.
+/// Distributes work in equal shares among those that are not done.
 template <typename Done, typename Work>
 void share(std::vector<Task>& tasks, int most, const Done& done, const Work& work) {
   int left = most;
@@ -78,7 +78,8 @@ std::vector<PairSeparationTable::Pairs> geometriesOf(const PairModel& model, con
   return pairs;
 }
 
-/// The same piece in the same place. Pieces of equal shape may share a cover, wherever they are.
+/// Whether it is the same piece in the same place. Pieces of equal shape may share a cover,
+/// wherever they are.
 bool sameGeometry(const RobotGeometry& a, const RobotGeometry& b) {
   return a.cover == b.cover && a.cover != nullptr && a.scale == b.scale && a.body == b.body &&
          a.body_from_shape.matrix() == b.body_from_shape.matrix() && areSame(a.shape, b.shape);
@@ -95,7 +96,7 @@ bool holdsFor(const PairModel& model, const PairSeparationTables& tables,
          sameGeometry(tables.geometry[pair.b], model.robotGeometry[pair.b]);
 }
 
-/// Of pairs of bodies that never meet.
+/// For pairs of bodies that never meet.
 void addAllApart(const PairModel& model, const SimdModel& simd, const std::vector<char>& never,
                  PairSeparationTables& tables) {
   std::vector<std::int32_t> bodyPairs;

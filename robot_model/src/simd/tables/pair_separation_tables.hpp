@@ -18,20 +18,20 @@ struct PairSeparationTables {
     std::shared_ptr<const PairSeparationTable> table;
   };
   std::vector<Entry> entries;
-  SharedArray<RobotGeometry> geometry;  ///< that they are about
+  SharedArray<RobotGeometry> geometry;  ///< that they were built for
 };
 
-/// For all of SimdModel::bodyPairs that can have one and are worth it. Built on as many threads as
-/// there are processors, and the same on any number.
+/// Tables for all of SimdModel::bodyPairs that can have one and are worth it. Built on as many
+/// threads as processors, and the same for any number.
 std::shared_ptr<const PairSeparationTables> buildPairSeparationTables(const PairModel& model,
                                                                       const SimdModel& simd);
 
 /// Gives each of SimdModel::bodyPairs the table that holds for all of its pairs, if there is one:
-/// the geometry is the same, and the margins are not larger. A table may know of more pairs.
+/// with the same geometry, and margins that are not larger. A table may contain more pairs.
 void chooseTables(const PairModel& model, const PairSeparationTables& tables, SimdModel& simd);
 
-/// Tables for the pairs of a model that is usable. `like`: null, or that of an earlier version for
-/// the same robot, group and reference; its tables are chosen from, and none are built.
+/// Tables for the pairs of a usable model. `like`: null, or that of an earlier version for the same
+/// robot, group and reference; its tables are reused, and none are built.
 void addTables(const PairModel& model, const SimdModel* like, SimdModel& simd);
 
 }  // namespace swept::detail

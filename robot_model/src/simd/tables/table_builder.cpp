@@ -11,16 +11,17 @@ namespace swept::detail {
 
 namespace {
 
-/// A table is not worth its time for bodies that are not apart, or only just, in so large a share
-/// of their range: a contact, where nothing else is.
+/// A table is not worth its time if the bodies are not apart, or only just, in this share of their
+/// range: because of contact, although nothing else is.
 constexpr double kMostOpen = 0.7;
 constexpr int kProbes = 6;
-/// Of what points travel in a cell: with less of a gap in its middle few of its parts are apart.
+/// Relative to the travel of points in a cell: with a smaller gap in its middle, few of its parts
+/// are apart.
 constexpr double kLeastGap = 0.1;
-/// Along each joint, of the smallest boxes of parts that are compared.
+/// Number of parts along each joint of the smallest boxes that are compared.
 constexpr int kFewestParts = 2;
 
-/// Leaves one of four quarters of a box of indices; false if there is no such.
+/// Removes one of four quarters from a box of indices; false if there is no such quarter.
 bool halve(int quarter, std::array<int, 2>& begin, std::array<int, 2>& end) {
   for (int k = 0; k < 2; ++k) {
     const bool second = (quarter >> k & 1) != 0;
@@ -43,7 +44,7 @@ TableBuilder::TableBuilder(const PairModel& model, const SimdModel& simd,
   table_.pairs = std::move(pairs);
 }
 
-/// The pair that is looked at from now on.
+/// Sets the pair of the following steps.
 void TableBuilder::choose(std::int32_t pair) {
   pair_ = pair;
   const auto index = static_cast<std::size_t>(pair);
@@ -60,7 +61,7 @@ TableMotion::Parts TableBuilder::partsOf(const Region& region) const {
   return parts;
 }
 
-/// By single cells, evenly over the range.
+/// By single cells, evenly spread over the range.
 bool TableBuilder::isMostlyOpen() {
   int open = 0;
   int probes = 0;
@@ -86,7 +87,7 @@ void TableBuilder::proveRegion(const Region& region) {
   choose(region.pair);
   const Place place = motion_.placeOf(partsOf(region));
   if (proof_.apartByBalls(place)) return;
-  // Where balls in the links meet for all values of the joints, there is nothing to prove.
+  // If balls in the links meet for all values of the joints, there is nothing to prove.
   if (proof_.alwaysMeet() || haveMeetings(region))
     return markUnresolved(region, proof_.alwaysMeet(), false);
   const std::array<int, 2> width{region.end[0] - region.begin[0], region.end[1] - region.begin[1]};
@@ -94,7 +95,7 @@ void TableBuilder::proveRegion(const Region& region) {
   const PairProof::Compared found = proof_.compareWhereStopped(place, single);
   if (proof_.apartWithin(place, found.gap)) return;
   if (single) {
-    // Where the middle is known to be free of contact no balls meet.
+    // If the middle is known to be free of contact, no balls meet.
     if (found.touching || !found.tried) proof_.findMeeting(place, found);
     markUnresolved(region, found.touching, false);
     if (found.tried && !found.touching) startParts(region, found.gap);
@@ -155,7 +156,7 @@ void TableBuilder::prove(int& work) {
   work = proof_.work;
 }
 
-/// Where the middle of an open cell is free by a gap, some of it is.
+/// If the middle of an open cell is free by a gap, some of the cell is free.
 void TableBuilder::startParts(const Region& region, double gap) {
   const bool shared = table_.pairs.size() > PairSeparationTable::kPairBits &&
                       static_cast<std::size_t>(pair_) + 1 >= PairSeparationTable::kPairBits;
@@ -168,7 +169,8 @@ void TableBuilder::startParts(const Region& region, double gap) {
   masks_.push_back(mask);
 }
 
-/// Those that points cannot get to from the middle within the gap; whether none is left open.
+/// The parts that points cannot reach from the middle within the gap; returns whether none is left
+/// open.
 bool TableBuilder::clearParts(const PartRegion& region) {
   constexpr int kParts = PairSeparationTable::kParts;
   std::uint64_t& mask = masks_[static_cast<std::size_t>(region.mask)].open;
@@ -195,7 +197,7 @@ void TableBuilder::splitParts(const PartRegion& region) {
 
 void TableBuilder::proveParts(PartRegion& region) {
   const PartMask& mask = masks_[static_cast<std::size_t>(region.mask)];
-  // Nothing is gained by a part that another pair leaves open.
+  // Proving a part that another pair leaves open gains nothing.
   if (table_.cells[static_cast<std::size_t>(mask.cell)].touching) return;
   const bool whole = region.gap > 0.0;
   const bool last = region.parts.end[0] - region.parts.begin[0] <= kFewestParts;

@@ -19,7 +19,7 @@ struct PartMask {
   std::uint64_t open = ~std::uint64_t{0};
 };
 
-/// Joins those of all pairs in the table. A cell has parts where all its open pairs have masks.
+/// Combines those of all pairs in the table. A cell has parts if all its open pairs have masks.
 inline void setParts(const std::vector<PartMask>& masks, PairSeparationTable& table) {
   std::vector<std::uint8_t> known(table.cells.size(), 0);
   for (const PartMask& mask : masks) {
@@ -37,8 +37,8 @@ inline void setParts(const std::vector<PartMask>& masks, PairSeparationTable& ta
     if ((table.cells[i].openPairs & ~known[i]) != 0) table.cells[i].parts = -1;
 }
 
-/// Proves the cells of one table: coarse regions first, then their quarters where that did not
-/// succeed, so that a table whose work ran out is a coarser one; then parts of the open cells.
+/// Proves the cells of one table: coarse regions first, then their quarters if that failed, so that
+/// a table whose work ran out is a coarser one; then parts of the open cells.
 class TableBuilder {
  public:
   /// `pairs` are those of the bodies' geometry.
@@ -47,15 +47,15 @@ class TableBuilder {
   TableBuilder(const TableBuilder&) = delete;
   TableBuilder& operator=(const TableBuilder&) = delete;
 
-  /// Goes on until done, or work is spent: see PairProof::work. Goes over
-  /// by what one region takes.
+  /// Continues until done, or until the work is spent (see PairProof::work). It may exceed the work
+  /// by that of one region.
   void prove(int& work);
   /// Whether there is anything left to prove.
   bool proven() const { return probed_ && at_ == level_.size() && next_.empty(); }
   /// The same for parts of cells, once the cells are proven.
   void refine(int& work);
   bool refined() const { return partAt_ == partLevel_.size() && nextParts_.empty(); }
-  /// Null if the bodies are not apart in enough of their range to be worth it.
+  /// Null if the bodies are not apart in enough of their range.
   std::shared_ptr<const PairSeparationTable> finish();
 
  private:

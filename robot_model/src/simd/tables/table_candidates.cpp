@@ -16,7 +16,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Tables of the finest cells, some 0.6 MB each: twice as coarse, four times as many take as much.
+/// Number of tables with the finest cells, some 0.6 MB each: if cells are twice as coarse, four
+/// times as many take as much.
 constexpr std::size_t kFineTables = 128;
 
 struct Candidate {
@@ -25,7 +26,8 @@ struct Candidate {
   float gap = 0.0F;  ///< m
 };
 
-/// Joints from a body up to one that carries it; more than a table can have if one does not turn.
+/// Joints from a body up to one that carries it; more than a table can have if one of them does not
+/// turn.
 int turningJoints(const PairModel& model, int body, int reference) {
   int joints = 0;
   for (; body != reference && joints <= PairSeparationTable::kMostJoints;
@@ -49,8 +51,7 @@ std::vector<Candidate> allCandidates(const PairModel& model, const SimdModel& si
   return found;
 }
 
-/// Bodies in the reference configuration; what slides freely, where its joint is. It is for a
-/// choice alone.
+/// Bodies in the reference configuration; free slides at their joint. Only for a choice.
 std::vector<Isometry3d> referencePoses(const PairModel& model) {
   const KinematicModel& kinematics = model.kinematics;
   std::vector<double> q;
@@ -84,7 +85,7 @@ void measureGaps(const PairModel& model, const SimdModel& simd,
     const SimdBodyPair& bodies = simd.bodyPairs[candidate.bodyPair];
     const double apart = (centers[bodies.bodyA] - centers[bodies.bodyB]).norm();
     candidate.gap = static_cast<float>(apart) - radii[bodies.bodyA] - radii[bodies.bodyB];
-    // What has no number has no order either.
+    // NaN has no order.
     if (!(candidate.gap < std::numeric_limits<float>::max()))
       candidate.gap = std::numeric_limits<float>::max();
   }

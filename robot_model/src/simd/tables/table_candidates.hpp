@@ -10,7 +10,7 @@ namespace swept::detail {
 
 struct PairModel;
 
-/// The pairs of bodies that a joint table is tried for, and how fine.
+/// The pairs of bodies for which a joint table is tried, and its resolution.
 struct TableCandidates {
   std::vector<std::int32_t> bodyPairs;  ///< indices into SimdModel::bodyPairs, ascending
   int coarseness = 1;                   ///< see TableMotion::between

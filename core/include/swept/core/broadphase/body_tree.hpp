@@ -13,52 +13,53 @@
 
 namespace swept {
 
-/// The bodies of a world that stands still, in a tree of axis-aligned boxes.
+/// The bodies of a static world, in a tree of axis-aligned boxes.
 ///
-/// Immutable: any number of threads may ask. Bodies without a finite box (planes, half-spaces, and
-/// poses that are not finite) are kept aside and looked at in every query. The answers to a query
-/// do not depend on earlier ones, and its order is that of the tree: the same bodies in the same
+/// Immutable: any number of threads may query it. Bodies without a finite box (planes, half-spaces,
+/// and bodies with a non-finite pose) are kept in a list and tested in every query. Answers do not
+/// depend on earlier queries. Their order is that of the tree, and the same bodies in the same
 /// order give the same tree. Queries allocate nothing.
 ///
-/// Pairs are measured at the relative pose rounded to double: `collides` tells about that pose, and
-/// `nearest` widens its lower bound by the rounding. World poses stand for the nearest rigid ones
-/// (`distance.hpp`), and so bodies() has them.
+/// Pairs are measured at the relative pose rounded to double: `collides` answers for that pose, and
+/// `nearest` widens its lower bound by the rounding. World poses are replaced by the nearest rigid
+/// ones (`distance.hpp`); bodies() returns these.
 class BodyTree {
  public:
-  /// A shape where it is in the world; `id` comes back in the answers.
+  /// A shape with its pose in the world; `id` comes back in the answers.
   struct Body {
-    int id;                             ///< the caller's; need not be unique
+    int id;                             ///< chosen by the caller; need not be unique
     Shape shape;                        ///< in its own frame
     Eigen::Isometry3d world_from_body;  ///< pose in the world
   };
 
   /// Whether any body touches a shape.
   struct Hit {
-    /// Separate: proven for every body. Touching: with `id`. Unknown: no body is known to touch,
-    /// and at least one, `id`, is not proven apart (within rounding, or a pose that is not finite).
+    /// Separate: proven for every body. Touching: with body `id`. Unknown: no body is known to
+    /// touch, and at least one, `id`, is not proven apart (within rounding, or a non-finite pose).
     Contact status = Contact::Unknown;
-    int id = -1;  ///< without meaning for Separate
+    int id = -1;  ///< no meaning for Separate
   };
 
   /// The distance of the nearest body, as an interval.
   struct Nearest {
     double lower = 0.0;  ///< m, proven: no body is nearer; infinity in an empty tree
-    double upper = std::numeric_limits<double>::infinity();  ///< m, distance of the points
-    int id = -1;  ///< of the body that pointOfBody belongs to; -1 where upper is infinite
+    double upper = std::numeric_limits<double>::infinity();  ///< m, distance of the two points
+    int id = -1;  ///< of the body with pointOfBody; -1 if upper is infinite
     Eigen::Vector3d pointOfShape = Eigen::Vector3d::Zero();  ///< m, world frame
     Eigen::Vector3d pointOfBody = Eigen::Vector3d::Zero();   ///< m, world frame
   };
 
   BodyTree() = default;
-  /// Binned surface area heuristic: O(n log n). At most 2^30 bodies, else std::invalid_argument.
+  /// Builds the tree by a binned surface area heuristic: O(n log n). Throws std::invalid_argument
+  /// for more than 2^30 bodies.
   explicit BodyTree(std::vector<Body> bodies);
 
   /// In the order given.
   const std::vector<Body>& bodies() const { return bodies_; }
 
-  /// Calls `visitor(const Body&)` for each body whose world box meets `box` (m, world frame), and
-  /// for each without a finite box, until it returns true. Returns whether it did. A box with a NaN
-  /// meets every body.
+  /// Calls `visitor(const Body&)` for each body whose world box overlaps `box` (m, world frame),
+  /// and for each body without a finite box, until the visitor returns true. Returns whether it
+  /// did. A box with a NaN overlaps every body.
   template <typename Visitor>
   bool forEachOverlap(const Aabb& box, Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -79,17 +80,17 @@ class BodyTree {
     return false;
   }
 
-  /// The first body that the shape touches.
+  /// Whether the shape touches a body, and the first such body found.
   Hit collides(const Shape& shape, const Eigen::Isometry3d& world_from_shape) const;
 
-  /// Branch and bound; upper - lower <= tolerance (m) but for rounding. Overlap gives upper 0. A
-  /// pose that is not finite gives [0, infinity].
+  /// The body nearest to the shape, by branch and bound; upper - lower <= tolerance (m) up to
+  /// rounding. Overlap gives upper 0. A non-finite pose gives [0, infinity].
   Nearest nearest(const Shape& shape, const Eigen::Isometry3d& world_from_shape,
                   double tolerance = tolerance::kDistance) const;
 
  private:
-  /// Depth-first: the left child of node i is i + 1, and `next` is the first node after its
-  /// subtree.
+  /// Nodes are stored depth-first: the left child of node i is i + 1, and `next` is the first node
+  /// after its subtree.
   struct Node {
     Aabb box;  ///< m, world frame, rounded outward
     std::size_t next;
@@ -103,7 +104,8 @@ class BodyTree {
     double radius;           ///< m
   };
 
-  /// False for NaN. Without branches: which side it is, is anyone's guess.
+  /// Whether the boxes are disjoint. False for NaN. Without branches, since the separating side is
+  /// unpredictable.
   static bool apart(const Aabb& a, const Aabb& b) {
     const int outside =
         static_cast<int>(a.lower.x() > b.upper.x()) | static_cast<int>(b.lower.x() > a.upper.x()) |

@@ -14,13 +14,13 @@
 
 namespace swept {
 
-/// Names a registered box. The least number that is free is given out first, so the boxes of a
-/// world that only grows are numbered as they came.
+/// Names a registered box. The least free number is given out first, so the boxes of a world that
+/// only grows are numbered in order.
 using BoxHandle = std::uint32_t;
 
-/// What a broadphase takes a box for: itself, or all of space if it has a NaN or a lower above its
-/// upper coordinate. Such a box bounds nothing, and it must not hide a contact. Infinite
-/// coordinates are like any other.
+/// The box that a broadphase uses for `box`: itself, or all of space if it has a NaN or a lower
+/// above its upper coordinate. Such a box bounds nothing, and must not hide a contact. Infinite
+/// coordinates are allowed.
 inline Aabb boundedOrEverywhere(const Aabb& box) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return boundedOrEverywhere(box); });
@@ -32,19 +32,20 @@ inline Aabb boundedOrEverywhere(const Aabb& box) {
   return {-all, all};
 }
 
-/// m. Lower bound of the distance of two boxes, proven, and off by a few roundings; 0 exactly if
-/// they overlap. Of what does not fit into a double: the largest one.
+/// m. Proven lower bound of the distance of two boxes, off by a few roundings; 0 exactly if they
+/// overlap. If it does not fit into a double: the largest double.
 double boxDistance(const Aabb& a, const Aabb& b);
 
-/// Memory that queries use again; one for each thread. Its content never matters. A visitor may ask
-/// with the scratch of the query that visits; memory is then allocated, which another one spares.
+/// Memory that queries reuse; one per thread. Its content never matters. A visitor may start a
+/// query with the scratch of the query that calls it; that allocates memory, which a second scratch
+/// avoids.
 struct BroadphaseScratch {
-  /// What the search for the nearest has yet to look at.
+  /// What the search for the nearest box has yet to visit.
   struct Candidate {
     double distance;      ///< m
-    std::uint64_t order;  ///< at the same distance: blocks first, then boxes by handle
+    std::uint64_t order;  ///< at equal distance: blocks first, then boxes by handle
   };
-  /// Two boxes; ordered as they are visited.
+  /// Two boxes, ordered as they are visited.
   struct Pair {
     double distance;  ///< m
     ///@{
@@ -54,20 +55,20 @@ struct BroadphaseScratch {
     /// By distance, then by a, then by b.
     auto operator<=>(const Pair&) const = default;
   };
-  std::vector<BoxHandle> handles;  ///< of boxes that overlap the one that is asked about
-  std::vector<Candidate> nearest;  ///< what a search for the nearest has found and not visited
+  std::vector<BoxHandle> handles;  ///< boxes that overlap the query box
+  std::vector<Candidate> nearest;  ///< found by a search for the nearest, and not yet visited
   std::vector<Pair> pairs;         ///< nearest first
 };
 
-/// Boxes that come, move and go, and which of them overlap. Touching counts.
+/// Boxes that are added, moved and removed, and the pairs that overlap. Touching counts.
 ///
-/// What is visited, and in which order, depends on the boxes and their handles alone, not on how
-/// they got there. A visitor that returns true stops the visit, and the function returns true.
-/// Everything const may run in any number of threads. Visitors may ask again, and may change other
-/// managers. One that changes the boxes it visits has to end the visit, by returning true or a
-/// bound that nothing is nearer than; else std::logic_error. The change is made in either case.
-/// Boxes may be the manager's own (`update(a, manager.box(b))`), and `other` the manager itself:
-/// each box then meets itself, too.
+/// What is visited, and in which order, depends only on the boxes and their handles, not on their
+/// history. A visitor that returns true stops the visit, and the function returns true. Const
+/// functions may run in any number of threads. Visitors may start other queries, and may change
+/// other managers. A visitor that changes the boxes it visits must end the visit, by returning true
+/// or a bound that nothing is nearer than; otherwise the query throws std::logic_error. The change
+/// is made in either case. Boxes may be the manager's own (`update(a, manager.box(b))`), and
+/// `other` may be the manager itself: each box then also meets itself.
 ///
 /// - `registerBox(box)`, `registerBoxes(boxes)`, `unregisterBox(handle)`
 /// - `update(handle, box)`, `update(handles, boxes)`; `updateAll(boxes)`: in the order of handles
@@ -76,16 +77,16 @@ struct BroadphaseScratch {
 /// - `collide(other, scratch, visitor)`: `visitor(a, b)`, a of this one and b of the other,
 ///   lexicographic
 /// - `distance(box, scratch, visitor)`: `visitor(a, d)`, nearest first, and by handle if equally
-///   near; d is `boxDistance`, m. What the visitor returns is a bound, m: from then on only boxes
-///   nearer than the least bound so far are visited. Returns that, or infinity.
+/// near; d is `boxDistance`, m. The visitor returns a bound, m: from then on only boxes nearer than
+/// the least bound so far are visited. Returns that bound, or infinity.
 /// - `distance(scratch, visitor)`: `visitor(a, b, d)` for pairs, a < b, nearest first, and
-///   lexicographic if equally near, so pairs that overlap come as in `collide`. What the visitor
-///   returns is a bound of the same kind: the exact distance of what is in the boxes makes the
-///   least one the exact distance of the nearest pair of all
-/// - `distance(other, scratch, visitor)`: the same, a of this one and b of the other
+/// lexicographic if equally near, so overlapping pairs come as in `collide`. The visitor returns a
+/// bound of the same kind. If it returns the exact distance of the contents of the boxes, the least
+/// bound is the exact distance of the nearest pair of all
+/// - `distance(other, scratch, visitor)`: the same, a of this manager and b of the other
 ///
-/// A handle that is not in use, or a number of boxes that does not fit: std::invalid_argument, and
-/// nothing has changed.
+/// Each function throws std::invalid_argument for a handle that is not in use, or a wrong number of
+/// boxes, and then has changed nothing.
 template <typename Manager>
 concept Broadphase = requires(Manager manager, const Manager fixed, const Aabb box,
                               BoxHandle handle, std::span<const BoxHandle> handles,

@@ -15,12 +15,12 @@
 
 namespace swept {
 
-/// The `Broadphase` that looks at every box, or pair, in each query: a reference for the others,
-/// and quick for a handful of boxes.
+/// The `Broadphase` that tests every box, or pair, in each query: a reference for the others, and
+/// quick for a handful of boxes.
 class BruteForce {
  public:
   ///@{
-  /// As `Broadphase` says; each takes time in proportion to the boxes, or pairs, there are.
+  /// See `Broadphase`; each takes time proportional to the number of boxes, or pairs.
   BoxHandle registerBox(const Aabb& box);
   std::vector<BoxHandle> registerBoxes(std::span<const Aabb> boxes);
   void unregisterBox(BoxHandle handle);
@@ -33,7 +33,7 @@ class BruteForce {
   bool contains(BoxHandle handle) const {
     return handle < boxes_.size() && boxes_[handle].has_value();
   }
-  const Aabb& box(BoxHandle handle) const;  ///< m, as `boundedOrEverywhere` takes it
+  const Aabb& box(BoxHandle handle) const;  ///< m, see `boundedOrEverywhere`
 
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {

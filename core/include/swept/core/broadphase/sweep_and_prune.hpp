@@ -17,15 +17,15 @@ namespace swept {
 
 /// The `Broadphase` for many boxes; `BruteForce` gives the same answers.
 ///
-/// Coherence is what it lives on: each box is looked up with some room around it, more the faster
-/// it moves, and what lies within that room is remembered. A box that stays in its room costs a
-/// look at those few. Which rooms overlap is asked of a tree, where a box that left its room goes
-/// to a small part of its own for a while. When many boxes leave at once, everything is built
-/// anew. The pairs are kept sorted, up to date after every change.
+/// It relies on coherence. Each box has a larger box around it, its room, which is larger the
+/// faster the box moves. The boxes whose rooms overlap are remembered. A box that stays in its room
+/// costs only a test of those few. A tree finds the rooms that overlap; a box that left its room
+/// goes to a small separate part of the tree for a while. If many boxes leave at once, everything
+/// is rebuilt. The pairs are kept sorted and up to date after every change.
 ///
-/// Exact: room only adds candidates, and the boxes themselves decide, in double. After an update
-/// for which there has been room before nothing is allocated. At most 2^30 boxes, and 2^32 places
-/// in their lists of near ones, in which a pair takes at least two; else std::length_error.
+/// Exact: rooms only add candidates, and the boxes themselves decide, in double. An update
+/// allocates nothing if there was enough memory before. Throws std::length_error for more than 2^30
+/// boxes, or 2^32 entries in their lists of near boxes, where a pair takes at least two.
 class SweepAndPrune {
  public:
   SweepAndPrune();
@@ -35,28 +35,28 @@ class SweepAndPrune {
   SweepAndPrune(const SweepAndPrune& other);
   SweepAndPrune& operator=(const SweepAndPrune& other);
 
-  /// As `Broadphase` says.
+  /// See `Broadphase`.
   BoxHandle registerBox(const Aabb& box);
   /// Much cheaper than one by one. The handles are in the order of the boxes.
   std::vector<BoxHandle> registerBoxes(std::span<const Aabb> boxes);
-  /// As `Broadphase` says.
+  /// See `Broadphase`.
   void unregisterBox(BoxHandle handle);
 
-  /// As `Broadphase` says.
+  /// See `Broadphase`.
   void update(BoxHandle handle, const Aabb& box);
   /// If a handle comes twice, its last box counts.
   void update(std::span<const BoxHandle> handles, std::span<const Aabb> boxes);
-  /// As `Broadphase` says.
+  /// See `Broadphase`.
   void updateAll(std::span<const Aabb> boxes);
 
-  /// Boxes that are registered.
+  /// Number of registered boxes.
   std::size_t size() const;
   /// Whether the handle is in use.
   bool contains(BoxHandle handle) const;
-  const Aabb& box(BoxHandle handle) const;  ///< m, as `boundedOrEverywhere` takes it
+  const Aabb& box(BoxHandle handle) const;  ///< m, see `boundedOrEverywhere`
   std::size_t bytes() const;                ///< on the heap
 
-  /// As `Broadphase` says. The pairs are known already: this takes their number.
+  /// See `Broadphase`. The pairs are known already: the time is proportional to their number.
   template <typename Visitor>
   bool collide(Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -78,7 +78,7 @@ class SweepAndPrune {
     return false;
   }
 
-  /// As `Broadphase` says.
+  /// See `Broadphase`.
   template <typename Visitor>
   bool collide(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -94,7 +94,7 @@ class SweepAndPrune {
     return false;
   }
 
-  /// As `Broadphase` says: a search in `other` for each box.
+  /// See `Broadphase`: a search in `other` for each box.
   template <typename Visitor>
   bool collide(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -113,7 +113,7 @@ class SweepAndPrune {
     return false;
   }
 
-  /// As `Broadphase` says.
+  /// See `Broadphase`.
   template <typename Visitor>
   double distance(const Aabb& box, BroadphaseScratch& scratch, Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -133,7 +133,8 @@ class SweepAndPrune {
     return bound;
   }
 
-  /// Pairs that overlap take no memory; the others up to eight times that of those visited.
+  /// See `Broadphase`. Overlapping pairs take no memory; the others up to eight times that of the
+  /// visited ones.
   template <typename Visitor>
   double distance(BroadphaseScratch& scratch, Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -147,7 +148,7 @@ class SweepAndPrune {
     return bound;
   }
 
-  /// As `Broadphase` says; memory as above.
+  /// See `Broadphase`; memory as above.
   template <typename Visitor>
   double distance(const SweepAndPrune& other, BroadphaseScratch& scratch, Visitor&& visitor) const {
     if (detail::inForeignEnvironment()) {
@@ -163,7 +164,8 @@ class SweepAndPrune {
 
  private:
   class State;
-  /// `sorted` but for `changed`, whose pairs overlap exactly if they are not in `sorted`.
+  /// `sorted`, corrected by `changed`: a pair in `changed` overlaps exactly if it is not in
+  /// `sorted`.
   struct Pairs {
     std::span<const std::uint64_t> sorted, changed;
   };
@@ -178,15 +180,15 @@ class SweepAndPrune {
     unchanged.require();
     return false;
   }
-  /// Whether to go on with pairs as near as this one.
+  /// Visits this pair; returns whether pairs as near as this one still matter.
   template <typename Visitor>
   static bool visitNear(const BroadphaseScratch::Pair& pair, double& bound, Visitor&& visitor) {
     const double enough = visitor(pair.a, pair.b, pair.distance);
     if (enough < bound) bound = enough;
     return pair.distance < bound;
   }
-  /// The pairs that do not overlap; `other` null: of these boxes among themselves. More at a time
-  /// the more there have been, since each search starts anew.
+  /// Visits the pairs that do not overlap; if `other` is null, of these boxes among themselves. It
+  /// finds more pairs at a time the more there have been, since each search starts over.
   template <typename Visitor>
   void visitApart(const SweepAndPrune* other, double& bound, BroadphaseScratch& scratch,
                   Visitor&& visitor) const {

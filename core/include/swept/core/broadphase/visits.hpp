@@ -10,8 +10,8 @@
 
 namespace swept::detail {
 
-/// How often the boxes of a manager have changed. Copies and moves of the boxes count, where they
-/// go to and where they are gone from; the number itself stays with its manager.
+/// How often the boxes of a manager have changed. Copying or moving boxes counts for both the
+/// target and the source; the number itself stays with its manager.
 class ChangeCount {
  public:
   ChangeCount() = default;
@@ -35,12 +35,13 @@ class ChangeCount {
   std::uint64_t count_ = 0;
 };
 
-/// Boxes that are visited; to be asked after each visitor that does not end the visit.
+/// Checks that visited boxes do not change; call require() after each visitor that does not end the
+/// visit.
 class Unchanged {
  public:
   explicit Unchanged(const ChangeCount& changes) : changes_(changes), start_(changes.count()) {}
 
-  /// Throws std::logic_error if the boxes have changed: what is yet to be visited may be gone.
+  /// Throws std::logic_error if the boxes have changed: boxes still to be visited may be gone.
   void require() const {
     if (changes_.count() == start_) return;
     throw std::logic_error("broadphase: a visitor has changed the boxes that it visits");
@@ -51,8 +52,8 @@ class Unchanged {
   const std::uint64_t start_;
 };
 
-/// Memory of a scratch while a visit reads it: a visitor that asks with the same scratch gets other
-/// memory. Given back when the visit ends, however it does.
+/// Memory of a scratch while a visit reads it: a visitor that queries with the same scratch gets
+/// other memory. It is given back when the visit ends, in whatever way.
 template <typename Item>
 class Lent {
  public:

@@ -9,20 +9,20 @@
 
 namespace swept {
 
-/// What a hierarchy asks of a bounding volume (Pan, Chitta, Manocha 2012, section III): any type
-/// with these members works with `BvTree`, `BvhModel` and the traversals. Lengths in metres.
+/// What a hierarchy needs from a bounding volume (Pan, Chitta, Manocha 2012, section III). Any type
+/// with these members works with `BvTree`, `BvhModel` and the traversals. Lengths are in metres.
 ///
-/// * `fit(points)`: a volume that contains the convex hull of the points, rounding included. Of no
-///   points, or of any that is not finite: a volume that contains everything.
+/// * `fit(points)`: a volume that contains the convex hull of the points, rounding included. With
+/// no points, or any non-finite one: a volume that contains everything.
 /// * `merge(a, b)`: contains both. `inflated(by)`: contains all points within `by` (>= 0) of it.
-/// * `overlaps(other)`, both in one frame, and `overlaps(other, a_from_b)`, `other` in a frame of
-///   its own: false only if the two are proven to share no point. Volumes that contain everything
-///   and poses that are not finite overlap.
-/// * `distanceBound(other, a_from_b)`: proven lower bound on the distance of what the two
-///   contain; 0 for what is not finite; never NaN or infinity.
+/// * `overlaps(other)`, both in one frame, and `overlaps(other, a_from_b)`, `other` in its own
+/// frame: false only if the two are proven to share no point. Volumes that contain everything
+/// overlap, and so do volumes under a non-finite pose.
+/// * `distanceBound(other, a_from_b)`: proven lower bound on the distance between the contents of
+/// the two; 0 for non-finite input; never NaN or infinity.
 /// * `contains(p)`: true for every point that was given to `fit`.
-/// * `center()`; `size()`: what a traversal compares to choose the side to descend, such as the
-///   squared diagonal (m^2).
+/// * `center()`; `size()`: a traversal descends the side of the larger size, for example the
+/// squared diagonal (m^2).
 ///
 /// The proofs allow poses whose rotation is orthonormal up to 1e-14 in each entry.
 template <typename BV>
@@ -40,8 +40,8 @@ concept BoundingVolume = std::copyable<BV> &&
   { volume.size() } -> std::convertible_to<double>;
 };
 
-/// Volumes whose merge is as tight as a fit to all points say so with a static member
-/// `kMergeIsTight`; a hierarchy of them is fitted in linear time.
+/// True for volumes with a static member `kMergeIsTight`: their merge is as tight as a fit to all
+/// points. A hierarchy of them is fitted in linear time.
 template <typename BV>
 constexpr bool mergeIsTight() {
   if constexpr (requires { BV::kMergeIsTight; }) {

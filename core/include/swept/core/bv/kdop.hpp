@@ -12,9 +12,9 @@ namespace swept {
 /// Polytope of K/2 slabs with fixed directions; a `BoundingVolume`. After Klosowski et al. 1998
 /// ("Efficient collision detection using bounding volume hierarchies of k-DOPs").
 ///
-/// The first K/2 of these directions: x, y, z, (1,1,0), (1,-1,0), (1,0,1), (1,0,-1), (0,1,1),
-/// (0,1,-1), (1,1,-1), (1,-1,1), (-1,1,1). Under a pose each of the two is bounded again along the
-/// directions of the other.
+/// It uses the first K/2 of these directions: x, y, z, (1,1,0), (1,-1,0), (1,0,1), (1,0,-1),
+/// (0,1,1), (0,1,-1), (1,1,-1), (1,-1,1), (-1,1,1). Under a pose, each of the two is bounded again
+/// along the directions of the other.
 template <int K>
 struct KDop {
   static_assert(K == 16 || K == 18 || K == 24);
@@ -25,23 +25,23 @@ struct KDop {
   std::array<double, kSlabs> upper;  ///< m times the length of the direction
 
   ///@{
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   static KDop fit(std::span<const Eigen::Vector3d> points);
   static KDop merge(const KDop& a, const KDop& b);
   ///@}
   KDop inflated(double by) const;  ///< by: m
 
-  /// Exact: true if all slabs overlap or touch. A number that is NaN keeps nothing apart.
+  /// Exact: true if all slabs overlap or touch. A NaN overlaps everything.
   bool overlaps(const KDop& other) const {
     for (int k = 0; k < kSlabs; ++k) {
       if (lower[k] > other.upper[k] || other.lower[k] > upper[k]) return false;
     }
     return true;
   }
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   bool overlaps(const KDop& other, const Eigen::Isometry3d& a_from_b) const;
   double distanceBound(const KDop& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   bool contains(const Eigen::Vector3d& p) const;
   Eigen::Vector3d center() const {  ///< m, of the box
     return 0.5 * Eigen::Vector3d(lower[0] + upper[0], lower[1] + upper[1], lower[2] + upper[2]);

@@ -15,21 +15,23 @@ struct Obb {
   Eigen::Vector3d middle;       ///< m
   Eigen::Vector3d halfExtents;  ///< m, along the columns of `axes`
 
-  /// Along the axes of least surface area among the principal axes of the points, the axes of the
-  /// frame and, for few points, those of the first triangle.
+  /// A box around the points. Its axes are those of least surface area among the principal axes of
+  /// the points, the axes of the frame and, for few points, those of the first triangle.
   static Obb fit(std::span<const Eigen::Vector3d> points);
-  /// Along the axes of a, of b or the principal axes of the corners, whichever gives less surface.
+  /// A box along the axes of a, of b or the principal axes of the corners, whichever gives less
+  /// surface.
   static Obb merge(const Obb& a, const Obb& b);
   Obb inflated(double by) const;  ///< by: m
 
   ///@{
-  /// 15 axes; false only with proof, as `BoundingVolume` says.
+  /// Tests 15 axes. False only with proof; see `BoundingVolume`.
   bool overlaps(const Obb& other) const;
   bool overlaps(const Obb& other, const Eigen::Isometry3d& a_from_b) const;
   ///@}
-  /// Best of: the gaps along the three axes of one box, taken together; the gap along an edge pair.
+  /// The better of two bounds: the gaps along the three axes of one box, combined; the gap along an
+  /// edge pair.
   double distanceBound(const Obb& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   bool contains(const Eigen::Vector3d& p) const;
   const Eigen::Vector3d& center() const { return middle; }         ///< m
   double size() const { return 4.0 * halfExtents.squaredNorm(); }  ///< m^2

@@ -9,14 +9,14 @@
 namespace swept {
 
 /// An oriented box and a swept rectangle around the same points; a `BoundingVolume`. The box
-/// answers overlap, the swept rectangle distance (Pan, Chitta, Manocha 2012, section III-B): for
-/// queries of both kinds on one hierarchy.
+/// answers overlap, the swept rectangle distance (Pan, Chitta, Manocha 2012, section III-B). Use it
+/// for queries of both kinds on one hierarchy.
 struct ObbRss {
   Obb obb;  ///< for overlap
   Rss rss;  ///< for distance
 
   ///@{
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   static ObbRss fit(std::span<const Eigen::Vector3d> points);
   static ObbRss merge(const ObbRss& a, const ObbRss& b);
   ///@}
@@ -32,7 +32,7 @@ struct ObbRss {
   double distanceBound(const ObbRss& other, const Eigen::Isometry3d& a_from_b) const {  ///< m
     return rss.distanceBound(other.rss, a_from_b);
   }
-  /// Whether both do.
+  /// Whether both volumes contain p.
   bool contains(const Eigen::Vector3d& p) const { return obb.contains(p) && rss.contains(p); }
   const Eigen::Vector3d& center() const { return obb.center(); }  ///< m
   double size() const { return obb.size(); }                      ///< m^2

@@ -9,19 +9,20 @@
 namespace swept {
 
 /// Rectangle swept by a sphere; a `BoundingVolume`. After Larsen, Gottschalk, Lin, Manocha 2000
-/// ("Fast distance queries with rectangular swept sphere volumes"); the distance of the rectangles
-/// is found by GJK and certified by the separation along the direction found.
+/// ("Fast distance queries with rectangular swept sphere volumes"). GJK finds the distance of the
+/// rectangles, and the separation along the direction found certifies it.
 struct Rss {
   Eigen::Matrix3d axes;         ///< columns: orthonormal; the rectangle spans the first two
   Eigen::Vector3d middle;       ///< m, of the rectangle
   Eigen::Vector2d halfLengths;  ///< m
   double radius;                ///< m
 
-  /// Along the axes of the box that Obb::fit finds.
+  /// A volume around the points, along the axes that Obb::fit finds.
   static Rss fit(std::span<const Eigen::Vector3d> points);
-  /// Along the axes of a box that contains the points; its last one becomes the rectangle's normal.
+  /// A volume along the axes of a box that contains the points; the box's last axis becomes the
+  /// rectangle's normal.
   static Rss fitWithin(std::span<const Eigen::Vector3d> points, const Obb& box);
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   static Rss merge(const Rss& a, const Rss& b);
   Rss inflated(double by) const;  ///< by: m
 
@@ -30,10 +31,10 @@ struct Rss {
   bool overlaps(const Rss& other) const;
   bool overlaps(const Rss& other, const Eigen::Isometry3d& a_from_b) const;
   ///@}
-  /// Never more than the distance of the two volumes, and but for rounding at most a thousandth of
-  /// it less.
+  /// Never more than the distance of the two volumes, and less by at most a thousandth of it and
+  /// rounding.
   double distanceBound(const Rss& other, const Eigen::Isometry3d& a_from_b) const;  ///< m
-  /// As `BoundingVolume` says.
+  /// See `BoundingVolume`.
   bool contains(const Eigen::Vector3d& p) const;
   const Eigen::Vector3d& center() const { return middle; }  ///< m
   /// m^2, squared diagonal of the box around it.

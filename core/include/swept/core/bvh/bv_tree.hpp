@@ -20,30 +20,30 @@
 
 namespace swept {
 
-/// N primitives, each the convex hull of as many points, grown by a radius.
+/// N primitives. Each is the convex hull of the same number of points, grown by a radius.
 struct PrimitivePoints {
   std::span<const Eigen::Vector3d> points;  ///< m; primitive i has [i * per, (i + 1) * per)
   std::size_t perPrimitive = 1;             ///< at least 1
   std::span<const double> radii = {};       ///< m, one per primitive; empty: all zero
 
-  /// Primitives.
+  /// Number of primitives.
   std::size_t count() const { return points.size() / perPrimitive; }
 };
 
 /// The shape of a tree, without volumes.
 struct TreeTopology {
-  /// An inner node has both children, a leaf its primitives.
+  /// An inner node has both children; a leaf has its primitives.
   struct Node {
     int rightChild;  ///< -1: a leaf. The left child of node i is i + 1
-    int first;       ///< of the node's primitives, which are contiguous in `order`
-    int count;       ///< of these primitives
+    int first;       ///< first of the node's primitives, which are contiguous in `order`
+    int count;       ///< number of these primitives
   };
   std::vector<Node> nodes;  ///< depth first
   std::vector<int> order;   ///< primitive indices
   int depth = 0;            ///< nodes on the longest path from the root
 
-  /// Leaves hold at most `maxLeaf` primitives. Below half of the greatest depth nodes are halved
-  /// whatever the rule, which bounds the depth for up to 2^30 primitives.
+  /// Builds a tree whose leaves hold at most `maxLeaf` primitives. Below half of the greatest
+  /// depth, nodes are halved whatever the rule; this bounds the depth for up to 2^30 primitives.
   /// Throws std::invalid_argument as `BvTree::build` does.
   static TreeTopology build(const PrimitivePoints& primitives, const SplitFunction& split,
                             int maxLeaf);
@@ -53,12 +53,12 @@ namespace detail {
 
 /// A number that no call in this process has returned before, and not 0.
 std::uint64_t nextTreeShape();
-/// Throws std::invalid_argument unless a tree of `count` primitives fits these.
+/// Throws std::invalid_argument unless `primitives` has `count` primitives and is valid.
 void requireAsAtBuild(const PrimitivePoints& primitives, std::size_t count);
 
 }  // namespace detail
 
-/// Greatest depth of any tree in nodes, so that the depth of a recursion is known.
+/// Greatest depth of any tree in nodes; bounds the depth of a recursion.
 inline constexpr int kMaxTreeDepth = 64;
 
 /// Binary tree of bounding volumes over primitives (Pan, Chitta, Manocha 2012, section III).
@@ -71,36 +71,36 @@ class BvTree {
   struct Node {
     BV volume;       ///< contains all primitives below
     int rightChild;  ///< -1: a leaf. The left child of node i is i + 1
-    int first;       ///< of the node's primitives, which are contiguous in order()
-    int count;       ///< of these primitives
+    int first;       ///< first of the node's primitives, which are contiguous in order()
+    int count;       ///< number of these primitives
 
-    /// Leaves have no children.
+    /// Whether the node has no children.
     bool isLeaf() const { return rightChild < 0; }
   };
 
   BvTree() = default;  ///< no nodes
 
-  /// Top-down. `primitives` are finite and at least one, at most 2^30. Throws std::invalid_argument
-  /// unless maxLeaf >= 1, perPrimitive >= 1 and there are as many radii as primitives or none, and
-  /// for a split rule that does more than reorder what it is given.
+  /// Builds a tree top-down. `primitives` are finite, at least one and at most 2^30. Throws
+  /// std::invalid_argument unless maxLeaf >= 1, perPrimitive >= 1 and the number of radii is zero
+  /// or that of the primitives, and for a split rule that does more than reorder its input.
   static BvTree build(const PrimitivePoints& primitives, const SplitFunction& split = MeanSplit{},
                       const FitFunction<BV>& fit = defaultFit<BV>(), int maxLeaf = 1);
 
-  /// New volumes, bottom-up in linear time, for primitives that moved; the tree keeps its shape.
-  /// `primitives` has as many as at build, else std::invalid_argument, in the same order; their
-  /// points may be more each.
+  /// Fits new volumes bottom-up in linear time for primitives that moved; the tree keeps its shape.
+  /// `primitives` has the same number and order as at build, else throws std::invalid_argument;
+  /// each may have more points.
   void refit(const PrimitivePoints& primitives, const FitFunction<BV>& fit = FitToChildren{});
 
-  /// Depth first, the root first; none in an empty tree.
+  /// Nodes, depth first from the root; empty for an empty tree.
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// i is not checked.
+  /// Node i, unchecked.
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   /// Primitive indices in the order of the leaves.
   const std::vector<int>& order() const { return order_; }
   int depth() const { return depth_; }  ///< nodes on the longest path from the root; <= kMaxDepth
-  /// Which build the tree is of: the same after refits and for copies, else another. 0: no nodes.
+  /// Identifies the build: the same after refits and for copies, else different. 0: no nodes.
   std::uint64_t shape() const { return shape_; }
-  /// On the heap.
+  /// Bytes on the heap.
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(int);
   }

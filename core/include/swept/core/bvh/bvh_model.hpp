@@ -23,23 +23,23 @@ namespace swept {
 /// How a model builds its hierarchy.
 template <BoundingVolume BV>
 struct BvhOptions {
-  SplitFunction split = MeanSplit{};  ///< how nodes are parted
-  /// How nodes are bounded; a rule of one's own at refits too, else `FitToChildren` then.
+  SplitFunction split = MeanSplit{};  ///< divides nodes
+  /// Bounds nodes. Your own rule is used at refits too; otherwise refits use `FitToChildren`.
   FitFunction<BV> fit = defaultFit<BV>();
   int maxLeaf = 2;  ///< primitives per leaf, at least 1; 2: half the memory of 1 and faster queries
 };
 
 /// Triangles, or points with radii, with a hierarchy of bounding volumes over them. Only the
-/// surface counts: nothing is inside (the paper's meaning; `TriangleMesh` knows solids).
+/// surface counts: nothing is inside, as in FCL (`TriangleMesh` has solids).
 ///
-/// Built and refreshed by one thread; queries of a model in Built or Updated state are const and
-/// may run in any number of threads.
+/// One thread builds and refreshes a model. Queries of a model in Built or Updated state are const
+/// and may run in any number of threads.
 template <BoundingVolume BV>
 class BvhModel : public ModelGeometry {
  public:
   using Volume = BV;  ///< of the nodes
 
-  /// Empty.
+  /// An empty model.
   explicit BvhModel(BvhOptions<BV> options = {}) : options_(std::move(options)) {}
 
   /// Building -> Built. Throws std::invalid_argument without triangles or points.
@@ -53,7 +53,7 @@ class BvhModel : public ModelGeometry {
 
   /// Primitives of the tree are triangle indices, or vertex indices of a point cloud.
   const BvTree<BV>& tree() const { return tree_; }
-  /// With the object itself.
+  /// Bytes, with the object itself.
   std::size_t bytes() const { return sizeof(*this) + tree_.bytes() + geometryBytes(); }
 
  private:

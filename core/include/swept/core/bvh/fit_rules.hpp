@@ -9,7 +9,7 @@
 
 namespace swept {
 
-/// What a fit rule may use to bound a node.
+/// Input of a fit rule: what it may use to bound a node.
 template <BoundingVolume BV>
 struct FitInput {
   std::span<const Eigen::Vector3d> points;  ///< m, of all primitives below the node
@@ -18,12 +18,12 @@ struct FitInput {
   const BV* right = nullptr;                ///< likewise
 };
 
-/// Any callable that bounds a node: the result contains the hull of the points grown by the radius,
+/// Any callable that bounds a node. The result contains the hull of the points grown by the radius,
 /// and may contain more.
 template <BoundingVolume BV>
 using FitFunction = std::function<BV(const FitInput<BV>&)>;
 
-/// Around all points below: tightest, n log n.
+/// Fits the volume to all points below the node: tightest, n log n.
 struct FitToPoints {
   /// The volume of a node.
   template <BoundingVolume BV>
@@ -33,7 +33,7 @@ struct FitToPoints {
   }
 };
 
-/// Around the children's volumes: linear; oriented volumes come out looser.
+/// Fits the volume to the children's volumes: linear time; oriented volumes are looser.
 struct FitToChildren {
   /// The volume of a node.
   template <BoundingVolume BV>
@@ -43,7 +43,7 @@ struct FitToChildren {
   }
 };
 
-/// To children where that is as tight, else to points.
+/// The default rule: FitToChildren if that is as tight, else FitToPoints.
 template <BoundingVolume BV>
 FitFunction<BV> defaultFit() {
   if constexpr (mergeIsTight<BV>()) {
@@ -53,8 +53,8 @@ FitFunction<BV> defaultFit() {
   }
 }
 
-/// At refits: one of the two above makes way for the linear one; a rule of one's own may bound more
-/// than the points, and stays.
+/// The rule at refits. FitToPoints and FitToChildren both become the linear one. Your own rule
+/// stays, since it may bound more than the points.
 template <BoundingVolume BV>
 FitFunction<BV> refitOf(const FitFunction<BV>& fit) {
   if (fit.template target<FitToPoints>() == nullptr) return fit;

@@ -11,7 +11,7 @@
 
 namespace swept {
 
-/// A primitive while the tree is built: its box.
+/// The box of a primitive while the tree is built.
 struct SplitItem {
   Eigen::Vector3d lower;  ///< m
   Eigen::Vector3d upper;  ///< m
@@ -21,9 +21,9 @@ struct SplitItem {
   Eigen::Vector3d center() const { return 0.5 * lower + 0.5 * upper; }             ///< m
 };
 
-/// How a node's primitives are parted: reorders the items and returns how many of them, from the
-/// first, go to the left child. 0 or all of them means "I cannot part these"; they are then halved.
-/// Called with at least two items, whose boxes are finite.
+/// A rule that divides a node's primitives. It reorders the items and returns how many of them,
+/// from the first, go to the left child. 0 or all of them means "cannot divide"; they are then
+/// halved. It is called with at least two items, whose boxes are finite.
 template <typename Rule>
 concept SplitRule = std::copy_constructible<Rule> &&
     requires(const Rule& rule, std::span<SplitItem> items) {
@@ -33,28 +33,30 @@ concept SplitRule = std::copy_constructible<Rule> &&
 /// Any split rule: the tree calls it once per inner node.
 using SplitFunction = std::function<std::size_t(std::span<SplitItem>)>;
 
-/// At the mean of the centres along the axis where these extend farthest.
+/// Splits at the mean of the centres, along the axis with the largest extent of the centres.
 struct MeanSplit {
-  /// As `SplitRule` says.
+  /// See `SplitRule`.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 
-/// Halves, by the median of the centres along the axis where these extend farthest.
+/// Splits in halves at the median of the centres, along the axis with the largest extent of the
+/// centres.
 struct MedianSplit {
-  /// As `SplitRule` says.
+  /// See `SplitRule`.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 
-/// At the mean of the centres along their direction of most spread (Gottschalk, Lin, Manocha 1996).
+/// Splits at the mean of the centres along their direction of most spread (Gottschalk, Lin, Manocha
+/// 1996).
 struct PrincipalAxisSplit {
-  /// As `SplitRule` says.
+  /// See `SplitRule`.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 
-/// Least sum over the two sides of surface area times number of primitives, over cuts at equal bins
-/// along the axis where the centres extend farthest (Wald 2007).
+/// Minimises the sum over both sides of surface area times number of primitives, over cuts at equal
+/// bins along the axis with the largest extent of the centres (Wald 2007).
 struct SurfaceAreaSplit {
-  /// As `SplitRule` says.
+  /// See `SplitRule`.
   std::size_t operator()(std::span<SplitItem> items) const;
 };
 

@@ -13,18 +13,18 @@
 
 namespace swept {
 
-/// Triangles whose vertices move: from one frame to the next each goes straight, at constant speed.
-/// Triangles are surfaces here and may be degenerate; nothing is welded, dropped or renumbered.
-/// Coordinates beyond 1e17 m cost time, for single precision tells little there.
+/// Triangles whose vertices move straight, at constant speed, from one frame to the next. Triangles
+/// are surfaces here and may be degenerate; nothing is welded, dropped or renumbered. Coordinates
+/// beyond 1e17 m cost time, since single precision separates little there.
 ///
-/// Holds a hierarchy that follows the vertices in linear time, and builds it anew in the rare case
+/// Holds a hierarchy that follows the vertices in linear time, and rebuilds it in the rare case
 /// that deformation made its boxes large. Copies are deep.
 class DeformingMesh {
  public:
   using Triangle = Eigen::Vector3i;  ///< indices of vertices
 
-  /// Stands still at `vertices` (m). Throws std::invalid_argument for an index out of range, a
-  /// coordinate that is not finite, or without triangles.
+  /// A mesh that stands still at `vertices` (m). Throws std::invalid_argument for an index out of
+  /// range, a non-finite coordinate, or without triangles.
   static DeformingMesh build(std::span<const Eigen::Vector3d> vertices,
                              std::span<const Triangle> triangles);
 
@@ -34,27 +34,27 @@ class DeformingMesh {
   DeformingMesh& operator=(DeformingMesh&&) noexcept;
   ~DeformingMesh();
 
-  /// The step from where the last one ended to `vertices` (m), as many as build() got. Throws
-  /// std::invalid_argument for another number of them or a coordinate that is not finite; the mesh
-  /// is then as it was. Allocates nothing on one thread unless it builds the hierarchy anew.
+  /// Makes a step from the end of the last one to `vertices` (m), as many as build() got. Throws
+  /// std::invalid_argument for another number or a non-finite coordinate; the mesh is then
+  /// unchanged. Allocates nothing on one thread unless it rebuilds the hierarchy.
   ///
-  /// Follows on up to so many threads (0: as many as there are processors), of which it starts all
-  /// but the caller's in each call: on fewer where more do not pay or are not to be had. The mesh
-  /// is bit for bit the same on any number. Building anew takes one thread.
+  /// Uses up to `threads` threads (0: as many as processors), and starts all but the caller's in
+  /// each call. It uses fewer if more do not pay or are not available. The mesh is bit for bit the
+  /// same for any number. A rebuild uses one thread.
   void moveTo(std::span<const Eigen::Vector3d> vertices, unsigned threads = 1);
-  /// Stands still at `vertices` (m): the next step starts there. Throws as moveTo() does.
+  /// Sets the mesh still at `vertices` (m): the next step starts there. Throws as moveTo() does.
   void place(std::span<const Eigen::Vector3d> vertices, unsigned threads = 1);
-  /// Builds the hierarchy anew, for the end of the step.
+  /// Rebuilds the hierarchy for the end of the step.
   void rebuild();
 
-  /// As many as build() got.
+  /// Number of vertices given to build().
   std::size_t vertexCount() const;
-  /// As many as build() got; impacts name them by index.
+  /// Number of triangles given to build(); impacts name them by index.
   std::size_t triangleCount() const;
-  /// How often moveTo() found it worth the time to build the hierarchy anew.
+  /// How often moveTo() rebuilt the hierarchy.
   std::size_t rebuilds() const;
-  /// What the hierarchy's boxes have grown to, against those of the triangles, since it was built:
-  /// ratio of surface areas, 1 after a build. From kRebuildGrowth on moveTo() builds anew.
+  /// Growth of the hierarchy's boxes since it was built, relative to those of the triangles: a
+  /// ratio of surface areas, 1 after a build. From kRebuildGrowth on moveTo() rebuilds.
   double growth() const;
   static constexpr double kRebuildGrowth = 2.0;  ///< see growth()
 
@@ -67,13 +67,13 @@ class DeformingMesh {
   std::unique_ptr<Data> data_;
 };
 
-/// What counts as contact during a step, and what is asked.
+/// What counts as contact during a step, and what to find.
 struct DeformingOptions {
   double separation = 0.0;  ///< m, >= 0. Closer than this, or as close, is contact.
-  /// m, >= 0. What keeps more than separation + tolerance is Free, and the time of a contact is
-  /// known to within this much relative motion.
+  /// m, >= 0. Triangles that keep more than separation + tolerance are Free, and the time of a
+  /// contact is known to within this much relative motion.
   double tolerance = 1e-6;
-  /// Look for the first contact in time alone.
+  /// Find only the first contact in time.
   bool firstOnly = false;
 };
 
@@ -87,13 +87,13 @@ struct TriangleImpact {
   double freeUntil;
   /// A t at which they are at most separation + tolerance apart; 1 if Undecided.
   double contactBy;
-  /// By the members in their order: triangles first.
+  /// Ordered by the members in their order: triangles first.
   auto operator<=>(const TriangleImpact&) const = default;
 };
 
-/// What a query took.
+/// The effort of a query.
 struct DeformingEffort {
-  std::int64_t candidates = 0;  ///< pairs of triangles that no box and no plane kept apart
+  std::int64_t candidates = 0;  ///< pairs of triangles that no box and no plane separated
   std::int64_t features = 0;    ///< vertex-face and edge-edge pairs solved
 };
 
@@ -102,13 +102,13 @@ struct DeformingResult {
   Verdict verdict = Verdict::Undecided;  ///< Free: nothing meets, proven
   double freeUntil = 0.0;  ///< proven: no contact on [0, freeUntil), and on [0, 1] if Free
   double contactBy = 1.0;  ///< the earliest t with a known contact; 1 unless Collision
-  /// Sorted by triangles; with `firstOnly` one of those that come first, if there is any.
+  /// Sorted by triangles; with `firstOnly` one of the first contacts, if there is any.
   std::vector<TriangleImpact> impacts;
   DeformingEffort effort;  ///< spent, whatever the verdict
 };
 
-/// Memory for queries of one thread. No result depends on what it held before. A query that needs
-/// no more than earlier ones allocates nothing.
+/// Memory for queries of one thread. No result depends on its content. A query that needs no more
+/// than earlier ones allocates nothing.
 class DeformingWorkspace {
  public:
   DeformingWorkspace();
@@ -124,28 +124,29 @@ class DeformingWorkspace {
   std::unique_ptr<Data> data_;
 };
 
-/// Which triangles touch one another at the end of the step without sharing a vertex, by index: the
-/// pairs that selfCollideMesh() gives, decided exactly, sorted, the smaller index of each first.
-/// Looks for no more than `maxPairs` of them. Boxes are looked at eight at a time and not counted:
+/// Finds which triangles touch each other at the end of the step without sharing a vertex, by
+/// index: the pairs that selfCollideMesh() gives, decided exactly, sorted, the smaller index of
+/// each first. Finds at most `maxPairs` of them. Boxes are tested eight at a time and not counted:
 /// `effort.bvTests` is 0.
 void selfCollide(const DeformingMesh& mesh, const MeshCollisionOptions& options,
                  MeshCollisionResult& result, DeformingWorkspace& workspace);
-/// Which triangles of two meshes touch at the end of their steps. The same mesh twice is one mesh.
+/// Finds which triangles of two meshes touch at the end of their steps. If both are the same
+/// object, this is selfCollide().
 void collide(const DeformingMesh& a, const DeformingMesh& b, const MeshCollisionOptions& options,
              MeshCollisionResult& result, DeformingWorkspace& workspace);
 
-/// Which triangles meet one another during the step, and when first. Nothing is missed, rounding
-/// included: every two triangles without a common vertex that come within the separation at some t
-/// in [0, 1] are among the impacts. With an option that is not finite the result is Undecided.
+/// Finds which triangles meet each other during the step, and when first. Nothing is missed,
+/// rounding included: every two triangles without a common vertex that come within the separation
+/// at some t in [0, 1] are among the impacts. With a non-finite option the result is Undecided.
 ///
-/// Two triangles with a common vertex touch always and are left out. What else of them can meet,
-/// say a vertex of the one and the other's face, belongs to triangles without a common vertex
-/// nearly always. Where it does not, as for both ends of a strip of two triangles, it counts, and
-/// the two triangles are among the impacts then.
+/// Two triangles with a common vertex always touch and are left out. If other features of them
+/// meet, say a vertex of one and the other's face, these features nearly always belong also to
+/// triangles without a common vertex. If they do not, as at both ends of a strip of two triangles,
+/// the two triangles are among the impacts.
 void selfCollideContinuous(const DeformingMesh& mesh, const DeformingOptions& options,
                            DeformingResult& result, DeformingWorkspace& workspace);
-/// The same for triangles of two meshes on a common clock. A mesh that stands still is one that was
-/// placed.
+/// The same for triangles of two meshes with a common clock. For a mesh that stands still, use
+/// place().
 void collideContinuous(const DeformingMesh& a, const DeformingMesh& b,
                        const DeformingOptions& options, DeformingResult& result,
                        DeformingWorkspace& workspace);

@@ -8,29 +8,30 @@
 
 namespace swept {
 
-/// A point of the body goes straight, at constant speed, while the body turns about an axis of
-/// fixed direction at constant angular speed: what is left still, translation, linear interpolation
+/// A point of the body moves straight, at constant speed, while the body turns about an axis of
+/// fixed direction at constant angular speed. Standing still, translation, linear interpolation
 /// with slerp, and screws are all of this kind.
 ///
-/// Each function throws std::invalid_argument for a pose or vector that is not finite, or whose
-/// linear part is farther than 1e-6 from a rotation; what is closer becomes the nearest rotation.
+/// Each function throws std::invalid_argument for a pose or vector that is not finite, or if the
+/// linear part of a pose is farther than 1e-6 from a rotation; a closer one becomes the nearest
+/// rotation.
 class UniformMotion : public Motion {
  public:
-  /// Stays where it is.
+  /// A body that stands still.
   static UniformMotion still(const Eigen::Isometry3d& pose);
-  /// `displacement`: m, world frame.
+  /// A straight motion without rotation. `displacement`: m, world frame.
   static UniformMotion translation(const Eigen::Isometry3d& start,
                                    const Eigen::Vector3d& displacement);
-  /// From one pose to another: the reference point (m, body frame) goes straight, the rotation is
+  /// From one pose to another: the reference point (m, body frame) moves straight, the rotation is
   /// slerp along the shorter way.
   static UniformMotion interpolation(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
                                      const Eigen::Vector3d& reference = Eigen::Vector3d::Zero());
-  /// From one pose to another as one screw: turning about, and sliding along, one fixed axis
-  /// (Chasles). Below 1e-8 rad it is the interpolation, from which it differs by less than 2e-9 of
-  /// the displacement.
+  /// From one pose to another as one screw: rotation about one fixed axis and translation along it
+  /// (Chasles). Below 1e-8 rad it is the interpolation, which differs by less than 2e-9 of the
+  /// displacement.
   static UniformMotion screw(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
-  /// `turn`: rad, a rotation vector in the world frame, of any length; `displacement`: m, of the
-  /// reference point, world frame.
+  /// Rotation by `turn` (rad, a rotation vector in the world frame, of any length) while the
+  /// reference point moves by `displacement` (m, world frame).
   static UniformMotion turning(const Eigen::Isometry3d& start, const Eigen::Vector3d& turn,
                                const Eigen::Vector3d& displacement,
                                const Eigen::Vector3d& reference = Eigen::Vector3d::Zero());
@@ -50,8 +51,8 @@ class UniformMotion : public Motion {
   double angle_ = 0.0;            ///< rad
 };
 
-/// A pose on its way, as a Bézier curve or spline has it: the position of the body's origin (m) and
-/// a rotation vector (rad) that turns the start's orientation, R(t) = exp(rotation(t)) R(start).
+/// A control pose of a Bézier curve or spline: the position of the body's origin (m), and a
+/// rotation vector (rad) that rotates the start's orientation, R(t) = exp(rotation(t)) R(start).
 struct ControlPose {
   Eigen::Vector3d position;  ///< m, world frame
   Eigen::Vector3d rotation;  ///< rad, world frame
@@ -60,10 +61,11 @@ struct ControlPose {
 /// Piecewise Bézier curves in position and rotation vector, with a continuous first derivative.
 class SplineMotion : public Motion {
  public:
-  /// One Bézier curve with the control poses given, at least two and at most eight.
+  /// One Bézier curve with these control poses, at least two and at most eight. `orientation` is
+  /// R(start).
   static SplineMotion bezier(const Eigen::Matrix3d& orientation,
                              std::span<const ControlPose> control);
-  /// The uniform cubic B-spline of four or more control poses, each four of which in turn make a
+  /// The uniform cubic B-spline of four or more control poses. Each four consecutive ones make a
   /// span of equal duration. With four it is FCL's SplineMotion.
   static SplineMotion uniformCubic(const Eigen::Matrix3d& orientation,
                                    std::span<const ControlPose> control);
@@ -83,7 +85,7 @@ class SplineMotion : public Motion {
   double turn_ = 0.0;   ///< rad, the longest rotation vector
 };
 
-/// A part [from, to] of another motion as a motion of its own, from 0 to 1. Refers to the other.
+/// A part [from, to] of another motion as a motion from 0 to 1. Refers to the other.
 class MotionPart : public Motion {
  public:
   /// Throws std::invalid_argument unless 0 <= from <= to <= 1.
@@ -101,8 +103,8 @@ class MotionPart : public Motion {
   double length_;
 };
 
-/// A frame that is fixed in a moving body: a shape beside a link's origin, say. Refers to the
-/// body's motion.
+/// The motion of a frame that is fixed in a moving body, for example of a shape beside a link's
+/// origin. Refers to the body's motion.
 class AttachedFrame : public Motion {
  public:
   /// Throws std::invalid_argument as UniformMotion does.

@@ -12,22 +12,22 @@
 
 namespace swept {
 
-/// Where a collision traversal ended last time, for the next one to start from: pairs of hierarchy
-/// nodes between which no pair of leaves is forgotten (Li and Chen 1998; Ehmann and Lin 2001; Pan,
-/// Chitta, Manocha 2012, section III-D).
+/// The front where a collision traversal ended, so that the next one can start there: pairs of
+/// hierarchy nodes that together cover all pairs of leaves (Li and Chen 1998; Ehmann and Lin 2001;
+/// Pan, Chitta, Manocha 2012, section III-D).
 ///
-/// Right for any motion between two traversals; cheaper from scratch when the motion is small,
-/// since the volumes above the front need no test. Belongs to one pair of hierarchies:
-/// `collideMeshes` sees by itself when it is asked about others, or either is rebuilt, and starts
-/// anew. For a traversal node of one's own belongTo() does so for trees, clear() for anything else,
-/// also when the node's descent rule changes (new volumes on the same trees are fine).
+/// It is correct for any motion between two traversals. It saves time if the motion is small, since
+/// the volumes above the front need no test. It belongs to one pair of hierarchies: `collideMeshes`
+/// notices by itself when the pair changes or either is rebuilt, and starts over. For your own
+/// traversal node, belongTo() does this for trees. Call clear() for anything else, also when the
+/// node's descent rule changes (new volumes on the same trees are fine).
 ///
-/// Kept as the tree of pairs above the front, so that the front can move up again: two sibling
-/// pairs that are disjoint make way for their parent if that is disjoint too. Asking the parent
-/// costs a test, so each gets its turn only in one traversal out of eight.
+/// It is stored as the tree of pairs above the front, so that the front can move up again: two
+/// disjoint sibling pairs are replaced by their parent if that is disjoint too. Testing the parent
+/// costs time, so each parent is tested only in one traversal out of eight.
 class FrontList {
  public:
-  /// Pairs in the front.
+  /// Number of pairs in the front.
   std::size_t size() const {
     return pairs_.empty() ? 0 : (pairs_.size() - 1) / 2 + 1 - free_.size();
   }
@@ -36,8 +36,8 @@ class FrontList {
     pairs_.clear();
     free_.clear();
   }
-  /// Forgets everything unless the last call was with the same two, each the `BvTree::shape()` of a
-  /// tree.
+  /// Forgets everything unless the last call had the same two arguments, each the `BvTree::shape()`
+  /// of a tree.
   void belongTo(std::uint64_t first, std::uint64_t second) {
     const std::array<std::uint64_t, 2> shapes{first, second};
     if (shapes != shapes_) clear();
@@ -85,7 +85,7 @@ class FrontList {
 template <CollisionTraversal Node>
 class FrontTraversal {
  public:
-  /// Both have to live until run() is done; the node is of the hierarchies the front belongs to.
+  /// Both must live until run() is done; the front must belong to the hierarchies of the node.
   FrontTraversal(Node& node, FrontList& front) : node_(node), front_(front) {}
 
   /// Calls leafTesting for the pairs of leaves that may touch, until the node can stop.
@@ -133,8 +133,8 @@ class FrontTraversal {
   FrontList& front_;
 };
 
-/// As collisionTraverse(node), from where the last traversal with this front ended. Allocates only
-/// when the front grows beyond its largest size so far.
+/// Like collisionTraverse(node), but starts where the last traversal with this front ended.
+/// Allocates only when the front grows beyond its largest size so far.
 template <CollisionTraversal Node>
 void collisionTraverse(Node& node, FrontList& front) {
   FrontTraversal<Node>(node, front).run();

@@ -22,26 +22,26 @@ namespace swept {
 struct TrianglePair {
   int first;   ///< triangle of the first model
   int second;  ///< triangle of the second model, or of the same one
-  /// By first, then by second.
+  /// Ordered by first, then by second.
   auto operator<=>(const TrianglePair&) const = default;
 };
 
-/// How many pairs are wanted.
+/// How many pairs to find.
 struct MeshCollisionOptions {
-  /// Stop at this many touching pairs; 1, and 0 with no pair at all: yes or no.
+  /// The query stops at this many touching pairs. 1, or 0 without listing a pair: yes or no.
   std::size_t maxPairs = 1;
 };
 
-/// Reuse one result to query without allocating.
+/// Reuse a result to query without allocating.
 struct MeshCollisionResult {
   /// Some triangles touch, or the pose is not finite. Touching is decided exactly for the triangles
-  /// as they are in the first frame; placing the second model's there rounds by 1e-15 of the
-  /// coordinates.
+  /// as they are in the first frame; placing the second model's triangles there rounds by 1e-15 of
+  /// the coordinates.
   bool touching = false;
   std::vector<TrianglePair> pairs;  ///< at most maxPairs of the touching ones; each once
-  TraversalEffort effort;           ///< what the traversal took
+  TraversalEffort effort;           ///< effort of the traversal
 
-  /// For the next query; keeps the memory.
+  /// Prepares for the next query; keeps the memory.
   void reset() {
     touching = false;
     pairs.clear();
@@ -53,13 +53,13 @@ struct MeshCollisionResult {
 template <BoundingVolume BV>
 class MeshCollisionNode : public MeshPair<BV> {
  public:
-  /// Throws as collideMeshes. `result` is added to.
+  /// Throws as collideMeshes does. Adds to `result`.
   MeshCollisionNode(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                     const MeshCollisionOptions& options, MeshCollisionResult& result)
       : MeshPair<BV>(a, b, a_from_b, "collideMeshes"), maxPairs_(options.maxPairs), out_(result) {}
 
   ///@{
-  /// As `CollisionTraversal` says.
+  /// See `CollisionTraversal`.
   bool bvTesting(int i, int j) {
     ++out_.effort.bvTests;
     return !this->first(i).volume.overlaps(this->second(j).volume, this->a_from_b_);
@@ -82,10 +82,10 @@ class MeshCollisionNode : public MeshPair<BV> {
   MeshCollisionResult& out_;
 };
 
-/// Which triangles of two models touch; `a_from_b` is the pose of b in a's frame. With a `front`
-/// the traversal starts where it ended last time (FrontList says what that needs). Throws
-/// BvhStateError or std::invalid_argument for models that are not built or have no triangles, never
-/// for a pose: one that is not finite, or far from rigid, touches, without pairs.
+/// Finds which triangles of two models touch; `a_from_b` is the pose of b in a's frame. With a
+/// `front` the traversal starts where it ended last time (see FrontList). Throws BvhStateError or
+/// std::invalid_argument for models that are not built or have no triangles, never for a pose: one
+/// that is not finite, or far from rigid, counts as touching, without pairs.
 template <BoundingVolume BV>
 void collideMeshes(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                    const MeshCollisionOptions& options, MeshCollisionResult& result,

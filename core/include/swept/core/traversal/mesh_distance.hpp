@@ -19,33 +19,33 @@
 
 namespace swept {
 
-/// What a distance query may leave undecided to save time: upper - lower <= absolute + relative *
-/// upper, and rounding.
+/// The accuracy that a distance query may give up to save time: upper - lower <= absolute +
+/// relative * upper, plus rounding.
 struct MeshDistanceOptions {
   double absoluteTolerance = 0.0;  ///< m, >= 0
   double relativeTolerance = 0.0;  ///< no unit, 0 to 1
 };
 
 /// lower <= distance <= upper: `lower` is proven, rounding included, `upper` is the distance of the
-/// two points. For a pose that is not finite [0, infinity].
+/// two points. For a non-finite pose [0, infinity].
 struct MeshDistanceResult {
   double lower = 0.0;                                      ///< m
   double upper = std::numeric_limits<double>::infinity();  ///< m; 0 exactly if triangles touch
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();        ///< m, a's frame
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, a's frame
-  int triangleA = -1;                                      ///< with pointA; -1 only without a bound
-  int triangleB = -1;                                      ///< with pointB
-  TraversalEffort effort;                                  ///< what the traversal took
+  int triangleA = -1;                                      ///< triangle of pointA; -1: no witness
+  int triangleB = -1;                                      ///< triangle of pointB
+  TraversalEffort effort;                                  ///< effort of the traversal
 };
 
-/// Branch and bound: the best distance so far, and the least bound of what was left out for it.
+/// Branch and bound: the best distance so far, and the least bound of what was dismissed.
 class DistanceSearch {
  public:
-  /// With no bound yet.
+  /// Starts without a bound.
   explicit DistanceSearch(const MeshDistanceOptions& options) : options_(options) {}
 
-  /// Whether what is at least this far away cannot matter. Remembers the bound it dismisses. NaN is
-  /// not dismissed.
+  /// Whether something at least `bound` away cannot matter. Remembers the bound it dismisses. Does
+  /// not dismiss NaN.
   bool dismiss(double bound, double upper) {
     if (!(bound >= upper * (1.0 - options_.relativeTolerance) - options_.absoluteTolerance)) {
       return false;
@@ -53,9 +53,9 @@ class DistanceSearch {
     lower_ = std::min(lower_, bound);
     return true;
   }
-  /// `lower` (m) is proven for a pair of leaves that was looked at.
+  /// `lower` (m) is proven for a pair of leaves that was tested.
   void examined(double lower) { lower_ = std::min(lower_, lower); }
-  /// m; proven for everything dismissed or examined.
+  /// m; proven for everything that was dismissed or examined.
   double lower(double upper) const { return std::clamp(lower_, 0.0, upper); }
 
  private:
@@ -63,8 +63,8 @@ class DistanceSearch {
   double lower_ = std::numeric_limits<double>::infinity();
 };
 
-/// What bvTesting returns for volumes that overlap: negative, so it proves nothing, and less the
-/// nearer their centres are: these are visited first.
+/// The value of bvTesting for overlapping volumes: negative, so it proves nothing. It is less the
+/// nearer their centres are: such volumes are visited first.
 inline double rankOfOverlap(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return -1.0 / (b - a).squaredNorm();
 }
@@ -73,7 +73,7 @@ inline double rankOfOverlap(const Eigen::Vector3d& a, const Eigen::Vector3d& b) 
 template <BoundingVolume BV>
 class MeshDistanceNode : public MeshPair<BV> {
  public:
-  /// Throws as meshDistance. `result` is made better where a pair is nearer.
+  /// Throws as meshDistance does. Improves `result` if a pair is nearer.
   MeshDistanceNode(const BvhModel<BV>& a, const BvhModel<BV>& b, const Eigen::Isometry3d& a_from_b,
                    const MeshDistanceOptions& options, MeshDistanceResult& result)
       : MeshPair<BV>(a, b, a_from_b, "meshDistance"),
@@ -87,7 +87,7 @@ class MeshDistanceNode : public MeshPair<BV> {
         out_(result) {}
 
   ///@{
-  /// As `DistanceTraversal` says.
+  /// See `DistanceTraversal`.
   double bvTesting(int i, int j) {
     ++out_.effort.bvTests;
     const BV& volume = this->first(i).volume;
@@ -114,7 +114,7 @@ class MeshDistanceNode : public MeshPair<BV> {
   }
   bool canStop(double bound) { return search_.dismiss(std::max(0.0, bound), out_.upper); }
   ///@}
-  /// To be called after the traversal.
+  /// Call it after the traversal.
   void finish() { out_.lower = search_.lower(out_.upper); }
 
  private:
@@ -123,7 +123,7 @@ class MeshDistanceNode : public MeshPair<BV> {
   MeshDistanceResult& out_;
 };
 
-/// Distance of the surfaces of two models; `a_from_b` is the pose of b in a's frame. Throws
+/// Distance (m) of the surfaces of two models; `a_from_b` is the pose of b in a's frame. Throws
 /// BvhStateError or std::invalid_argument for models that are not built or have no triangles.
 template <BoundingVolume BV>
 MeshDistanceResult meshDistance(const BvhModel<BV>& a, const BvhModel<BV>& b,

@@ -16,8 +16,8 @@ namespace swept {
 
 namespace detail {
 
-/// What a pose means (`distance.hpp`): itself where it is as good as rigid, else the nearest rigid
-/// one; NaN if there is none.
+/// The rigid pose that `pose` stands for (`distance.hpp`): itself if it is rigid enough, else the
+/// nearest rigid one; NaN if there is none.
 Eigen::Isometry3d rigidPose(const Eigen::Isometry3d& pose);
 
 }  // namespace detail
@@ -28,7 +28,7 @@ template <BoundingVolume BV>
 class MeshPair {
  public:
   ///@{
-  /// As `PairTraversal` says; the larger volume is descended first.
+  /// See `PairTraversal`; the larger volume is descended first.
   bool isFirstLeaf(int i) const { return first(i).isLeaf(); }
   bool isSecondLeaf(int j) const { return second(j).isLeaf(); }
   bool firstOverSecond(int i, int j) const {
@@ -37,7 +37,8 @@ class MeshPair {
   std::array<int, 2> firstChildren(int i) const { return {i + 1, first(i).rightChild}; }
   std::array<int, 2> secondChildren(int j) const { return {j + 1, second(j).rightChild}; }
   ///@}
-  /// Of the second model, as `distance.hpp` takes what was given; NaN for what is not a pose.
+  /// Pose of the second model in the first one's frame, made rigid (`distance.hpp`); NaN if that is
+  /// impossible.
   const Eigen::Isometry3d& pose() const { return a_from_b_; }
 
  protected:
@@ -55,7 +56,7 @@ class MeshPair {
   const typename BvTree<BV>::Node& first(int i) const { return a_.tree().node(i); }
   const typename BvTree<BV>::Node& second(int j) const { return b_.tree().node(j); }
   ///@}
-  /// Triangle of b, in a's frame (m).
+  /// A triangle of b, in a's frame (m).
   TriangleCorners secondCorners(int triangle) const {
     const TriangleCorners c = b_.corners(triangle);
     return {a_from_b_ * c[0], a_from_b_ * c[1], a_from_b_ * c[2]};

@@ -15,11 +15,11 @@
 namespace swept {
 
 /// Traversal node of one triangle model against itself. Triangles that share a vertex, by index,
-/// touch always: they are skipped.
+/// always touch, so they are skipped.
 template <BoundingVolume BV>
 class MeshSelfCollisionNode : public MeshPair<BV> {
  public:
-  /// Throws as selfCollideMesh. `result` is added to.
+  /// Throws as selfCollideMesh does. Adds to `result`.
   MeshSelfCollisionNode(const BvhModel<BV>& model, const MeshCollisionOptions& options,
                         MeshCollisionResult& result)
       : MeshPair<BV>(model, model, Eigen::Isometry3d::Identity(), "selfCollideMesh"),
@@ -27,7 +27,7 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
         out_(result) {}
 
   ///@{
-  /// As `SelfCollisionTraversal` says.
+  /// See `SelfCollisionTraversal`.
   bool bvTesting(int i, int j) {
     ++out_.effort.bvTests;
     return !this->first(i).volume.overlaps(this->second(j).volume);
@@ -56,8 +56,8 @@ class MeshSelfCollisionNode : public MeshPair<BV> {
   MeshCollisionResult& out_;
 };
 
-/// Which triangles of a model touch one another without sharing a vertex; in each pair the smaller
-/// index first. Throws as collideMeshes does.
+/// Finds which triangles of a model touch each other without sharing a vertex; in each pair the
+/// smaller index comes first. Throws as collideMeshes does.
 template <BoundingVolume BV>
 void selfCollideMesh(const BvhModel<BV>& model, const MeshCollisionOptions& options,
                      MeshCollisionResult& result) {

@@ -23,8 +23,8 @@
 
 namespace swept {
 
-/// The leaf test between a triangle and whatever the single node of the other side stands for. In
-/// the mesh's frame.
+/// The leaf test between a triangle and the other side, which is a hierarchy of one node. In the
+/// mesh's frame.
 template <typename Leaf>
 concept TriangleLeaf = requires(Leaf& leaf, const TriangleCorners& corners, double enough) {
   { leaf.collide(corners) } -> std::same_as<Contact>;
@@ -32,15 +32,16 @@ concept TriangleLeaf = requires(Leaf& leaf, const TriangleCorners& corners, doub
   { leaf.distance(corners, enough) } -> std::same_as<DistanceResult>;
 };
 
-/// Leaf test against a shape, by the queries of distance.hpp. Keeps a reference to the shape.
+/// Leaf test against a shape, with the queries of distance.hpp. Keeps a reference to the shape.
 class ShapeLeaf {
  public:
   /// `mesh_from_shape`: pose of the shape in the mesh's frame.
   ShapeLeaf(const Shape& shape, const Eigen::Isometry3d& mesh_from_shape);
 
-  /// Of a triangle (m, mesh frame) and the shape.
+  /// Whether a triangle (m, mesh frame) touches the shape.
   Contact collide(const TriangleCorners& corners);
-  /// Of a triangle (m, mesh frame) and the shape; stops where it is proven to exceed `enough` (m).
+  /// Distance of a triangle (m, mesh frame) from the shape; stops once it is proven to exceed
+  /// `enough` (m).
   DistanceResult distance(const TriangleCorners& corners, double enough);
 
  private:
@@ -58,7 +59,7 @@ template <BoundingVolume BV>
 class MeshAndOne {
  public:
   ///@{
-  /// As `PairTraversal` says; only the mesh is descended.
+  /// See `PairTraversal`; only the mesh is descended.
   bool isFirstLeaf(int i) const { return node(i).isLeaf(); }
   bool isSecondLeaf(int) const { return true; }
   bool firstOverSecond(int, int) const { return true; }
@@ -74,7 +75,7 @@ class MeshAndOne {
   }
   ~MeshAndOne() = default;
 
-  /// Of the mesh.
+  /// A node of the mesh.
   const typename BvTree<BV>::Node& node(int i) const { return mesh_.tree().node(i); }
   /// Calls visit(t) for the triangles of leaf i until it returns false.
   template <typename Visit>
@@ -85,7 +86,7 @@ class MeshAndOne {
   }
 
   const BvhModel<BV>& mesh_;  ///< the mesh
-  BV volume_;                 ///< of the shape, in the mesh's frame
+  BV volume_;                 ///< volume of the shape, in the mesh's frame
 };
 
 /// Whether a mesh's surface touches a shape.
@@ -94,14 +95,14 @@ struct MeshShapeCollisionResult {
   /// rounding.
   Contact contact = Contact::Unknown;
   int triangle = -1;       ///< one that touches, or is within rounding; -1: none
-  TraversalEffort effort;  ///< what the traversal took
+  TraversalEffort effort;  ///< effort of the traversal
 };
 
-/// Traversal node of a triangle model and one shape: ends at the first triangle that touches.
+/// Traversal node of a triangle model and one shape; it ends at the first triangle that touches.
 template <BoundingVolume BV, TriangleLeaf Leaf = ShapeLeaf>
 class MeshShapeCollisionNode : public MeshAndOne<BV> {
  public:
-  /// Throws as collideMeshShape.
+  /// Throws as collideMeshShape does.
   MeshShapeCollisionNode(const BvhModel<BV>& mesh, const BV& volume, Leaf& leaf,
                          MeshShapeCollisionResult& result)
       : MeshAndOne<BV>(mesh, volume, "collideMeshShape"), leaf_(leaf), out_(result) {
@@ -109,7 +110,7 @@ class MeshShapeCollisionNode : public MeshAndOne<BV> {
   }
 
   ///@{
-  /// As `CollisionTraversal` says.
+  /// See `CollisionTraversal`.
   bool bvTesting(int i, int) {
     ++out_.effort.bvTests;
     return !this->node(i).volume.overlaps(this->volume_);
@@ -133,12 +134,12 @@ class MeshShapeCollisionNode : public MeshAndOne<BV> {
   MeshShapeCollisionResult& out_;
 };
 
-/// Traversal node of a triangle model and one shape: nearest points. As the first mesh is "a",
-/// results are those of MeshDistanceNode; triangleB is 0.
+/// Traversal node of a triangle model and one shape: nearest points. The mesh is "a" in results, as
+/// for MeshDistanceNode; triangleB is 0.
 template <BoundingVolume BV, TriangleLeaf Leaf = ShapeLeaf>
 class MeshShapeDistanceNode : public MeshAndOne<BV> {
  public:
-  /// Throws as meshShapeDistance.
+  /// Throws as meshShapeDistance does.
   MeshShapeDistanceNode(const BvhModel<BV>& mesh, const BV& volume, Leaf& leaf,
                         const MeshDistanceOptions& options, MeshDistanceResult& result)
       : MeshAndOne<BV>(mesh, volume, "meshShapeDistance"),
@@ -147,7 +148,7 @@ class MeshShapeDistanceNode : public MeshAndOne<BV> {
         out_(result) {}
 
   ///@{
-  /// As `DistanceTraversal` says.
+  /// See `DistanceTraversal`.
   double bvTesting(int i, int) {
     ++out_.effort.bvTests;
     const BV& volume = this->node(i).volume;
@@ -171,7 +172,7 @@ class MeshShapeDistanceNode : public MeshAndOne<BV> {
   }
   bool canStop(double bound) { return search_.dismiss(std::max(0.0, bound), out_.upper); }
   ///@}
-  /// To be called after the traversal.
+  /// Call it after the traversal.
   void finish() { out_.lower = search_.lower(out_.upper); }
 
  private:
@@ -180,9 +181,9 @@ class MeshShapeDistanceNode : public MeshAndOne<BV> {
   MeshDistanceResult& out_;
 };
 
-/// Whether a triangle of the mesh touches the shape; pose of the shape in the mesh's frame. The
-/// shape is solid where distance.hpp says so; the mesh is a surface. An unbounded shape is tested
-/// against every triangle. A pose that is not finite gives Unknown. Throws as collideMeshes does.
+/// Whether a triangle of the mesh touches the shape; the pose is that of the shape in the mesh's
+/// frame. The shape is solid as in distance.hpp; the mesh is a surface. An unbounded shape is
+/// tested against every triangle. A non-finite pose gives Unknown. Throws as collideMeshes does.
 template <BoundingVolume BV>
 MeshShapeCollisionResult collideMeshShape(const BvhModel<BV>& mesh, const Shape& shape,
                                           const Eigen::Isometry3d& mesh_from_shape) {
@@ -202,8 +203,8 @@ MeshShapeCollisionResult collideMeshShape(const BvhModel<BV>& mesh, const Shape&
   return result;
 }
 
-/// Distance of the mesh's surface and the shape, as for meshDistance, with the accuracy of
-/// `tolerance::kDistance` per triangle; points in the mesh's frame.
+/// Distance (m) of the mesh's surface and the shape, as in meshDistance, with the accuracy of
+/// `tolerance::kDistance` per triangle; points are in the mesh's frame.
 template <BoundingVolume BV>
 MeshDistanceResult meshShapeDistance(const BvhModel<BV>& mesh, const Shape& shape,
                                      const Eigen::Isometry3d& mesh_from_shape,

@@ -9,12 +9,12 @@
 
 namespace swept {
 
-/// The recursions over pairs of hierarchies and what they ask of a traversal node (Pan, Chitta,
+/// The recursions over pairs of hierarchies, and what they need from a traversal node (Pan, Chitta,
 /// Manocha 2012, section III-C). A traversal node joins two hierarchies, the test of their volumes
-/// and the test of their primitives; nodes of the hierarchies are numbers of its choosing, root 0.
-/// A shape is a hierarchy of one node.
+/// and the test of their primitives. It numbers the nodes of the hierarchies as it likes; the root
+/// is 0. A shape is a hierarchy of one node.
 ///
-/// The recursions allocate nothing, and descend as deep as the two hierarchies together.
+/// The recursions allocate nothing. Their depth is at most that of the two hierarchies together.
 
 /// Effort of a traversal.
 struct TraversalEffort {
@@ -27,24 +27,24 @@ template <typename Node>
 concept PairTraversal = requires(Node& node, const Node& constant, int i, int j) {
   { constant.isFirstLeaf(i) } -> std::same_as<bool>;
   { constant.isSecondLeaf(j) } -> std::same_as<bool>;
-  /// Which side to descend; asked only where neither is a leaf.
+  /// Which side to descend; called only if neither is a leaf.
   { constant.firstOverSecond(i, j) } -> std::same_as<bool>;
   { constant.firstChildren(i) } -> std::same_as<std::array<int, 2>>;
   { constant.secondChildren(j) } -> std::same_as<std::array<int, 2>>;
-  /// Called for pairs of leaves that bvTesting leaves over.
+  /// Called for pairs of leaves that bvTesting does not exclude.
   node.leafTesting(i, j);
 };
 
-/// `bvTesting(i, j)`: true only if nothing below i and j can touch. `canStop()`: the answer is
-/// known.
+/// `bvTesting(i, j)`: true only if nothing below i and j can touch. `canStop()`: whether the answer
+/// is known.
 template <typename Node>
 concept CollisionTraversal = PairTraversal<Node> && requires(Node& node, int i, int j) {
   { node.bvTesting(i, j) } -> std::same_as<bool>;
   { node.canStop() } -> std::same_as<bool>;
 };
 
-/// `bvTesting(i, j)`: lower bound (m) on the distance between what is below i and j.
-/// `canStop(bound)`: nothing at this distance or farther matters any more.
+/// `bvTesting(i, j)`: lower bound (m) on the distance between the primitives below i and j.
+/// `canStop(bound)`: whether nothing at this distance or farther matters any more.
 template <typename Node>
 concept DistanceTraversal = PairTraversal<Node> &&
     requires(Node& node, int i, int j, double bound) {
@@ -142,7 +142,7 @@ void distanceTraverse(Node& node, int i = 0, int j = 0) {
   if (!node.canStop(node.bvTesting(i, j))) detail::distanceDescend(node, i, j);
 }
 
-/// Visits all pairs of leaves below i, in one order each, and each leaf with itself.
+/// Visits all pairs of leaves below i, each pair once, and each leaf with itself.
 template <SelfCollisionTraversal Node>
 void selfCollisionTraverse(Node& node, int i = 0) {
   if (detail::inForeignEnvironment()) {

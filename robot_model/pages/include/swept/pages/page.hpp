@@ -11,37 +11,37 @@
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/visual_model.hpp"
 
-/// A robot, its world, and what is proven about its states and motions, for a browser.
+/// An HTML page with a robot, its world, and what is proven about its states and motions.
 namespace swept {
 
-/// What a page says besides what it computes. Any text will do: none of it can be markup.
+/// Texts of a page besides what it computes. Any text is allowed: it is escaped, not markup.
 struct PageOptions {
-  std::string title = "swept";  ///< stands above the headline, with the robot's name
-  std::string headline;         ///< empty: how many of what is shown are free
+  std::string title = "swept";  ///< above the headline, with the robot's name
+  std::string headline;         ///< empty: how many of the states or motions are free
   std::vector<std::pair<std::string, std::string>>
       facts;                 ///< name and value, before the page's own
-  VisualModel visuals = {};  ///< what the robot looks like; empty: nobody has read it
+  VisualModel visuals = {};  ///< what the robot looks like; empty: not read
 };
 
-/// A page: one HTML file that any browser opens from disk, without network. It has either states,
-/// shown one at a time, or motions, played one after the other, or paths, of which one is shown at
-/// a time. Each is judged by the checker when it is added; the verdict, contacts and distances are
-/// what the checker says, and poses are drawn in single precision.
+/// A page: one HTML file that any browser opens from disk, without network. It shows states one at
+/// a time, or motions one after the other, or paths one at a time. The checker judges each when it
+/// is added; verdicts, contacts and distances are the checker's. Poses are drawn in single
+/// precision.
 ///
-/// A page is of one thread at a time.
+/// Only one thread at a time may use a page.
 class Page {
  public:
-  /// Keeps the checker for as long as it is there. Throws std::invalid_argument for none.
+  /// Keeps the checker as long as the page lives. Throws std::invalid_argument for null.
   explicit Page(std::shared_ptr<const Checker> checker, PageOptions options = {});
   ~Page();
   Page(Page&&) noexcept;
   Page& operator=(Page&&) noexcept;
 
   ///@{
-  /// `label`: what the page calls it. Configurations have a value for each variable of the
-  /// checker's group, m or rad. Throws std::invalid_argument for another number of values, for a
-  /// value that is not finite, for what is of another kind than what was added before, and for a
-  /// path without a state; one of a single state stays there.
+  /// Adds a state, motion or path. `label`: its name on the page. Configurations have a value for
+  /// each variable of the checker's group, m or rad. A path of a single state stays there. Throws
+  /// std::invalid_argument for another number of values, a non-finite value, another kind than was
+  /// added before, and a path without a state.
   void addState(const std::string& label, std::span<const double> state);
   void addMotion(const std::string& label, std::span<const double> from,
                  std::span<const double> to);
@@ -49,9 +49,9 @@ class Page {
   ///@}
 
   /// The whole file. Takes about the time of a hundred states and 24 motions for each motion.
-  /// Throws std::invalid_argument where nothing was added.
+  /// Throws std::invalid_argument if nothing was added.
   std::string html() const;
-  /// The same to a file, which appears whole or not at all. Throws UsageError for an ending other
+  /// Writes html() to a file, completely or not at all. Throws UsageError for an extension other
   /// than .html or .htm and for a file that cannot be written.
   void write(const std::filesystem::path& file) const;
 

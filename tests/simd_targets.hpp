@@ -9,10 +9,10 @@
 
 #include "swept/core/simd_dispatch.hpp"
 
-namespace swept::lane_test {
+namespace swept::simd_test {
 
 /// Instruction sets that this program is compiled for and that this machine has.
-inline std::vector<std::int64_t> laneTargets() {
+inline std::vector<std::int64_t> simdTargets() {
   std::vector<std::int64_t> targets;
   for (std::int64_t left = detail::processorTargets() & HWY_TARGETS; left != 0; left &= left - 1)
     targets.push_back(left & -left);
@@ -36,7 +36,7 @@ class OnTarget {
 /// Calls `check(tally)` on each of the instruction sets, and records what each tally says.
 template <typename Tally, typename Check>
 void tallyOnAllTargets(const Check& check) {
-  for (const std::int64_t target : laneTargets()) {
+  for (const std::int64_t target : simdTargets()) {
     const OnTarget on(target);
     Tally tally;
     check(tally);
@@ -44,4 +44,4 @@ void tallyOnAllTargets(const Check& check) {
   }
 }
 
-}  // namespace swept::lane_test
+}  // namespace swept::simd_test
