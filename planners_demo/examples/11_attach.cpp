@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A gripper picks up a can, carries it and releases it: each step makes a new version of the
-// checker.
+// A gripper picks up a can, carries it and releases it. Each step makes a new checker.
 //   example_11_attach MODELS
 // Exits 0 if the can meets a rail when its path says so, and is placed where the arm has turned it.
 #include <cmath>
@@ -43,8 +42,7 @@ int main(int argc, char** argv) try {
   right &= empty.verdict == swept::Verdict::Free && full.verdict == swept::Verdict::Collision;
   right &= full.freeUntil <= touch && touch < full.freeUntil + 0.01;
 
-  // Released half-way: the can at its present place becomes a body of the world. Then the fingers
-  // open.
+  // Released half-way, the can becomes a body of the world where it is. Then the fingers open.
   std::vector<double> there = grasp;
   there[0] = 0.3;
   const swept::WorldBody put = carry.detachedBody("can", there);

@@ -13,7 +13,7 @@ namespace swept {
 
 struct Command;
 
-/// What `bench planners` and `bench summary` have of their own.
+/// Options of `bench planners` and `bench summary` alone.
 struct BatchArguments {
   std::vector<std::string> planners = {"RRTConnect"};
   std::vector<std::string> validators = {"certified"};
@@ -58,7 +58,8 @@ struct Arguments {
   std::vector<std::string> explained;  ///< A,B
   double margin = 0.0;                 ///< m
   ///@{
-  /// m. Of pairs of two links or attached bodies, and of pairs with the world, in its place.
+  /// m. The margins of pairs of two links or attached bodies, and of pairs with the world, in place
+  /// of `margin`.
   std::optional<double> selfMargin, worldMargin;
   ///@}
   double tolerance = tolerance::kMotion;  ///< m
@@ -126,7 +127,7 @@ struct Arguments {
   } page;
 };
 
-/// The result of reading a command line: either something to run, or everything is said already.
+/// The result of reading a command line: something to run, or nothing, because all is printed.
 struct ParsedArguments {
   std::optional<Arguments> run;
   int exitCode = 0;  ///< meaningful when there is nothing to run
@@ -135,7 +136,7 @@ struct ParsedArguments {
 /// Reads a command line. Help goes to stdout (exit code 0), usage errors to stderr (3).
 ParsedArguments parseArguments(int argc, const char* const* argv);
 
-/// m. What some pair has to keep.
+/// The largest margin of any pair (m).
 inline double largestMargin(const Arguments& args) {
   return std::max(args.selfMargin.value_or(args.margin), args.worldMargin.value_or(args.margin));
 }

@@ -26,16 +26,16 @@ struct Command {
   bool takesLists = false;           ///< a STATE may be `@FILE`, `-` or a path file
 };
 
-/// All there are, in the order of the help.
+/// All subcommands, in the order of the help.
 std::span<const Command* const> commands();
 
-/// What most of them return.
+/// The exit codes of most subcommands.
 inline constexpr std::string_view kVerdictExitCodes =
     "Exit codes: 0 free or solved, 1 collision or not solved, 2 undecided, 3 bad input or usage.";
 
 /// How states are written on the command line.
 std::string stateNotes();
-/// The same, and what stands for many states.
+/// The same, and the forms that stand for many states.
 std::string stateListNotes();
 
 }  // namespace swept

@@ -18,11 +18,11 @@ void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use = {}
 void addVerboseOption(CLI::App& app, Arguments& args);
 /// --group and what makes one, --margin and the rules.
 void addRuleOptions(CLI::App& app, Arguments& args);
-/// The same and --tolerance.
+/// The same with --tolerance.
 void addCheckerOptions(CLI::App& app, Arguments& args);
 /// --scene and --cloud with what says how to read it.
 void addSceneOptions(CLI::App& app, Arguments& args);
-/// For subcommands that take states: the first tells where the robot is.
+/// For subcommands that take states: the first is the state of the robot.
 void addSelfFilterOption(CLI::App& app, Arguments& args);
 /// The states of `check` and `motion`, and --degrees. `what` says which they are.
 void addStateListOption(CLI::App& app, Arguments& args, const std::string& what);

@@ -7,10 +7,10 @@
 
 namespace swept {
 
-/// What the last word of `line`, the beginning of a command line of this program, may become:
-/// subcommands, options, planners, and names of the robot on the line. Those that end with `,`,
-/// `=` or `:` are not at their end. Names that a shell would not leave alone are left out. Empty:
-/// anything, files among others. Throws nothing on account of files.
+/// The completions of the last word of `line`, the beginning of a command line of this program:
+/// subcommands, options, planners, and names of the robot on the line. A completion that ends with
+/// `,`, `=` or `:` is not complete. Names that a shell would change are left out. Empty: anything
+/// fits, files among others. Throws nothing because of files.
 std::vector<std::string> candidatesFor(std::string_view line);
 
 }  // namespace swept

@@ -8,7 +8,7 @@
 
 namespace swept {
 
-/// Names in a robot's files, as they stand there.
+/// Names in a robot's files, as written there.
 struct RobotNames {
   struct State {
     std::string group, name;
@@ -19,8 +19,8 @@ struct RobotNames {
   std::vector<State> states;
 };
 
-/// Of `args.robot` and the SRDF that goes with it. Geometry is not read, nothing is judged, and
-/// what cannot be read has no names: a URDF that xacro has to make has none of its own.
+/// The names in `args.robot` and in its SRDF. It reads no geometry and judges nothing. A file that
+/// cannot be read has no names, and neither has a URDF that xacro has to make.
 RobotNames robotNames(const Arguments& args);
 
 }  // namespace swept

@@ -9,10 +9,10 @@
 
 namespace swept {
 
-/// One sentence for each --explain. Throws UsageError for a name that is not there.
+/// One sentence for each --explain. Throws UsageError for an unknown name.
 std::vector<std::string> explanations(const Arguments& args, const Checker& checker);
 
-/// What `info` says. `checker` is null without a group, as makeCheckerOfGroup() has it.
+/// The output of `info`. `checker` is null without a group, as makeCheckerOfGroup() returns it.
 std::string infoText(const Arguments& args, const Model& model, const Checker* checker);
 Json infoJson(const Arguments& args, const Model& model, const Checker* checker);
 

@@ -9,12 +9,12 @@
 
 namespace swept {
 
-/// What of a command line decides which robot, world, group and rules its answers are for: the
-/// `inputs` of a path file or a case. Names of files are relative to the folder of `file`,
-/// or of the file that it leads to as a link.
+/// The part of a command line that determines the robot, world, group and rules of its answers: the
+/// `inputs` of a path file or a case. Names of files are relative to the folder of `file`; if
+/// `file` is a symbolic link, to the folder of its target.
 Json inputsJson(const Arguments& args, const std::filesystem::path& file);
 
-/// The other way. Throws InputError, naming the value and what is allowed.
+/// The inverse. Throws InputError, naming the value and what is allowed.
 Arguments inputsOf(const JsonValue& inputs);
 
 }  // namespace swept

@@ -6,8 +6,8 @@
 
 namespace swept {
 
-/// qx, qy, qz, qw of norm 1, from numbers typed with a few digits. Throws UsageError, which starts
-/// with `what`, where their norm is another.
+/// A unit quaternion qx, qy, qz, qw from numbers typed with a few digits. Throws UsageError, which
+/// starts with `what`, where their norm is not close to 1.
 Eigen::Vector4d unitQuaternion(const Eigen::Vector4d& typed, const std::string& what);
 
 /// `x,y,z,qx,qy,qz,qw` (m). Throws UsageError, which starts with `label`.

@@ -10,18 +10,19 @@
 
 namespace swept {
 
-/// Which problem of a file.
+/// Selects a problem of a file.
 struct ProblemChoice {
   std::string set;
   int index = 0;
 };
 
-/// The problem of a file that was read as `name`. Throws InputError, naming the sets there are.
+/// The selected problem of a file that was read as `name`. Throws InputError, which names the sets
+/// of the file.
 PlanningProblem chosenProblem(const ProblemFile& file, const std::string& name,
                               const std::string& set, int index);
 
-/// Those that --set, --every and --limit leave, in the order of the file: one or more. Throws
-/// UsageError or InputError, naming the sets there are.
+/// The problems that --set, --every and --limit select, in the order of the file: one or more.
+/// Throws UsageError or InputError, which names the sets of the file.
 std::vector<ProblemChoice> chosenProblems(const ProblemFile& file, const Arguments& args);
 
 /// Throws UsageError for a rule of the command line that names no link, no attached body, and no

@@ -5,8 +5,8 @@
 
 namespace swept {
 
-/// Of a file that is read twice. Throws InputError for a pipe or a device, whose bytes are gone by
-/// then.
+/// For a file that is read twice. Throws InputError for a pipe or a device, which can be read only
+/// once.
 void requireReadAgain(const std::string& file);
 
 }  // namespace swept

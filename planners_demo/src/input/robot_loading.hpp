@@ -10,11 +10,11 @@
 
 namespace swept {
 
-/// What SWEPT_CACHE names; empty: nothing, so that no cover is kept.
+/// The folder that SWEPT_CACHE names; empty: none, so that no cover is kept.
 std::filesystem::path cacheFolder();
 
-/// The robot of `urdf`, which the command line names, with this SRDF (empty: none). Meanwhile a
-/// line on the terminal says how many of its meshes are ready; remarks come when that is gone.
+/// Loads the robot of `urdf`, which the command line names, with this SRDF (empty: none). Meanwhile
+/// a line on the terminal counts the meshes that are ready. Warnings follow when that line is gone.
 /// Throws as Robot::load.
 std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText& urdf,
                                        const std::filesystem::path& srdf,

@@ -10,23 +10,23 @@
 
 namespace swept {
 
-/// What --allow, --pad and --scale say. Throws UsageError.
+/// The rules of --allow, --pad and --scale. Throws UsageError.
 CollisionRules rulesOf(const Arguments& args);
 
-/// Those rules that a checker in this world can have: they name links, bodies that `robot` carries,
-/// bodies of the world or, by a `*`, whatever there is.
+/// Those of the rules that apply to a checker in this world. They name links, bodies that `robot`
+/// carries, bodies of the world or, by a `*`, any body.
 CollisionRules rulesIn(const World& world, const CollisionRules& rules, const Robot& robot,
                        const std::vector<AttachedBody>& attached);
 
-/// Names in rules that are neither a link's nor an attached body's, until a world has a body of
-/// that name.
+/// Names in rules that are neither a link's nor an attached body's, and that no world so far has as
+/// the name of a body.
 class NamesOfBodies {
  public:
   NamesOfBodies(const CollisionRules& rules, const Robot& robot,
                 const std::vector<AttachedBody>& attached);
   void find(const World& world);
   bool empty() const { return names_.empty(); }
-  /// Throws UsageError for a name that no world had; `worlds` says which there were.
+  /// Throws UsageError for a name that no world had; `worlds` describes the worlds.
   void requireFound(const std::string& worlds) const;
 
  private:

@@ -13,7 +13,7 @@
 
 namespace swept {
 
-/// Those that the group moves, in the order of its values.
+/// The joints that the group moves, in the order of its values.
 std::vector<std::string> variableNames(const Robot& robot, const Group& group);
 
 /// The pieces between commas, without blanks around them.
@@ -27,14 +27,14 @@ using Warn = std::function<void(const std::string& line)>;
 std::vector<double> readValues(const std::string& text, std::span<const std::string> names,
                                const std::string& label);
 
-/// Of angles that are typed.
+/// The unit of angles on the command line.
 enum class AngleUnit : std::uint8_t { Radian, Degree };
 
 /// A configuration of the group from a named state or comma-separated values. Throws UsageError,
 /// which starts with `label`, for an unknown name, a wrong count, anything that is not a finite
-/// number, and a value outside its limits. The result is within the limits exactly: of each value
-/// that is taken to one (takeToLimits()) `warn` is told. Values of named states are in rad whatever
-/// `unit` is.
+/// number, and a value outside its limits. The result is within the limits exactly: takeToLimits()
+/// moves values that are a little outside, and `warn` gets a line for each. Values of named states
+/// are in rad whatever `unit` is.
 std::vector<double> readState(const Robot& robot, const Group& group, const std::string& text,
                               const std::string& label, const Warn& warn,
                               AngleUnit unit = AngleUnit::Radian);

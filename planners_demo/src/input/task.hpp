@@ -25,14 +25,14 @@ class Warnings {
   using Taker = std::function<void(const std::string& line)>;
   explicit Warnings(bool quiet) : quiet_(quiet) {}
   explicit Warnings(Taker taker) : quiet_(false), taker_(std::move(taker)) {}
-  /// Says nothing at all: another process says it.
+  /// Prints nothing: another process prints it.
   static Warnings none() {
     return Warnings(Taker([](const std::string&) {}));
   }
-  /// Left out where they are to be quiet.
+  /// A warning that is left out with --quiet.
   void operator()(const std::string& line);
-  /// Of what an answer is not about, though it may be taken to be: also where they are to be quiet,
-  /// and again in unchecked().
+  /// A warning about what an answer does not cover, though a reader may think that it does. It is
+  /// printed even when warnings are to be quiet, and is repeated in unchecked().
   void ofUnchecked(const std::string& line);
   std::vector<std::string> unchecked() const;
 
@@ -54,8 +54,8 @@ struct SrdfChoice {
 };
 SrdfChoice chooseSrdf(const Arguments& args);
 
-/// Whether pairs of links that are always in contact are left out, if there are any: without
-/// an SRDF nobody has said which pairs are to be checked.
+/// Whether pairs of links that are always in contact are left out, if there are any: without an
+/// SRDF nobody has said which pairs are to be checked.
 bool leavesOutDefaultContacts(const Arguments& args);
 
 /// What a subcommand works on: the files of the command line, read.
@@ -66,58 +66,59 @@ struct Model {
   SrdfChoice srdf;
   std::vector<AttachedBody> attached;        ///< of --scene, then of --attach
   std::optional<Eigen::VectorXd> reference;  ///< the robot's state in --scene; empty: none
-  /// Those of --scene and, without an SRDF, of what is always in contact, unless
-  /// --keep-default-contacts: the command line's are over them.
+  /// The rules of --scene and, without an SRDF and without --keep-default-contacts, those for links
+  /// always in contact. The rules of the command line take precedence.
   CollisionRules weakerRules;
-  /// Likewise, of what is in contact at the default state and not always: is checked.
+  /// Likewise, for links in contact at the default state but not always: they are checked.
   std::vector<std::pair<std::string, std::string>> contactsAtDefault;
   LoadOptions options;  ///< how the files were read
 };
 /// Throws InputError or UsageError.
 Model loadModel(const Arguments& args, Warnings& warnings);
 
-/// Throws UsageError when the group has nothing to move. Warns of standing contacts. `reference`:
-/// of the variables outside the group, as CheckerOptions has it.
+/// Throws UsageError when no joint of the group moves. Warns of standing contacts. `reference`:
+/// values of the variables outside the group, as in CheckerOptions.
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
                                            const std::optional<Eigen::VectorXd>& reference = {});
-/// In the first of the worlds of many problems. Of the rules those about bodies that it does not
-/// have are for the others.
+/// A checker in the first of the worlds of many problems. Leaves out rules about bodies that this
+/// world does not have; they are for other worlds.
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,
                                                 const Group& group,
                                                 std::shared_ptr<const World> world,
                                                 Warnings& warnings);
-/// The same in another of them, with all rules about bodies that it has.
+/// The same in another of the worlds, with all rules about bodies that it has.
 std::shared_ptr<const Checker> makeNextChecker(const Arguments& args, const Model& model,
                                                const Checker& like,
                                                std::shared_ptr<const World> world,
                                                Warnings& warnings);
-/// For the group asked for, or the only one, in the world of --scene and --cloud. Null without a
-/// group to choose: where there are several, or the only one has nothing to move.
+/// A checker for the group on the command line, or for the only one, in the world of --scene and
+/// --cloud. Null where the group is not determined: there are several, or no joint of the only one
+/// moves.
 std::shared_ptr<const Checker> makeCheckerOfGroup(const Arguments& args, const Model& model,
                                                   Warnings& warnings);
 
-/// m. How narrow the interval around a least clearance is: a tenth of the tolerance that decides,
-/// but no less than 1e-5: where two bodies stay equally far apart all the way, the work grows with
-/// the inverse.
+/// The width (m) of the interval around a least clearance: a tenth of the tolerance that decides,
+/// but no less than 1e-5. Where two bodies stay equally far apart during the whole motion, the work
+/// grows with the inverse of the width.
 double clearanceAccuracy(const Checker& checker);
 
-/// A configuration and what to call it.
+/// A configuration and its label.
 struct LabelledState {
   std::string label;
   std::vector<double> q;
 };
 
-/// A checker and the states to look at, from either states on the command line, or one problem of
-/// a problem file, or a planning request (start, then goals).
+/// A checker and the states to examine. The states come from the command line, a problem of a
+/// problem file, or a planning request (start, then goals).
 struct Task {
   std::shared_ptr<const Checker> checker;
   std::vector<LabelledState> states;
   std::optional<PlanningRequest::PoseGoal> poseGoal = {};  ///< of a request
   bool alternatives = false;  ///< states but the first are goals, any of which will do
 
-  /// Where the motion to `states[i]` begins, i > 0: at the state before, or at the start.
+  /// The start of the motion to `states[i]`, i > 0: the state before, or the first state.
   const LabelledState& beginOfMotionTo(std::size_t i) const {
     return states[alternatives ? 0 : i - 1];
   }

@@ -8,13 +8,13 @@
 
 namespace swept {
 
-/// Where nothing is checked at all: which is no proof of anything.
+/// The warning that nothing is checked at all, so the answer proves nothing.
 void warnOfNothing(const Checker& checker, Warnings& warnings);
 
-/// A line on the links that the group moves and nothing is known about; empty: there are none.
+/// A line about links that the group moves and that have no known geometry; empty: there are none.
 std::string uncheckedText(const Checker& checker);
 
-/// What answers are not about, as output/unchecked_json.hpp has it.
+/// The limits of an answer, in the form of output/unchecked_json.hpp.
 void addUnchecked(Json& json, const Checker& checker, const Warnings& warnings);
 
 }  // namespace swept

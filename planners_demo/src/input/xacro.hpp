@@ -7,13 +7,13 @@
 
 namespace swept {
 
-/// A URDF as it was read, or written by a program.
+/// A URDF as read from a file, or as written by a program.
 struct ExpandedText {
   std::string text;
   std::string name;  ///< what messages call it, with the lines of what was written
 };
 
-/// What the program `xacro` (of ROS, looked for on the path) makes of `args.robot` with
+/// The output of the program `xacro` (of ROS, looked for on the path) for `args.robot` with
 /// `args.xacroArguments`. Throws UsageError where it cannot be run or fails.
 ExpandedText expandedText(const Arguments& args);
 

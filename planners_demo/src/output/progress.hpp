@@ -11,8 +11,8 @@
 
 namespace swept {
 
-/// One line on stderr that says what is going on and for how long, redrawn while it lives and wiped
-/// at its end. Shows nothing unless stderr is a terminal.
+/// One line on stderr that shows the present work and its duration. It is redrawn while this object
+/// lives and wiped at its end. Shows nothing unless stderr is a terminal.
 class Progress {
  public:
   Progress(std::string label, bool quiet);
@@ -33,12 +33,12 @@ class Progress {
   std::thread thread_;
 };
 
-/// A bar on stderr with how much is done and how long the rest will take, for work that is counted.
-/// Without a thread: it is drawn when it is told to, at most a few times a second, and wiped at its
-/// end. Shows nothing unless stderr is a terminal.
+/// A bar on stderr for counted work. It shows how much is done and how long the rest will take. It
+/// has no thread: it is drawn on request, at most a few times a second, and wiped at its end. Shows
+/// nothing unless stderr is a terminal.
 class ProgressBar {
  public:
-  /// `what` is counted: `runs`. `before` of `total` were done already, at no cost.
+  /// `what` is counted, for example `runs`. `before` of `total` were done already, at no cost.
   ProgressBar(std::string what, std::size_t before, std::size_t total, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -56,8 +56,8 @@ class ProgressBar {
   std::optional<Clock::time_point> drawn_;
 };
 
-/// `[#####.....] 50 of 100 runs, 50 %, 1 min 20 s left`; of the time left nothing unless some were
-/// done in `elapsed` s. `done` is at most `total`.
+/// For example `[#####.....] 50 of 100 runs, 50 %, 1 min 20 s left`. It leaves out the time left if
+/// none were done in `elapsed` s. `done` is at most `total`.
 std::string progressText(const std::string& what, std::size_t before, std::size_t done,
                          std::size_t total, double elapsed);
 

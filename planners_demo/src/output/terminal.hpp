@@ -4,19 +4,20 @@
 #include <cstddef>
 #include <optional>
 
-/// What is known of the place that text goes to.
+/// Properties of the place that text goes to.
 namespace swept {
 
 enum class Stream { Out, Err };
 
-/// How long a line may be. Of stdout the environment's COLUMNS where it is a number above zero,
-/// else the terminal's; none where there is no terminal, so that what reads a pipe finds one line
-/// per row. Of stderr the terminal's alone: what reads messages from a pipe finds one line each. At
+/// The longest line, at least 20. For stdout: the environment's COLUMNS where it is a number above
+/// zero, otherwise the terminal's width. None where there is no terminal, so that a reader of a
+/// pipe finds one line per row. For stderr: the terminal's width alone, so that a reader of
+/// messages from a pipe finds one line each.
 /// least 20.
 std::optional<std::size_t> columnsOf(Stream stream);
 
-/// It is a terminal, with a width, that shows colours, and the environment's NO_COLOR is not set,
-/// or empty. TERM is set and not `dumb`.
+/// True for a terminal with a width if the environment's NO_COLOR is empty or not set, and TERM is
+/// set and not `dumb`.
 bool isColoured(Stream stream);
 
 }  // namespace swept

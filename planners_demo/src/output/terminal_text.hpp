@@ -8,27 +8,27 @@
 #include "swept/core/verdict.hpp"
 #include "text/escaped_text.hpp"
 
-/// What is printed to a terminal.
+/// Text that is printed to a terminal.
 namespace swept {
 
 enum class Hue { Good, Bad, Doubtful };  ///< green, red, yellow
 
-/// The word between marks, which printText() makes colours of where there are any.
+/// The word between marks, which printText() replaces by colours on a terminal that shows them.
 std::string painted(Hue hue, std::string_view word);
-/// The verdict's own word.
+/// The word of a verdict, painted.
 std::string painted(Verdict verdict);
 
-/// One line on stderr, escaped; on a terminal broken where it is longer than that, and with a
-/// coloured `error:` or `warning:`.
+/// Prints one line on stderr, escaped. On a terminal it breaks long lines and colours `error:` or
+/// `warning:`.
 void printMessage(std::string_view line);
 
-/// Lines on stdout, escaped; where lines have a greatest length, broken at blanks, and with the
-/// colours of painted() where there are any. For text that people read: JSON and the like go to
-/// std::cout as they are.
+/// Prints lines on stdout, escaped, with the colours of painted() where the terminal shows them.
+/// Breaks lines at blanks where they have a greatest length. It is for text that people read; JSON
+/// and the like go to std::cout unchanged.
 void printText(std::string_view text);
 
-/// While it lives, what is printed with std::cout is escaped, but for the ends of lines. JSON means
-/// the same then.
+/// While it lives, text printed with std::cout is escaped, except for the ends of lines. Escaped
+/// JSON means the same.
 class EscapedOutput : public std::streambuf {
  public:
   EscapedOutput();

@@ -19,10 +19,11 @@ class TextTable {
   };
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  /// One line per row below the line of titles. Where lines must not be longer than `columns`,
-  /// titles and text are broken over several lines, at blanks and behind commas, or the columns
-  /// of numbers are parted among several tables, or below the first cell of each row stand the
-  /// others, each behind its title: what is shortest. Words and numbers stay whole, however long.
+  /// One line per row below the line of titles. If lines must not be longer than `columns`, one of
+  /// three layouts is used, whichever is shortest. Titles and text are broken over several lines,
+  /// at blanks and after commas. Or the columns of numbers are divided among several tables. Or the
+  /// first cell of each row stands above the others, each after its title. Words and numbers stay
+  /// whole, however long.
   std::string text(std::optional<std::size_t> columns = columnsOf(Stream::Out)) const;
 
  private:
