@@ -27,7 +27,7 @@ void StraightPath::interpolate(double t, std::span<double> q) const {
 namespace {
 
 /// Of the time, for which the ends of neighbouring intervals may round apart.
-constexpr double kOutward = 1.0 + 1e-12;
+constexpr double kPathOutward = 1.0 + 1e-12;
 constexpr double kTimeRounding = 0x1p-50;
 
 /// By t' with t = begin + width t'.
@@ -36,10 +36,10 @@ void rescale(double begin, double width, JointMotion& joint) {
   joint.rate *= width;
   joint.spin *= width;
   joint.angleRate *= width;
-  joint.speed *= width * kOutward;
-  joint.spinSpeed *= width * kOutward;
-  joint.acceleration *= width * width * kOutward;
-  joint.spinAcceleration *= width * width * kOutward;
+  joint.speed *= width * kPathOutward;
+  joint.spinSpeed *= width * kPathOutward;
+  joint.acceleration *= width * width * kPathOutward;
+  joint.spinAcceleration *= width * width * kPathOutward;
 }
 
 }  // namespace

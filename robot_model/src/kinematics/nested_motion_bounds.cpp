@@ -6,7 +6,7 @@ namespace swept::detail {
 namespace {
 
 /// Of sums of so many positive terms as a robot has joints, and of what they are made of.
-constexpr double kOutward = 1.0 + 1e-11;
+constexpr double kNestedOutward = 1.0 + 1e-11;
 /// The same, per joint.
 constexpr double kRounding = 8.0 * 0x1p-53;
 
@@ -61,7 +61,7 @@ void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,
     const JointMotion& joint = motion[path[i]];
     const Around around = aroundOf(bounds[i]);
     // Planar and floating joints farther out carry the ball away from this axis.
-    const double arm = arms[i] + maxTranslation * kOutward;
+    const double arm = arms[i] + maxTranslation * kNestedOutward;
     const double own =
         (joint.spinSpeed * joint.spinSpeed + joint.spinAcceleration) * arm + joint.acceleration;
     const double moved = joint.spinSpeed * arm + joint.speed;
@@ -69,7 +69,7 @@ void nestedMotionBounds(const KinematicModel& model, std::span<const int> path,
     const double error =
         rounding * (driven + own + 2.0 * (around.turning + around.excess) * carried);
     speed += moved;
-    bounds[i] = {speed * kOutward, (std::max(0.0, sum) + error) * kOutward};
+    bounds[i] = {speed * kNestedOutward, (std::max(0.0, sum) + error) * kNestedOutward};
     carried += moved;
     driven += 2.0 * around.turning * moved + own;
     maxTranslation += joint.maxTranslation;

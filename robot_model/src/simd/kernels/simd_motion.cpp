@@ -16,7 +16,7 @@ namespace {
 constexpr double kFarthest = 100.0;
 
 /// More than the rounding of a double to single precision.
-constexpr double kOutward = 1.0 + 2.0 * kSingle;
+constexpr double kSingleOutward = 1.0 + 2.0 * kSingle;
 
 /// Of the lane frame of a body in that of its parent, and of what a floating joint is turned by
 /// before: Rot(axis, angle) R = S Rz(angle) (S^T R) for any rotation S that takes z to the axis.
@@ -59,7 +59,7 @@ bool addTurn(double angle, double rate, double spin, double travel, SimdJointMot
   angle = nearZero(angle);
   lane.angle = static_cast<float>(angle);
   lane.angleRate = static_cast<float>(rate);
-  lane.spin = static_cast<float>(spin * kOutward);
+  lane.spin = static_cast<float>(spin * kSingleOutward);
   const double reached = std::abs(angle) + travel;
   extent.largestAngle = std::max(extent.largestAngle, reached);
   extent.spins += spin;
@@ -88,9 +88,9 @@ bool addSlide(const SimdModel& model, const KinematicModel& kinematics, std::siz
   // The largest of several may leave out what is no number: a walk must never see it.
   if (!std::isfinite(joint.maxTranslation + joint.high - joint.low + joint.speed)) return false;
   setSlides(model, body, index, joint, lane);
-  lane.speed = static_cast<float>(joint.speed * kOutward);
+  lane.speed = static_cast<float>(joint.speed * kSingleOutward);
   extent.speeds += joint.speed;
-  lane.slid = static_cast<float>(joint.slid() * kOutward);
+  lane.slid = static_cast<float>(joint.slid() * kSingleOutward);
   extent.slid += joint.slid();
   extent.slideError += joint.slideError;
   const bool floating = body.type == JointType::Floating;
@@ -145,8 +145,8 @@ bool isLinear(const JointMotion& joint) {
 }
 
 void setAccelerations(const JointMotion& joint, SimdJointMotion& lane) {
-  lane.acceleration = static_cast<float>(joint.acceleration * kOutward);
-  lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kOutward);
+  lane.acceleration = static_cast<float>(joint.acceleration * kSingleOutward);
+  lane.spinAcceleration = static_cast<float>(joint.spinAcceleration * kSingleOutward);
 }
 
 /// Those of any path, as it is over the whole motion.
@@ -247,9 +247,9 @@ SimdJointMotion SimdMotion::localMotion(std::size_t body) const {
   setAccelerations(joint, own);
   own.angle = static_cast<float>(nearZero(joint.angle));
   own.angleRate = static_cast<float>(joint.angleRate);
-  own.spin = static_cast<float>(joint.spinSpeed * kOutward);
-  own.speed = static_cast<float>(joint.speed * kOutward);
-  own.slid = static_cast<float>(joint.slid() * kOutward);
+  own.spin = static_cast<float>(joint.spinSpeed * kSingleOutward);
+  own.speed = static_cast<float>(joint.speed * kSingleOutward);
+  own.slid = static_cast<float>(joint.slid() * kSingleOutward);
   if (slides(model_.bodies[body].kind))
     setSlides(model_, kinematics_.bodies[body], body, joint, own);
   return own;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostParts = 64;
 constexpr int kMostLooks = 6;
 /// m per half-interval. Shorter ones the exact tier does as well.
-constexpr float kFinestInflation = 2e-4F;
+constexpr float kFinestDivided = 2e-4F;
 
 class Division {
  public:
@@ -104,7 +104,7 @@ class Division {
   }
 
   bool isFine(const Part& part) const {
-    return 0.5F * part.half * part.half * answer_.acceleration < kFinestInflation;
+    return 0.5F * part.half * part.half * answer_.acceleration < kFinestDivided;
   }
 
   void place(std::size_t first, std::size_t count) {
