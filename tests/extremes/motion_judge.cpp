@@ -16,7 +16,7 @@ using error_table::rounded;
 using error_table::Touch;
 
 /// Relative to the larger solid: the tolerance that is asked for.
-constexpr double kAsked = 1e-6;
+constexpr double kAskedOfMotions = 1e-6;
 
 /// Relative to the world's coordinates: two poses, each rounded as tolerance::kRoundingPerJoint
 /// says.
@@ -154,7 +154,7 @@ std::optional<Answer> judgeContinuous(const Sample& sample, Random& random) {
   expected.lasting = std::min(hit->lasting, Real(slide.approach - slide.gap));
   expected.rounding = sample.rounding() + kWorldRounding * sample.place.norm();
   expected.turning = kNearestRotation * sample.b.body.extent;
-  expected.tolerance = kAsked * spanOf(sample);
+  expected.tolerance = kAskedOfMotions * spanOf(sample);
   Isometry3d start = Isometry3d::Identity();
   start.linear() = sample.touch->linear;
   start.translation() = slide.position;

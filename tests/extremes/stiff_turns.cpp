@@ -167,7 +167,7 @@ double gapOf(Random& random, int i, double low, double high) {
   return i % 2 == 0 ? gap : -0.5 * gap;
 }
 
-Turn ordinary(Random& random, int i) {
+Turn ordinaryTurn(Random& random, int i) {
   Turn turn = drawTurn(random);
   placePost(turn, gapOf(random, i, -2.0, -1.3), random);
   return turn;
@@ -266,7 +266,7 @@ std::vector<StiffCase> turnCases() {
   const auto meets = [](double share) {
     return [=](Random& random, int i) { return meeting(random, i, share); };
   };
-  return {turnCase("ordinary turn", 1.0, ordinary),
+  return {turnCase("ordinary turn", 1.0, ordinaryTurn),
           turnCase("one joint 1 000 times as fast", 10.0, ratio(0.0, 2e-3)),
           turnCase("joint speeds 1 : 1e6", 200.0, ratio(0.0, 2e-6)),
           turnCase("1 000 turns", 2500.0, ratio(1000.0, 0.1)),

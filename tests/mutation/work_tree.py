@@ -84,8 +84,9 @@ class WorkTree:
 
     def configure(self):
         if not (self.build_folder / "build.ninja").is_file():
+            # Of the library, a mutation compiles the source that it is in and no other.
             self.must(["cmake", "-S", self.tree, "-B", self.build_folder, "-G", "Ninja",
-                       "-DCMAKE_BUILD_TYPE=Release", "-DSWEPT_WARNINGS_AS_ERRORS=ON"])
+                       "-DCMAKE_BUILD_TYPE=Release", "-DSWEPT_WARNINGS_AS_ERRORS=ON", "-DSWEPT_UNITY_BUILD=OFF"])
         # Tests are known by name once CMake has run for the tree as it is.
         self.must(["ninja", "-C", self.build_folder, "build.ninja"])
         self.tests = {}

@@ -5,7 +5,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addAcmOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args, " to compare with, and to keep all but the disabled pairs of");
   app.add_option("-o,--output", args.output, "SRDF to write; may be the one that was read")
       ->type_name("FILE");
@@ -41,7 +41,7 @@ const Command kAcmCommand{
         "Exit codes: 0 the SRDF disables no pair that may collide, 1 it disables one, 2 it "
         "disables "
         "one\nfor which that is not known, 3 bad input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addAcmOptions,
     .run = runAcm};
 
 }  // namespace swept

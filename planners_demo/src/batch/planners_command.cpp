@@ -65,7 +65,7 @@ void addOutputOptions(CLI::App& app, Arguments& args) {
   addQuietOption(app, args);
 }
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addPlannersOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addRunOptions(app, args);
@@ -83,7 +83,7 @@ const Command kBenchPlannersCommand{
     .exitCodes =
         "Exit codes: 0 all runs done, whatever came of them; 3 bad input or usage; 130 stopped by "
         "SIGINT or SIGTERM.",
-    .addOptions = addOptions,
+    .addOptions = addPlannersOptions,
     .run = runBenchPlanners};
 
 }  // namespace swept

@@ -45,7 +45,7 @@ struct Property {
   std::string name, type, value;
 };
 
-std::string truth(bool value) {
+std::string logTruth(bool value) {
   return value ? "1" : "0";
 }
 
@@ -66,9 +66,9 @@ std::vector<Property> propertiesOf(const RunResult& run, bool simplified) {
   const auto count = [](bool known, auto value) { return known ? std::to_string(value) : ""; };
   std::vector<Property> all{
       {"approximate solution", "BOOLEAN",
-       truth(run.status == statusName(PlannerStatus::APPROXIMATE_SOLUTION))},
+       logTruth(run.status == statusName(PlannerStatus::APPROXIMATE_SOLUTION))},
       {"certification time", "REAL", number(timed && solved, times.certification)},
-      {"certified", "BOOLEAN", solved ? truth(path.certified) : ""},
+      {"certified", "BOOLEAN", solved ? logTruth(path.certified) : ""},
       {"certified clearance", "REAL",
        number(path.clearance.has_value(), path.clearance.value_or(0.0))},
       {"certified clearance of itself", "REAL", clearanceOf(path.self)},
@@ -79,7 +79,7 @@ std::vector<Property> propertiesOf(const RunResult& run, bool simplified) {
       {"random seed", "INTEGER", std::to_string(run.key.seed)},
       {prefix + "solution length", "REAL", number(solved, path.length)},
       {prefix + "solution segments", "INTEGER", count(solved, path.segments)},
-      {"solved", "BOOLEAN", truth(solved)},
+      {"solved", "BOOLEAN", logTruth(solved)},
       {"states checked", "INTEGER",
        count(run.statesChecked.has_value(), run.statesChecked.value_or(0))},
       {"status", "ENUM", statusValue(run.status)},

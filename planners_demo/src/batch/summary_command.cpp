@@ -6,7 +6,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addSummaryOptions(CLI::App& app, Arguments& args) {
   app.add_option("results", args.batch.files, "files of `bench planners`, with the same header")
       ->required()
       ->type_name("RESULTS.jsonl...");
@@ -24,7 +24,7 @@ const Command kBenchSummaryCommand{
         "swept bench planners models/robots/rook7/rook7.urdf --group arm --set shelf "
         "--problems models/problems.json -o results.jsonl && swept bench summary results.jsonl",
     .exitCodes = "Exit codes: 0 read, whatever the results; 3 bad input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addSummaryOptions,
     .run = runBenchSummary};
 
 }  // namespace swept

@@ -7,7 +7,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addEdgesOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   app.add_option("--problems", args.problems, "problem file: the worlds of the motions")
@@ -40,7 +40,7 @@ const Command kBenchEdgesCommand{
         "swept bench edges models/robots/rook7/rook7.urdf --group arm "
         "--problems models/problems.json --edges models/edges.csv",
     .exitCodes = "Exit codes: 0 measured, whatever the verdicts; 3 bad input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addEdgesOptions,
     .run = runBenchEdges};
 
 }  // namespace swept

@@ -6,7 +6,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addVerifyOptions(CLI::App& app, Arguments& args) {
   app.add_option("path", args.verify.path, "path file that 'swept plan -o' has written")
       ->required()
       ->type_name("PATH.json");
@@ -34,7 +34,7 @@ const Command kVerifyCommand{
     .exitCodes =
         "Exit codes: 0 the proof holds, 1 it does not, or something was changed, 3 bad "
         "input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addVerifyOptions,
     .run = runVerify};
 
 }  // namespace swept

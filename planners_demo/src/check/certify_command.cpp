@@ -7,7 +7,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addCertifyOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   app.add_option("path", args.path,
                  "path of any planner: .csv (a line of joint names, then values), .yaml "
@@ -47,7 +47,7 @@ const Command kCertifyCommand{
     .exitCodes =
         "Exit codes: 0 all segments are free, 1 one is in collision, 2 one is undecided, or "
         "the proof\nthat -o asks for was not found, 3 bad input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addCertifyOptions,
     .run = runCertify,
     .notes = notes};
 

@@ -7,7 +7,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addCheckOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addRuleOptions(app, args);
   addSceneOptions(app, args);
@@ -28,7 +28,7 @@ const Command kCheckCommand{.name = "check",
                                 "swept check models/robots/rook7/rook7.urdf home ready --group arm "
                                 "--scene models/scenes/narrow_slot.yaml",
                             .exitCodes = kVerdictExitCodes,
-                            .addOptions = addOptions,
+                            .addOptions = addCheckOptions,
                             .run = runCheck,
                             .notes = stateListNotes,
                             .takesLists = true};

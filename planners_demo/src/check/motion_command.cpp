@@ -7,7 +7,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addMotionOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
@@ -29,7 +29,7 @@ const Command kMotionCommand{
         "swept motion models/robots/rook7/rook7.urdf home ready --group arm "
         "--scene models/scenes/narrow_slot.yaml",
     .exitCodes = kVerdictExitCodes,
-    .addOptions = addOptions,
+    .addOptions = addMotionOptions,
     .run = runMotion,
     .notes = stateListNotes,
     .takesLists = true};

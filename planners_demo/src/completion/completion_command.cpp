@@ -5,7 +5,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addCompletionOptions(CLI::App& app, Arguments& args) {
   app.add_option("shell", args.shell,
                  "bash, zsh or fish; or 'words': what may come at the end of LINE, a word per "
                  "line, as their "
@@ -30,7 +30,7 @@ const Command kCompletionCommand{
     .summary = "Completion of subcommands, options and the robot's names, as a script for a shell",
     .example = "swept completion bash > swept_completion.bash",
     .exitCodes = "Exit codes: 0 printed, 3 bad input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addCompletionOptions,
     .run = runCompletion};
 
 }  // namespace swept

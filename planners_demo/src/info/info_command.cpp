@@ -6,7 +6,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addInfoOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addRuleOptions(app, args);
   addSceneOptions(app, args);
@@ -28,7 +28,7 @@ const Command kInfoCommand{
     .example =
         "swept info models/robots/rook7/rook7.urdf --scene models/scenes/shelf.yaml --group arm",
     .exitCodes = kVerdictExitCodes,
-    .addOptions = addOptions,
+    .addOptions = addInfoOptions,
     .run = runInfo};
 
 }  // namespace swept

@@ -5,7 +5,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addViewOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addRuleOptions(app, args);
   addSceneOptions(app, args);
@@ -29,7 +29,7 @@ const Command kViewCommand{.name = "view",
                                "swept view models/robots/rook7/rook7.urdf ready --group arm "
                                "--scene models/scenes/shelf.yaml -o page.html",
                            .exitCodes = kVerdictExitCodes,
-                           .addOptions = addOptions,
+                           .addOptions = addViewOptions,
                            .run = runView,
                            .notes = stateNotes};
 

@@ -8,7 +8,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addPlanOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
@@ -94,7 +94,7 @@ const Command kPlanCommand{.name = "plan",
                                "swept plan models/robots/rook7/rook7.urdf home ready --group arm "
                                "--scene models/scenes/narrow_slot.yaml -o path.json",
                            .exitCodes = kVerdictExitCodes,
-                           .addOptions = addOptions,
+                           .addOptions = addPlanOptions,
                            .run = runPlan,
                            .notes = notes};
 

@@ -5,7 +5,7 @@
 namespace swept {
 namespace {
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addReplayOptions(CLI::App& app, Arguments& args) {
   app.add_option("cases", args.cases,
                  "cases: pairs of shapes, states and motions of robots; planners_demo/README.md")
       ->required()
@@ -21,7 +21,7 @@ const Command kReplayCommand{
     .summary = "Queries from files, asked again, against known answers",
     .example = "swept replay models/cases.json",
     .exitCodes = "Exit codes: 0 all passed or skipped, 1 a case failed, 3 bad input or usage.",
-    .addOptions = addOptions,
+    .addOptions = addReplayOptions,
     .run = runReplay};
 
 }  // namespace swept

@@ -18,7 +18,7 @@ constexpr double kZeroRow = 26;  // between the axis and the lowest decade
 
 constexpr double kRounding = 1e-12;  // smaller errors are drawn as none
 
-constexpr const char* kStyle =
+constexpr const char* kPlotStyle =
     "<style>"
     ".plot{font:12px system-ui,\"DejaVu Sans\",sans-serif}"
     ".plot .back{fill:#fff}.plot text{fill:#1d2430}.plot .soft{fill:#667085}"
@@ -109,8 +109,8 @@ class Drawing {
     out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\"" +
            attribute("viewBox", "0 0 " + px(kWidth) + " " + px(kHeight)) +
            attribute("width", px(kWidth)) + attribute("height", px(kHeight)) +
-           " role=\"img\">\n<title>" + markupText(plot_.title) + "</title>\n" + kStyle + "<rect" +
-           attribute("width", px(kWidth)) + attribute("height", px(kHeight)) +
+           " role=\"img\">\n<title>" + markupText(plot_.title) + "</title>\n" + kPlotStyle +
+           "<rect" + attribute("width", px(kWidth)) + attribute("height", px(kHeight)) +
            " class=\"back\"/>\n" + words(kLeft, 26, "start", "title", plot_.title);
     axes();
     legend();

@@ -52,7 +52,7 @@ void addMeasureOptions(CLI::App& app, Arguments& args) {
       ->check(within(1, 10000, "between 1 and 10000"));
 }
 
-void addOptions(CLI::App& app, Arguments& args) {
+void addReportOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
   addRuleOptions(app, args);
   addWorldOptions(app, args);
@@ -81,7 +81,7 @@ const Command kReportCommand{
     .exitCodes =
         "Exit codes: 0 measured, whatever came of it; 3 bad input or usage; 130 stopped by SIGINT "
         "or SIGTERM,\nnothing written.",
-    .addOptions = addOptions,
+    .addOptions = addReportOptions,
     .run = runReport};
 
 }  // namespace swept

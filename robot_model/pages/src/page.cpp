@@ -13,8 +13,6 @@ namespace swept {
 
 namespace {
 
-enum class Kind { Nothing, States, Motions, Paths };
-
 std::vector<double> checkedState(const Checker& checker, const std::string& label,
                                  std::span<const double> state) {
   const std::size_t expected = checker.group().variables.size();
@@ -30,6 +28,8 @@ std::vector<double> checkedState(const Checker& checker, const std::string& labe
 }  // namespace
 
 struct Page::Data {
+  enum class Kind { Nothing, States, Motions, Paths };
+
   std::shared_ptr<const Checker> checker;
   PageOptions options;
   PageContent content;
@@ -86,7 +86,7 @@ Page& Page::operator=(Page&&) noexcept = default;
 
 void Page::addState(const std::string& label, std::span<const double> state) {
   std::vector<double> q = checkedState(*data_->checker, label, state);
-  data_->require(Kind::States);
+  data_->require(Data::Kind::States);
   data_->content.states.push_back({.label = label, .q = std::move(q)});
 }
 
@@ -94,7 +94,7 @@ void Page::addMotion(const std::string& label, std::span<const double> from,
                      std::span<const double> to) {
   const std::vector<double> start = checkedState(*data_->checker, label, from);
   const std::vector<double> end = checkedState(*data_->checker, label, to);
-  data_->require(Kind::Motions);
+  data_->require(Data::Kind::Motions);
   data_->findings.push_back(data_->addMotion(label, start, end));
 }
 
@@ -102,7 +102,7 @@ void Page::addPath(const std::string& label, std::span<const std::vector<double>
   if (states.empty()) throw std::invalid_argument("path '" + label + "' has no state");
   for (const std::vector<double>& state : states)
     static_cast<void>(checkedState(*data_->checker, label, state));
-  data_->require(Kind::Paths);
+  data_->require(Data::Kind::Paths);
   std::vector<Finding> segments;
   const std::size_t count = std::max<std::size_t>(1, states.size() - 1);
   for (std::size_t i = 0; i < count; ++i)

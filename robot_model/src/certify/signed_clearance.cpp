@@ -21,12 +21,12 @@ constexpr double kStep = 1e-6;
 constexpr double kFewestUlps = 4.0;
 
 /// The least so far, and whose it is.
-struct Nearest {
+struct NearestApart {
   SignedClearance clearance;
   GeometryPair pair;
   bool known = false;
 
-  Nearest() {
+  NearestApart() {
     clearance.lower = std::numeric_limits<double>::infinity();
     clearance.upper = std::numeric_limits<double>::infinity();
   }
@@ -50,8 +50,8 @@ SignedClearance apart(const PairDistance& distance) {
   return found;
 }
 
-Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
-  Nearest nearest;
+NearestApart nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
+  NearestApart nearest;
   NearGeometries(model, query, workspace).forNearest(0.0, [&](const GeometryPair& pair) {
     const double enough = nearest.clearance.lower;
     const PairDistance distance = query.measure(pair, enough, tolerance::kDistance);
@@ -62,8 +62,8 @@ Nearest nearestApart(const CheckerModel& model, PairQuery& query, WorkspaceData&
 }
 
 /// Of the pairs whose boxes meet; the others are apart, as is what is out of reach.
-Nearest deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
-  Nearest nearest;
+NearestApart deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
+  NearestApart nearest;
   NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
   for (const std::uint32_t index : workspace.pairs) {
     const GeometryPair& pair = model.pairs[index];
@@ -86,7 +86,8 @@ double stepFrom(const KinematicModel& model, std::size_t value, double q) {
 /// The velocity of the pair's points past each other along the normal, for each value of the
 /// configuration.
 void differentiate(const CheckerModel& model, PairQuery& query, std::span<const double> q,
-                   const Nearest& nearest, std::span<double> gradient, WorkspaceData& workspace) {
+                   const NearestApart& nearest, std::span<double> gradient,
+                   WorkspaceData& workspace) {
   const SignedClearance& found = nearest.clearance;
   std::ranges::copy(q, workspace.probe.begin());
   const std::span<const double> from = fullConfiguration(model, q, workspace.from);
@@ -113,9 +114,9 @@ SignedClearance signedClearance(const CheckerModel& model, std::span<const doubl
   const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!query.startAt(q)) return {};
-  Nearest nearest = nearestApart(model, query, workspace);
+  NearestApart nearest = nearestApart(model, query, workspace);
   if (!(nearest.clearance.lower > 0.0)) {
-    const Nearest overlap = deepest(model, query, workspace);
+    const NearestApart overlap = deepest(model, query, workspace);
     if (overlap.known) nearest = overlap;
   }
   if (nearest.known && !gradient.empty()) {

@@ -18,16 +18,16 @@ namespace swept::detail {
 
 namespace {
 
-using Count = std::int64_t;
+using Number = std::int64_t;
 
-constexpr Count kMostBytes = Count{1} << 32;
-constexpr Count kMostNodes = 1'000'000;
-constexpr int kMaxDepth = 500;
+constexpr Number kMostBytes = Number{1} << 32;
+constexpr Number kMostNodes = 1'000'000;
+constexpr int kDeepest = 500;
 
 /// The parts of a file.
 struct Parts {
   std::string_view json;
-  Count binary = 0;  ///< bytes that follow
+  Number binary = 0;  ///< bytes that follow
 };
 
 Parts partsOf(std::string_view bytes, bool isBinary, const InputSource& source) {
@@ -52,14 +52,14 @@ Parts partsOf(std::string_view bytes, bool isBinary, const InputSource& source) 
   if (rest - json < kChunkHeader || number(next + 4) != kBinary ||
       number(next) > rest - json - kChunkHeader)
     source.fail(0, "its second part is not binary, or is cut off");
-  parts.binary = static_cast<Count>(number(next));
+  parts.binary = static_cast<Number>(number(next));
   return parts;
 }
 
 /// Walks through what a file shows, and reads all that faces depend on.
 class GltfReader {
  public:
-  GltfReader(const nlohmann::json& json, Count binary, const InputSource& source)
+  GltfReader(const nlohmann::json& json, Number binary, const InputSource& source)
       : root_(json, "", source.name()), binary_(binary) {}
   MeshSummary read();
 
@@ -73,28 +73,28 @@ class GltfReader {
   std::vector<JsonValue> list(const std::string& key) const {
     return root_.has(key) ? root_.at(key).elements() : std::vector<JsonValue>();
   }
-  static Count orElse(const JsonValue& value, const std::string& key, Count fallback) {
+  static Number orElse(const JsonValue& value, const std::string& key, Number fallback) {
     return value.has(key) ? value.at(key).whole(0, kMostBytes) : fallback;
   }
   static const JsonValue& pick(const JsonValue& index, const std::vector<JsonValue>& all) {
     return all[static_cast<std::size_t>(index.whole(0, std::ssize(all) - 1))];
   }
   void checkExtensions() const;
-  Count sizeOfBuffer(const JsonValue& index) const;
+  Number sizeOfBuffer(const JsonValue& index) const;
   /// Returns an accessor's count. The accessor must have this type and one of these component
   /// types, each given with its size.
-  Count readAccessor(const JsonValue& accessor, const std::string& type, Count width,
-                     std::initializer_list<std::pair<Count, Count>> kinds) const;
+  Number readAccessor(const JsonValue& accessor, const std::string& type, Number width,
+                      std::initializer_list<std::pair<Number, Number>> kinds) const;
   void readPrimitive(const JsonValue& primitive, Mesh& mesh) const;
   Mesh readMesh(const JsonValue& value) const;
   static Eigen::Affine3d placeOf(const JsonValue& node);
   void show(const JsonValue& index, const Eigen::Affine3d& file_from_parent, int depth);
 
   JsonValue root_;
-  Count binary_;
+  Number binary_;
   std::vector<JsonValue> buffers_, views_, accessors_, nodes_;
   std::vector<Mesh> meshes_;
-  Count nodesShown_ = 0;
+  Number nodesShown_ = 0;
   MeshSummary summary_;
 };
 
@@ -109,16 +109,16 @@ void GltfReader::checkExtensions() const {
   }
 }
 
-Count GltfReader::sizeOfBuffer(const JsonValue& index) const {
+Number GltfReader::sizeOfBuffer(const JsonValue& index) const {
   const JsonValue& buffer = pick(index, buffers_);
-  const Count size = buffer.at("byteLength").whole(0, kMostBytes);
-  Count there = binary_;
+  const Number size = buffer.at("byteLength").whole(0, kMostBytes);
+  Number there = binary_;
   if (buffer.has("uri")) {
     const std::string uri = buffer.at("uri").text();
     const std::size_t comma = uri.find(";base64,");
     if (!uri.starts_with("data:") || comma == std::string::npos)
       buffer.at("uri").fail("names another file; what is needed has to be in the file itself");
-    there = static_cast<Count>((uri.size() - comma - 8) / 4 * 3);
+    there = static_cast<Number>((uri.size() - comma - 8) / 4 * 3);
   } else if (&buffer != buffers_.data()) {
     buffer.fail("has no uri");
   }
@@ -128,19 +128,19 @@ Count GltfReader::sizeOfBuffer(const JsonValue& index) const {
   return size;
 }
 
-Count GltfReader::readAccessor(const JsonValue& accessor, const std::string& type, Count width,
-                               std::initializer_list<std::pair<Count, Count>> kinds) const {
+Number GltfReader::readAccessor(const JsonValue& accessor, const std::string& type, Number width,
+                                std::initializer_list<std::pair<Number, Number>> kinds) const {
   if (accessor.has("sparse")) accessor.fail("is sparse, which is not read");
   if (accessor.at("type").text() != type) accessor.at("type").refuse(type);
-  const Count kind = accessor.at("componentType").whole(0, kMostBytes);
+  const Number kind = accessor.at("componentType").whole(0, kMostBytes);
   const auto known = std::ranges::find(kinds, kind, [](const auto& each) { return each.first; });
   if (known == kinds.end()) accessor.at("componentType").refuse("of a kind that is read there");
-  const Count count = accessor.at("count").whole(0, kMostBytes);
+  const Number count = accessor.at("count").whole(0, kMostBytes);
   const JsonValue& view = pick(accessor.at("bufferView"), views_);
-  const Count start = orElse(view, "byteOffset", 0),
-              length = view.at("byteLength").whole(0, kMostBytes);
-  const Count size = width * known->second, step = orElse(view, "byteStride", size);
-  const Count offset = orElse(accessor, "byteOffset", 0);
+  const Number start = orElse(view, "byteOffset", 0),
+               length = view.at("byteLength").whole(0, kMostBytes);
+  const Number size = width * known->second, step = orElse(view, "byteStride", size);
+  const Number offset = orElse(accessor, "byteOffset", 0);
   // Each is below 2^33, so that none of these overflows but the product.
   const bool fits = step >= size && step <= 252 &&
                     start + length <= sizeOfBuffer(view.at("buffer")) &&
@@ -150,12 +150,12 @@ Count GltfReader::readAccessor(const JsonValue& accessor, const std::string& typ
 }
 
 void GltfReader::readPrimitive(const JsonValue& primitive, Mesh& mesh) const {
-  constexpr Count kTriangles = 4, kFan = 6;  // and strips between them
-  const Count mode = primitive.has("mode") ? primitive.at("mode").whole(0, kFan) : kTriangles;
+  constexpr Number kTriangles = 4, kFan = 6;  // and strips between them
+  const Number mode = primitive.has("mode") ? primitive.at("mode").whole(0, kFan) : kTriangles;
   if (mode < kTriangles) return;  // points and lines
   if (primitive.has("targets")) primitive.fail("has targets to change into, which are not read");
   const JsonValue& positions = pick(primitive.at("attributes").at("POSITION"), accessors_);
-  Count corners = readAccessor(positions, "VEC3", 3, {{5126, 4}});
+  Number corners = readAccessor(positions, "VEC3", 3, {{5126, 4}});
   if (primitive.has("indices")) {
     corners = readAccessor(pick(primitive.at("indices"), accessors_), "SCALAR", 1,
                            {{5121, 1}, {5123, 2}, {5125, 4}});
@@ -203,9 +203,9 @@ Eigen::Affine3d GltfReader::placeOf(const JsonValue& node) {
 
 void GltfReader::show(const JsonValue& index, const Eigen::Affine3d& file_from_parent, int depth) {
   const JsonValue& node = pick(index, nodes_);
-  if (++nodesShown_ > kMostNodes || depth > kMaxDepth) {
+  if (++nodesShown_ > kMostNodes || depth > kDeepest) {
     node.fail("is one too many: " + std::to_string(kMostNodes) + " nodes are the most, " +
-              std::to_string(kMaxDepth) + " in each other");
+              std::to_string(kDeepest) + " in each other");
   }
   if (node.has("skin")) node.fail("has a skin, which is not read");
   if (node.has("extensions") && node.at("extensions").has("EXT_mesh_gpu_instancing"))
@@ -235,8 +235,8 @@ MeshSummary GltfReader::read() {
   const std::vector<JsonValue> meshes = list("meshes"), scenes = list("scenes");
   for (const JsonValue& mesh : meshes) meshes_.push_back(readMesh(mesh));
   if (scenes.empty()) root_.at("scenes").fail("has no scene");
-  const Count scene =
-      root_.has("scene") ? root_.at("scene").whole(0, std::ssize(scenes) - 1) : Count{0};
+  const Number scene =
+      root_.has("scene") ? root_.at("scene").whole(0, std::ssize(scenes) - 1) : Number{0};
   const JsonValue& shown = scenes[static_cast<std::size_t>(scene)];
   if (shown.has("nodes"))
     for (const JsonValue& node : shown.at("nodes").elements())

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 /// The reason alone: the library puts its own name and position in front of it.
-std::string reasonOf(const json::exception& error, const char* front) {
+std::string reasonBehind(const json::exception& error, const char* front) {
   const std::string what = error.what();
   const auto at = what.find(front);
   return foreignText(at == std::string::npos ? what
@@ -60,9 +60,9 @@ json parseJson(const std::string& text, const std::string& file) {
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError(file, static_cast<int>(line), "malformed JSON: " + reasonOf(error, ": "));
+    throw InputError(file, static_cast<int>(line), "malformed JSON: " + reasonBehind(error, ": "));
   } catch (const json::exception& error) {  // a number beyond every double
-    throw InputError(file, 0, "malformed JSON: " + reasonOf(error, "] "));
+    throw InputError(file, 0, "malformed JSON: " + reasonBehind(error, "] "));
   }
 }
 

@@ -23,9 +23,9 @@ struct Field {
   std::size_t count = 1;
 };
 
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  HeaderReader(LineReader& lines, const InputSource& source) : lines_(lines), source_(source) {}
+  PcdHeaderReader(LineReader& lines, const InputSource& source) : lines_(lines), source_(source) {}
   PcdHeader read();
 
  private:
@@ -53,7 +53,7 @@ class HeaderReader {
   std::map<std::string_view, Entry> entries_;
 };
 
-void HeaderReader::readEntries() {
+void PcdHeaderReader::readEntries() {
   while (lines_.nextFilled()) {
     std::vector<std::string_view> values = words(lines_.line());
     const std::string_view name = values.front();
@@ -76,19 +76,19 @@ void HeaderReader::readEntries() {
   source_.fail(0, "the file ends where an entry DATA of its header should follow");
 }
 
-const HeaderReader::Entry* HeaderReader::find(std::string_view name) const {
+const PcdHeaderReader::Entry* PcdHeaderReader::find(std::string_view name) const {
   const auto found = entries_.find(name);
   return found == entries_.end() ? nullptr : &found->second;
 }
 
-const HeaderReader::Entry& HeaderReader::require(std::string_view name) const {
+const PcdHeaderReader::Entry& PcdHeaderReader::require(std::string_view name) const {
   const Entry* const entry = find(name);
   if (entry == nullptr) lines_.fail("the header has no entry " + std::string(name));
   return *entry;
 }
 
-const HeaderReader::Entry& HeaderReader::requireValues(std::string_view name,
-                                                       std::size_t count) const {
+const PcdHeaderReader::Entry& PcdHeaderReader::requireValues(std::string_view name,
+                                                             std::size_t count) const {
   const Entry& entry = require(name);
   if (entry.values.size() != count) {
     source_.fail(entry.line, std::string(name) + " has " + std::to_string(entry.values.size()) +
@@ -97,8 +97,8 @@ const HeaderReader::Entry& HeaderReader::requireValues(std::string_view name,
   return entry;
 }
 
-std::uint64_t HeaderReader::wholeNumber(std::string_view name, std::size_t index,
-                                        std::uint64_t least, std::uint64_t most) const {
+std::uint64_t PcdHeaderReader::wholeNumber(std::string_view name, std::size_t index,
+                                           std::uint64_t least, std::uint64_t most) const {
   const Entry& entry = require(name);
   const std::string_view text = entry.values[index];
   const auto value = parseCount(text);
@@ -110,7 +110,7 @@ std::uint64_t HeaderReader::wholeNumber(std::string_view name, std::size_t index
   return *value;
 }
 
-void HeaderReader::checkVersion() const {
+void PcdHeaderReader::checkVersion() const {
   if (find("VERSION") == nullptr) return;
   const Entry& entry = requireValues("VERSION", 1);
   const std::string_view version = entry.values[0];
@@ -120,7 +120,7 @@ void HeaderReader::checkVersion() const {
   }
 }
 
-PcdForm HeaderReader::readForm() const {
+PcdForm PcdHeaderReader::readForm() const {
   const Entry& entry = requireValues("DATA", 1);
   const std::string_view form = entry.values[0];
   if (form == "ascii") return PcdForm::Ascii;
@@ -130,7 +130,7 @@ PcdForm HeaderReader::readForm() const {
                "DATA is " + shown(form) + "; allowed are ascii, binary and binary_compressed");
 }
 
-std::size_t HeaderReader::readPoints() const {
+std::size_t PcdHeaderReader::readPoints() const {
   const auto size = [&](std::string_view name) {
     if (find(name) == nullptr) return std::uint64_t{0};
     requireValues(name, 1);
@@ -150,7 +150,7 @@ std::size_t HeaderReader::readPoints() const {
   return static_cast<std::size_t>(points);
 }
 
-void HeaderReader::readSize(Field& field, std::size_t index) const {
+void PcdHeaderReader::readSize(Field& field, std::size_t index) const {
   const Entry& sizes = require("SIZE");
   const Entry& types = require("TYPE");
   const std::string_view size = sizes.values[index];
@@ -175,7 +175,7 @@ void HeaderReader::readSize(Field& field, std::size_t index) const {
   }
 }
 
-std::vector<Field> HeaderReader::readFields() const {
+std::vector<Field> PcdHeaderReader::readFields() const {
   const Entry& names = require("FIELDS");
   const std::size_t size = names.values.size();
   const bool counted = find("COUNT") != nullptr;
@@ -211,7 +211,7 @@ Scalar scalarOf(const Field& field) {
   }
 }
 
-void HeaderReader::placeAxes(const std::vector<Field>& fields, PcdHeader& header) const {
+void PcdHeaderReader::placeAxes(const std::vector<Field>& fields, PcdHeader& header) const {
   constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
   const int line = require("FIELDS").line;
   std::array<bool, 3> placed{};
@@ -246,7 +246,7 @@ void HeaderReader::placeAxes(const std::vector<Field>& fields, PcdHeader& header
 /// The sensor's position in the points' own frame. The Point Cloud Library's NormalEstimation and
 /// VoxelGridOcclusionEstimation take it so. Some programs write the transform to apply to the
 /// points instead. The library's readers never apply it. The remark is for users who expect it.
-Eigen::Vector3d HeaderReader::readViewpoint() const {
+Eigen::Vector3d PcdHeaderReader::readViewpoint() const {
   if (find("VIEWPOINT") == nullptr) return Eigen::Vector3d::Zero();
   const Entry& entry = requireValues("VIEWPOINT", 7);
   std::array<double, 7> pose{};
@@ -264,7 +264,7 @@ Eigen::Vector3d HeaderReader::readViewpoint() const {
   return {pose[0], pose[1], pose[2]};
 }
 
-PcdHeader HeaderReader::read() {
+PcdHeader PcdHeaderReader::read() {
   readEntries();
   PcdHeader header;
   checkVersion();
@@ -278,7 +278,7 @@ PcdHeader HeaderReader::read() {
 }  // namespace
 
 PcdHeader readPcdHeader(LineReader& lines, const InputSource& source) {
-  return HeaderReader(lines, source).read();
+  return PcdHeaderReader(lines, source).read();
 }
 
 }  // namespace swept::detail

@@ -12,9 +12,9 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-class HeaderReader {
+class PlyHeaderReader {
  public:
-  HeaderReader(LineReader& lines, const InputSource& source) : lines_(lines), source_(source) {}
+  PlyHeaderReader(LineReader& lines, const InputSource& source) : lines_(lines), source_(source) {}
   PlyHeader read();
 
  private:
@@ -32,13 +32,13 @@ class HeaderReader {
   bool formatKnown_ = false;
 };
 
-void HeaderReader::readFirst() {
+void PlyHeaderReader::readFirst() {
   if (!lines_.next() || lines_.line() != "ply") {
     lines_.fail("the first line is " + shown(lines_.line()) + "; it must be 'ply'");
   }
 }
 
-void HeaderReader::readFormat(const Words& line) {
+void PlyHeaderReader::readFormat(const Words& line) {
   if (formatKnown_) lines_.fail("a second line 'format'; one is allowed");
   if (line.size() != 3) lines_.fail("'format' must have a form and a version behind it");
   formatKnown_ = true;
@@ -58,7 +58,7 @@ void HeaderReader::readFormat(const Words& line) {
   header_.form = found->second;
 }
 
-void HeaderReader::readElement(const Words& line) {
+void PlyHeaderReader::readElement(const Words& line) {
   if (line.size() != 3) lines_.fail("'element' must have a name and a count behind it");
   const auto count = parseCount(line[2]);
   if (!count) {
@@ -73,7 +73,7 @@ void HeaderReader::readElement(const Words& line) {
   header_.elements.push_back({std::string(line[1]), lines_.number(), *count, {}});
 }
 
-Scalar HeaderReader::scalar(std::string_view name) const {
+Scalar PlyHeaderReader::scalar(std::string_view name) const {
   constexpr std::array<std::pair<std::string_view, Scalar>, 16> kTypes{
       {{"char", Scalar::Int8},
        {"int8", Scalar::Int8},
@@ -100,7 +100,7 @@ Scalar HeaderReader::scalar(std::string_view name) const {
   return found->second;
 }
 
-void HeaderReader::readProperty(const Words& line) {
+void PlyHeaderReader::readProperty(const Words& line) {
   if (header_.elements.empty()) lines_.fail("'property' before the first 'element'");
   PlyElement& element = header_.elements.back();
   const bool isList = line.size() > 1 && line[1] == "list";
@@ -134,7 +134,7 @@ void HeaderReader::readProperty(const Words& line) {
   element.properties.push_back(std::move(property));
 }
 
-void HeaderReader::checkAxes(const PlyElement& vertex) const {
+void PlyHeaderReader::checkAxes(const PlyElement& vertex) const {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::ranges::count(vertex.properties, axis, &PlyProperty::axis) == 1) continue;
     const std::string name(1, "xyz"[axis]);
@@ -142,7 +142,7 @@ void HeaderReader::checkAxes(const PlyElement& vertex) const {
   }
 }
 
-void HeaderReader::checkVertex() const {
+void PlyHeaderReader::checkVertex() const {
   if (!formatKnown_) lines_.fail("the header has no line 'format'");
   const auto vertex = std::ranges::find_if(header_.elements, isVertex);
   if (vertex == header_.elements.end()) lines_.fail("the header has no element 'vertex'");
@@ -154,7 +154,7 @@ void HeaderReader::checkVertex() const {
   checkAxes(*vertex);
 }
 
-PlyHeader HeaderReader::read() {
+PlyHeader PlyHeaderReader::read() {
   readFirst();
   while (lines_.next()) {
     const Words line = words(lines_.line());
@@ -181,7 +181,7 @@ PlyHeader HeaderReader::read() {
 }  // namespace
 
 PlyHeader readPlyHeader(LineReader& lines, const InputSource& source) {
-  return HeaderReader(lines, source).read();
+  return PlyHeaderReader(lines, source).read();
 }
 
 }  // namespace swept::detail

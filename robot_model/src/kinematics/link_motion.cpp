@@ -51,13 +51,14 @@ using detail::MovingBody;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuseMotion(const std::string& what) {
   throw std::invalid_argument("LinkMotion: " + what);
 }
 
-void requireSize(std::size_t size, std::size_t expected, const std::string& what) {
+void requireValues(std::size_t size, std::size_t expected, const std::string& what) {
   if (size == expected) return;
-  refuse(what + " has " + std::to_string(size) + " values instead of " + std::to_string(expected));
+  refuseMotion(what + " has " + std::to_string(size) + " values instead of " +
+               std::to_string(expected));
 }
 
 // Lemma: the angular velocity is the sum of the joints' spins. Each of them changes by its own
@@ -94,19 +95,19 @@ LinkMotion::LinkMotion(const Robot& robot, std::string_view group, std::string_v
   }
   const Group* const moved = robot.findGroup(group);
   if (moved == nullptr) {
-    refuse("robot '" + robot.name() + "' has no group '" + std::string(group) + "'");
+    refuseMotion("robot '" + robot.name() + "' has no group '" + std::string(group) + "'");
   }
   const std::optional<int> index = robot.findLink(link);
-  if (!index) refuse("robot '" + robot.name() + "' has no link '" + std::string(link) + "'");
-  requireSize(from.size(), moved->variables.size(), "the first configuration");
-  requireSize(to.size(), moved->variables.size(), "the last configuration");
+  if (!index) refuseMotion("robot '" + robot.name() + "' has no link '" + std::string(link) + "'");
+  requireValues(from.size(), moved->variables.size(), "the first configuration");
+  requireValues(to.size(), moved->variables.size(), "the last configuration");
   const Eigen::VectorXd held = reference.value_or(robot.defaultState());
   detail::requireFullState(robot, held, "LinkMotion", "the reference");
 
   const KinematicModel kinematics = detail::compileKinematics(robot, *moved, held);
   std::vector<JointMotion> motion(kinematics.bodies.size());
   if (!detail::StraightPath(kinematics, from, to).linearize(0.5, 0.5, motion)) {
-    refuse(
+    refuseMotion(
         "a value is not finite, a quaternion has no direction, or a prismatic value is outside its "
         "limits");
   }

@@ -8,7 +8,7 @@ namespace swept {
 namespace {
 
 /// Bytes of the UTF-8 character at the front of `text`; 1 if there is none.
-std::size_t sizeOfCharacter(std::string_view text) {
+std::size_t sizeOfPrinted(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::size_t size = byte(0) < 0xc2 ? 1 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
   if (byte(0) > 0xf4 || size > text.size()) return 1;
@@ -25,7 +25,7 @@ bool isControl(unsigned code) {
 std::string escaped(std::string_view text, bool oneLine) {
   std::string safe;
   while (!text.empty()) {
-    const std::size_t size = sizeOfCharacter(text);
+    const std::size_t size = sizeOfPrinted(text);
     // The second byte of U+0080 to U+00BF is the character's number.
     const bool latin = size == 2 && text[0] == '\xc2';
     const unsigned code = static_cast<unsigned char>(text[latin ? 1 : 0]);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostParts = 64;
 constexpr int kMostLooks = 6;
 /// m per half-interval. Shorter ones the exact tier does as well.
-constexpr float kFinestInflation = 2e-4F;
+constexpr float kFinestDivided = 2e-4F;
 /// Middles of shorter half-intervals need not be exact in single precision.
 constexpr double kFinestHalf = 0x1p-20;
 
@@ -93,7 +93,7 @@ class Division {
 
   bool isFine(const OpenPart& part) const {
     return part.half() < kFinestHalf ||
-           search_.inflation(static_cast<float>(part.half())) < kFinestInflation;
+           search_.inflation(static_cast<float>(part.half())) < kFinestDivided;
   }
 
   void place(std::size_t first, std::size_t count) {
