@@ -20,15 +20,15 @@ namespace swept {
 
 namespace {
 
-/// States are looked at eight at a time; so the ranges that threads get are multiples of eight, and
-/// which states are looked at together does not depend on the threads.
+/// States are checked eight at a time. Ranges for threads are multiples of eight, so the groups of
+/// eight do not depend on the threads.
 constexpr std::size_t kTogether = 8;
 constexpr std::size_t kBlocksPerTask = 16;
 constexpr std::size_t kMotionsPerTask = 8;
 
-/// Arenas by their number of threads, kept from call to call: of one that is destroyed after two or
-/// more threads worked in it, oneTBB 2021.8 does not give 7 KB back. There are as many as were ever
-/// used at once.
+/// Arenas by their number of threads, kept from call to call: oneTBB 2021.8 leaks 7 KB of an arena
+/// that is destroyed after two or more threads worked in it. There are as many as were ever used at
+/// once.
 class Arenas {
  public:
   using Arena = std::unique_ptr<oneapi::tbb::task_arena>;
@@ -57,22 +57,22 @@ class Arenas {
   std::map<unsigned, std::vector<Arena>> idle_;
 };
 
-/// Never destroyed: at the end of the program oneTBB may be gone before.
+/// Never destroyed: oneTBB may be destroyed first at the end of the program.
 Arenas& arenas() {
   static Arenas& all = *new Arenas;
   return all;
 }
 
-/// So many threads, but no more than the program lets oneTBB have: of an arena that asks for more
-/// oneTBB warns.
+/// This many threads, but no more than the program allows oneTBB: it warns about an arena that asks
+/// for more.
 unsigned allowed(unsigned threads) {
   using oneapi::tbb::global_control;
   const std::size_t most = global_control::active_value(global_control::max_allowed_parallelism);
   return static_cast<unsigned>(std::min<std::size_t>(threads, most));
 }
 
-/// Calls `work(begin, end, workspace)` for ranges of up to `grain` of [0, count). What the program
-/// lets oneTBB have besides is left as it is.
+/// Calls `work(begin, end, workspace)` for ranges of up to `grain` of [0, count). Leaves the
+/// program's other limits on oneTBB as they are.
 template <typename Work>
 void forRanges(const Checker& checker, std::size_t count, std::size_t grain, unsigned threads,
                const Work& work) {

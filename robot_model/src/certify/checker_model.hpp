@@ -9,7 +9,7 @@
 
 namespace swept::detail {
 
-/// What a Checker asks: the pairs in double precision, and what either tier made of them.
+/// The compiled model of a Checker: the pairs in double precision, and what each tier adds to them.
 struct CheckerModel : PairModel {
   /// The world's boxes, for the exact tier; null for a world with few. Handles are indices into
   /// worldGeometry.

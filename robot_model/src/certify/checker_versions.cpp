@@ -45,7 +45,7 @@ Checker Checker::withWorld(std::shared_ptr<const World> next) const {
   }
   if (!next) throw std::invalid_argument("Checker: the world must not be null");
   CheckerOptions changed = options();
-  // A link may have the name of a body that stands still; rules that name both are still about it.
+  // A link may have the name of a world body. Rules that name both still apply.
   const auto isNamed = [&](std::string_view name) {
     return robot().findLink(name).has_value() || next->find(name) != nullptr ||
            next->findObstacle(name) != nullptr;

@@ -19,9 +19,8 @@ namespace {
 /// tolerance of what stopped it.
 constexpr double kStopShare = 0.45;
 
-/// Once a contact is known, the tolerance that first contacts are looked for with, as a share of
-/// the motion's. A pair that passes closer than the tolerance must not hide the pair that meets
-/// first.
+/// Share of the motion's tolerance that the search for an earlier contact uses. A pair that passes
+/// closer than the tolerance must not hide the pair that meets first.
 constexpr double kContactShare = 1.0 / 16.0;
 
 class ExactSearch {
@@ -35,14 +34,14 @@ class ExactSearch {
       work_.open.clear();
       work_.provenUntil = 1.0;
     } else if (!contacts_.settle()) {
-      // Near the tolerance a proof may hang on the directions that neighbouring intervals suggest.
-      // A second attempt in another order settles some of what the first left open.
+      // Near the tolerance a proof may depend on the directions that neighbouring intervals
+      // suggest. A second attempt in another order settles some pairs that the first left open.
       provePrefix();
     }
   }
 
  private:
-  /// What examining one interval found out. Pairs still open are in work.unresolved.
+  /// The result of one interval. Open pairs are in work.unresolved.
   struct Outcome {
     bool contact = false;      ///< at the middle
     bool atTolerance = false;  ///< some open pair moves less than the query's tolerance
@@ -85,9 +84,9 @@ class ExactSearch {
 
   bool budgetLeft() const { return workLeft(model_, effort_); }
 
-  /// All that is open, a level of the bisection at a time, so that contacts show early wherever
-  /// they are. Ends at the first contact, or with the level in which some interval turned out
-  /// undecidable. True: all of it is proven.
+  /// Examines all open work, one level of the bisection at a time, so that contacts show early
+  /// wherever they are. Ends at the first contact, or with the level in which an interval turned
+  /// out undecidable. True: all of it is proven.
   bool searchAll() {
     OpenWork& now = work_.now;
     OpenWork& next = work_.next;
@@ -111,11 +110,11 @@ class ExactSearch {
     return true;
   }
 
-  /// From the left: the largest t up to which everything is proven, to within the tolerance, and
-  /// the first contact. Contacts on the way move the witness forward in time, and nothing behind it
-  /// matters any more. Without a contact the search ends where the proof does. With one it goes on
-  /// from there: what ends the proof may be a pair that passes close by, or one of several that are
-  /// about to meet.
+  /// Finds, from the left, the largest t up to which everything is proven, to within the tolerance,
+  /// and the first contact. A contact on the way moves the witness forward in time, and nothing
+  /// behind it matters any more. Without a contact the search ends where the proof does. With one
+  /// it goes on from there: the proof may have ended at a pair that passes close by, or at one of
+  /// several that are about to meet.
   void provePrefix() {
     auto& [stack, pairs] = work_.now;
     stackByTime(work_);
@@ -166,7 +165,7 @@ class ExactSearch {
     return false;
   }
 
-  /// What follows may be searched further.
+  /// The first call sets the end. The search may go on behind it.
   void endPrefix(double end) {
     if (prefixEnded_) return;
     prefixEnded_ = true;

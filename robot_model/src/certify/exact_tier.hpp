@@ -13,7 +13,7 @@ namespace swept::detail {
 /// distances at its middle and by bounds on their approach; see ApproachBound.
 class ExactTier final : public ProofTier {
  public:
-  /// `oracle`: of `query`. Adds what it looks at to `effort`. All have to outlive this.
+  /// `oracle` uses `query`. Adds the work to `effort`. All arguments must outlive this.
   ExactTier(const CheckerModel& model, PairQuery& query, PairOracle& oracle,
             ConfirmedContacts& contacts, WorkspaceData& workspace, Effort& effort)
       : model_(model),
@@ -23,7 +23,7 @@ class ExactTier final : public ProofTier {
         workspace_(workspace),
         effort_(effort) {}
 
-  /// Says nothing of a path that the query cannot take.
+  /// Leaves `work` as it is if the query cannot take the path.
   void prove(ProofWork& work) override;
 
  private:

@@ -16,8 +16,8 @@ namespace swept::detail {
 
 namespace {
 
-/// Proves one part. Both queries take the same steps until the first contact; see
-/// ConfirmedContacts. `spent`: effort that counts against the limits, too.
+/// The certificate of one part. Both queries take the same steps until the first contact; see
+/// ConfirmedContacts. `spent`: effort of earlier parts, which counts against the limits.
 MotionCertificate provePart(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
                             const Effort& spent, WorkspaceData& workspace) {
   MotionCertificate certificate;
@@ -55,8 +55,7 @@ MotionCertificate provePart(const CheckerModel& model, const JointPath& path, Mo
   return certificate;
 }
 
-/// Takes over what a part says; what lies before it, its effort too, is part of the certificate
-/// already.
+/// Adds a part's certificate to that of the parts before it. Its effort includes theirs.
 void addPart(const WaypointSegment& part, MotionCertificate&& own, MotionCertificate& all) {
   all.effort = own.effort;
   const bool open = all.verdict != Verdict::Free;  // an earlier part was left undecided

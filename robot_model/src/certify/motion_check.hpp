@@ -8,7 +8,7 @@
 
 namespace swept::detail {
 
-/// Proves a motion free, by SimdTier and then ExactTier. Beside moving obstacles it does so part by
+/// Asks SimdTier and then ExactTier about a motion. Beside moving obstacles it does so part by
 /// part, between their waypoints.
 MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
                                 MotionQuery wanted, WorkspaceData& workspace);
@@ -17,14 +17,14 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
                                 std::span<const double> to, MotionQuery wanted,
                                 WorkspaceData& workspace);
 
-/// m. Clearances that some other motion has.
+/// m. Clearances of other motions.
 struct OtherClearances {
   double world = std::numeric_limits<double>::infinity();  ///< of all pairs, unless by kind
   double self = std::numeric_limits<double>::infinity();   ///< by kind alone
 };
 
-/// Pairs that stay at least as far apart as `others` has it are looked at no closer than shows
-/// that, and nothing else is said of them: `upper` stays infinite where none comes nearer.
+/// A pair that stays farther apart than `others` is refined only until that is proven, and the
+/// result does not contain it: `upper` stays infinite if no pair comes nearer.
 MotionClearance motionClearance(const CheckerModel& model, const JointPath& path, double accuracy,
                                 ClearanceQuery wanted, WorkspaceData& workspace,
                                 OtherClearances others = {});

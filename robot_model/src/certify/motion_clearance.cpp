@@ -15,7 +15,7 @@ namespace swept::detail {
 
 namespace {
 
-/// What is known of one kind of pairs over one part of a motion.
+/// The bounds of one kind of pairs over one part of a motion.
 struct KindClearance {
   double lower = std::numeric_limits<double>::infinity();  ///< m
   double upper = std::numeric_limits<double>::infinity();  ///< m
@@ -24,16 +24,15 @@ struct KindClearance {
   std::optional<GeometryPair> nearest;
 };
 
-/// Branch and bound over intervals and pairs. Distances at the middles give upper bounds; less what
-/// the pair can approach within the interval, lower ones. Whatever cannot be below the best upper
-/// bound by more than the accuracy is dropped. What a pair can approach along the direction in
-/// which it is nearest is the better bound where it moves across that, as bodies do that slide
-/// along others. Pairs of different kinds are not compared with each other where clearances are
-/// wanted by kind.
+/// Branch and bound over intervals and pairs. Distances at the middles are upper bounds. Distances
+/// less the possible approach within the interval are lower bounds. A pair that cannot be below the
+/// best upper bound by more than the accuracy is dropped. The approach along the direction in which
+/// a pair is nearest is the better bound if the pair moves across that direction, as sliding bodies
+/// do. If clearances are wanted by kind, pairs of different kinds do not limit each other.
 class ClearanceSearch {
  public:
-  /// `budget`: intervals that may be examined, at least 1. `queries`: pairs that may be looked at,
-  /// but for the first interval's. `others`: see motionClearance.
+  /// `budget`: most intervals to examine, at least 1. `queries`: most pairs to examine after the
+  /// first interval. `others`: see motionClearance.
   ClearanceSearch(const CheckerModel& model, double accuracy, bool byKind, int budget,
                   std::int64_t queries, const OtherClearances& others, WorkspaceData& workspace)
       : model_(model),
@@ -63,15 +62,14 @@ class ClearanceSearch {
     for (KindClearance& kind : kinds_) kind.lower = std::clamp(kind.lower, 0.0, kind.upper);
   }
 
-  /// Of pairs that are `self` in the sense of Witness::selfPair, or are not; all are among the
-  /// latter unless clearances are wanted by kind.
+  /// The clearance of pairs that are, or are not, `self` in the sense of Witness::selfPair. Without
+  /// clearances by kind, all pairs are among the latter.
   const KindClearance& ofKind(bool self) const { return kinds_[self ? 1 : 0]; }
   int intervals() const { return intervals_; }
   std::int64_t queriesLeft() const { return queriesLeft_; }
 
  private:
-  /// The whole motion, and of all pairs those that are left open: into the first level and
-  /// `measured`.
+  /// Examines the whole motion. Puts the open pairs into `measured` and into the first level.
   void lookAtAll() {
     auto& open = workspace_.measured;
     open.clear();
@@ -122,15 +120,15 @@ class ClearanceSearch {
     --waiting_;
   }
 
-  /// Whether the halves of the current interval may not be looked at, with so many pairs behind
-  /// `first` others. What waits has to be looked at: without a bound on it there is none on the
-  /// motion.
+  /// Whether the budget forbids to examine the halves of the current interval, with `count` pairs
+  /// behind `first` others. Every waiting interval must be examined, since the motion has no bound
+  /// without one for each.
   bool isLast(std::size_t first, std::size_t count) const {
     return waiting_ > budget_ - intervals_ - 2 ||
            2 * static_cast<std::int64_t>(count) > queriesLeft_ || first + count > kMostWaiting;
   }
 
-  /// The halves of an interval with what is open of it, behind `first`.
+  /// Adds both halves of an interval, with the pairs behind `first`.
   void pushHalves(double begin, double end, std::size_t first, OpenWork& level) {
     const std::size_t count = level.pairs.size() - first;
     if (count == 0) return;
@@ -143,23 +141,24 @@ class ClearanceSearch {
     return kinds_[byKind_ && model_.isSelfPair(pair) ? 1 : 0];
   }
 
-  /// Whether shorter intervals are wanted. Of what is no number they say no more.
+  /// Whether shorter intervals can improve the bound. They cannot for NaN.
   bool isOpen(double bound, const KindClearance& kind) const {
     return kind.upper > 0.0 && bound < kind.upper - slack(kind);
   }
 
-  /// What is no number says nothing.
+  /// NaN gives no bound.
   static void settle(double bound, KindClearance& kind) {
     kind.lower = bound > 0.0 ? std::min(kind.lower, bound) : 0.0;
   }
 
-  /// m. The accuracy, or half of a clearance that is small against it: what is free is shown to be.
+  /// m. The accuracy, or half of a clearance that is small against it, so that a free motion is
+  /// shown to be free.
   double slack(const KindClearance& kind) const {
     return std::min(accuracy_, std::max(0.5 * kind.upper, 0.01 * accuracy_));
   }
 
-  /// m. Lower bound of the pair's distance over the interval; no number: there is none, however
-  /// short that is.
+  /// m. Lower bound of the pair's distance over the interval. NaN: there is none, however short the
+  /// interval is.
   double boundPair(const GeometryPair& pair, double middle, double half, KindClearance& kind) {
     if (!(kind.upper > 0.0)) return 0.0;  // the least is known already
     const double travel = query_.travel(pair, half);
@@ -193,7 +192,7 @@ class ClearanceSearch {
   std::array<KindClearance, 2> kinds_;
 };
 
-/// Takes over what is known of a part of the motion.
+/// Adds the bounds of a part of the motion.
 void addPart(const CheckerModel& model, const WaypointSegment& part, const KindClearance& own,
              ClearanceInterval& all) {
   all.lower = std::min(all.lower, own.lower);
@@ -204,7 +203,7 @@ void addPart(const CheckerModel& model, const WaypointSegment& part, const KindC
   all.bodyB = model.nameOfB(*own.nearest);
 }
 
-/// The whole, from what is known of the kinds that are wanted.
+/// The least over the kinds that are wanted.
 void addKinds(ClearanceQuery wanted, MotionClearance& all) {
   ClearanceInterval& whole = all;
   if (wanted == ClearanceQuery::World) {
@@ -229,7 +228,7 @@ MotionClearance motionClearance(const CheckerModel& model, const JointPath& path
                                 ClearanceQuery wanted, WorkspaceData& workspace,
                                 OtherClearances others) {
   const bool byKind = wanted != ClearanceQuery::Least;
-  // Nothing is below 0: of the kind that is not wanted no pair is looked at.
+  // No clearance is below 0: this skips the pairs of the kind that is not wanted.
   if (wanted == ClearanceQuery::World) others.self = 0.0;
   if (wanted == ClearanceQuery::Self) others.world = 0.0;
   MotionClearance all;

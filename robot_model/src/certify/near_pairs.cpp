@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Rounded outward; infinite where the geometry is.
+/// The box of a geometry, rounded outward. Infinite if the geometry is.
 Aabb boxOf(const WorldGeometry& geometry) {
   const Eigen::Isometry3d world_from_box = geometry.box_from_world.inverse();
   const Vector3d center = world_from_box.translation();

@@ -13,7 +13,7 @@
 
 namespace swept::detail {
 
-/// Worlds with fewer pieces of geometry are looked through one by one.
+/// Worlds with fewer pieces of geometry have no tree of boxes.
 inline constexpr std::size_t kFewestBoxes = 32;
 
 /// The boxes of the model's world, handles being indices into CheckerModel::worldGeometry; null for
@@ -21,7 +21,7 @@ inline constexpr std::size_t kFewestBoxes = 32;
 std::shared_ptr<const SweepAndPrune> compileBoxes(const CheckerModel& model,
                                                   const CheckerModel* like);
 
-/// The exact tier's pairs in order of their boxes: of all pairs of a large world, few come near.
+/// Finds the pairs whose boxes come near: few of all pairs of a large world.
 class NearGeometries {
  public:
   NearGeometries(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace)
@@ -31,9 +31,9 @@ class NearGeometries {
   /// stay apart by more than their margins.
   void collect(double half, std::vector<std::uint32_t>& pairs);
 
-  /// Visits pairs of pieces of the bodies that are checked against each other, pieces out of reach
-  /// too, until all others are proven to stay at least as far apart on [t - half, t + half] as
-  /// `least` (m) or the least bound that `visit(const GeometryPair&)` has returned.
+  /// Visits pairs of pieces of checked bodies, also pieces out of reach. Stops when all other pairs
+  /// are proven to stay at least as far apart on [t - half, t + half] as `least` (m) or the least
+  /// bound that `visit(const GeometryPair&)` has returned.
   template <typename Visitor>
   void forNearest(double half, const Visitor& visit,
                   double least = std::numeric_limits<double>::infinity()) {
@@ -42,8 +42,8 @@ class NearGeometries {
       visitNear(model_.pairs[pair], half, least, visit);
   }
 
-  /// The same, of pairs with the world, moving obstacles among it, and of the others: the bounds on
-  /// the ones say nothing of the others.
+  /// The same for pairs with the world, moving obstacles included, and for all other pairs. The
+  /// bounds of one kind do not limit the other.
   template <typename Visitor>
   void forNearestByKind(double half, const Visitor& visit,
                         double world = std::numeric_limits<double>::infinity(),
@@ -58,7 +58,7 @@ class NearGeometries {
   template <typename Visitor>
   void visitNear(const GeometryPair& pair, double half, double& least, const Visitor& visit) {
     const double approach = half > 0.0 ? query_.travel(pair, half) : 0.0;
-    // What is no number says nothing.
+    // NaN settles nothing.
     const bool settled = query_.coarseDistance(pair) - approach >= least;
     if (!settled) least = std::min(least, visit(pair));
   }
@@ -83,7 +83,7 @@ class NearGeometries {
     }
   }
 
-  /// Of the geometry with the world, ascending in the world's geometry.
+  /// The pairs of a geometry with the world, ascending by the world's geometry.
   std::span<const GeometryPair> worldPairs(std::size_t geometry) const {
     const std::uint32_t first = model_.firstWorldPair[geometry];
     return {model_.pairs.data() + first, model_.firstWorldPair[geometry + 1] - first};

@@ -7,7 +7,7 @@ namespace swept::detail {
 
 namespace {
 
-/// Moving obstacles come last: no name of a link or attached body is one of theirs.
+/// Moving obstacles come last, and no link or attached body has the name of one.
 int collisionBodyNamed(const CheckerModel& model, const std::string& name) {
   const auto found = std::ranges::find(model.collisionBodies, name, &CollisionBody::name);
   return found == model.collisionBodies.end()

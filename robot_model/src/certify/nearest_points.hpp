@@ -5,9 +5,9 @@
 
 namespace swept::detail {
 
-/// Gives a witness the nearest points of its two bodies, all of their pieces, at the t of the
-/// query. Whoever proves that two bodies are within their margin stops at any two points that are:
-/// bodies that overlap may have a witness with a distance.
+/// Replaces a witness's points by the nearest points of its two bodies, over all of their pieces,
+/// at the query's t. A proof of contact stops at any two points within the margin, so bodies that
+/// overlap may have a witness with a distance.
 void takeNearestPoints(const CheckerModel& model, PairQuery& query, Witness& witness);
 
 }  // namespace swept::detail

@@ -10,14 +10,14 @@
 
 namespace swept::detail {
 
-/// Looks at one motion on exact geometry, where the SIMD tier asks for it.
+/// Examines one motion on exact geometry for the SIMD tier.
 class PairOracle final : public ExactOracle {
  public:
   PairOracle(const CheckerModel& model, const JointPath& path, PairQuery& query,
              ConfirmedContacts& contacts, Effort& effort)
       : model_(model), path_(path), query_(query), contacts_(contacts), effort_(effort) {}
 
-  /// Has the query take the motion, once. False: nothing can be said about it.
+  /// Gives the path to the query, once. False: the query cannot take it.
   bool start();
 
   bool isContact(const SimdContact& contact, double t) override;

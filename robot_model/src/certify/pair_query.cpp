@@ -131,8 +131,8 @@ const Isometry3d& PairQuery::pose(int geometry) {
   return placed.world_from_shape;
 }
 
-/// Translations move the coordinates' magnitude, each geometry's those of the joints that carry it,
-/// and values may round by more than what they come to; the rest is known at compile time.
+/// The part that translations and large values add. Each geometry has the translations of the
+/// joints that carry it. The rest is known at compile time.
 double PairQuery::rounding(const GeometryPair& pair) const {
   const double perMetre = tolerance::kRoundingPerJoint * (transformsOf(model_, pair) + 2.0);
   const auto carried = [&](int geometry) {
@@ -158,7 +158,7 @@ double PairQuery::travel(const GeometryPair& pair, double half) {
 }
 
 Aabb PairQuery::ballBox(int geometry, double half) {
-  // Of a geometry with pairs in the world, whose first travel is in the model frame.
+  // The geometry has pairs with the world, whose motion bound is in the model frame.
   const GeometryPair& pair = model_.pairs[model_.firstWorldPair[geometry]];
   const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) +
                        model_.largestMargin + largestRounding();
@@ -173,7 +173,7 @@ Aabb PairQuery::ballBox(const GeometryPair& pair, double half) {
 Aabb PairQuery::boxAround(int geometry, double reach) {
   const Vector3d all = Vector3d::Constant(reach * (1.0 + kVelocityRounding));
   const Vector3d& middle = center(geometry);
-  // Of what is no number a box would meet nothing.
+  // A NaN box overlaps nothing, so return an unbounded one.
   if (!(reach < kLargestNorm)) {
     const Vector3d everywhere = Vector3d::Constant(std::numeric_limits<double>::infinity());
     return {-everywhere, everywhere};
@@ -213,7 +213,7 @@ double PairQuery::coarseDistance(const GeometryPair& pair) {
   return outside.norm() - radius - rounding(pair);
 }
 
-/// The containing balls (and the world geometry's box) alone, along the direction between them. A
+/// Compares the containing balls (and the world geometry's box) along the direction between them. A
 /// ball's own spin does not bring it closer.
 PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const ApproachBound& bound,
                                            const Vector3d& velocity, Vector3d& towards) {
@@ -291,7 +291,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   SeparationQuery query;
   query.approach = bound;
   query.contact = pair.margin;
-  // A state cannot be divided: what is left open there stays so.
+  // A state cannot be divided, so use the best tolerance.
   query.tolerance = half > 0.0 ? kQueryShare * tolerance_ : tolerance::kDistance;
   query.guess = hint(index);
   query.thorough = answer.travel <= tolerance_;
@@ -344,7 +344,7 @@ SignedClearance PairQuery::measureSigned(const GeometryPair& pair, double accura
       signedDistance(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
                      world_from_a.inverse() * poseOfB(pair), accuracy);
   const double lower = found.lower - rounding(pair);
-  // What is no number says nothing.
+  // NaN gives no bound.
   return {lower <= found.upper ? lower : -std::numeric_limits<double>::infinity(), found.upper,
           world_from_a * found.pointA, world_from_a * found.pointB,
           world_from_a.linear() * found.normal};

@@ -10,13 +10,13 @@
 
 namespace swept::detail {
 
-/// What one pair looks like around one t.
+/// The result for one pair around one t.
 struct PairAnswer {
   Separation status = Separation::Unproven;
   bool culled = false;  ///< bounding volumes were enough
   double travel =
       0.0;  ///< m, bound on the approach within the interval, without margin and rounding
-  /// Model frame, from a to b: the best direction found; zero: none.
+  /// Model frame, from a to b: the best direction found. Zero: none.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();  ///< m, model frame; under Contact
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame; under Contact
@@ -36,16 +36,16 @@ class PairQuery {
   PairQuery(const CheckerModel& model, WorkspaceData& workspace)
       : model_(model), workspace_(workspace), tolerance_(model.options.tolerance) {}
 
-  /// m. What prove() aims at on intervals: pairs that keep more than their margin and this are
+  /// m. The target of prove() on intervals: a pair that keeps more than its margin and this is
   /// proven once intervals are short enough. The options' tolerance at first.
   void setTolerance(double tolerance) { tolerance_ = tolerance; }
   double tolerance() const { return tolerance_; }
 
-  /// Takes a motion, which has to outlive the query. False: nothing can be said about it.
+  /// Takes a path, which must outlive the query. False: no bound holds for it.
   bool start(const JointPath& path);
-  /// The same, for a motion that stays at a configuration; moves there.
+  /// The same for a motion that stays at a configuration. Moves there.
   bool startAt(std::span<const double> q);
-  /// Moves to t. What is asked from then on is about [t - half, t + half] or less.
+  /// Moves to t. Later calls may be about [t - half, t + half] or less.
   void moveTo(double t, double half);
 
   /// Whether the pair stays apart by more than the margin on [t - half, t + half], or is within the
@@ -59,14 +59,15 @@ class PairQuery {
   /// its distance at t. False: not proven.
   bool staysBeyond(const GeometryPair& pair, double half, double distance, const PairDistance& now,
                    double accuracy);
-  /// m per unit of t, model frame: of a point of b past a point of a, both m, model frame, at t.
+  /// m per unit of t, model frame: velocity of a point of b relative to a point of a. Both points
+  /// in m, model frame, at t.
   Eigen::Vector3d velocity(const GeometryPair& pair, const Eigen::Vector3d& pointA,
                            const Eigen::Vector3d& pointB);
-  /// m, model frame: of a point in the frame of the first one's body.
+  /// m, model frame: a point given in the frame of the first geometry's body.
   Eigen::Vector3d placed(std::uint32_t pair, const Eigen::Vector3d& point) {
     return state(model_.robotGeometry[model_.pairs[pair].a].body).world_from_body * point;
   }
-  /// Model frame: where a geometry's shape is.
+  /// Pose of a geometry's shape in the model frame.
   const Eigen::Isometry3d& pose(int geometry);
   /// m. Bound on the pair's approach during `half`.
   double travel(const GeometryPair& pair, double half);
@@ -79,7 +80,7 @@ class PairQuery {
   /// m, model frame: holds the pair's geometry of the robot, grown by the pair's rounding, on
   /// [t - half, t + half].
   Aabb ballBox(const GeometryPair& pair, double half);
-  /// m. Of every pair's relative pose, for any point, in this motion.
+  /// m. Bound on the rounding of every pair's relative pose, for any point, in this motion.
   double largestRounding() const;
 
   Witness witness(std::uint32_t pair, double t, const PairAnswer& answer) const;
@@ -94,10 +95,9 @@ class PairQuery {
   const Eigen::Vector3d& center(int geometry);
   double rounding(const GeometryPair& pair) const;
   Aabb boxAround(int geometry, double reach);
-  /// What the containing balls and boxes say.
+  /// The result of comparing containing balls and boxes.
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };
-  /// `towards` becomes the unit direction from the first to the second that they were compared
-  /// along.
+  /// Sets `towards` to the unit direction of the comparison, from the first to the second.
   Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
                        const Eigen::Vector3d& relativeVelocity, Eigen::Vector3d& towards);
   Eigen::Vector3d relativeVelocity(const GeometryPair& pair);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kShareOfTolerance = 0.1;
 constexpr double kLeastAccuracy = 1e-5;  // m
-/// Segments that are looked at between two calls of PathQuery::progress.
+/// Segments between two calls of PathQuery::progress.
 constexpr std::size_t kBetween = 256;
 
 CertifiedSegment certified(const Checker& checker, ConfigurationView from, ConfigurationView to,

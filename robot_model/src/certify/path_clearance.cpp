@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Takes over what is known of a motion.
+/// Adds the bounds of a motion.
 void addSegment(const ClearanceInterval& own, std::size_t segment, PathClearanceInterval& all) {
   const double lower = std::min(all.lower, own.lower);
   if (own.upper < all.upper) {
@@ -41,7 +41,7 @@ bool isDone(const Wanted& wanted, const PathClearance& all) {
          (!wanted.self || all.self.upper == 0.0);
 }
 
-/// Of all pairs, from what is known of the kinds that are wanted.
+/// The least over the kinds that are wanted.
 void addKinds(const Wanted& wanted, PathClearance& all) {
   PathClearanceInterval& whole = all;
   all.selfPair = wanted.self && all.self.upper < all.world.upper;

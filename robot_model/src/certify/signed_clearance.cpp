@@ -14,13 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// rad or m. Rates are exact for a step of any size but a quaternion's, which this is small for.
+/// rad or m. Step of a difference quotient. Rates are exact for a step of any size, except those of
+/// a quaternion, for which this is small enough.
 constexpr double kStep = 1e-6;
-/// Of the distance between numbers of a value's size: fewer are no step. No more than needed, as
-/// obstacles turn where clocks count large numbers.
+/// Smallest step, in units of the spacing of doubles at the value. No more than needed, since
+/// obstacles turn and clocks may count large numbers.
 constexpr double kFewestUlps = 4.0;
 
-/// The least so far, and whose it is.
+/// The least distance so far, and its pair.
 struct NearestApart {
   SignedClearance clearance;
   GeometryPair pair;
@@ -61,7 +62,7 @@ NearestApart nearestApart(const CheckerModel& model, PairQuery& query, Workspace
   return nearest;
 }
 
-/// Of the pairs whose boxes meet; the others are apart, as is what is out of reach.
+/// The deepest of the pairs whose boxes overlap. All other pairs are apart.
 NearestApart deepest(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   NearestApart nearest;
   NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
@@ -70,12 +71,12 @@ NearestApart deepest(const CheckerModel& model, PairQuery& query, WorkspaceData&
     if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
     nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));
   }
-  // Of those that are apart no more is known.
+  // Pairs that are apart need no more.
   nearest.clearance.lower = std::min(nearest.clearance.lower, 0.0);
   return nearest;
 }
 
-/// A value a step away that the joint's limits allow; the same value: neither way.
+/// The value one step away that the joint's limits allow. The same value: no step is possible.
 double stepFrom(const KinematicModel& model, std::size_t value, double q) {
   const double ulps = kFewestUlps * std::numeric_limits<double>::epsilon() * std::abs(q);
   const double step = std::max(kStep, ulps);
@@ -83,7 +84,7 @@ double stepFrom(const KinematicModel& model, std::size_t value, double q) {
   return q - step >= model.lower[value] ? q - step : q;
 }
 
-/// The velocity of the pair's points past each other along the normal, for each value of the
+/// The relative velocity of the pair's points along the normal, for each value of the
 /// configuration.
 void differentiate(const CheckerModel& model, PairQuery& query, std::span<const double> q,
                    const NearestApart& nearest, std::span<double> gradient,

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// m, model frame: the point of the geometry that is nearest to this one; itself where it is in the
-/// geometry. No number where nothing is known.
+/// m, model frame: the point of the geometry nearest to this one, which is itself if it is in the
+/// geometry. NaN if no distance is known.
 Vector3d nearestOf(const CheckerModel& model, PairQuery& query, int geometry,
                    const Vector3d& point) {
   const Eigen::Isometry3d point_from_world(Eigen::Translation3d(-point));
@@ -27,7 +27,7 @@ Vector3d nearestOf(const CheckerModel& model, PairQuery& query, int geometry,
   return found.upper > 0.0 ? Vector3d(point + found.pointB) : point;
 }
 
-/// Whether a ball that is known to be inside the geometry has the point (m, model frame) in it.
+/// Whether a ball that is proven to be inside the geometry contains the point (m, model frame).
 bool isInInnerBall(const CheckerModel& model, PairQuery& query, int geometry,
                    const Vector3d& point) {
   const std::shared_ptr<const SphereCover>& cover = model.robotGeometry[geometry].cover;

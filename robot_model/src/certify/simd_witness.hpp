@@ -15,18 +15,18 @@ struct ContactPoints {
   Eigen::Vector3d b;
 };
 
-/// Those of a contact that the lane tier found, as exact geometry confirms it in double precision:
-/// of two links both are looked at, where `query` is; of a link and an obstacle the obstacle. Empty
-/// if they do not confirm it.
+/// The points of a contact that the SIMD tier found, confirmed on exact geometry in double
+/// precision: of two links, both are examined at the query's t; of a link and an obstacle, the
+/// obstacle. Empty if it is not confirmed.
 std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery& query,
                                            const SimdContact& contact);
 
-/// The same as a witness.
+/// The same, as a witness.
 std::optional<Witness> simdWitness(const CheckerModel& model, PairQuery& query,
                                    const SimdContact& contact, double t);
 
-/// Of a point (m, model frame) of the pair's link, in the world geometry or within the margin of
-/// it; null: it is not.
+/// A witness for a point (m, model frame) of the pair's link that is in the world geometry or
+/// within the margin of it. Empty if it is not.
 std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t pair,
                                     const Eigen::Vector3d& point, double t);
 

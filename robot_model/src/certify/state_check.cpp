@@ -23,7 +23,7 @@ namespace swept::detail {
 
 namespace {
 
-/// Of these pairs, by exact geometry, at the state that the query is at.
+/// The verdict on these pairs, by exact geometry, at the query's state.
 Verdict provePairs(PairQuery& query, std::span<const std::uint32_t> pairs) {
   bool proven = true;
   for (const std::uint32_t pair : pairs) {
@@ -55,7 +55,8 @@ bool isContact(const CheckerModel& model, std::span<const double> q, const SimdC
   return contactPoints(model, query, contact).has_value();
 }
 
-/// What the SIMD tier found out in one lane, and exact geometry about the rest.
+/// The verdict on the state in one lane: by the SIMD tier, and by exact geometry for what it left
+/// open.
 Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane,
                   WorkspaceData& workspace) {
   const SimdBlock& block = workspace.simd.block;
@@ -66,7 +67,7 @@ Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane
   std::vector<std::uint32_t>& pairs = workspace.pairs;
   takeOpen(lane, block, pairs);
   if (pairs.empty()) return Verdict::Free;
-  // The one most likely to be in contact first.
+  // Examine the likeliest contact first.
   const auto likelyContact = std::ranges::find(pairs, block.likelyContact.pair);
   if (likelyContact != pairs.end()) std::iter_swap(pairs.begin(), likelyContact);
   return checkPairs(model, q, pairs, workspace);
@@ -104,7 +105,7 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
 
 namespace {
 
-/// What is nearest at the current state.
+/// The nearest pair at the current state.
 struct Nearest {
   double lower = std::numeric_limits<double>::infinity();  ///< m
   std::optional<GeometryPair> pair;
@@ -114,8 +115,8 @@ struct NearestOfKinds {
   Nearest world, self;
 };
 
-/// Over all pieces of the checked pairs; pieces farther apart than the best so far are given up as
-/// soon as that is proven.
+/// The nearest of all pieces of the checked pairs. A distance query stops once its pair is proven
+/// farther apart than the best so far.
 NearestOfKinds nearestPairs(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace) {
   NearestOfKinds found;
   NearGeometries(model, query, workspace).forNearestByKind(0.0, [&](const GeometryPair& pair) {

@@ -14,7 +14,7 @@ Verdict checkState(const CheckerModel& model, std::span<const double> q, Workspa
 void checkStates(const CheckerModel& model, std::span<const double> states,
                  std::span<Verdict> verdicts, WorkspaceData& workspace);
 
-/// Every violating pair, and the clearance.
+/// All violating pairs, and the clearance.
 StateReport reportState(const CheckerModel& model, std::span<const double> q,
                         WorkspaceData& workspace);
 

@@ -12,11 +12,11 @@ namespace swept::detail {
 
 namespace {
 
-/// Behind the configuration that is there already.
+/// Appends the obstacles' poses to the configuration.
 void placeObstacles(const CheckerModel& model, std::vector<double>& full) {
   auto at = full.begin() + model.kinematics.dimension;
   const double time = *std::prev(at);
-  // No pose is known, and nothing is free.
+  // NaN: no pose is known, so nothing is proven free.
   if (!std::isfinite(time)) {
     std::fill(at, full.end(), std::numeric_limits<double>::quiet_NaN());
     return;
@@ -70,7 +70,7 @@ void WaypointSegments::addCrossings(double begin, double end) {
   const double last = std::max(begin, end);
   const auto isPassed = [first, last](double time) { return time > first && time < last; };
   const auto pass = [&](double time) {
-    // Halves: the whole span may overflow.
+    // Halves, because the whole span may overflow.
     const double t = (0.5 * time - 0.5 * begin) / (0.5 * end - 0.5 * begin);
     crossings.push_back({std::clamp(t, 0.0, 1.0), time});
   };
@@ -89,7 +89,7 @@ void WaypointSegments::addCrossings(double begin, double end) {
         pass(halfway);
     }
   }
-  // By time: of a jump both ends may be at the same t.
+  // By time: both ends of a jump may be at the same t.
   if (begin < end)
     std::ranges::sort(crossings, std::less<>(), &WaypointCrossing::time);
   else
@@ -101,7 +101,7 @@ void WaypointSegments::addCrossings(double begin, double end) {
                   crossings.end());
 }
 
-/// At the time itself: where it is large, that of the interpolated configuration may lie on the
+/// Uses the time itself: if it is large, the time of the interpolated configuration may lie on the
 /// other side of a waypoint.
 void WaypointSegments::fill(const WaypointCrossing& crossing, std::vector<double>& full) const {
   const auto dimension = static_cast<std::size_t>(model_.kinematics.dimension);

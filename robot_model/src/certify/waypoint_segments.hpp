@@ -9,11 +9,11 @@
 
 namespace swept::detail {
 
-/// Moving obstacles on a common clock with the robot: a configuration's last value is the time, and
-/// full configurations (see KinematicModel) have the obstacles' poses behind it.
+/// Moving obstacles share a clock with the robot: a configuration's last value is the time. Full
+/// configurations (see KinematicModel) append the poses of the obstacles.
 ///
-/// Between two waypoints an obstacle moves straight on. So a motion is taken apart where one passes
-/// a waypoint.
+/// Between two waypoints an obstacle moves on a straight line. So a motion is split where an
+/// obstacle passes a waypoint.
 
 /// The configuration itself without moving obstacles, else `full` after filling it.
 std::span<const double> fullConfiguration(const CheckerModel& model, std::span<const double> q,
@@ -51,7 +51,8 @@ class WaypointSegments {
     fill(begin, workspace_.from);
     fill(end, workspace_.to);
     const KinematicModel& kinematics = model_.kinematics;
-    // Between the configurations at its ends a straight path rounds less than as a part of itself.
+    // A straight path between the configurations at the ends rounds less than a part of the whole
+    // path does.
     if (path_.asStraight() != nullptr) {
       const StraightPath segment(kinematics, workspace_.from, workspace_.to);
       return visit(WaypointSegment{begin.t, end.t, segment});

@@ -13,13 +13,13 @@
 
 namespace swept::detail {
 
-/// A pair among which the least clearance of a motion is looked for.
+/// A pair that may have the least clearance of a motion.
 struct MeasuredPair {
   GeometryPair pair;
   double bound = 0.0;  ///< m, lower bound of its distance over the whole motion
 };
 
-/// An obstacle changes its way.
+/// An obstacle passes a waypoint.
 struct WaypointCrossing {
   double t = 0.0;     ///< in [0, 1]
   double time = 0.0;  ///< s
@@ -29,7 +29,7 @@ struct WorkspaceData {
   explicit WorkspaceData(const CheckerModel& model);
 
   std::uint64_t version = 0;  ///< of the model that it fits
-  /// Around the current t, or of the whole motion where no rate changes.
+  /// The joints around the current t, or over the whole motion if no rate changes.
   std::vector<JointMotion> motion;
   /// At the current t; computed when first asked for.
   std::vector<BodyState> states;
@@ -43,8 +43,8 @@ struct WorkspaceData {
   };
   std::vector<Placed> placed;
   std::int64_t stamp = 0;
-  /// Of the current `motion`; computed when first asked for. Of a long chain of joints (see
-  /// nestedMotionBounds) all of a geometry together, per geometry, in place of
+  /// Bounds of the current `motion`, computed on first use. For a long chain of joints (see
+  /// nestedMotionBounds) each geometry's are computed together, in place of
   /// CheckerModel::motionBounds.
   std::vector<PointMotionBound> motionBounds;
   std::vector<std::int64_t> motionBoundStamps;
@@ -62,7 +62,7 @@ struct WorkspaceData {
   SimdScratch simd;
   std::vector<MeasuredPair> measured;
   BroadphaseScratch boxes;
-  /// Whole configurations: see KinematicModel. Empty without moving obstacles.
+  /// Full configurations: see KinematicModel. Empty without moving obstacles.
   std::vector<double> from, to;
   std::vector<double> probe;                ///< a configuration
   std::vector<WaypointCrossing> crossings;  ///< of the current motion, in order

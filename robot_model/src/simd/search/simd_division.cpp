@@ -11,12 +11,12 @@ namespace swept::detail {
 
 namespace {
 
-/// Sub-intervals of one pair at most, and times at which exact geometry is asked about it.
+/// Most sub-intervals of one pair, and most times at which exact geometry examines it.
 constexpr std::size_t kMostParts = 64;
 constexpr int kMostLooks = 6;
-/// m per half-interval. Shorter ones the exact tier does as well.
+/// m. Inflation below which the exact tier does as well.
 constexpr float kFinestDivided = 2e-4F;
-/// Middles of shorter half-intervals need not be exact in single precision.
+/// Below it, middles may not be exact in single precision.
 constexpr double kFinestHalf = 0x1p-20;
 
 class Division {
@@ -77,7 +77,8 @@ class Division {
     return false;
   }
 
-  /// Halves those from `first` on until they fill the lanes: a look costs more than they do.
+  /// Halves the intervals from `first` on until they fill the lanes, because a look at exact
+  /// geometry costs more than lanes do.
   void fillLanes(std::size_t first) {
     while (2 * (waiting_.size() - first) <= kLanes && !isFine(waiting_[first])) {
       const std::size_t last = waiting_.size();
@@ -111,22 +112,22 @@ class Division {
     const std::vector<int>& ofA = model_.ancestors[model_.geometryBody[source.geometry]];
     scratch_.bodies = ofA;
     if (source.obstacle < 0) {
-      // Both begin with what they have in common.
+      // Both paths begin with their common ancestors.
       const std::vector<int>& ofB = model_.ancestors[model_.geometryBody[source.other]];
       scratch_.bodies.insert(scratch_.bodies.end(), std::ranges::mismatch(ofA, ofB).in2, ofB.end());
     }
     search_.motion.place(scratch_.bodies);
   }
 
-  /// A time at which exact geometry is asked about the pair, and around it.
+  /// A time at which exact geometry examines the pair, and the interval around it.
   struct Look {
     int lane;
     double t;
     double half;
   };
 
-  /// The middle of what is open. Until there is a contact, the ends of the motion that it reaches
-  /// come first: contacts that begin or end beyond the motion are deepest there.
+  /// The middle of the open lanes. Before the first contact, the ends of the motion that they reach
+  /// come first: a contact that begins or ends beyond the motion is deepest there.
   Look nextLook(std::uint32_t open) {
     const bool seeks = !search_.contacts.any();
     const int first = std::countr_zero(open);
@@ -153,7 +154,7 @@ class Division {
       ++looks_;
       const ExactAnswer look = search_.oracle.look(pair, at.t, at.half);
       if (look.kind == ExactAnswer::Kind::Contact) {
-        // Where the first contact is wanted, the exact tier looks for it.
+        // The exact tier looks for an earlier one, if that is wanted.
         inContact_ = true;
         return search_.contacts.settle();
       }
@@ -176,7 +177,7 @@ class Division {
   double timeOf(int lane) const { return static_cast<double>(scratch_.block.time.lane[lane]); }
   double halfOf(int lane) const { return static_cast<double>(scratch_.block.half.lane[lane]); }
 
-  /// In halves, or to the exact tier.
+  /// Divides the part further, or leaves it to the exact tier.
   void handOn(OpenPart part) {
     const bool enough = waiting_.size() >= kMostParts || looks_ >= kMostLooks;
     if (enough || inContact_ || search_.isSpent() || isFine(part)) {

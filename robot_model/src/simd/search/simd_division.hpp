@@ -18,7 +18,7 @@ struct SimdSearch {
   float acceleration = 0.0F;  ///< m per unit t squared, bounds that of all ball centres
 
   bool isSpent() const { return examined >= mostIntervals; }
-  /// m. By how much the balls of a sub-interval grow, `half` being half its width.
+  /// m. Inflation of the balls in a sub-interval of this half width.
   float inflation(float half) const { return 0.5F * half * half * acceleration; }
 };
 

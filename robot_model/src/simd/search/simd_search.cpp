@@ -14,10 +14,9 @@ namespace swept::detail {
 
 namespace {
 
-/// m. Intervals whose inflation is below this gain nothing from halving that the exact tier does
-/// not do better.
+/// m. Inflation below which halving gains nothing that the exact tier does not do better.
 constexpr float kFinestInflation = 1e-3F;
-/// Halvings after the first block, and sub-intervals in one level of these, at most.
+/// Most halvings after the first block, and most sub-intervals in one level of these.
 constexpr int kMostLevels = 6;
 constexpr std::size_t kMostIntervals = 256;
 
@@ -26,10 +25,9 @@ void forgetOpen(SimdBlock& block) {
   block.open.clear();
 }
 
-/// Likely contacts of one motion that the oracle is asked about, at most: each costs more than a
-/// block.
+/// Most likely contacts of one motion to ask the oracle about. Each costs more than a block.
 constexpr int kMostLikelyContacts = 4;
-/// Points of a link that exact geometry is asked about, of those that seem to be in an obstacle.
+/// Most points of a link to ask exact geometry about, of those that seem to be in an obstacle.
 constexpr std::int32_t kMostPoints = 2;
 
 class MotionSearch {
@@ -80,7 +78,7 @@ class MotionSearch {
     });
   }
 
-  /// Lanes that begin no earlier than a contact.
+  /// Lanes that begin at a contact or later.
   std::uint32_t lanesBehind() const {
     std::uint32_t lanes = 0;
     if (!contacts_.any()) return lanes;
@@ -89,9 +87,9 @@ class MotionSearch {
     return lanes;
   }
 
-  /// Walks until it is through or the oracle has confirmed a contact that settles the search.
-  /// Otherwise the walk is repeated for what lies before the contact, without looking for more; and
-  /// a claim that is not confirmed is not made a second time.
+  /// Walks until the end, or until the oracle confirms a contact that settles the search. After any
+  /// other claim it walks again, for the time before the contact, and seeks no more contacts in
+  /// this block. So a claim that is not confirmed is not made twice.
   template <typename Walk>
   bool walk(const Walk& walkAll) {
     SimdBlock& block = scratch_.block;
@@ -116,7 +114,7 @@ class MotionSearch {
     return contacts_.settle();
   }
 
-  /// Some point of the link's surface in an obstacle.
+  /// Whether a point of the link's surface is in an obstacle.
   bool isInside(const LikelyContact& likelyContact) {
     if (model_.sources[likelyContact.pair].obstacle < 0) return false;
     const PointsInside points = pointsInside(model_, likelyContact, scratch_);
@@ -126,7 +124,7 @@ class MotionSearch {
     return false;
   }
 
-  /// All pairs on eight sub-intervals.
+  /// Examines all pairs on eight sub-intervals.
   bool first() {
     SimdBlock& block = scratch_.block;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -138,7 +136,7 @@ class MotionSearch {
     return walk([&] { return walkWorld(model_, scratch_) || walkSelf(model_, scratch_); });
   }
 
-  /// Divides what the block left open, and hands on what dividing does not help.
+  /// Divides the block's open intervals. Leaves those that dividing does not help to the next step.
   void collect() {
     SimdBlock& block = scratch_.block;
     if (block.open.empty()) return;
@@ -176,14 +174,14 @@ class MotionSearch {
     }
   }
 
-  /// Up to eight of the current sub-intervals, each with its own pairs.
+  /// Examines up to eight of the current sub-intervals, each with its own pairs.
   bool examine(std::size_t from) {
     SimdBlock& block = scratch_.block;
     const std::vector<OpenInterval>& intervals = work_.now.intervals;
     const std::size_t count = std::min<std::size_t>(kLanes, intervals.size() - from);
     scratch_.wanted.clear();
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      // Lanes not in use repeat the first, and nothing is asked of them.
+      // Unused lanes repeat the first, and have no pairs.
       const OpenInterval& interval = intervals[from + (lane < count ? lane : 0)];
       block.time.lane[lane] = static_cast<float>(interval.middle());
       block.half.lane[lane] = static_cast<float>(interval.half());
@@ -207,7 +205,8 @@ class MotionSearch {
     return false;
   }
 
-  /// The pair at `i`, and those after it that are of the same geometry with the world.
+  /// Asks about the pair at `i` and those after it that have the same geometry and are with the
+  /// world.
   bool askAt(std::size_t& i) {
     const std::uint32_t pair = scratch_.wanted[i];
     const SimdPairSource& source = model_.sources[pair];
@@ -224,11 +223,11 @@ class MotionSearch {
     return walkPairs(model_, source.geometry, scratch_.asked, scratch_);
   }
 
-  /// Only the bodies that the wanted pairs hang on.
+  /// Places only the bodies that carry the wanted pairs.
   void place() {
     scratch_.bodyWanted.assign(model_.bodies.size(), 0);
     const auto want = [&](int body) {
-      // From the body upwards: what carries one that is wanted is wanted already.
+      // From the body upwards: the ancestors of a wanted body are wanted already.
       const std::vector<int>& path = model_.ancestors[body];
       for (std::size_t i = path.size(); i-- > 0 && scratch_.bodyWanted[path[i]] == 0;)
         scratch_.bodyWanted[path[i]] = 1;

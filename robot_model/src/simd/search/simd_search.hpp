@@ -12,7 +12,7 @@
 
 namespace swept::detail {
 
-/// What exact geometry says of a pair at one time.
+/// The result of exact geometry for a pair at one time.
 struct ExactAnswer {
   enum class Kind : std::uint8_t {
     Open,
@@ -24,11 +24,11 @@ struct ExactAnswer {
   float towards[3] = {};  ///< unit, model frame: from the first body to the second
 };
 
-/// Exact geometry at one time of a motion, which the SIMD tier asks. It keeps the contacts that it
-/// confirms in the search's ConfirmedContacts.
+/// Exact geometry for the SIMD tier, at one time of a motion. It adds confirmed contacts to the
+/// search's ConfirmedContacts.
 class ExactOracle {
  public:
-  /// Whether what single precision takes for a contact is one.
+  /// Whether a contact found in single precision is one.
   virtual bool isContact(const SimdContact& contact, double t) = 0;
   /// Whether a point of SimdHulls::inBody lies in the obstacle of the pair.
   virtual bool isInside(std::uint32_t pair, std::int32_t point, double t) = 0;
@@ -41,8 +41,8 @@ class ExactOracle {
 /// Tier 1: eight sub-intervals at once, in single precision.
 class SimdTier final : public ProofTier {
  public:
-  /// `mostIntervals`: sub-intervals to examine. Adds those that it examines to `effort`. All have
-  /// to outlive this.
+  /// `mostIntervals`: most sub-intervals to examine. Adds those that it examines to `effort`. All
+  /// arguments must outlive this.
   SimdTier(SimdMotion& motion, ExactOracle& oracle, const ConfirmedContacts& contacts,
            int mostIntervals, SimdScratch& scratch, Effort& effort)
       : motion_(motion),
@@ -52,8 +52,8 @@ class SimdTier final : public ProofTier {
         scratch_(scratch),
         effort_(effort) {}
 
-  /// Of a motion with all pairs open. Says nothing where that does not fit single precision, and
-  /// where too many pairs would have to wait.
+  /// Expects all pairs to be open. Leaves `work` as it is if the motion does not fit single
+  /// precision, or if too many pairs would have to wait.
   void prove(ProofWork& work) override;
 
  private:
@@ -65,19 +65,19 @@ class SimdTier final : public ProofTier {
   Effort& effort_;
 };
 
-/// What a search of states does about contacts.
+/// How a search of states treats contacts.
 enum class SimdContacts : std::uint8_t {
   Sought,   ///< the lane in which one shows is not looked at any more
   Ignored,  ///< pairs that are in contact are left open, as all that is not proven apart
 };
 
-/// Of states: of the motion's begin in all lanes (SimdMode::State), or of eight (States). What is
-/// found is in scratch.block: a lane is free if it is neither in `contactLanes` nor has open pairs.
-/// Under SimdMode::State the search ends with the first contact, in any lane, and pairs of two
-/// links are left open in the first lane alone.
+/// Examines states: the motion's begin in all lanes (SimdMode::State), or eight states (States).
+/// The result is in scratch.block: a lane is free if it is not in `contactLanes` and has no open
+/// pairs. With SimdMode::State the search ends at the first contact, in any lane, and leaves pairs
+/// of two links open in the first lane only.
 void searchStates(const SimdModel& model, SimdMode mode, SimdContacts contacts,
                   SimdScratch& scratch);
-/// `pairs` becomes the pairs that are open in a lane.
+/// Sets `pairs` to the open pairs of a lane.
 void takeOpen(int lane, const SimdBlock& block, std::vector<std::uint32_t>& pairs);
 
 }  // namespace swept::detail
