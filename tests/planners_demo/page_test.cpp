@@ -168,7 +168,7 @@ TEST_F(PlannedPage, NearestPairOfAFrameIsTheReports) {
       const std::string a = sharedData["bodies"][at]["name"];
       const std::string b =
           sharedData["bodies"][static_cast<std::size_t>(partner[row + at])]["name"];
-      EXPECT_EQ(std::minmax(a, b), std::minmax(report.nearestA, report.nearestB));
+      EXPECT_EQ(std::minmax(a, b), std::minmax(report.nearestA.str(), report.nearestB.str()));
     }
 }
 

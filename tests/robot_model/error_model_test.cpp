@@ -47,13 +47,13 @@ HWY_AFTER_NAMESPACE();
 
 #include "exact_motion.hpp"
 #include "kinematics/lever_arms.hpp"
-#include "simd_targets.hpp"
 #include "rounding/error_model.hpp"
 #include "simd/kernels/hull_planes.hpp"
 #include "simd/kernels/simd_bounds.hpp"
 #include "simd/kernels/simd_kinematics.hpp"
 #include "simd/kernels/table_lanes.hpp"
 #include "simd_robots.hpp"
+#include "simd_targets.hpp"
 #include "swept/core/clearance_grid.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/simd_dispatch.hpp"
@@ -73,9 +73,9 @@ using exact_test::Digits;
 using exact_test::Exact3;
 using exact_test::ExactPose;
 using simd_test::ChainOptions;
-using simd_test::laneTargets;
 using simd_test::OnTarget;
 using simd_test::Random;
+using simd_test::simdTargets;
 using enum JointType;
 
 using exact_test::exact;

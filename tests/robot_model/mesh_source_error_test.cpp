@@ -14,8 +14,8 @@
 #include "message_of.hpp"
 #include "sliding_cube.hpp"
 #include "swept/core/shapes.hpp"
-#include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/allowed_collision_matrix.hpp"
+#include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/mesh_file.hpp"
 #include "swept/robot_model/robot.hpp"
 

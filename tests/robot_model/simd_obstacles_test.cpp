@@ -26,7 +26,6 @@ HWY_AFTER_NAMESPACE();
 #include <limits>
 #include <map>
 
-#include "simd_targets.hpp"
 #include "rounding/error_model.hpp"
 #include "simd_robots.hpp"
 #include "simd_targets.hpp"

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "simd_targets.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd_robots.hpp"
 #include "simd_targets.hpp"
