@@ -60,7 +60,7 @@ void Judge::sameAgain(const State& a, const State& b, const MotionCertificate& k
   const auto opposite = [&](Verdict v) {
     return v != known.verdict && v != Verdict::Undecided && known.verdict != Verdict::Undecided;
   };
-  if (opposite(quick.verdict)) fail("VerdictOnly and FirstContact disagree");
+  if (quick.verdict != known.verdict) fail("VerdictOnly and FirstContact disagree");
   const auto back = scenario_.checker->certifyMotion(b, a, fresh);
   if (opposite(back.verdict)) fail("the way back gets the opposite answer");
 }

@@ -210,11 +210,6 @@ void Worker::motionsOnThreads(Seat& seat, int count) {
     noteMotion(seat, Way::Threads, part(from_, i), part(to_, i), query, certificates_[i]);
 }
 
-bool Worker::proven(const swept::MotionCertificate& verdictOnly) {
-  if (verdictOnly.verdict != Verdict::Undecided) return verdictOnly.verdict == Verdict::Free;
-  return version_->checker->certifyMotion(from_, to_, workspace_).verdict == Verdict::Free;
-}
-
 void Worker::motionsThroughBridge(Seat& seat, int count) {
   from_.resize(seat.dimension);
   to_.resize(seat.dimension);
@@ -227,7 +222,7 @@ void Worker::motionsThroughBridge(Seat& seat, int count) {
     seat.conversion.toConfiguration(seat.to, to_);
     const auto answer =
         version_->checker->certifyMotion(from_, to_, workspace_, Query::VerdictOnly);
-    if (valid != proven(answer))
+    if (valid != (answer.verdict == Verdict::Free))
       differs({version_, Way::One, from_, to_, Query::VerdictOnly, answer}, valid);
     noteMotion(seat, Way::Bridge, from_, to_, Query::VerdictOnly, answer);
   }

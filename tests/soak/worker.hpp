@@ -52,8 +52,6 @@ class Worker {
   void motionsThroughBridge(Seat& seat, int count);
   void noteMotion(Seat& seat, Way way, std::span<const double> from, std::span<const double> to,
                   Query query, const swept::MotionCertificate& answer);
-  /// What the bridge has to say: that one of both queries proves the motion.
-  bool proven(const swept::MotionCertificate& verdictOnly);
   void differs(const Sample& sample, bool valid);
   /// Whether this answer is one to be judged.
   bool sampled(std::int64_t& left);
