@@ -132,9 +132,9 @@ step_swept_deb() {
 }
 
 step_remove() {
-  local packages left
+  local packages left given=("$folder"/swept_deb/root/*.deb)
   mapfile -t packages < <(inside swept_deb dpkg-query -W -f '${Package}\n' '*swept*')
-  ((${#packages[@]} == 4))
+  ((${#packages[@]} == ${#given[@]}))
   local files="$folder/logs/installed_files"
   inside swept_deb dpkg -L "${packages[@]}" | grep -F swept | sort -u >"$files"
   inside swept_deb dpkg -r "${packages[@]}"
