@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "mesh_samples.hpp"
@@ -88,6 +91,66 @@ TEST(PartApproach, IsTheFastestApproachOfTheCorners) {
     ASSERT_GE(approach.most(), approach.along(n));
   }
   EXPECT_GT(oneWay, 50);
+}
+
+Vector3d cornerOf(const OrientedBox& box, int bits) {
+  Vector3d p = box.center;
+  for (int j = 0; j < 3; ++j) {
+    const double along = (bits >> j & 1) != 0 ? box.half[j] : -box.half[j];
+    p += along * Vector3d(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
+  }
+  return p;
+}
+
+/// Each error displaces the corners that it displaces most; one alone, exactly so.
+TEST(PartApproach, ErrorsAddWhatTheyDisplace) {
+  std::mt19937 random(5);
+  double tightest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const Screwing moveA{randomPose(random, 2.0), uniformPoint(random, 0.1),
+                         uniform(random, 0.0, 0.5) * unitVector(random)};
+    const Screwing moveB{randomPose(random, 2.0), uniformPoint(random, 0.1),
+                         uniform(random, 0.0, 0.5) * unitVector(random)};
+    ApproachBound whole = approachOf(Sphere{1.0}, moveA, Sphere{2.0}, moveB);
+    whole.travel = std::numeric_limits<double>::infinity();
+    const Isometry3d a_from_b = moveA.middle.inverse() * moveB.middle;
+    const OrientedBox boxA = randomBox(random, 2.0);
+    const OrientedBox boxB = randomBox(random, 2.0);
+    const Vector3d n = unitVector(random);
+    const auto boundWith = [&](std::span<const ApproachError> errors) {
+      whole.errors = errors;
+      const PartMotions motions(whole, a_from_b);
+      const PartMotion partA = motions.of(true, boxA);
+      const PartMotion partB = motions.of(false, boxB);
+      const PartApproach approach(whole, partA, partB);
+      EXPECT_GE(approach.most(), approach.along(n));
+      return approach.along(n);
+    };
+    const double alone = boundWith({});
+    std::array<ApproachError, 3> errors;
+    double all = 0.0;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      errors[k].linear = uniformPoint(random, 0.3);
+      if (k != 1) errors[k].spinA = uniform(random, 0.0, 0.3) * unitVector(random);
+      if (k != 0) errors[k].spinB = uniform(random, 0.0, 0.3) * unitVector(random);
+      double most = 0.0;
+      for (int corners = 0; corners < 64; ++corners) {
+        const Vector3d a = cornerOf(boxA, corners & 7) - whole.ballA.center;
+        const Vector3d b = a_from_b * cornerOf(boxB, corners >> 3) - whole.ballB.center;
+        most = std::max(most, std::abs(n.dot(errors[k].linear + errors[k].spinB.cross(b) -
+                                             errors[k].spinA.cross(a))));
+      }
+      const double one = boundWith(std::span(errors).subspan(k, 1)) - alone;
+      ASSERT_GE(one, most - 1e-12);
+      if (k < 2) {
+        ASSERT_LE(one, most + 1e-5);
+      }
+      tightest = std::max(tightest, most / one);
+      all += one;
+    }
+    ASSERT_NEAR(boundWith(errors) - alone, all, 1e-9);
+  }
+  EXPECT_GT(tightest, 0.999);
 }
 
 TEST(PartApproach, WithoutNumbersOnlyTheTravelCounts) {

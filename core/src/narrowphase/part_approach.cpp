@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 // first moved into a's frame, where they may be larger by the frames' distance.
 PartMotion PartMotions::of(bool ofA, const OrientedBox& box) const {
   PartMotion part;
+  if (!whole_.errors.empty()) place(ofA, box, part);
   if (!(ofA ? turnsA_ : turnsB_)) return part;
   const Vector3d& spin = ofA ? whole_.spinA : whole_.spinB;
   const Vector3d& about = ofA ? whole_.ballA.center : whole_.ballB.center;
@@ -29,18 +30,37 @@ PartMotion PartMotions::of(bool ofA, const OrientedBox& box) const {
   // The farthest corner of the box bounds the sum, too.
   part.most = std::min(part.most, spin.norm() * half.norm() * (1.0 + 1e-6));
   const double coordinates = box.center.cwiseAbs().sum() + size + about.cwiseAbs().sum() + offset_;
-  part.rounding = tolerance::kSupportRounding * spin.cwiseAbs().sum() * coordinates;
+  part.rounding += tolerance::kSupportRounding * spin.cwiseAbs().sum() * coordinates;
   return part;
+}
+
+/// For errors: PartMotion::offset and axes.
+void PartMotions::place(bool ofA, const OrientedBox& box, PartMotion& part) const {
+  const Vector3d& about = ofA ? whole_.ballA.center : whole_.ballB.center;
+  part.offset = (ofA ? box.center : Vector3d(a_from_b_ * box.center)) - about;
+  const double size = static_cast<double>(box.half[0]) + box.half[1] + box.half[2];
+  for (int j = 0; j < 3; ++j) {
+    const Vector3d axis(box.axes[j][0], box.axes[j][1], box.axes[j][2]);
+    const Vector3d half = (box.half[j] + kBoxSkew * size) * axis;
+    part.axes[j] = ofA ? half : Vector3d(a_from_b_.linear() * half);
+  }
+  const double coordinates = box.center.cwiseAbs().sum() + size + about.cwiseAbs().sum() + offset_;
+  part.rounding = tolerance::kSupportRounding * (ofA ? errorsA_ : errorsB_) * coordinates;
 }
 
 PartMotion PartMotions::ofBall(bool ofA) const {
   PartMotion part;
+  const double radius = ofA ? whole_.ballA.radius : whole_.ballB.radius;
+  if (!whole_.errors.empty()) {
+    part.offset.setZero();
+    for (int j = 0; j < 3; ++j) part.axes[j] = radius * Vector3d::Unit(j);
+    part.rounding = tolerance::kSupportRounding * (ofA ? errorsA_ : errorsB_) * radius;
+  }
   if (!(ofA ? turnsA_ : turnsB_)) return part;
   const Vector3d& spin = ofA ? whole_.spinA : whole_.spinB;
-  const double radius = ofA ? whole_.ballA.radius : whole_.ballB.radius;
   for (int j = 0; j < 3; ++j) part.spread[j] = radius * spin.cross(Vector3d::Unit(j));
   part.most = spin.norm() * radius;
-  part.rounding = tolerance::kSupportRounding * spin.cwiseAbs().sum() * radius;
+  part.rounding += tolerance::kSupportRounding * spin.cwiseAbs().sum() * radius;
   return part;
 }
 

@@ -20,6 +20,12 @@ struct PartMotion {
                                         Eigen::Vector3d::Zero()};
   double most = 0.0;      ///< m, no sum of +-spread[j] is longer
   double rounding = 0.0;  ///< m, of all of these
+  ///@{
+  /// m. The box's centre from the centre of the ball, and its half axes. Only if there are errors
+  /// (ApproachBound::errors); else not set.
+  Eigen::Vector3d offset;
+  std::array<Eigen::Vector3d, 3> axes;
+  ///@}
 };
 
 /// How far two parts can approach along a direction during the interval of an ApproachBound.
@@ -28,16 +34,22 @@ struct PartMotion {
 /// its box and e_j its half axes. Its velocity is v(p) = v(c) + sum t_j w x e_j, hence of two parts
 ///   |n . (v_B(p_B) - v_A(p_A))| <= |n . (v_B(c_B) - v_A(c_A))| + sum_j |n . (w_A x e_j)|
 ///                                  + sum_j |n . (w_B x f_j)|,
-/// and what ApproachBound says of curvature holds for the points of the parts as for all others.
-/// The ball that grows a core does not turn: only points of the core count.
+/// and what ApproachBound says of curvature holds for the points of the parts as for all others. An
+/// error's displacement is e(p) = e(c) + sum t_j w x e_j in the same way, and adds what it has
+/// along n; n . (w x e_j) = e_j . (n x w). The ball that grows a core does not turn: only points of
+/// the core count.
 class PartApproach {
  public:
   PartApproach(const ApproachBound& whole, const PartMotion& a, const PartMotion& b)
       : whole_(whole), a_(a), b_(b), linear_(whole.linear + (b.linear - a.linear)) {
     fixed_ = whole.curvature + a.rounding + b.rounding +
              tolerance::kSupportRounding * whole.linear.cwiseAbs().sum();
-    most_ = whole.required +
-            std::min(whole.travel, (linear_.norm() + a.most + b.most) * (1.0 + 1e-14) + fixed_);
+    double moved = linear_.norm() + a.most + b.most;
+    for (const ApproachError& error : whole.errors) {
+      fixed_ += tolerance::kSupportRounding * error.linear.cwiseAbs().sum();
+      moved += error.linear.norm() + reachOf(error.spinA, a) + reachOf(error.spinB, b);
+    }
+    most_ = whole.required + std::min(whole.travel, moved * (1.0 + 1e-14) + fixed_);
   }
 
   /// m. A separation of more than this along the unit vector n at m holds for the whole interval.
@@ -66,7 +78,32 @@ class PartApproach {
     double sum = fixed_;
     for (const Eigen::Vector3d& k : a_.spread) sum += std::abs(n.dot(k));
     for (const Eigen::Vector3d& k : b_.spread) sum += std::abs(n.dot(k));
+    for (const ApproachError& error : whole_.errors) sum += errorAlong(n, error);
     return sum;
+  }
+
+  double errorAlong(const Eigen::Vector3d& n, const ApproachError& error) const {
+    double atCenters = n.dot(error.linear);
+    double spread = 0.0;
+    if (!error.spinA.isZero(0.0)) {
+      const Eigen::Vector3d turned = n.cross(error.spinA);
+      atCenters -= a_.offset.dot(turned);
+      for (const Eigen::Vector3d& axis : a_.axes) spread += std::abs(axis.dot(turned));
+    }
+    if (!error.spinB.isZero(0.0)) {
+      const Eigen::Vector3d turned = n.cross(error.spinB);
+      atCenters += b_.offset.dot(turned);
+      for (const Eigen::Vector3d& axis : b_.axes) spread += std::abs(axis.dot(turned));
+    }
+    return std::abs(atCenters) + spread;
+  }
+
+  /// m. How far a rotation moves points of the part, at most.
+  static double reachOf(const Eigen::Vector3d& spin, const PartMotion& part) {
+    if (spin.isZero(0.0)) return 0.0;
+    const double corner = std::sqrt(part.axes[0].squaredNorm() + part.axes[1].squaredNorm() +
+                                    part.axes[2].squaredNorm());
+    return spin.norm() * (part.offset.norm() + corner * (1.0 + 1e-6));
   }
 
   const ApproachBound& whole_;
@@ -86,7 +123,12 @@ class PartMotions {
         spinInB_(a_from_b.linear().transpose() * whole.spinB),
         turnsA_(!whole.spinA.isZero(0.0)),
         turnsB_(!whole.spinB.isZero(0.0)),
-        offset_(a_from_b.translation().cwiseAbs().sum()) {}
+        offset_(a_from_b.translation().cwiseAbs().sum()) {
+    for (const ApproachError& error : whole.errors) {
+      errorsA_ += error.spinA.cwiseAbs().sum();
+      errorsB_ += error.spinB.cwiseAbs().sum();
+    }
+  }
 
   /// `box` in the side's own frame.
   PartMotion of(bool ofA, const OrientedBox& box) const;
@@ -94,12 +136,16 @@ class PartMotions {
   PartMotion ofBall(bool ofA) const;
 
  private:
+  void place(bool ofA, const OrientedBox& box, PartMotion& part) const;
+
   const ApproachBound& whole_;
   const Eigen::Isometry3d& a_from_b_;
   Eigen::Vector3d spinInB_;  ///< rad, b's frame
   bool turnsA_;
   bool turnsB_;
-  double offset_;  ///< m
+  double offset_;         ///< m
+  double errorsA_ = 0.0;  ///< rad, sums of the errors' components
+  double errorsB_ = 0.0;  ///< rad
 };
 
 }  // namespace swept::detail

@@ -6,12 +6,21 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "swept/core/bounding_sphere.hpp"
 #include "swept/core/shapes.hpp"
 #include "swept/core/tolerances.hpp"
 
 namespace swept {
+
+/// A displacement of two bodies that may happen besides their motion, by any share of it from -1 to
+/// 1: that of their centres, and small rotations about these. In the first body's frame.
+struct ApproachError {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();  ///< m, of b's centre minus a's
+  Eigen::Vector3d spinA = Eigen::Vector3d::Zero();   ///< rad
+  Eigen::Vector3d spinB = Eigen::Vector3d::Zero();   ///< rad
+};
 
 /// How far two moving bodies can approach along a direction during a time interval [m - h, m + h].
 ///
@@ -22,6 +31,10 @@ namespace swept {
 /// first terms of the two bodies are combined: only their relative velocity counts. The same holds
 /// for any part of a body with its own centre and size. Queries use this, and so need c besides
 /// v(c). Vectors and centres are in the first body's frame at m.
+///
+/// Errors, such as those of joints that are off their values, displace a point p besides, by e(c) +
+/// w x (p - c) each, times a share from -1 to 1 of its own; `curvature` has what this neglects. So
+/// along n each adds |n . e(c)| + |n x w| r.
 struct ApproachBound {
   double required = 0.0;   ///< m, to be kept in addition to the motion: margin and rounding
   double travel = 0.0;     ///< m, bound on the approach in any direction (may be infinity)
@@ -31,17 +44,24 @@ struct ApproachBound {
   Eigen::Vector3d spinB = Eigen::Vector3d::Zero();     ///< rad, h w_B
   BoundingSphere ballA{Eigen::Vector3d::Zero(), 0.0};  ///< m, a's frame
   BoundingSphere ballB{Eigen::Vector3d::Zero(), 0.0};  ///< m, a's frame
+  std::span<const ApproachError> errors = {};          ///< must outlive the query
 
   /// m. A separation of more than this along the unit vector n at m holds for the whole interval.
   double along(const Eigen::Vector3d& n) const {
-    const double directed = std::abs(n.dot(linear)) + n.cross(spinA).norm() * ballA.radius +
-                            n.cross(spinB).norm() * ballB.radius + curvature;
+    double directed = std::abs(n.dot(linear)) + n.cross(spinA).norm() * ballA.radius +
+                      n.cross(spinB).norm() * ballB.radius + curvature;
+    for (const ApproachError& error : errors)
+      directed += std::abs(n.dot(error.linear)) + n.cross(error.spinA).norm() * ballA.radius +
+                  n.cross(error.spinB).norm() * ballB.radius;
     return required + std::min(travel, directed);
   }
   /// m, >= along(n) for every n.
   double most() const {
-    return required + std::min(travel, linear.norm() + spinA.norm() * ballA.radius +
-                                           spinB.norm() * ballB.radius + curvature);
+    double moved = linear.norm() + spinA.norm() * ballA.radius + spinB.norm() * ballB.radius;
+    for (const ApproachError& error : errors)
+      moved += error.linear.norm() + error.spinA.norm() * ballA.radius +
+               error.spinB.norm() * ballB.radius;
+    return required + std::min(travel, moved + curvature);
   }
 };
 

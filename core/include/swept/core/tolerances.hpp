@@ -49,6 +49,11 @@ inline constexpr double kHull = 1e-12;
 /// limits are not kept.
 inline constexpr double kLimit = 1.000001e-5;
 
+/// Relative (no unit). A rate this far beyond its limit still counts as the limit: files give their
+/// velocities and accelerations in seven digits or fewer, and a curve through rounded positions is
+/// off by as much. Smaller: such curves are said to be too fast. Larger: limits are not kept.
+inline constexpr double kRateLimit = 1e-6;
+
 /// Default cap on the intervals examined in one motion; beyond it the rest is Undecided.
 inline constexpr int kMaxIntervals = 1 << 20;
 
