@@ -617,7 +617,7 @@ TEST(ErrorModel, TableValues) {
         const Digits middle = Digits(from[0]) + Digits(scratch.block.time.lane[lane]) * rate;
         const Digits reach = Digits(scratch.block.half.lane[lane]) * abs(rate);
         PairSeparationTable::Values low{}, high{};
-        TableLanes(scratch).boxOf(table, lane, lane + 1, low, high);
+        TableLanes(lanes, scratch).boxOf(table, lane, lane + 1, low, high);
         const auto beyond = [&](const PairSeparationTable::Values& value, const Digits& truth) {
           const PairSeparationTable::Cell* cell = table.cellAt(value);
           if (cell == nullptr) return;

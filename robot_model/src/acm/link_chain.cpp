@@ -27,7 +27,8 @@ KinematicModel wholeKinematics(const Robot& robot) {
   return compileKinematics(robot, all, robot.defaultState());
 }
 
-LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB)
+LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB,
+                     double beyond)
     : model_(model), bodyA_(bodyA), bodyB_(bodyB) {
   int a = bodyA, b = bodyB;
   // Parents have smaller indices than their children.
@@ -54,8 +55,11 @@ LinkChain::LinkChain(const Robot& robot, const KinematicModel& model, int bodyA,
     const bool near = std::abs(box_.lower[k]) <= kFarthest && std::abs(box_.upper[k]) <= kFarthest;
     // For a box without values anything could be proven.
     bounded_ = bounded_ && near && box_.lower[k] <= box_.upper[k];
-    box_.lower[k] -= tolerance::kLimit;
-    box_.upper[k] += tolerance::kLimit;
+    const bool turnsOnly = std::ranges::none_of(
+        joints_, [k](const ChainJoint& joint) { return joint.variable == k && joint.slides; });
+    const double more = tolerance::kLimit + (turnsOnly ? beyond : 0.0);
+    box_.lower[k] -= more;
+    box_.upper[k] += more;
   }
 }
 

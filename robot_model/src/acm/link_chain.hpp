@@ -54,15 +54,18 @@ class LinkChain {
     std::vector<BodyState> states;
   };
 
-  /// `model` has all of the robot's variables and must outlive this.
-  LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB);
+  /// `model` has all of the robot's variables and must outlive this. `beyond`: rad, how much
+  /// farther joints that turn go than their limits.
+  LinkChain(const Robot& robot, const KinematicModel& model, int bodyA, int bodyB,
+            double beyond = 0.0);
 
   /// Whether the box contains all relative poses within the limits, and joints() all joints between
   /// the two.
   bool bounded() const { return bounded_; }
   const std::vector<ChainJoint>& joints() const { return joints_; }
   const std::vector<int>& variables() const { return variables_; }  ///< of the robot
-  /// All values that the variables can have, including tolerance::kLimit beyond their limits.
+  /// All values that the variables can have, including tolerance::kLimit beyond their limits, and
+  /// `beyond` if nothing slides with them.
   /// Variables that can do a whole turn have one turn.
   const JointBox& box() const { return box_; }
   /// The limits themselves; may be infinite.

@@ -106,7 +106,7 @@ class Prover {
     const LinkPieces& a = *pieces_[question.linkA];
     const LinkPieces& b = *pieces_[question.linkB];
     const LinkChain chain(robot_, model_, model_.bodyOfLink[question.linkA],
-                          model_.bodyOfLink[question.linkB]);
+                          model_.bodyOfLink[question.linkB], question.beyond);
     if (!chain.bounded() || !a.covered() || !b.covered()) return startWork();
     chain.startFrom(start_, place);
     NeverProof proof(a, b, chain, question.margin, place);

@@ -13,7 +13,9 @@ struct LinkQuestion {
   int linkA = -1;
   int linkB = -1;
   double margin = 0.0;  ///< m
-  bool never = false;   ///< proven: always more than the margin apart; see NeverProof
+  /// rad. How far beyond their limits the values of joints that turn are looked at, too.
+  double beyond = 0.0;
+  bool never = false;  ///< proven: always more than the margin apart; see NeverProof
 };
 
 /// Answers the questions, each within the budget (see AllowedCollisionMatrixOptions::budget), over

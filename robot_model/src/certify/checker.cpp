@@ -9,6 +9,7 @@
 #include "certify/motion_check.hpp"
 #include "certify/signed_clearance.hpp"
 #include "certify/state_check.hpp"
+#include "certify/trajectory_check.hpp"
 #include "certify/workspace_data.hpp"
 #include "kinematics/full_state.hpp"
 #include "model/pair_reasons.hpp"
@@ -201,6 +202,35 @@ MotionCertificate Checker::certifyMotion(ConfigurationView from, ConfigurationVi
   requireSize(from);
   requireSize(to);
   return detail::certifyMotion(*model_, from, to, query, dataOf(workspace));
+}
+
+TrajectoryCertificate Checker::certifyTrajectory(const PiecewisePolynomial& curve,
+                                                 Workspace& workspace,
+                                                 const TrajectoryQuery& query) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return certifyTrajectory(curve, workspace, query); });
+  }
+  const std::size_t values = group().variables.size();
+  const auto require = [&](std::size_t size, const std::string& what) {
+    if (size == values) return;
+    throw std::invalid_argument("Checker: " + what + " of group '" + group().name + "' has " +
+                                std::to_string(values) + " values, not " + std::to_string(size));
+  };
+  require(static_cast<std::size_t>(curve.dimension()), "a curve");
+  if (query.limits) {
+    require(query.limits->velocity.size(), "RateLimits::velocity");
+    require(query.limits->acceleration.size(), "RateLimits::acceleration");
+    require(query.limits->jerk.size(), "RateLimits::jerk");
+  }
+  if (!std::isfinite(query.clock))
+    throw std::invalid_argument("Checker: clock " + detail::formatNumber(query.clock) +
+                                " s must be a finite number");
+  const std::string floating = detail::turnsFreely(*model_, curve);
+  if (!floating.empty())
+    throw std::invalid_argument("Checker: the orientation of floating joint '" + floating +
+                                "' changes along a piece of a higher degree than 1: its components "
+                                "are no polynomials; allowed are pieces of degree 1 (slerp)");
+  return detail::certifyTrajectory(*model_, curve, query, dataOf(workspace));
 }
 
 MotionClearance Checker::motionClearance(ConfigurationView from, ConfigurationView to,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -62,11 +63,13 @@ class ExactSearch {
       const PairAnswer answer = prove(pair, interval.half());
       if (answer.status == Separation::Separated) continue;
       const bool atTolerance = answer.travel <= kStopShare * query_.tolerance();
-      outcome.atTolerance = outcome.atTolerance || atTolerance;
       if (answer.status == Separation::Contact) {
         outcome.contact = true;
         keepContact(pair, interval.middle(), answer);
+      } else if (atTolerance) {
+        outcome.contact = keepTubeContact(pair, interval.middle(), answer);
       }
+      outcome.atTolerance = outcome.atTolerance || atTolerance;
       if (!(atTolerance && dropAtTolerance)) work_.unresolved.push_back(pair);
     }
     return outcome;
@@ -80,6 +83,15 @@ class ExactSearch {
 
   void keepContact(std::uint32_t pair, double t, const PairAnswer& answer) {
     if (t < contacts_.horizon()) contacts_.add(query_.witness(pair, t, answer));
+  }
+
+  /// Of a configuration beside the motion.
+  bool keepTubeContact(std::uint32_t pair, double t, const PairAnswer& answer) {
+    if (t >= contacts_.horizon()) return false;
+    std::optional<Witness> witness = query_.tubeContact(pair, answer);
+    if (!witness) return false;
+    contacts_.add(*std::move(witness));
+    return true;
   }
 
   bool budgetLeft() const { return workLeft(model_, effort_); }
@@ -158,8 +170,10 @@ class ExactSearch {
     query_.moveTo(0.0, 0.0);
     for (const std::uint32_t pair : pairs) {
       const PairAnswer answer = prove(pair, 0.0);
-      if (answer.status != Separation::Contact) continue;
-      keepContact(pair, 0.0, answer);
+      if (answer.status == Separation::Contact)
+        keepContact(pair, 0.0, answer);
+      else if (answer.status == Separation::Separated || !keepTubeContact(pair, 0.0, answer))
+        continue;
       return true;
     }
     return false;

@@ -42,8 +42,7 @@ MotionCertificate provePart(const CheckerModel& model, const JointPath& path, Mo
     certificate.verdict = Verdict::Collision;
     certificate.witness = contacts.earliest();
     if (wanted == MotionQuery::FirstContact && oracle.start()) {
-      query.moveTo(certificate.witness->t, 0.0);
-      takeNearestPoints(model, query, *certificate.witness);
+      takeNearestPoints(model, query, workspace, *certificate.witness);
     }
   } else if (work.isProven()) {
     certificate.verdict = Verdict::Free;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "certify/waypoint_segments.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -21,10 +23,7 @@ int bodyNamed(const CheckerModel& model, const std::string& name) {
   return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
 }
 
-}  // namespace
-
-void takeNearestPoints(const CheckerModel& model, PairQuery& query, Witness& witness) {
-  if (!(witness.distance > 0.0)) return;
+void takeNearest(const CheckerModel& model, PairQuery& query, Witness& witness) {
   const int a = collisionBodyNamed(model, witness.bodyA);
   const int body = witness.selfPair ? -1 : bodyNamed(model, witness.bodyB);
   const int collisionBody = body < 0 ? collisionBodyNamed(model, witness.bodyB) : -1;
@@ -39,6 +38,21 @@ void takeNearestPoints(const CheckerModel& model, PairQuery& query, Witness& wit
     witness.pointA = found.pointA;
     witness.pointB = found.pointB;
   }
+}
+
+}  // namespace
+
+void takeNearestPoints(const CheckerModel& model, PairQuery& query, WorkspaceData& workspace,
+                       Witness& witness) {
+  if (!(witness.distance > 0.0)) return;
+  if (witness.configuration.empty()) {
+    query.moveTo(witness.t, 0.0);
+    return takeNearest(model, query, witness);
+  }
+  WorkspaceData& other = *workspace.besideMotion;  // where the contact was found
+  PairQuery beside(model, other, Tube::None);
+  if (beside.startAt(fullConfiguration(model, witness.configuration, other.from)))
+    takeNearest(model, beside, witness);
 }
 
 }  // namespace swept::detail

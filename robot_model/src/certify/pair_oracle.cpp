@@ -47,6 +47,8 @@ ExactAnswer PairOracle::look(std::uint32_t pair, double t, double half) {
     return look;
   }
   if (answer.status == Separation::Separated) look.kind = ExactAnswer::Kind::Apart;
+  if (answer.status == Separation::Unproven && keep(query_.tubeContact(pair, answer)))
+    look.kind = ExactAnswer::Kind::Contact;
   look.directed = !answer.normal.isZero();
   for (int i = 0; i < 3; ++i) look.towards[i] = static_cast<float>(answer.normal[i]);
   return look;

@@ -23,6 +23,7 @@ constexpr double kQueryShare = 1.0 / 16.0;
 
 bool PairQuery::start(const JointPath& path) {
   if (!path.linearize(0.5, 0.5, workspace_.motion)) return false;
+  if (inTube_) widenRanges();
   ++workspace_.motionStamp;
   ++workspace_.boundStamp;
   bool curved = false;
@@ -40,11 +41,14 @@ bool PairQuery::start(const JointPath& path) {
     curved = curved || !joint.hasConstantRates();
   }
   path_ = curved ? &path : nullptr;
+  source_ = &path;
   return slid < kLargestNorm;
 }
 
 bool PairQuery::startAt(std::span<const double> q) {
   if (!start(StraightPath(model_.kinematics, q, q))) return false;
+  source_ = nullptr;
+  state_ = q;
   moveTo(0.0, 0.0);
   return true;
 }
@@ -52,8 +56,10 @@ bool PairQuery::startAt(std::span<const double> q) {
 void PairQuery::moveTo(double t, double half) {
   if (path_ != nullptr) {
     linearizePart(*path_, t, half, workspace_.motion);
+    if (inTube_) widenRanges();
     ++workspace_.boundStamp;
   }
+  if (inTube_) boundTubeMotion(half);
   workspace_.t = t;
   ++workspace_.stamp;
   workspace_.stateStamps[0] = workspace_.stamp;
@@ -160,7 +166,8 @@ double PairQuery::travel(const GeometryPair& pair, double half) {
 Aabb PairQuery::ballBox(int geometry, double half) {
   // The geometry has pairs with the world, whose motion bound is in the model frame.
   const GeometryPair& pair = model_.pairs[model_.firstWorldPair[geometry]];
-  const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) +
+  const double tube = inTube_ ? pair.tube : 0.0;
+  const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) + tube +
                        model_.largestMargin + largestRounding();
   return boxAround(geometry, reach);
 }
@@ -214,9 +221,11 @@ double PairQuery::coarseDistance(const GeometryPair& pair) {
 }
 
 /// Compares the containing balls (and the world geometry's box) along the direction between them. A
-/// ball's own spin does not bring it closer.
+/// ball's own spin does not bring it closer. `alone`: the bound of the motion without the tube,
+/// whose errors are in the model frame here.
 PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const ApproachBound& bound,
-                                           const Vector3d& velocity, Vector3d& towards) {
+                                           const ApproachBound& alone, const Vector3d& velocity,
+                                           Vector3d& towards) {
   Vector3d direction;
   double gap = -model_.robotGeometry[pair.a].radius;
   if (pair.self) {
@@ -235,11 +244,13 @@ PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const Appro
   gap += norm;
   if (!(norm > 0.0) || !(gap > bound.required)) return Coarse::Open;
   towards = direction / norm;
-  const double directed = std::abs(direction.dot(velocity)) / norm + bound.curvature;
-  const double approach = std::min(bound.travel, directed);
-  if (gap > bound.required + approach) return Coarse::Apart;
+  const double moved = std::abs(direction.dot(velocity)) / norm;
+  double directed = moved + bound.curvature;
+  for (const ApproachError& error : bound.errors) directed += std::abs(towards.dot(error.linear));
+  if (gap > bound.required + std::min(bound.travel, directed)) return Coarse::Apart;
   // The bodies are apart now, but even their centres come closer than this: only shorter intervals
   // help.
+  const double approach = std::min(alone.travel, moved + alone.curvature);
   const bool hopeless =
       approach > norm + model_.robotGeometry[pair.a].radius && approach > tolerance_;
   return hopeless ? Coarse::TooFast : Coarse::Open;
@@ -276,8 +287,10 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   PairAnswer answer;
   ApproachBound bound = approach(pair, half, pair.margin);
   const Vector3d velocity = half * relativeVelocity(pair);
+  ApproachBound whole = bound;
+  if (inTube_) addTube(pair, whole);
   answer.travel = bound.travel;
-  const Coarse coarse = compareBounds(pair, bound, velocity, answer.normal);
+  const Coarse coarse = compareBounds(pair, whole, bound, velocity, answer.normal);
   if (coarse != Coarse::Open) {
     answer.status = coarse == Coarse::Apart ? Separation::Separated : Separation::Unproven;
     answer.culled = true;
@@ -290,6 +303,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   answer.travel = bound.most() - bound.required;
   SeparationQuery query;
   query.approach = bound;
+  if (inTube_) takeTube(world_from_a, whole, query.approach);
   query.contact = pair.margin;
   // A state cannot be divided, so use the best tolerance.
   query.tolerance = half > 0.0 ? kQueryShare * tolerance_ : tolerance::kDistance;

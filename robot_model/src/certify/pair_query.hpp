@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "certify/workspace_data.hpp"
@@ -30,11 +31,20 @@ struct PairDistance {
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, model frame
 };
 
+/// What prove() is about.
+enum class Tube : std::uint8_t {
+  Whole,  ///< all configurations that PairModel::tube allows
+  None,   ///< only the motion itself
+};
+
 /// The pairs of a model at one t of the motion held by a workspace.
 class PairQuery {
  public:
-  PairQuery(const CheckerModel& model, WorkspaceData& workspace)
-      : model_(model), workspace_(workspace), tolerance_(model.options.tolerance) {}
+  PairQuery(const CheckerModel& model, WorkspaceData& workspace, Tube tube = Tube::Whole)
+      : model_(model),
+        workspace_(workspace),
+        tolerance_(model.options.tolerance),
+        inTube_(tube == Tube::Whole && !model.tube.empty()) {}
 
   /// m. The target of prove() on intervals: a pair that keeps more than its margin and this is
   /// proven once intervals are short enough. The options' tolerance at first.
@@ -49,8 +59,12 @@ class PairQuery {
   void moveTo(double t, double half);
 
   /// Whether the pair stays apart by more than the margin on [t - half, t + half], or is within the
-  /// margin at t. `half` in units of t.
+  /// margin at t. `half` in units of t; in a tube, that of moveTo().
   PairAnswer prove(std::uint32_t pair, double half);
+  /// For a pair that prove() left open: a configuration of the tube at t in which it is within the
+  /// margin. Climbs a few steps from where the tube lets the two come nearest along the direction
+  /// between them; finds nothing without a tube.
+  std::optional<Witness> tubeContact(std::uint32_t pair, const PairAnswer& answer);
   /// Distance at t. Stops early when it is proven to exceed `enough` (m).
   PairDistance measure(const GeometryPair& pair, double enough, double accuracy);
   /// The same, negative where they overlap; see signedDistance().
@@ -99,19 +113,35 @@ class PairQuery {
   enum class Coarse : std::uint8_t { Open, Apart, TooFast };
   /// Sets `towards` to the unit direction of the comparison, from the first to the second.
   Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
-                       const Eigen::Vector3d& relativeVelocity, Eigen::Vector3d& towards);
+                       const ApproachBound& alone, const Eigen::Vector3d& relativeVelocity,
+                       Eigen::Vector3d& towards);
   Eigen::Vector3d relativeVelocity(const GeometryPair& pair);
   /// Without directions, which relativeMotion() adds. `separation` in m.
   ApproachBound approach(const GeometryPair& pair, double half, double separation);
   void relativeMotion(const GeometryPair& pair, double half, const Eigen::Isometry3d& world_from_a,
                       const Eigen::Vector3d& velocity, ApproachBound& bound);
+  ///@{
+  /// Of a tube: see pair_tube.cpp.
+  void widenRanges();
+  void boundTubeMotion(double half);
+  PointMotionBound tubeBound(int travel);
+  void addTube(const GeometryPair& pair, ApproachBound& bound);
+  double addErrors(int geometry, int motionBound, double sign);
+  void takeTube(const Eigen::Isometry3d& world_from_a, const ApproachBound& tube,
+                ApproachBound& bound);
+  void addGradient(int geometry, int motionBound, const Eigen::Vector3d& push,
+                   std::span<double> gradient);
+  ///@}
   const Shape& shapeOfB(const GeometryPair& pair) const;
   Eigen::Isometry3d poseOfB(const GeometryPair& pair);
 
   const CheckerModel& model_;
   WorkspaceData& workspace_;
   double tolerance_;
-  const JointPath* path_ = nullptr;  ///< null where no joint's rate changes
+  const bool inTube_;
+  const JointPath* path_ = nullptr;    ///< null where no joint's rate changes
+  const JointPath* source_ = nullptr;  ///< the path; null at a single configuration
+  std::span<const double> state_;      ///< that
 };
 
 }  // namespace swept::detail

@@ -29,7 +29,9 @@ Verdict provePairs(PairQuery& query, std::span<const std::uint32_t> pairs) {
   for (const std::uint32_t pair : pairs) {
     const PairAnswer answer = query.prove(pair, 0.0);
     if (answer.status == Separation::Contact) return Verdict::Collision;
-    proven = proven && answer.status == Separation::Separated;
+    if (answer.status == Separation::Separated) continue;
+    if (query.tubeContact(pair, answer)) return Verdict::Collision;
+    proven = false;
   }
   return proven ? Verdict::Free : Verdict::Undecided;
 }
@@ -164,14 +166,19 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   std::set<std::tuple<std::string, std::string, bool>> reported;
   for (const std::uint32_t i : workspace.pairs) {
     const PairAnswer answer = query.prove(i, 0.0);
-    proven = proven && answer.status == Separation::Separated;
-    if (answer.status != Separation::Contact) continue;
-    Witness witness = query.witness(i, 0.0, answer);
-    if (reported.insert({witness.bodyA, witness.bodyB, witness.selfPair}).second) {
-      report.contacts.push_back(std::move(witness));
+    if (answer.status == Separation::Separated) continue;
+    proven = false;
+    std::optional<Witness> witness;
+    if (answer.status == Separation::Contact)
+      witness = query.witness(i, 0.0, answer);
+    else
+      witness = query.tubeContact(i, answer);
+    if (!witness) continue;
+    if (reported.insert({witness->bodyA, witness->bodyB, witness->selfPair}).second) {
+      report.contacts.push_back(*std::move(witness));
     }
   }
-  for (Witness& contact : report.contacts) takeNearestPoints(model, query, contact);
+  for (Witness& contact : report.contacts) takeNearestPoints(model, query, workspace, contact);
   const NearestOfKinds nearest = nearestPairs(model, query, workspace);
   report.world = named(model, nearest.world);
   report.self = named(model, nearest.self);

@@ -4,12 +4,15 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "certify/checker_model.hpp"
+#include "kinematics/curve_path.hpp"
 #include "proof/open_work.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
+#include "swept/core/separation.hpp"
 
 namespace swept::detail {
 
@@ -66,6 +69,16 @@ struct WorkspaceData {
   std::vector<double> from, to;
   std::vector<double> probe;                ///< a configuration
   std::vector<WaypointCrossing> crossings;  ///< of the current motion, in order
+  CurveScratch curve;                       ///< of a run of a curve
+  ///@{
+  /// In a tube: the joints' bounds from q(m) to all of the tube's configurations around m, the
+  /// pair's errors, and where a configuration beside the motion is examined.
+  std::vector<JointMotion> tubeMotion;
+  std::vector<ApproachError> errors;
+  std::vector<double> tubeState, tubeGradient;
+  std::unique_ptr<WorkspaceData> besideMotion;
+  ///@}
+  std::vector<double> curveBegin, curveEnd;  ///< configurations of a straight run
 };
 
 }  // namespace swept::detail

@@ -180,6 +180,7 @@ KinematicModel compileKinematics(const Robot& robot, const Group& group,
     if (moves(robot, joint, group)) {
       MovingBody body = moveJoint(robot, joint, group);
       body.parent = parentBody;
+      body.joint = static_cast<int>(&joint - robot.joints().data());
       body.parent_from_joint = body_from_joint;
       body.fixedChain = before;
       model.bodyOfLink[joint.childLink] = static_cast<int>(model.bodies.size());

@@ -28,6 +28,7 @@ struct FixedJointChain {
 /// A frame that the group moves, with everything rigidly attached to it.
 struct MovingBody {
   int parent = -1;  ///< index into KinematicModel::bodies; 0 is the model frame
+  int joint = -1;   ///< index into Robot::joints(); -1: none of the robot's
   JointType type = JointType::Fixed;
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  ///< fixed joints folded in
   FixedJointChain fixedChain;                                           ///< of these

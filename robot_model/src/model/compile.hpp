@@ -11,6 +11,13 @@ struct PairModel;
 /// std::invalid_argument as the constructor of Checker does for attached bodies.
 void compileBodies(const PairModel* like, PairModel& model);
 
+/// PairModel::tube of CheckerOptions::tracking. Throws std::invalid_argument as the constructor of
+/// Checker does.
+void compileTube(PairModel& model);
+
+/// GeometryPair::tube of all pairs.
+void boundTube(PairModel& model);
+
 /// The checked pairs of the model's geometry, with their margins, and the lists of pairs of bodies.
 /// Throws std::invalid_argument for a rule about an unknown body.
 void compilePairs(PairModel& model);

@@ -56,8 +56,10 @@ class Provable {
 
 std::shared_ptr<const NeverMargins> prove(const PairModel& model, const Provable& isProvable) {
   std::vector<LinkQuestion> questions;
+  double beyond = 0.0;
+  for (const JointTolerance& joint : model.tube) beyond = std::max(beyond, joint.rotation);
   for (const BodyPair& pair : model.bodyPairs)
-    if (isProvable(pair)) questions.push_back({pair.a, pair.b, pair.margin});
+    if (isProvable(pair)) questions.push_back({pair.a, pair.b, pair.margin, beyond});
   if (referenceWithinLimits(model)) proveNever(*model.robot, questions, kBudget, kMostWork);
   auto margins = std::make_shared<NeverMargins>();
   for (const LinkQuestion& question : questions)

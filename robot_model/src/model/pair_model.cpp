@@ -28,7 +28,9 @@ bool PairModel::checksWorld(int ofRobot, int ofWorld) const {
 void compilePairModel(const PairModel* like, PairModel& model) {
   if (!model.options.reference) model.options.reference = model.robot->defaultState();
   compileBodies(like, model);
+  compileTube(model);
   compilePairs(model);
+  boundTube(model);
   findNever(like, model);
 }
 

@@ -79,6 +79,9 @@ struct GeometryPair {
   double rounding = 0.0;
   double margin = 0.0;       ///< m, what the two have to keep
   double sourceError = 0.0;  ///< m, of both geometries
+  /// m. How much nearer than in a configuration the two can be in one that PairModel::tube allows
+  /// beside it; infinity: no bound is known.
+  double tube = 0.0;
 
   /// m. What geometry as it is has to keep, so that the two keep their margin wherever the errors
   /// of their sources have them.
@@ -132,6 +135,8 @@ struct PairModel {
   Group group;
   CheckerOptions options;
   KinematicModel kinematics;
+  /// Per moving body: how far its joint may be off its value. Empty: not at all.
+  std::vector<JointTolerance> tube;
   std::vector<CollisionBody>
       collisionBodies;  ///< links, as in Robot::links(), attached bodies, obstacles
   SharedArray<RobotGeometry> robotGeometry;

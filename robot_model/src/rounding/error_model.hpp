@@ -176,9 +176,26 @@ inline double velocityRounding(double transforms) {
 inline constexpr double kParallelShare = 1e-14;
 /// Of t in [0, 1] on a part of a path: its begin, its width and their sum, 8 kDouble.
 inline constexpr double kTimeRounding = 8.0 * kDouble;
+/// One step of de Casteljau's and one of a difference, of the largest coefficient: L17 counts 5 and 1
+/// kDouble.
+inline constexpr double kCurveRoundings = 8.0 * kDouble;
 /// Bounds on what a box of joint values does to a chain (chain_bounds.hpp): up to a million
 /// roundings.
 inline constexpr double kChainOutward = 1.0 + 1e-9;
+/// What rounding takes of a polynomial's Taylor coefficients, together, over the whole piece.
+struct CurveRounding {
+  double value = 0.0;         ///< rad or m
+  double rate = 0.0;          ///< by the share of the piece's duration
+  double acceleration = 0.0;  ///< likewise
+};
+/// L17. `largest`: of the coefficients.
+inline CurveRounding curveRounding(std::size_t degree, double largest) {
+  const auto d = static_cast<double>(degree);
+  double power = 1.0;  // 3^d
+  for (std::size_t k = 0; k < degree; ++k) power *= 3.0;
+  const double value = kCurveRoundings * d * power * largest;
+  return {value, value * d, value * d * (d - 1.0)};
+}
 /// Half the width of a range, from its middle: 3 kDouble.
 inline constexpr double kHalfRangeOutward = 1.0 + 1e-15;
 /// Boxes around pieces of the world, of the largest coordinate: a product with a rotation and a

@@ -17,7 +17,10 @@
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/collision_rules.hpp"
 #include "swept/robot_model/configuration.hpp"
+#include "swept/robot_model/piecewise_polynomial.hpp"
 #include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/tracking_tolerance.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 #include "swept/robot_model/world.hpp"
 
 namespace swept {
@@ -55,6 +58,14 @@ struct CheckerOptions {
   /// world, including moving obstacles.
   std::optional<double> selfMargin = {}, worldMargin = {};
   ///@}
+  /// Free, of a state, a motion or a curve, is proven for every configuration that this allows
+  /// beside it; a contact may be of one of these (Witness::configuration). Distances and clearances
+  /// are those of the states and motions themselves.
+  ///
+  /// A motion that keeps more than its margin, `tolerance` and the tube's reach is Free. The reach
+  /// is the sum over joints of their tolerance times the lever arm of the nearest point, along the
+  /// direction to the other body. robot_model/README.md ("Tubes") says what a proof needs besides.
+  TrackingTolerance tracking = {};
 
   /// m. Margin of pairs without a rule. `selfPair`: see Witness::selfPair.
   double marginOf(bool selfPair) const {
@@ -101,9 +112,10 @@ class Checker {
  public:
   /// Throws std::invalid_argument for an unknown group; a negative or non-finite margin (of either
   /// kind) or tolerance; a reference of the wrong size, not finite or with a zero quaternion; a
-  /// rule that names an unknown body; an attached body whose link or touch link is unknown, whose
-  /// name is taken, or with a shape or pose that AttachedBody does not allow; and more pairs than
-  /// CheckerOptions::maxPairs.
+  /// rule that names an unknown body; a tracking tolerance that is negative or not finite, or of a
+  /// joint that the group does not move by values of its own; an attached body whose link or touch
+  /// link is unknown, whose name is taken, or with a shape or pose that AttachedBody does not
+  /// allow; and more pairs than CheckerOptions::maxPairs.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
@@ -200,6 +212,18 @@ class Checker {
   void certifyMotions(PackedConfigurations from, PackedConfigurations to,
                       std::span<MotionCertificate> certificates,
                       MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
+  /// What is proven about a whole curve in time, such as a controller executes: controllerCurve().
+  /// It is proven as it is, pieces, corners and all, with the time of moving obstacles beside it.
+  /// Values of cyclic variables go the way that their polynomials say. Where a joint has a degree
+  /// of 1, and turns by half a turn at most, it gives the same verdicts as certifyMotion(). The
+  /// orientation of a floating joint follows slerp() along a piece of degree 1, and must not change
+  /// along others.
+  ///
+  /// Throws std::invalid_argument for a curve of another size than the group has variables, limits
+  /// of another size, a clock that is not finite, and an orientation that changes along a piece of
+  /// a higher degree than 1.
+  TrajectoryCertificate certifyTrajectory(const PiecewisePolynomial& curve, Workspace& workspace,
+                                          const TrajectoryQuery& query = {}) const;
   /// Least distances over a motion. For each requested kind of pairs: upper - lower <= accuracy
   /// (m), and lower >= upper / 2 while upper >= accuracy / 50, unless the cap on intervals ends the
   /// search. For a path see pathClearance().

@@ -28,6 +28,9 @@ struct Witness {
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();  ///< m, model frame, on or in bodyB
   double distance = 0.0;                             ///< m, |pointB - pointA|; 0 in contact
   double margin = 0.0;  ///< m, what the two must keep; above it they are free
+  /// rad or m. The configuration that is in contact, if it is off the motion's own at t by what
+  /// CheckerOptions::tracking allows; empty: it is the motion's own.
+  std::vector<double> configuration = {};
 };
 
 /// The nearest checked pair of one kind in a state: of the pairs with the world, or of those of two

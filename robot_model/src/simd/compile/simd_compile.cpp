@@ -31,6 +31,8 @@ class SimdCompiler {
     addPairs();
     addReferences(sameBodies);
     addMargins();
+    addTube();
+    if (!simd_.usable) return std::move(simd_);
     simd_.rootRows = compileRootRows(simd_);
     simd_.obstacles =
         compileObstacles(model_.worldGeometry, simd_.reach, reachIsBounded(), simd_.obstacleExtras,
@@ -128,6 +130,23 @@ class SimdCompiler {
     }
   }
 
+  void addTube() {
+    if (model_.tube.empty()) return;
+    simd_.tubes.resize(model_.pairs.size());
+    simd_.worldTube.assign(simd_.bodies.size(), 0.0F);
+    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
+      const GeometryPair& pair = model_.pairs[i];
+      // Without a bound on it, only exact geometry may have one.
+      if (!std::isfinite(pair.tube)) simd_.usable = false;
+      const float tube = simd_.tubes[i] = singleAbove(pair.tube);
+      float& all = pair.self ? simd_.bodyPairs[simd_.sources[i].bodyPair].tube
+                             : simd_.worldTube[model_.robotGeometry[pair.a].body];
+      all = std::max(all, tube);
+    }
+    for (const JointTolerance& joint : model_.tube)
+      simd_.tubeTurn.push_back(singleAbove(joint.rotation));
+  }
+
   const PairModel& model_;
   const PairModel* like_;
   const SimdModel* likeSimd_;
@@ -159,7 +178,7 @@ std::vector<SimdRootRow> compileRootRows(const SimdModel& simd) {
     }
     SimdRootRow& row = rows[at];
     row.radii.lane[lane] = radiusOf(pair.bodyA) + radiusOf(pair.bodyB);
-    row.keep.lane[lane] = (simd.margin + pair.extra) * kMarginOutward;
+    row.keep.lane[lane] = (simd.margin + pair.extra + pair.tube) * kMarginOutward;
     row.pairs[lane] = static_cast<std::int32_t>(i);
     row.checked |= 1U << lane;
   }

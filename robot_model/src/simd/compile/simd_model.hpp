@@ -131,6 +131,7 @@ struct SimdBodyPair {
   int reference = 0;                                 ///< index into SimdModel::references
   std::shared_ptr<const PairSeparationTable> table;  ///< null: none
   float extra = 0.0F;  ///< m, the most that a pair of them keeps beyond the margin
+  float tube = 0.0F;   ///< m, likewise of GeometryPair::tube
 };
 
 /// A body with eight consecutive ones, for the pairs that are checked.
@@ -201,6 +202,12 @@ struct SimdModel {
   /// m, per pair: what it must keep beyond `margin`. Empty if all margins are the same.
   std::vector<float> extras;
   std::vector<float> obstacleExtras;  ///< m, per obstacle: the largest of its pairs; empty likewise
+  ///@{
+  /// Of a tube; empty without one.
+  std::vector<float> tubes;      ///< m, per pair: GeometryPair::tube
+  std::vector<float> worldTube;  ///< m, per body: the largest of its pairs with the world
+  std::vector<float> tubeTurn;   ///< rad, per body: how far its joint may be off its value
+  ///@}
   SharedArray<int> allBodies;         ///< the moving ones, parents first
   SharedArray<std::vector<int>> ancestors;  ///< per body, itself included, root first
   bool slides = false;                      ///< some joint does not only turn
@@ -213,6 +220,8 @@ struct SimdModel {
 
   /// m. What the pair must keep beyond `margin`.
   float extraOf(std::uint32_t pair) const { return extras.empty() ? 0.0F : extras[pair]; }
+  /// m. How much nearer the tube lets the pair come.
+  float tubeOf(std::uint32_t pair) const { return tubes.empty() ? 0.0F : tubes[pair]; }
 };
 
 /// All of SimdModel::bodyPairs, those with the same first body together.

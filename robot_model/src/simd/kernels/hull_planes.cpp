@@ -109,7 +109,7 @@ class DividedPair {
     float acceleration = accelerationOfPoints(model, reference_, source_.geometry, scratch);
     if (self_) acceleration += accelerationOfPoints(model, reference_, source_.other, scratch);
     // Two rounded positions, and as much again for the computations here.
-    const float margin = (model.margin + model.extraOf(pair)) * kMarginOutward;
+    const float margin = (model.margin + model.extraOf(pair) + model.tubeOf(pair)) * kMarginOutward;
     required_ = (set(4.0F * scratch.rounding + margin) + inflation(half_, acceleration)) *
                 set(kPairOutward);
   }

@@ -23,7 +23,7 @@ namespace swept::detail::HWY_NAMESPACE {
 class SelfTables {
  public:
   SelfTables(const SimdModel& model, SimdScratch& scratch)
-      : model_(model), block_(scratch.block), tables_(scratch) {}
+      : model_(model), block_(scratch.block), tables_(model, scratch) {}
 
   /// Lanes in which the bodies are apart.
   Lanes proven(const PairSeparationTable& table) const { return tables_.proven(table); }

@@ -83,7 +83,9 @@ class SelfWalk {
     turning_ = moving_ && reference.body != 0;
     if (turning_) angular_ = half_ * load3(block_.states[reference.body].angular);
     // Both balls' positions are rounded.
-    extra_ = set(2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward);
+    tube_ = bodies.tube;
+    extra_ =
+        set(2.0F * scratch_.rounding + (model_.margin + bodies.extra + tube_) * kMarginOutward);
     if (moving_)
       extra_ = extra_ + inflation(half_, accelerationOf(reference, bounds, bodies.bodyA) +
                                              accelerationOf(reference, bounds, bodies.bodyB));
@@ -130,7 +132,7 @@ class SelfWalk {
     }
     const bool splitA = splitsFirst(a, b);
     const SimdNode& parent = splitA ? a : b;
-    const bool coarse = a.beyond + b.beyond > 0.5F * largestLane(extra_);
+    const bool coarse = a.beyond + b.beyond > 0.5F * (largestLane(extra_) - tube_);
     if (known && (!coarse || parent.childCount == 0 || --looks_ < 0)) {
       const V3 between = atB.x - atA.x;
       const float reach = a.radius + b.radius - 0.5F * (a.beyond + b.beyond);
@@ -159,8 +161,9 @@ class SelfWalk {
   const bool moving_;
   LinkStates states_;
   bool turning_ = false;
-  V3 angular_;  ///< of the reference, times the half width
-  F8 extra_;
+  V3 angular_;          ///< of the reference, times the half width
+  F8 extra_;            ///< m, what balls must keep
+  float tube_ = 0.0F;   ///< m, the part of it that shorter intervals do not change
   bool first_ = false;  ///< only the root balls of two links
   int bodyPair_ = 0;
   std::uint32_t pair_ = 0;

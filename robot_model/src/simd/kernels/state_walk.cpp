@@ -82,7 +82,8 @@ class StateWalk {
     const SimdBodyPair& bodies = model_.bodyPairs[bodyPair];
     states_.a = &block_.states[bodies.bodyA];
     states_.b = &block_.states[bodies.bodyB];
-    extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward;
+    tube_ = bodies.tube;
+    extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra + tube_) * kMarginOutward;
   }
 
   /// The pairs, among eight pairs of balls, that are not proven apart. Radii are sums; `keep` is
@@ -164,7 +165,7 @@ class StateWalk {
         contacts_.touches(pair_, a.inside, set3(balls.atA), b.inside, set3(balls.atB), kFirst))
       return Found::Contact;
     const SimdNode& parent = splitsFirst(a, b) ? a : b;
-    const bool coarse = a.beyond + b.beyond > 0.5F * extra_;
+    const bool coarse = a.beyond + b.beyond > 0.5F * (extra_ - tube_);
     if (coarse && parent.childCount > 0 && --looks_ >= 0)
       return split(balls, [this](const BallPair& children) { return deep(children); });
     const float reach = a.radius + b.radius - 0.5F * (a.beyond + b.beyond);
@@ -212,6 +213,7 @@ class StateWalk {
   const SelfTables tables_;
   SelfContacts contacts_;
   LinkStates states_;
+  float tube_ = 0.0F;   ///< m, SimdBodyPair::tube
   float extra_ = 0.0F;  ///< m, that the balls of the pair of links must keep; rounding included
   int bodyPair_ = 0;
   std::uint32_t pair_ = 0;

@@ -37,6 +37,11 @@ void TableLanes::boxOf(const PairSeparationTable& table, int first, int last,
     upper[k] = std::max(angle.lane[first] + block.half.lane[first] * spin,
                         angle.lane[last - 1] + block.half.lane[last - 1] * spin);
   }
+  if (model_.tubeTurn.empty()) return;
+  for (int k = 0; k < table.joints; ++k) {
+    lower[k] -= model_.tubeTurn[table.axes[k].body];
+    upper[k] += model_.tubeTurn[table.axes[k].body];
+  }
 }
 
 const PairSeparationTable::Cell* TableLanes::cellOf(const PairSeparationTable& table,

@@ -98,6 +98,7 @@ class WorldWalk {
           extra_ + inflation(half_, accelerationOf(model_.references[0], scratch_.bounds[0], body));
     // Balls this close to the link are not worth another test before the interval is halved.
     enough_ = 0.5F * largestLane(extra_);
+    if (!model_.worldTube.empty()) extra_ = extra_ + set(model_.worldTube[body]);
   }
 
   HWY_INLINE Segment placed(const SimdNode& node) const {

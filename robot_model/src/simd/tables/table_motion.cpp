@@ -47,8 +47,10 @@ void TableMotion::collect(int body, int reference, std::vector<int>& path) const
 bool TableMotion::setAxes(int coarseness) {
   for (std::size_t k = 0; k < path_.size(); ++k) {
     const MovingBody& body = model_.kinematics.bodies[path_[k]];
-    double lower = body.lower;
-    double upper = body.upper;
+    const double beyond =
+        model_.tube.empty() ? 0.0 : model_.tube[static_cast<std::size_t>(path_[k])].rotation;
+    double lower = body.lower - beyond;
+    double upper = body.upper + beyond;
     // A full turn is all there is.
     if (body.type == JointType::Continuous) {
       upper = std::numbers::pi;
