@@ -148,6 +148,17 @@ Checker Checker::withRules(CollisionRules rules) const {
   return version(model_->world, std::move(changed));
 }
 
+/// What is proven once for all values within the limits depends on the tube.
+Checker Checker::withTracking(TrackingTolerance tracking) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withTracking(std::move(tracking)); });
+  }
+  CheckerOptions changed = options();
+  changed.tracking = std::move(tracking);
+  return Checker(
+      detail::compileChecker(model_->robot, model_->group, model_->world, std::move(changed)));
+}
+
 WorldBody Checker::detachedBody(std::string_view attached, ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, attached, q] { return detachedBody(attached, q); });

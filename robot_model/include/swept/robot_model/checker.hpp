@@ -154,6 +154,10 @@ class Checker {
   /// scaled body, may take more time than in a Checker made with these rules.
   Checker withRules(CollisionRules rules) const;
 
+  /// The same checks in another tube: see CheckerOptions::tracking. It is compiled anew, which takes
+  /// as long as the constructor. Throws as the constructor does.
+  Checker withTracking(TrackingTolerance tracking) const;
+
   /// An attached body at its pose in a configuration, as a body of the world: the object that a
   /// gripper releases. Throws std::invalid_argument for an unknown name, and for a configuration in
   /// which no pose is known (see checkState).
