@@ -18,7 +18,7 @@ class PathReader {
       : source_(source), messages_(source, robot, "readPath"), rows_(rows) {}
 
   void read(const YamlPlace& root) {
-    const TrajectoryMessage message = messages_.message(root);
+    const MessageParts message = messages_.message(root);
     for (const MessagePart& part : message.parts) readPart(part);
     if (rows_.states().empty()) failWithoutPoint(message.displayed.value_or(root));
     if (message.start)

@@ -45,11 +45,11 @@ MessageReader::MessageReader(const InputSource& source, const Robot& robot, cons
   frames_.addStillLinks(robot);
 }
 
-TrajectoryMessage MessageReader::message(const YamlPlace& root) const {
+MessageParts MessageReader::message(const YamlPlace& root) const {
   if (!root.isMap()) root.fail("a trajectory must be a mapping");
   if (root.at("trajectory").present() || root.at("trajectory_start").present())
     return displayOf(root);
-  TrajectoryMessage message;
+  MessageParts message;
   if (root.at("points").present() || root.at("joint_names").present())
     message.parts.push_back(partOf(root, root, root.at("multi_dof_joint_trajectory")));
   else
@@ -57,9 +57,9 @@ TrajectoryMessage MessageReader::message(const YamlPlace& root) const {
   return message;
 }
 
-TrajectoryMessage MessageReader::displayOf(const YamlPlace& root) const {
+MessageParts MessageReader::displayOf(const YamlPlace& root) const {
   root.allowOnly({"model_id", "trajectory", "trajectory_start"});
-  TrajectoryMessage message{.parts = {}, .start = {}, .displayed = root.at("trajectory")};
+  MessageParts message{.parts = {}, .start = {}, .displayed = root.at("trajectory")};
   for (const YamlPlace& part : message.displayed->elements())
     message.parts.push_back(robotPart(part));
   if (const YamlPlace start = root.at("trajectory_start"); start.present())

@@ -31,8 +31,8 @@ struct MessagePart {
   FailAt failAtPoint(std::size_t i) const;
 };
 
-/// A message of one of the three types that hold trajectories.
-struct TrajectoryMessage {
+/// A message of one of the types that TrajectoryMessage lists.
+struct MessageParts {
   std::vector<MessagePart> parts;           ///< several only of a moveit_msgs/DisplayTrajectory
   std::optional<YamlPlace> start;           ///< its `trajectory_start`
   std::optional<YamlPlace> displayed = {};  ///< its `trajectory`
@@ -45,7 +45,7 @@ class MessageReader {
   /// `reader`: the public function that reads, for messages.
   MessageReader(const InputSource& source, const Robot& robot, const char* reader);
 
-  TrajectoryMessage message(const YamlPlace& root) const;
+  MessageParts message(const YamlPlace& root) const;
   /// The columns' values of a point.
   std::vector<double> positions(const MessagePart& part, std::size_t i) const;
   ///@{
@@ -66,7 +66,7 @@ class MessageReader {
   /// Values by the names of variables.
   using Values = std::vector<std::pair<std::string, double>>;
 
-  TrajectoryMessage displayOf(const YamlPlace& root) const;
+  MessageParts displayOf(const YamlPlace& root) const;
   MessagePart robotPart(const YamlPlace& robot) const;
   MessagePart partOf(const YamlPlace& whole, const YamlPlace& joints, const YamlPlace& bases) const;
   Values baseValues(const MessagePart& part, std::size_t i) const;
