@@ -13,10 +13,8 @@
 
 namespace swept::detail {
 
-namespace {
-
-/// Empty, or why it is none.
-std::string normaliseOrientation(const Robot& robot, const Group& group, std::span<double> q) {
+std::string normalizeOrientations(const Robot& robot, const Group& group, std::span<double> q) {
+  constexpr double kRounding = 1e-15;  // four squares, three sums, a root and a quotient
   for (std::size_t i = 0; i < group.variables.size(); ++i) {
     const Joint& joint = robot.joints()[robot.variables()[group.variables[i]].joint];
     const std::optional<int> place = quaternionPlace(joint.type);
@@ -26,15 +24,13 @@ std::string normaliseOrientation(const Robot& robot, const Group& group, std::sp
     if (!unitQuaternion(orientation))
       return "the quaternion of joint " + joint.name + " has norm " + shortNumber(norm) +
              ", allowed is 1";
-    orientation /= norm;
+    if (std::abs(norm - 1.0) > kRounding) orientation /= norm;
   }
   return {};
 }
 
-}  // namespace
-
 JudgedState judgeState(const Robot& robot, const Group& group, std::span<double> q) {
-  JudgedState judged{.problem = normaliseOrientation(robot, group, q), .taken = {}};
+  JudgedState judged{.problem = normalizeOrientations(robot, group, q), .taken = {}};
   for (std::size_t i = 0; i < group.variables.size() && judged.problem.empty(); ++i) {
     const Variable& variable = robot.variables()[group.variables[i]];
     double& value = q[i];

@@ -22,6 +22,11 @@ struct JudgedState {
 /// little beyond a limit to the limit.
 JudgedState judgeState(const Robot& robot, const Group& group, std::span<double> q);
 
+/// Normalizes the quaternions of a group's configuration, except those whose norm is 1 to within
+/// rounding: what was normalized once stays the same. Returns why one is no orientation; empty: all
+/// are.
+std::string normalizeOrientations(const Robot& robot, const Group& group, std::span<double> q);
+
 /// Says why a joint without a value of its own is not at `value` (rad or m): `does not move`, or
 /// `follows 'wheel' to 0.3`, with the value that follows from its master's variable. Empty: the
 /// joint is there, to within the play of a gear.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/robot_model/path_file.hpp"
 
-#include <stdexcept>
-
 #include "io/path_formats.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -21,10 +19,7 @@ std::vector<std::vector<double>> readPath(const std::filesystem::path& file, con
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return readPath(file, robot, group, reference, options); });
   }
-  const Eigen::VectorXd still = reference.value_or(robot.defaultState());
-  if (still.size() != std::ssize(robot.variables()))
-    throw std::invalid_argument("a reference has " + std::to_string(robot.variables().size()) +
-                                " values, not " + std::to_string(still.size()));
+  const Eigen::VectorXd still = detail::referenceOf(robot, reference);
   LoadOptions own = options;
   if (own.modelFrame.empty()) own.modelFrame = robot.modelFrame();
   const detail::InputSource source(file.string(), own);

@@ -31,6 +31,18 @@ bool mayBeOctal(std::string_view number) {
          number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+/// What `parse` returns. The library's errors become InputErrors.
+template <typename Parse>
+auto parseWith(const InputSource& source, const Parse& parse) {
+  try {
+    return parse();
+  } catch (const YAML::DeepRecursion& error) {
+    source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
+  } catch (const YAML::Exception& error) {
+    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
+  }
+}
+
 }  // namespace
 
 YamlPlace::YamlPlace(const YAML::Node& node, std::string name, int line, const InputSource* source)
@@ -40,15 +52,21 @@ YamlPlace::YamlPlace(const YAML::Node& node, std::string name, int line, const I
 }
 
 YamlPlace YamlPlace::parse(const std::string& text, const InputSource& source) {
-  try {
+  return parseWith(source, [&]() -> YamlPlace {
     if (const auto line = lineOfSecondDocument(text))
       source.fail(*line, "a second document begins; one is allowed");
     return {YAML::Load(text), "", 1, &source};
-  } catch (const YAML::DeepRecursion& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: mappings and lists are nested too deeply");
-  } catch (const YAML::Exception& error) {
-    source.fail(error.mark.line + 1, "malformed YAML: " + foreignText(error.msg));
-  }
+  });
+}
+
+std::vector<YamlPlace> YamlPlace::parseAll(const std::string& text, const InputSource& source) {
+  return parseWith(source, [&] {
+    requireDocumentsEnd(text);
+    std::vector<YamlPlace> documents;
+    for (const YAML::Node& node : YAML::LoadAll(text))
+      if (!node.IsNull()) documents.push_back({node, "", 1, &source});
+    return documents;
+  });
 }
 
 void YamlPlace::fail(const std::string& message) const {

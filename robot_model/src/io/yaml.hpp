@@ -20,6 +20,8 @@ class YamlPlace {
  public:
   /// The whole document. Throws InputError when the text is no YAML, or has several documents.
   static YamlPlace parse(const std::string& text, const InputSource& source);
+  /// All documents that are not empty. Throws InputError when the text is no YAML.
+  static std::vector<YamlPlace> parseAll(const std::string& text, const InputSource& source);
 
   // Assigning a YAML::Node rewires the document it belongs to; copies only refer to it.
   YamlPlace(const YamlPlace&) = default;

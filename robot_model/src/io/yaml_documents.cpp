@@ -62,4 +62,11 @@ std::optional<int> lineOfSecondDocument(const std::string& text) {
   return documents.line();
 }
 
+void requireDocumentsEnd(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  SecondDocument documents;
+  while (parser.HandleNextDocument(documents)) continue;
+}
+
 }  // namespace swept::detail

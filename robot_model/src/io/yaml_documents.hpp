@@ -10,4 +10,8 @@ namespace swept::detail {
 /// messages that ROS prints end with the line that begins another. Throws YAML::Exception.
 std::optional<int> lineOfSecondDocument(const std::string& text);
 
+/// yaml-cpp 0.7 finds empty documents without end where it cannot read on. Throws YAML::Exception
+/// for such text, and for all that is no YAML.
+void requireDocumentsEnd(const std::string& text);
+
 }  // namespace swept::detail

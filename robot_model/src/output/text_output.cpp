@@ -61,7 +61,10 @@ std::string joined(std::span<const std::string> items, const std::string& separa
 }
 
 std::string csvCell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  // Readers leave blanks at the ends away.
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t'; };
+  const bool hasEnd = !text.empty() && (isBlank(text.front()) || isBlank(text.back()));
+  if (!hasEnd && text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/robot_model/joint_trajectory.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "text/numbers.hpp"
+#include "trajectory/valid_trajectory.hpp"
 
 namespace swept {
 
@@ -16,16 +13,6 @@ namespace {
 
 void requirePoints(bool holds, const std::string& message) {
   if (!holds) throw std::invalid_argument("controllerCurve: " + message);
-}
-
-void requireValues(const std::vector<double>& values, const char* name, std::size_t point,
-                   std::size_t wanted, bool optional) {
-  if (optional && values.empty()) return;
-  const std::string where = "point " + std::to_string(point) + " has ";
-  requirePoints(values.size() == wanted, where + std::to_string(values.size()) + " " + name +
-                                             ", expected " + std::to_string(wanted));
-  requirePoints(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }),
-                where + name + " that are not finite");
 }
 
 Eigen::Map<const Eigen::VectorXd> vectorOf(const std::vector<double>& values) {
@@ -71,21 +58,10 @@ TrajectoryPoint restAt(ConfigurationView start, const TrajectoryPoint& next) {
 PiecewisePolynomial controllerCurve(const JointTrajectory& trajectory, ConfigurationView start) {
   const std::vector<TrajectoryPoint>& points = trajectory.points;
   const std::size_t size = trajectory.variables.size();
-  requirePoints(!points.empty(), "the trajectory has no point");
+  detail::requireValid(trajectory, "controllerCurve");
   requirePoints(start.empty() || start.size() == size,
                 "the start has " + std::to_string(start.size()) + " values, expected " +
                     std::to_string(size));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    requireValues(points[i].positions, "positions", i, size, false);
-    requireValues(points[i].velocities, "velocities", i, size, true);
-    requireValues(points[i].accelerations, "accelerations", i, size, true);
-    const double before = i == 0 ? 0.0 : points[i - 1].time;
-    requirePoints(
-        std::isfinite(points[i].time) && (i == 0 ? points[i].time >= 0.0 : points[i].time > before),
-        "point " + std::to_string(i) + " is at " + detail::formatNumber(points[i].time) +
-            " s, allowed is " +
-            (i == 0 ? "0 or more" : "more than " + detail::formatNumber(before)));
-  }
   std::vector<double> knots;
   std::vector<Eigen::MatrixXd> pieces;
   const auto add = [&](const TrajectoryPoint& from, const TrajectoryPoint& to) {
