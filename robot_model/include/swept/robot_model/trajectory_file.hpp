@@ -53,8 +53,8 @@ enum class TrajectoryMessage : std::uint8_t {
   Display  ///< moveit_msgs/DisplayTrajectory, which begins at the first point
 };
 
-/// Writes a trajectory. readTrajectories() reads the same values, bit for bit. The file's extension
-/// gives the format:
+/// Writes a trajectory. What readTrajectories() returned is read back bit for bit. The file's
+/// extension gives the format:
 ///
 /// * `.csv`: `time`, positions, velocities and accelerations. Columns of a kind that no point has
 ///   are left out, and cells of a point without them are empty;
@@ -66,8 +66,8 @@ enum class TrajectoryMessage : std::uint8_t {
 /// Whoever reads the file meanwhile sees the old file or the whole new one. Throws
 /// std::invalid_argument as controllerCurve() does for a trajectory, and for one with a name twice
 /// or without any. Throws UsageError for another extension, a file that cannot be written or would
-/// be too large to be read again, a name that the format cannot hold, a time of more than 2^31 s in
-/// YAML, and two times that are the same in whole nanoseconds there (.json and .csv keep them).
+/// be too large to be read again, a name that the format cannot hold, a time of 2^31 - 1 s or more
+/// in YAML, and two times that are the same in whole nanoseconds there (.json and .csv keep them).
 void writeTrajectory(const std::filesystem::path& file, const JointTrajectory& trajectory);
 
 /// The same for a robot with the variables. `message` is what a YAML file has; other formats have
