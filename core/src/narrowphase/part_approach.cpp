@@ -7,12 +7,53 @@ namespace swept::detail {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// m. How far a rotation moves points of the part, at most.
+double reachOf(const Vector3d& spin, const PartMotion& part) {
+  if (spin.isZero(0.0)) return 0.0;
+  const double corner = std::sqrt(part.axes[0].squaredNorm() + part.axes[1].squaredNorm() +
+                                  part.axes[2].squaredNorm());
+  return spin.norm() * (part.offset.norm() + corner * (1.0 + 1e-6));
+}
+
+}  // namespace
+
+double PartApproach::errorsMost() {
+  double moved = 0.0;
+  for (const ApproachError& error : whole_.errors) {
+    fixed_ += tolerance::kSupportRounding * error.linear.cwiseAbs().sum();
+    moved += error.linear.norm() + reachOf(error.spinA, a_) + reachOf(error.spinB, b_);
+  }
+  return moved;
+}
+
+double PartApproach::errorsAlong(const Vector3d& n) const {
+  double sum = 0.0;
+  for (const ApproachError& error : whole_.errors) {
+    double atCenters = n.dot(error.linear);
+    if (!error.spinA.isZero(0.0)) {
+      const Vector3d turned = n.cross(error.spinA);
+      atCenters -= a_.offset.dot(turned);
+      for (const Vector3d& axis : a_.axes) sum += std::abs(axis.dot(turned));
+    }
+    if (!error.spinB.isZero(0.0)) {
+      const Vector3d turned = n.cross(error.spinB);
+      atCenters += b_.offset.dot(turned);
+      for (const Vector3d& axis : b_.axes) sum += std::abs(axis.dot(turned));
+    }
+    sum += std::abs(atCenters);
+  }
+  return sum;
+}
+
 // Rounding: velocities, half axes and their products with a spin are sums of fewer than 20 products
 // of a spin with coordinates, each within a few ulps of the coordinates' 1-norms. Those of b are
 // first moved into a's frame, where they may be larger by the frames' distance.
 PartMotion PartMotions::of(bool ofA, const OrientedBox& box) const {
   PartMotion part;
-  if (!whole_.errors.empty()) place(ofA, box, part);
+  if (!whole_.errors.empty()) [[unlikely]]
+    place(ofA, box, part);
   if (!(ofA ? turnsA_ : turnsB_)) return part;
   const Vector3d& spin = ofA ? whole_.spinA : whole_.spinB;
   const Vector3d& about = ofA ? whole_.ballA.center : whole_.ballB.center;
@@ -51,7 +92,7 @@ void PartMotions::place(bool ofA, const OrientedBox& box, PartMotion& part) cons
 PartMotion PartMotions::ofBall(bool ofA) const {
   PartMotion part;
   const double radius = ofA ? whole_.ballA.radius : whole_.ballB.radius;
-  if (!whole_.errors.empty()) {
+  if (!whole_.errors.empty()) [[unlikely]] {
     part.offset.setZero();
     for (int j = 0; j < 3; ++j) part.axes[j] = radius * Vector3d::Unit(j);
     part.rounding = tolerance::kSupportRounding * (ofA ? errorsA_ : errorsB_) * radius;

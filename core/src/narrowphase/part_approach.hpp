@@ -45,10 +45,8 @@ class PartApproach {
     fixed_ = whole.curvature + a.rounding + b.rounding +
              tolerance::kSupportRounding * whole.linear.cwiseAbs().sum();
     double moved = linear_.norm() + a.most + b.most;
-    for (const ApproachError& error : whole.errors) {
-      fixed_ += tolerance::kSupportRounding * error.linear.cwiseAbs().sum();
-      moved += error.linear.norm() + reachOf(error.spinA, a) + reachOf(error.spinB, b);
-    }
+    if (!whole.errors.empty()) [[unlikely]]
+      moved += errorsMost();
     most_ = whole.required + std::min(whole.travel, moved * (1.0 + 1e-14) + fixed_);
   }
 
@@ -78,33 +76,17 @@ class PartApproach {
     double sum = fixed_;
     for (const Eigen::Vector3d& k : a_.spread) sum += std::abs(n.dot(k));
     for (const Eigen::Vector3d& k : b_.spread) sum += std::abs(n.dot(k));
-    for (const ApproachError& error : whole_.errors) sum += errorAlong(n, error);
+    if (!whole_.errors.empty()) [[unlikely]]
+      sum += errorsAlong(n);
     return sum;
   }
 
-  double errorAlong(const Eigen::Vector3d& n, const ApproachError& error) const {
-    double atCenters = n.dot(error.linear);
-    double spread = 0.0;
-    if (!error.spinA.isZero(0.0)) {
-      const Eigen::Vector3d turned = n.cross(error.spinA);
-      atCenters -= a_.offset.dot(turned);
-      for (const Eigen::Vector3d& axis : a_.axes) spread += std::abs(axis.dot(turned));
-    }
-    if (!error.spinB.isZero(0.0)) {
-      const Eigen::Vector3d turned = n.cross(error.spinB);
-      atCenters += b_.offset.dot(turned);
-      for (const Eigen::Vector3d& axis : b_.axes) spread += std::abs(axis.dot(turned));
-    }
-    return std::abs(atCenters) + spread;
-  }
-
-  /// m. How far a rotation moves points of the part, at most.
-  static double reachOf(const Eigen::Vector3d& spin, const PartMotion& part) {
-    if (spin.isZero(0.0)) return 0.0;
-    const double corner = std::sqrt(part.axes[0].squaredNorm() + part.axes[1].squaredNorm() +
-                                    part.axes[2].squaredNorm());
-    return spin.norm() * (part.offset.norm() + corner * (1.0 + 1e-6));
-  }
+  ///@{
+  /// m. What the errors add to spreadAlong(), to `fixed_`, and to the sum that `most_` is made of.
+  /// Not inlined: most bodies have none.
+  double errorsAlong(const Eigen::Vector3d& n) const;
+  double errorsMost();
+  ///@}
 
   const ApproachBound& whole_;
   const PartMotion& a_;
@@ -136,7 +118,7 @@ class PartMotions {
   PartMotion ofBall(bool ofA) const;
 
  private:
-  void place(bool ofA, const OrientedBox& box, PartMotion& part) const;
+  [[gnu::noinline]] void place(bool ofA, const OrientedBox& box, PartMotion& part) const;
 
   const ApproachBound& whole_;
   const Eigen::Isometry3d& a_from_b_;

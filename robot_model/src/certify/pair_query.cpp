@@ -287,8 +287,7 @@ PairAnswer PairQuery::prove(std::uint32_t index, double half) {
   PairAnswer answer;
   ApproachBound bound = approach(pair, half, pair.margin);
   const Vector3d velocity = half * relativeVelocity(pair);
-  ApproachBound whole = bound;
-  if (inTube_) addTube(pair, whole);
+  const ApproachBound& whole = inTube_ ? withTube(pair, bound) : bound;
   answer.travel = bound.travel;
   const Coarse coarse = compareBounds(pair, whole, bound, velocity, answer.normal);
   if (coarse != Coarse::Open) {

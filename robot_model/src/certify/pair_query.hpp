@@ -125,7 +125,7 @@ class PairQuery {
   void widenRanges();
   void boundTubeMotion(double half);
   PointMotionBound tubeBound(int travel);
-  void addTube(const GeometryPair& pair, ApproachBound& bound);
+  const ApproachBound& withTube(const GeometryPair& pair, const ApproachBound& motion);
   double addErrors(int geometry, int motionBound, double sign);
   void takeTube(const Eigen::Isometry3d& world_from_a, const ApproachBound& tube,
                 ApproachBound& bound);

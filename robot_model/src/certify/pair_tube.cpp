@@ -108,8 +108,9 @@ double PairQuery::addErrors(int geometry, int motionBound, double sign) {
   return anywhere;
 }
 
-/// The pair's errors, in the model frame, and the bounds of Q in place of those of the motion.
-void PairQuery::addTube(const GeometryPair& pair, ApproachBound& bound) {
+/// The bounds of Q in place of those of the motion, with the pair's errors in the model frame.
+const ApproachBound& PairQuery::withTube(const GeometryPair& pair, const ApproachBound& motion) {
+  ApproachBound& bound = workspace_.tubeBound = motion;
   workspace_.errors.clear();
   PointMotionBound most = tubeBound(pair.motionBoundA);
   double anywhere = addErrors(pair.a, pair.motionBoundA, -1.0);
@@ -119,11 +120,11 @@ void PairQuery::addTube(const GeometryPair& pair, ApproachBound& bound) {
     most.acceleration += other.acceleration;
     anywhere += addErrors(pair.b, pair.motionBoundB, 1.0);
   }
-  const double before = bound.travel;
   bound.travel = most.speed * (1.0 + kVelocityRounding);
   bound.curvature = (0.5 * most.acceleration + anywhere) * (1.0 + kVelocityRounding);
-  bound.required += velocityRounding(transformsOf(model_, pair)) * (bound.travel - before);
+  bound.required += velocityRounding(transformsOf(model_, pair)) * (bound.travel - motion.travel);
   bound.errors = workspace_.errors;
+  return bound;
 }
 
 /// Takes the tube's bounds, and its errors in the first body's frame.

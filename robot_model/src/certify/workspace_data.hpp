@@ -75,6 +75,7 @@ struct WorkspaceData {
   /// pair's errors, and where a configuration beside the motion is examined.
   std::vector<JointMotion> tubeMotion;
   std::vector<ApproachError> errors;
+  ApproachBound tubeBound;
   std::vector<double> tubeState, tubeGradient;
   std::unique_ptr<WorkspaceData> besideMotion;
   ///@}

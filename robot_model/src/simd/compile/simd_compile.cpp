@@ -143,6 +143,7 @@ class SimdCompiler {
                              : simd_.worldTube[model_.robotGeometry[pair.a].body];
       all = std::max(all, tube);
     }
+    for (SimdBodyPair& pair : simd_.bodyPairs) pair.extra += pair.tube;
     for (const JointTolerance& joint : model_.tube)
       simd_.tubeTurn.push_back(singleAbove(joint.rotation));
   }
@@ -178,7 +179,7 @@ std::vector<SimdRootRow> compileRootRows(const SimdModel& simd) {
     }
     SimdRootRow& row = rows[at];
     row.radii.lane[lane] = radiusOf(pair.bodyA) + radiusOf(pair.bodyB);
-    row.keep.lane[lane] = (simd.margin + pair.extra + pair.tube) * kMarginOutward;
+    row.keep.lane[lane] = (simd.margin + pair.extra) * kMarginOutward;
     row.pairs[lane] = static_cast<std::int32_t>(i);
     row.checked |= 1U << lane;
   }

@@ -130,8 +130,8 @@ struct SimdBodyPair {
   int bodyB = 0;
   int reference = 0;                                 ///< index into SimdModel::references
   std::shared_ptr<const PairSeparationTable> table;  ///< null: none
-  float extra = 0.0F;  ///< m, the most that a pair of them keeps beyond the margin
-  float tube = 0.0F;   ///< m, likewise of GeometryPair::tube
+  float extra = 0.0F;  ///< m, the most that a pair of them keeps beyond the margin, tube included
+  float tube = 0.0F;   ///< m, likewise of GeometryPair::tube alone
 };
 
 /// A body with eight consecutive ones, for the pairs that are checked.
@@ -208,7 +208,7 @@ struct SimdModel {
   std::vector<float> worldTube;  ///< m, per body: the largest of its pairs with the world
   std::vector<float> tubeTurn;   ///< rad, per body: how far its joint may be off its value
   ///@}
-  SharedArray<int> allBodies;         ///< the moving ones, parents first
+  SharedArray<int> allBodies;               ///< the moving ones, parents first
   SharedArray<std::vector<int>> ancestors;  ///< per body, itself included, root first
   bool slides = false;                      ///< some joint does not only turn
   bool floats = false;                      ///< some joint is floating

@@ -84,8 +84,7 @@ class SelfWalk {
     if (turning_) angular_ = half_ * load3(block_.states[reference.body].angular);
     // Both balls' positions are rounded.
     tube_ = bodies.tube;
-    extra_ =
-        set(2.0F * scratch_.rounding + (model_.margin + bodies.extra + tube_) * kMarginOutward);
+    extra_ = set(2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward);
     if (moving_)
       extra_ = extra_ + inflation(half_, accelerationOf(reference, bounds, bodies.bodyA) +
                                              accelerationOf(reference, bounds, bodies.bodyB));

@@ -83,7 +83,7 @@ class StateWalk {
     states_.a = &block_.states[bodies.bodyA];
     states_.b = &block_.states[bodies.bodyB];
     tube_ = bodies.tube;
-    extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra + tube_) * kMarginOutward;
+    extra_ = 2.0F * scratch_.rounding + (model_.margin + bodies.extra) * kMarginOutward;
   }
 
   /// The pairs, among eight pairs of balls, that are not proven apart. Radii are sums; `keep` is

@@ -24,6 +24,12 @@ class TableLanes {
   const PairSeparationTable::Cell* cellOf(const PairSeparationTable& table, int lane) const;
 
  private:
+  template <bool kInTube>
+  void takeBox(const PairSeparationTable& table, int first, int last,
+               PairSeparationTable::Values& lower, PairSeparationTable::Values& upper) const;
+  template <bool kInTube>
+  std::uint32_t lanesProven(const PairSeparationTable& table) const;
+
   const SimdModel& model_;
   const SimdScratch& scratch_;
 };

@@ -32,7 +32,8 @@ class WorldWalk {
         fields_(model, scratch),
         half_(load(scratch.block.half)),
         moving_(scratch.block.mode == SimdMode::Motion),
-        padded_(!model.extras.empty()) {}
+        padded_(!model.extras.empty()),
+        inTube_(!model.worldTube.empty()) {}
 
   /// The root balls of all links, and balls inside these, before the rest of their covers: most
   /// contacts show there.
@@ -98,7 +99,7 @@ class WorldWalk {
           extra_ + inflation(half_, accelerationOf(model_.references[0], scratch_.bounds[0], body));
     // Balls this close to the link are not worth another test before the interval is halved.
     enough_ = 0.5F * largestLane(extra_);
-    if (!model_.worldTube.empty()) extra_ = extra_ + set(model_.worldTube[body]);
+    if (inTube_) extra_ = extra_ + set(model_.worldTube[body]);
   }
 
   HWY_INLINE Segment placed(const SimdNode& node) const {
@@ -277,6 +278,7 @@ class WorldWalk {
   const F8 half_;
   const bool moving_;
   const bool padded_;  ///< margins differ
+  const bool inTube_;
   const SimdBodyState* state_ = nullptr;
   F8 extra_;
   float enough_ = 0.0F;
