@@ -9,7 +9,7 @@ namespace swept::detail {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kRowBlanks = " \t";
 
 const char* skipWord(const char* at, const char* end) {
   while (at != end && *at != ' ' && *at != '\t') ++at;
@@ -82,7 +82,7 @@ Eigen::Vector3d readRow(const LineReader& lines, std::span<const Column> columns
   for (const Column& column : columns) {
     if (column.axis >= 0) {
       at = nextWord(at, end, column, lines);
-      point[column.axis] = readNumber(at, end, kBlanks, column.name, lines);
+      point[column.axis] = readNumber(at, end, kRowBlanks, column.name, lines);
       continue;
     }
     std::size_t count = column.isList ? listLength(at, end, column, lines) : column.repeat;
