@@ -36,7 +36,8 @@ std::string described(const Robot& robot) {
     text << '\n';
   }
   for (const Variable& variable : robot.variables())
-    text << variable.name << ' ' << variable.lower << ' ' << variable.upper << '\n';
+    text << variable.name << ' ' << variable.lower << ' ' << variable.upper << ' '
+         << variable.velocity << '\n';
   return text.str();
 }
 

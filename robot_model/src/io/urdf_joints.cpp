@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "io/urdf_elements.hpp"
@@ -93,9 +94,15 @@ void UrdfJointReader::readLimit(Element& joint, JointType type, const std::strin
   const double lower = xml_.number(*limit, "lower", owner, 0.0);
   const double upper = xml_.number(*limit, "upper", owner, 0.0);
   setNumber(*limit, "effort", xml_.number(*limit, "effort", owner, 0.0));
-  setNumber(*limit, "velocity", xml_.number(*limit, "velocity", owner, 0.0));
+  setNumber(*limit, "velocity", std::abs(xml_.number(*limit, "velocity", owner, 0.0)));
   if (!bounded) {
-    joint.DeleteChild(limit);
+    // Of a continuous joint, the velocity alone has a meaning; of others without limits, nothing.
+    if (turns(type)) {
+      limit->DeleteAttribute("lower");
+      limit->DeleteAttribute("upper");
+    } else {
+      joint.DeleteChild(limit);
+    }
     return;
   }
   if (!(lower <= upper)) {

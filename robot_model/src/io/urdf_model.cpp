@@ -214,6 +214,8 @@ void Assembler::addVariables(int jointIndex) {
   joint.firstVariable = static_cast<int>(parts_.variables.size());
   const auto add = [&](const std::string& suffix, double lower, double upper, bool cyclic) {
     parts_.variables.push_back({joint.name + suffix, jointIndex, lower, upper, cyclic});
+    if (valueCount(joint.type) == 1 && model->limits && model->limits->velocity > 0.0)
+      parts_.variables.back().velocity = model->limits->velocity;
   };
   constexpr double pi = std::numbers::pi;
   switch (joint.type) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "io/yaml_documents.hpp"
@@ -112,6 +113,21 @@ YamlPlace YamlPlace::at(const std::string& key) const {
   const YAML::Node& self = node_;  // const: looking must not insert
   const YAML::Node entry = self[key];
   return {entry.IsDefined() ? entry : YAML::Node(), join(key), line_, source_};
+}
+
+std::vector<std::pair<YamlPlace, YamlPlace>> YamlPlace::entries() const {
+  if (!present()) return {};
+  if (!isMap()) fail("must be a mapping");
+  std::vector<std::pair<YamlPlace, YamlPlace>> result;
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    const YAML::Node& key = entry.first;
+    if (!key.IsScalar()) failAt(key, "has a key that is not a single value");
+    if (!seen.insert(key.Scalar()).second) failAt(key, "has the key '" + key.Scalar() + "' twice");
+    result.push_back({{key, name_, line_, source_},
+                      {entry.second, join(key.Scalar()), key.Mark().line + 1, source_}});
+  }
+  return result;
 }
 
 std::vector<YamlPlace> YamlPlace::elements() const {

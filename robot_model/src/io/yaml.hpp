@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/input_source.hpp"
@@ -44,6 +45,9 @@ class YamlPlace {
   YamlPlace called(std::string name) const;
   /// Entry `key` of a mapping; an error when this is none.
   YamlPlace at(const std::string& key) const;
+  /// Keys and values of a mapping of any keys, as in the file; none when absent, an error when this
+  /// is no mapping, and for a key that it has twice. A key's name for messages is the mapping's.
+  std::vector<std::pair<YamlPlace, YamlPlace>> entries() const;
   /// Elements of a list; none when absent, an error when this is no list.
   std::vector<YamlPlace> elements() const;
 

@@ -3,11 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
 
+#include "robot/cyclic_values.hpp"
 #include "robot/joint_types.hpp"
 #include "swept/robot_model/robot.hpp"
 
@@ -127,15 +126,6 @@ struct BodyState {
 
 /// The norm of x, y, z, w. False, too, if the squares overflow, or a component is not finite.
 bool hasDirection(const double* quaternion);
-
-/// The difference by which a cyclic value moves: the given one if it is at most half a turn, else
-/// the shorter one.
-inline double cyclicDifference(double from, double to) {
-  const double difference = to - from;
-  return std::abs(difference) <= std::numbers::pi
-             ? difference
-             : std::remainder(difference, 2.0 * std::numbers::pi);
-}
 
 /// One joint's share of a motion whose values are finite. False as below.
 bool compileJoint(const KinematicModel& model, const MovingBody& body, std::span<const double> from,

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -72,6 +73,9 @@ struct Variable {
   double lower = 0.0;   ///< rad or m, of `<limit>`; -infinity if unbounded
   double upper = 0.0;   ///< rad or m; infinity if unbounded
   bool cyclic = false;  ///< angle modulo 2 pi: interpolated the shorter way
+  /// rad/s or m/s, of `<limit velocity>`, without its sign; infinity if that is missing or 0, and
+  /// for planar and floating joints.
+  double velocity = std::numeric_limits<double>::infinity();
 };
 
 /// Joints that are planned together.
