@@ -107,6 +107,17 @@ struct Arguments {
     bool files = false;
   } verify;
 
+  std::string tracking;  ///< E or JOINT=E,...; empty: no joint is off
+
+  struct Trajectory {
+    std::string file;
+    std::string start;                      ///< state at time 0; empty: the first point's
+    std::string limits;                     ///< joint_limits.yaml; empty: the URDF's velocities
+    std::string controllers;                ///< parameters of ros2_control; empty: none
+    std::optional<double> maxAcceleration;  ///< rad/s^2 or m/s^2
+    bool repair = false;
+  } trajectory;
+
   std::int64_t budget = 20'000'000;  ///< per pair of links
   int samples = 1000;                ///< per pair of links
   std::optional<double> acmTime;     ///< s; none: see acm

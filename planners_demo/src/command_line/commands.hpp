@@ -20,6 +20,9 @@ ExitCode runMotion(const Arguments& args);
 extern const Command kCertifyCommand;
 ExitCode runCertify(const Arguments& args);
 
+extern const Command kTrajectoryCommand;
+ExitCode runTrajectory(const Arguments& args);
+
 extern const Command kPlanCommand;
 ExitCode runPlan(const Arguments& args);
 

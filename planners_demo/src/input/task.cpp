@@ -206,7 +206,7 @@ void warnOfDefaultContacts(const Checker& checker, const Model& model, Warnings&
 std::shared_ptr<const Checker> makeCheckerWith(
     const CollisionRules& rules, const Arguments& args, const Model& model, const Group& group,
     std::shared_ptr<const World> world, Warnings& warnings, bool alone,
-    const std::optional<Eigen::VectorXd>& reference = {}) {
+    const std::optional<Eigen::VectorXd>& reference = {}, const TrackingTolerance& tracking = {}) {
   if (group.variables.empty())
     throw UsageError("group '" + group.name + "' has no joint that moves");
   CheckerOptions options;
@@ -216,6 +216,7 @@ std::shared_ptr<const Checker> makeCheckerWith(
   options.tolerance = args.tolerance;
   options.rules = rules;
   options.attached = model.attached;
+  options.tracking = tracking;
   options.reference = reference ? reference : model.reference;
   std::shared_ptr<const Checker> checker;
   const std::shared_ptr<const World> in = world;
@@ -236,9 +237,10 @@ std::shared_ptr<const Checker> makeCheckerWith(
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
-                                           const std::optional<Eigen::VectorXd>& reference) {
+                                           const std::optional<Eigen::VectorXd>& reference,
+                                           const TrackingTolerance& tracking) {
   return makeCheckerWith(rulesOf(args).over(model.weakerRules), args, model, group,
-                         std::move(world), warnings, true, reference);
+                         std::move(world), warnings, true, reference, tracking);
 }
 
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "swept/core/floating_point_environment.hpp"
 #include "trajectory/valid_trajectory.hpp"
 
 namespace swept {
@@ -56,6 +57,9 @@ TrajectoryPoint restAt(ConfigurationView start, const TrajectoryPoint& next) {
 }  // namespace
 
 PiecewisePolynomial controllerCurve(const JointTrajectory& trajectory, ConfigurationView start) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, start] { return controllerCurve(trajectory, start); });
+  }
   const std::vector<TrajectoryPoint>& points = trajectory.points;
   const std::size_t size = trajectory.variables.size();
   detail::requireValid(trajectory, "controllerCurve");

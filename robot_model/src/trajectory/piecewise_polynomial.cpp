@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "swept/core/floating_point_environment.hpp"
 #include "text/numbers.hpp"
 #include "trajectory/bernstein.hpp"
 
@@ -86,6 +87,10 @@ Eigen::VectorXd evaluate(const Eigen::MatrixXd& piece, double u) {
 PiecewisePolynomial::PiecewisePolynomial(std::vector<double> knots,
                                          std::vector<Eigen::MatrixXd> coefficients)
     : knots_(std::move(knots)), coefficients_(std::move(coefficients)) {
+  inDefaultEnvironment([this] { requireCurves(); });
+}
+
+void PiecewisePolynomial::requireCurves() const {
   requireCurve(!coefficients_.empty(), "no piece");
   requireCurve(knots_.size() == coefficients_.size() + 1,
                std::to_string(knots_.size()) + " knots for " +
@@ -112,22 +117,38 @@ double shareOf(const std::vector<double>& knots, std::size_t piece, double t) {
 }  // namespace
 
 void PiecewisePolynomial::position(double t, ConfigurationSpan q) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([this, t, q] { position(t, q); });
+  }
+  if (std::ssize(q) != dimension())
+    throw std::invalid_argument("PiecewisePolynomial: a position has " +
+                                std::to_string(dimension()) + " values, not " +
+                                std::to_string(q.size()));
   const std::size_t piece = pieceAt(t);
   evaluate(coefficients_[piece], shareOf(knots_, piece, t), q);
 }
 
 Eigen::VectorXd PiecewisePolynomial::position(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([this, t] { return position(t); });
+  }
   const std::size_t piece = pieceAt(t);
   return evaluate(coefficients_[piece], shareOf(knots_, piece, t));
 }
 
 Eigen::VectorXd PiecewisePolynomial::velocity(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([this, t] { return velocity(t); });
+  }
   const std::size_t piece = pieceAt(t);
   const double length = knots_[piece + 1] - knots_[piece];
   return evaluate(derivative(coefficients_[piece], length), shareOf(knots_, piece, t));
 }
 
 Eigen::VectorXd PiecewisePolynomial::acceleration(double t) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([this, t] { return acceleration(t); });
+  }
   const std::size_t piece = pieceAt(t);
   const double length = knots_[piece + 1] - knots_[piece];
   return evaluate(derivative(derivative(coefficients_[piece], length), length),
@@ -160,6 +181,9 @@ Eigen::VectorXd blossom(int degree, const std::vector<double>& knots,
 
 PiecewisePolynomial PiecewisePolynomial::bSpline(int degree, const std::vector<double>& knots,
                                                  const Eigen::MatrixXd& controlPoints) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, degree] { return bSpline(degree, knots, controlPoints); });
+  }
   requireCurve(
       degree >= 1 && degree <= kMaxDegree,
       "degree " + std::to_string(degree) + ", allowed is 1 to " + std::to_string(kMaxDegree));

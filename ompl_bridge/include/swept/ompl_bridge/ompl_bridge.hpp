@@ -9,4 +9,5 @@
 #include "swept/ompl_bridge/pose_goal.hpp"
 #include "swept/ompl_bridge/setup.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
+#include "swept/ompl_bridge/trajectory.hpp"
 #include "swept/ompl_bridge/validity_checker.hpp"

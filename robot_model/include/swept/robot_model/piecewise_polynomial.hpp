@@ -33,13 +33,16 @@ class PiecewisePolynomial {
   static PiecewisePolynomial bSpline(int degree, const std::vector<double>& knots,
                                      const Eigen::MatrixXd& controlPoints);
 
+  ///@{
+  /// The number of values; of pieces; and the degree of a piece.
   int dimension() const { return static_cast<int>(coefficients_.front().rows()); }
   std::size_t pieces() const { return coefficients_.size(); }
+  int degree(std::size_t piece) const { return static_cast<int>(coefficients_[piece].cols()) - 1; }
+  ///@}
   /// s, one more than pieces.
   const std::vector<double>& knots() const { return knots_; }
   /// Of a piece, as the constructor has them.
   const Eigen::MatrixXd& coefficients(std::size_t piece) const { return coefficients_[piece]; }
-  int degree(std::size_t piece) const { return static_cast<int>(coefficients_[piece].cols()) - 1; }
   double begin() const { return knots_.front(); }                     ///< s
   double end() const { return knots_.back(); }                        ///< s
   double duration() const { return knots_.back() - knots_.front(); }  ///< s
@@ -53,10 +56,13 @@ class PiecewisePolynomial {
   Eigen::VectorXd velocity(double t) const;      ///< rad/s or m/s
   Eigen::VectorXd acceleration(double t) const;  ///< rad/s^2 or m/s^2
   ///@}
-  /// The same position, into `q`; allocates nothing.
+  /// The same position, into `q`; allocates nothing. Throws std::invalid_argument for a `q` of
+  /// another size.
   void position(double t, ConfigurationSpan q) const;
 
  private:
+  void requireCurves() const;
+
   std::vector<double> knots_;
   std::vector<Eigen::MatrixXd> coefficients_;
 };

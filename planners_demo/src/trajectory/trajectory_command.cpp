@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addTrajectoryOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args);
+  app.add_option("file", args.trajectory.file,
+                 "trajectory of any planner: .yaml (JointTrajectory, RobotTrajectory, "
+                 "DisplayTrajectory; several with --- between), .csv (time, joints, "
+                 "JOINT_velocity, JOINT_acceleration) or .json (of swept)")
+      ->required()
+      ->type_name("FILE");
+  addCheckerOptions(app, args);
+  addSceneOptions(app, args);
+  addSelfFilterOption(app, args);
+  app.add_option("--tracking", args.tracking,
+                 "rad or m; each joint may be off by so much at every instant, or these joints "
+                 "(default 0)")
+      ->type_name("E|JOINT=E,...");
+  app.add_option("--controllers", args.trajectory.controllers,
+                 "parameters of ros2_control: tolerances are those at which its "
+                 "joint_trajectory_controllers abort")
+      ->type_name("FILE.yaml");
+  app.add_option("--start", args.trajectory.start,
+                 "state that the robot starts from at time 0, at rest: a name or values between "
+                 "commas")
+      ->type_name("STATE");
+  app.add_option("--limits", args.trajectory.limits,
+                 "MoveIt's joint_limits.yaml: limits of velocities, accelerations and jerks; "
+                 "without it, velocities of the URDF")
+      ->type_name("FILE.yaml");
+  app.add_flag("--repair", args.trajectory.repair,
+               "where a trajectory is not free, or leaves limits of rates: the nearest one that is "
+               "proven, into the file of -o");
+  app.add_option("-o,--output", args.output, "file of --repair: .yaml, .csv or .json")
+      ->type_name("FILE");
+  app.add_option("--max-acceleration", args.trajectory.maxAcceleration,
+                 "rad/s^2 or m/s^2; for --repair, of joints without a limit")
+      ->type_name("A")
+      ->check(CLI::PositiveNumber);
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+std::string notes() {
+  return "What is proven is the curve that ros2_control's joint_trajectory_controller makes of the "
+         "points:\nlines, cubics or quintics, by whether they have velocities and accelerations.\n";
+}
+
+}  // namespace
+
+const Command kTrajectoryCommand{
+    .name = "trajectory",
+    .summary = "Is the curve that a controller makes of this trajectory free?",
+    .example =
+        "swept trajectory models/robots/rook7/rook7.urdf models/trajectories/rook7_shelf.yaml "
+        "--group arm --scene models/scenes/shelf.yaml --tracking 0.005",
+    .exitCodes =
+        "Exit codes: 0 all are free and keep the limits, 1 one is in collision or leaves a limit, "
+        "2 "
+        "one is\nundecided, 3 bad input or usage. With --repair: of what was written.",
+    .addOptions = addTrajectoryOptions,
+    .run = runTrajectory,
+    .notes = notes};
+
+}  // namespace swept

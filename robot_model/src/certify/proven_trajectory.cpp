@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/proven_trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace swept {
+
+namespace {
+
+void requireStill(const Checker& checker, const char* function) {
+  if (checker.world().obstacles().empty()) return;
+  throw std::invalid_argument(std::string(function) +
+                              ": the world has moving obstacles, whose places depend on the times "
+                              "that are to be found");
+}
+
+/// Way points at which the robot stops, besides those that no blend is proven for.
+using Stops = std::set<std::size_t>;
+
+class Timing {
+ public:
+  Timing(const Checker& checker, const ConfigurationList& wayPoints, const RateLimits& limits,
+         const TimingOptions& options)
+      : checker_(checker),
+        wayPoints_(wayPoints),
+        limits_(limits),
+        options_(options),
+        workspace_(checker) {}
+
+  ProvenTrajectory run() {
+    Stops stops;
+    ProvenTrajectory proven = timed(stops);
+    // Each round turns the blends beside a place into stops; there are only so many.
+    while (proven.certificate.verdict != Verdict::Free && addStops(proven, stops))
+      proven = timed(stops);
+    return proven;
+  }
+
+ private:
+  ProvenTrajectory timed(const Stops& stops) {
+    const BlendProver proves = [&](std::size_t wayPoint, const PiecewisePolynomial& blend) {
+      const TrajectoryQuery query{.contact = MotionQuery::VerdictOnly};
+      return !stops.contains(wayPoint) &&
+             checker_.certifyTrajectory(blend, workspace_, query).verdict == Verdict::Free;
+    };
+    TimedPath path =
+        timeParameterize(checker_.robot(), checker_.group(), wayPoints_, limits_, proves, options_);
+    TrajectoryQuery query;
+    query.limits = limits_;
+    TrajectoryCertificate certificate = checker_.certifyTrajectory(path.curve, workspace_, query);
+    return {std::move(path), std::move(certificate)};
+  }
+
+  /// False: there is no blend beside the place that is not proven.
+  static bool addStops(const ProvenTrajectory& proven, Stops& stops) {
+    const TrajectoryCertificate& found = proven.certificate;
+    const double time = found.contact ? found.contact->time : found.undecided->time;
+    const std::vector<TimedCorner>& corners = proven.timed.corners;
+    // The corners of the straight part, or the blend, that the place is in.
+    const auto after = std::ranges::find_if(
+        corners, [time](const TimedCorner& corner) { return corner.end >= time; });
+    bool added = false;
+    const auto add = [&](const TimedCorner& corner) {
+      if (!corner.stops()) added = stops.insert(corner.wayPoint).second || added;
+    };
+    if (after != corners.end()) add(*after);
+    if (after != corners.begin()) add(*std::prev(after));
+    return added;
+  }
+
+  const Checker& checker_;
+  const ConfigurationList& wayPoints_;
+  const RateLimits& limits_;
+  const TimingOptions& options_;
+  Workspace workspace_;
+};
+
+/// Straight motions along a curve.
+class Chords {
+ public:
+  Chords(const Checker& checker, const PiecewisePolynomial& curve)
+      : checker_(checker), curve_(curve), workspace_(checker) {}
+
+  RepairedTrajectory run() {
+    RepairedTrajectory repaired;
+    repaired.wayPoints.push_back(at(curve_.begin()));
+    for (std::size_t piece = 0; piece < curve_.pieces(); ++piece)
+      if (!follow(curve_.knots()[piece], curve_.knots()[piece + 1], 0, repaired)) return repaired;
+    return repaired;
+  }
+
+ private:
+  /// Chords are no shorter than this share of a piece.
+  static constexpr int kMostHalvings = 12;
+  static constexpr double kWidestTurn = 1.5;  // rad
+
+  std::vector<double> at(double time) const {
+    std::vector<double> q(static_cast<std::size_t>(curve_.dimension()));
+    curve_.position(time, q);
+    return q;
+  }
+
+  /// Adds way points up to the end of the interval.
+  bool follow(double begin, double end, int halvings, RepairedTrajectory& repaired) {
+    std::vector<double> to = at(end);
+    if (isProven(repaired.wayPoints.back(), to)) {
+      repaired.wayPoints.push_back(std::move(to));
+      return true;
+    }
+    const double middle = 0.5 * (begin + end);
+    if (halvings == kMostHalvings) return fail(middle, repaired);
+    if (checker_.checkState(to, workspace_) != Verdict::Free) return fail(end, repaired);
+    if (!follow(begin, middle, halvings + 1, repaired)) return false;
+    ++repaired.inserted;
+    return follow(middle, end, halvings + 1, repaired);
+  }
+
+  /// Only where the shorter way of a cyclic value is the curve's own for sure.
+  bool isProven(const std::vector<double>& from, const std::vector<double>& to) {
+    const std::vector<Variable>& variables = checker_.robot().variables();
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const int variable = checker_.group().variables[i];
+      if (variables[static_cast<std::size_t>(variable)].cyclic &&
+          std::abs(to[i] - from[i]) > kWidestTurn)
+        return false;
+    }
+    return checker_.certifyMotion(from, to, workspace_, MotionQuery::VerdictOnly).verdict ==
+           Verdict::Free;
+  }
+
+  bool fail(double time, RepairedTrajectory& repaired) {
+    TrajectoryPlace place;
+    place.time = time;
+    place.piece = curve_.pieceAt(time);
+    repaired.place = place;
+    const StateReport state = checker_.reportState(at(time), workspace_);
+    if (!state.contacts.empty()) repaired.contact = state.contacts.front();
+    return false;
+  }
+
+  const Checker& checker_;
+  const PiecewisePolynomial& curve_;
+  Workspace workspace_;
+};
+
+}  // namespace
+
+ProvenTrajectory provenTrajectory(const Checker& checker, const ConfigurationList& wayPoints,
+                                  const RateLimits& limits, const TimingOptions& options) {
+  requireStill(checker, "provenTrajectory");
+  return Timing(checker, wayPoints, limits, options).run();
+}
+
+RepairedTrajectory repairTrajectory(const Checker& checker, const PiecewisePolynomial& curve,
+                                    const RateLimits& limits, const TimingOptions& options) {
+  requireStill(checker, "repairTrajectory");
+  RepairedTrajectory repaired = Chords(checker, curve).run();
+  if (repaired.place) return repaired;
+  ProvenTrajectory proven = provenTrajectory(checker, repaired.wayPoints, limits, options);
+  const TrajectoryCertificate& found = proven.certificate;
+  if (found.verdict == Verdict::Free) {
+    repaired.proven = std::move(proven);
+  } else if (found.contact) {
+    repaired.place = *found.contact;
+    repaired.contact = found.contact->witness;
+  } else {
+    repaired.place = *found.undecided;
+  }
+  return repaired;
+}
+
+}  // namespace swept
