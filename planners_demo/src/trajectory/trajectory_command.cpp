@@ -15,7 +15,6 @@ void addTrajectoryOptions(CLI::App& app, Arguments& args) {
       ->type_name("FILE");
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
-  addSelfFilterOption(app, args);
   app.add_option("--tracking", args.tracking,
                  "rad or m; each joint may be off by so much at every instant, or these joints "
                  "(default 0)")
@@ -40,7 +39,7 @@ void addTrajectoryOptions(CLI::App& app, Arguments& args) {
   app.add_option("--max-acceleration", args.trajectory.maxAcceleration,
                  "rad/s^2 or m/s^2; for --repair, of joints without a limit")
       ->type_name("A")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"));
   addJsonOption(app, args);
   addQuietOption(app, args);
 }
