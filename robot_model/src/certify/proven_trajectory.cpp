@@ -5,6 +5,10 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 
@@ -150,12 +154,19 @@ class Chords {
 
 ProvenTrajectory provenTrajectory(const Checker& checker, const ConfigurationList& wayPoints,
                                   const RateLimits& limits, const TimingOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&] { return provenTrajectory(checker, wayPoints, limits, options); });
+  }
   requireStill(checker, "provenTrajectory");
   return Timing(checker, wayPoints, limits, options).run();
 }
 
 RepairedTrajectory repairTrajectory(const Checker& checker, const PiecewisePolynomial& curve,
                                     const RateLimits& limits, const TimingOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return repairTrajectory(checker, curve, limits, options); });
+  }
   requireStill(checker, "repairTrajectory");
   RepairedTrajectory repaired = Chords(checker, curve).run();
   if (repaired.place) return repaired;

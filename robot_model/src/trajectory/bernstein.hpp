@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -23,6 +24,15 @@ inline void divide(std::span<const double> whole, double u, std::span<double> fi
     for (std::size_t k = 0; k + step < count; ++k) rest[k] += u * (rest[k + 1] - rest[k]);
     first[step] = rest[0];
   }
+}
+
+/// The coefficients of the derivative by time of a piece that takes `duration` (s): a row for each
+/// value.
+inline Eigen::MatrixXd derivative(const Eigen::MatrixXd& piece, double duration) {
+  const Eigen::Index degree = piece.cols() - 1;
+  if (degree == 0) return Eigen::MatrixXd::Zero(piece.rows(), 1);
+  return (piece.rightCols(degree) - piece.leftCols(degree)) *
+         (static_cast<double>(degree) / duration);
 }
 
 }  // namespace swept::detail

@@ -57,14 +57,6 @@ void requireJoin(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, st
   }
 }
 
-/// The differences of the columns, times `factor`: the coefficients of the derivative.
-Eigen::MatrixXd derivative(const Eigen::MatrixXd& piece, double duration) {
-  const Eigen::Index degree = piece.cols() - 1;
-  if (degree == 0) return Eigen::MatrixXd::Zero(piece.rows(), 1);
-  return (piece.rightCols(degree) - piece.leftCols(degree)) *
-         (static_cast<double>(degree) / duration);
-}
-
 void evaluate(const Eigen::MatrixXd& piece, double u, std::span<double> q) {
   const auto count = static_cast<std::size_t>(piece.cols());
   for (Eigen::Index i = 0; i < piece.rows(); ++i) {
@@ -142,7 +134,7 @@ Eigen::VectorXd PiecewisePolynomial::velocity(double t) const {
   }
   const std::size_t piece = pieceAt(t);
   const double length = knots_[piece + 1] - knots_[piece];
-  return evaluate(derivative(coefficients_[piece], length), shareOf(knots_, piece, t));
+  return evaluate(detail::derivative(coefficients_[piece], length), shareOf(knots_, piece, t));
 }
 
 Eigen::VectorXd PiecewisePolynomial::acceleration(double t) const {
@@ -151,7 +143,7 @@ Eigen::VectorXd PiecewisePolynomial::acceleration(double t) const {
   }
   const std::size_t piece = pieceAt(t);
   const double length = knots_[piece + 1] - knots_[piece];
-  return evaluate(derivative(derivative(coefficients_[piece], length), length),
+  return evaluate(detail::derivative(detail::derivative(coefficients_[piece], length), length),
                   shareOf(knots_, piece, t));
 }
 

@@ -11,13 +11,6 @@ namespace swept::detail {
 
 namespace {
 
-/// The coefficients of the derivative: its size bounds that of the derivative.
-Eigen::MatrixXd derivativeOf(const Eigen::MatrixXd& coefficients, double duration) {
-  const Eigen::Index degree = coefficients.cols() - 1;
-  return (coefficients.rightCols(degree) - coefficients.leftCols(degree)) *
-         (static_cast<double>(degree) / duration);
-}
-
 /// Whether a polynomial with these Bernstein coefficients is at most `limit`. They bound it closely
 /// on its halves: the acceleration of a blend with ramps is largest in the middle.
 bool isWithin(std::span<const double> coefficients, double limit, int halvings) {
@@ -50,11 +43,11 @@ bool areWithin(const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& limit
 bool keepsLimits(const PiecewisePolynomial& curve, const VariableLimits& limits) {
   for (std::size_t i = 0; i < curve.pieces(); ++i) {
     const double duration = curve.knots()[i + 1] - curve.knots()[i];
-    const Eigen::MatrixXd velocity = derivativeOf(curve.coefficients(i), duration);
-    const Eigen::MatrixXd acceleration = derivativeOf(velocity, duration);
+    const Eigen::MatrixXd velocity = derivative(curve.coefficients(i), duration);
+    const Eigen::MatrixXd acceleration = derivative(velocity, duration);
     if (!areWithin(velocity, limits.speed) || !areWithin(acceleration, limits.acceleration))
       return false;
-    if (limits.ramps && !areWithin(derivativeOf(acceleration, duration), limits.jerk)) return false;
+    if (limits.ramps && !areWithin(derivative(acceleration, duration), limits.jerk)) return false;
   }
   return true;
 }

@@ -13,10 +13,9 @@
 #include "text/numbers.hpp"
 #include "trajectory/blend_search.hpp"
 #include "trajectory/corner_speeds.hpp"
-#include "trajectory/knots.hpp"
 #include "trajectory/rate_check.hpp"
+#include "trajectory/timed_path.hpp"
 #include "trajectory/way_point_path.hpp"
-#include "trajectory/whole_times.hpp"
 
 namespace swept {
 
@@ -127,32 +126,16 @@ double longestDuration(const detail::WayPointPath& path) {
   return sum;
 }
 
-detail::CornerSpeeds withBlends(const detail::WayPointPath& path, double leastStep,
-                                const BlendProver& proves, double deviation) {
+/// Of a path that moves.
+TimedPath timedMotion(const detail::WayPointPath& path, const std::vector<std::string>& names,
+                      const detail::VariableLimits& limits, const BlendProver& proves,
+                      double deviation) {
+  constexpr double kNanosecond = 1e-9;
+  const double leastStep = std::max(kNanosecond, detail::leastStepFor(path, longestDuration(path)));
   detail::CornerSpeeds speeds(path, leastStep);
   detail::chooseBlends(path, deviation, speeds);
   if (proves) detail::proveBlends(proves, path.indices, speeds);
-  return speeds;
-}
-
-/// Of a path that moves.
-TimedPath timedPath(const detail::WayPointPath& path, const std::vector<std::string>& names,
-                    const detail::VariableLimits& limits, const BlendProver& proves,
-                    double deviation) {
-  constexpr int kTries = 60;
-  constexpr double kNanosecond = 1e-9;
-  double leastStep = std::max(kNanosecond, detail::leastStepFor(path, longestDuration(path)));
-  const detail::CornerSpeeds speeds = withBlends(path, leastStep, proves, deviation);
-  for (int i = 0; i < kTries; ++i, leastStep *= 2.0) {
-    const detail::WholeTimes times =
-        detail::wholeTimes(path, speeds, detail::roundedUp(leastStep));
-    detail::Knots knots = detail::knotsOf(path, speeds, times);
-    JointTrajectory trajectory{names, std::move(knots.points)};
-    PiecewisePolynomial curve = controllerCurve(trajectory);
-    if (detail::keepsLimits(curve, limits))
-      return {std::move(trajectory), std::move(curve), std::move(knots.corners)};
-  }
-  throw std::logic_error("timeParameterize: rounding breaks the limits, however long a step is");
+  return detail::timedPath(path, speeds, names, limits, leastStep);
 }
 
 }  // namespace
@@ -172,7 +155,7 @@ TimedPath timeParameterize(const Robot& robot, const Group& group,
       detail::straightParts(detail::continuousPoints(wayPoints, variables.cyclic),
                             detail::withSlack(whole), variables.names);
   if (path.parts() > 0)
-    return timedPath(path, variables.names, whole, proves, options.blendDeviation);
+    return timedMotion(path, variables.names, whole, proves, options.blendDeviation);
   JointTrajectory trajectory{variables.names, stayingPoints(wayPoints[0], whole.ramps)};
   PiecewisePolynomial curve = controllerCurve(trajectory);
   return {std::move(trajectory), std::move(curve), {}};

@@ -79,11 +79,11 @@ class ProfileFit {
       (isFirst ? first : last) += 2.0 * cruise * peak / ((isFirst ? from_ : to_) + peak);
       cruise = 0.0;
     }
-    return fitted(changeTimeOf(first), roundedUp(cruise), changeTimeOf(last));
+    return fitted(changeTimeOf(first), wholeNanoseconds(cruise), changeTimeOf(last));
   }
 
   Nanoseconds changeTimeOf(double time) const {
-    return ramps() ? even(roundedUp(time)) : roundedUp(time);
+    return ramps() ? even(wholeNanoseconds(time)) : wholeNanoseconds(time);
   }
 
   std::optional<WholeProfile> fitted(Nanoseconds first, Nanoseconds cruise,
@@ -107,7 +107,7 @@ class ProfileFit {
     // The acceleration is change / (duration - ramp), the jerk that over the ramp.
     const double square = duration * duration - 4.0 * change / wider_.jerk;
     if (square < 0.0) return std::nullopt;
-    Nanoseconds ramp = std::max(leastStep_, roundedUp(0.5 * (duration - std::sqrt(square))));
+    Nanoseconds ramp = std::max(leastStep_, wholeNanoseconds(0.5 * (duration - std::sqrt(square))));
     if (time - 2 * ramp < leastStep_) ramp = time / 2;
     const double rest = duration - seconds(ramp);
     if (change > wider_.acceleration * rest || change > wider_.jerk * rest * seconds(ramp))
@@ -131,7 +131,7 @@ class TimeRounding {
     times_.straights.resize(path.parts());
     for (std::size_t corner = 1; corner < path.parts(); ++corner)
       if (!speeds.blend(corner).stops())
-        times_.blends[corner] = std::max(leastStep, roundedUp(1.0 / speeds.rate(corner)));
+        times_.blends[corner] = std::max(leastStep, wholeNanoseconds(1.0 / speeds.rate(corner)));
   }
 
   WholeTimes run() {
@@ -176,7 +176,7 @@ class TimeRounding {
   bool slowDown(std::size_t corner, double length, double speed, double haste) {
     if (!(speedAt(corner, length) > speed)) return false;
     times_.blends[corner] =
-        std::max(times_.blends[corner] + 1, roundedUp(haste * 2.0 * length / speed));
+        std::max(times_.blends[corner] + 1, wholeNanoseconds(haste * 2.0 * length / speed));
     return true;
   }
 
@@ -201,7 +201,7 @@ class TimeRounding {
     if (reserves_[part] == kMost)
       for (const std::size_t corner : {part, part + 1})
         if (Nanoseconds& time = times_.blends[corner]; time > 0)
-          time = roundedUp(kLonger * seconds(time));
+          time = wholeNanoseconds(kLonger * seconds(time));
     reserves_[part] = std::min(kMost, 4.0 * std::max(reserves_[part], path_.variables.slack));
   }
 
@@ -214,7 +214,7 @@ class TimeRounding {
 
 }  // namespace
 
-Nanoseconds roundedUp(double time) {
+Nanoseconds wholeNanoseconds(double time) {
   constexpr double kMost = 2147483648.0;  // s, in 31 bits
   if (!(time < kMost))
     throw std::invalid_argument(

@@ -19,7 +19,7 @@ constexpr double seconds(Nanoseconds time) {
 }
 
 /// Throws std::invalid_argument for a time (s) that no message carries.
-Nanoseconds roundedUp(double time);
+Nanoseconds wholeNanoseconds(double time);
 
 /// A change of speed: the acceleration rises for `ramp`, stays for `steady` and falls for `ramp`.
 struct WholeChange {

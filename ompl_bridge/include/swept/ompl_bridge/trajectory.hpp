@@ -7,7 +7,12 @@
 #include <memory>
 #include <optional>
 
+#include "swept/core/verdict.hpp"
+#include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/proven_trajectory.hpp"
+#include "swept/robot_model/rate_limits.hpp"
+#include "swept/robot_model/time_parameterization.hpp"
+#include "swept/robot_model/tracking_tolerance.hpp"
 
 namespace swept {
 

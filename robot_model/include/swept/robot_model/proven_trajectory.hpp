@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/configuration.hpp"
+#include "swept/robot_model/piecewise_polynomial.hpp"
+#include "swept/robot_model/rate_limits.hpp"
 #include "swept/robot_model/time_parameterization.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 
 /// Trajectories that are proven as a controller executes them.
 namespace swept {
 
 /// A path with times, and the proof of its curve.
 struct ProvenTrajectory {
-  TimedPath timed;
+  TimedPath timed;  ///< the trajectory, its curve and its corners
   /// Of `timed.curve`, with MotionQuery::FirstContact and the limits that it was timed with.
   TrajectoryCertificate certificate;
 };
