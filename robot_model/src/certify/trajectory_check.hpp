@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 #include "certify/checker_model.hpp"
 #include "certify/workspace_data.hpp"
 #include "swept/robot_model/piecewise_polynomial.hpp"

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "swept/core/verdict.hpp"
+#include "swept/robot_model/body_name.hpp"
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/rate_limits.hpp"
 
