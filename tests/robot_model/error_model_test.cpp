@@ -42,9 +42,6 @@ void inflate(const Row& half, float acceleration, Row& by) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <cstdio>
-#include <map>
-
 #include "exact_motion.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "rounding/error_model.hpp"
@@ -57,6 +54,7 @@ HWY_AFTER_NAMESPACE();
 #include "swept/core/clearance_grid.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/simd_dispatch.hpp"
+#include "worst_share.hpp"
 
 namespace swept::detail {
 SWEPT_DISPATCH_TABLE(measureSquared);
@@ -73,49 +71,14 @@ using exact_test::Digits;
 using exact_test::Exact3;
 using exact_test::ExactPose;
 using simd_test::ChainOptions;
+using simd_test::kAnyTarget;
 using simd_test::OnTarget;
 using simd_test::Random;
 using simd_test::simdTargets;
+using simd_test::Worst;
 using enum JointType;
 
 using exact_test::exact;
-
-/// What is not a matter of lanes is measured once.
-constexpr std::int64_t kAnyTarget = 0;
-
-/// The largest error that was met, as a share of its bound, on each instruction set. At the end it
-/// is a row of the table: bound / largest error.
-class Worst {
- public:
-  /// `least`: a share that some error has to come to, else the test would see nothing.
-  Worst(std::string what, double least) : what_(std::move(what)), least_(least) {}
-  Worst(const Worst&) = delete;
-  Worst& operator=(const Worst&) = delete;
-  ~Worst() {
-    std::string row = "| " + what_ + " |";
-    const bool once = shares_.contains(kAnyTarget);
-    for (const std::int64_t target : simdTargets()) {
-      const double share = shares_[once ? kAnyTarget : target];
-      EXPECT_LE(share, 1.0) << what_ << ", " << hwy::TargetName(target);
-      EXPECT_GE(share, least_) << what_ << ": no error is worth the bound";
-      char factor[32];
-      std::snprintf(factor, sizeof(factor), " %.3g |", 1.0 / share);
-      row += factor;
-    }
-    std::printf("%s\n", row.c_str());
-  }
-
-  void note(std::int64_t target, const Digits& error, const Digits& bound) {
-    double& share = shares_[target];
-    const auto own = static_cast<double>(error / bound);
-    if (!(own <= share)) share = own;
-  }
-
- private:
-  std::string what_;
-  double least_;
-  std::map<std::int64_t, double> shares_;
-};
 
 Exact3 inLane(const Row (&rows)[3], int lane) {
   return {{Digits(rows[0].lane[lane]), Digits(rows[1].lane[lane]), Digits(rows[2].lane[lane])}};
@@ -344,7 +307,7 @@ TEST(ErrorModel, ConstantsAreAboveTheirCounts) {
   };
   EXPECT_GE(roundings(kBallOutward), 5.0 + 2.0);
   EXPECT_GE(roundings(kPairOutward), 12.0);
-  EXPECT_GE(roundings(kMarginOutward), 3.0);
+  EXPECT_GE(roundings(kMarginOutward), 5.0);
   EXPECT_GE(roundings(kLengthOutward), 6.0);
   EXPECT_GE(roundings(kRootOutward), 1.0);
   EXPECT_GE(roundings(kReachOutward), 2.0);
@@ -357,7 +320,7 @@ TEST(ErrorModel, ConstantsAreAboveTheirCounts) {
   EXPECT_GE(kCosineError, kSingle);
   EXPECT_GE(kTableShare / kSingle, 4.0);
   EXPECT_GE(kInnerBallShare / kSingle, 2.0);
-  EXPECT_GE(kTableValueError, (192.0 + 2.0 * 64.0 + 3.0 * 64.0 + 2.0 * 32.0) * kSingle);
+  EXPECT_GE(kTableValueError, (192.0 + 2.0 * 64.0 + 32.0 + 3.0 * 64.0 + 2.0 * 32.0) * kSingle);
   EXPECT_GE(kValueRounding / kDouble, 4.0);
   EXPECT_GE(kNestedRoundings / kDouble, 5.0);
   EXPECT_GE(kTimeRounding / kDouble, 3.0);

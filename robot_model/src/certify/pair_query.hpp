@@ -55,11 +55,11 @@ class PairQuery {
   bool start(const JointPath& path);
   /// The same for a motion that stays at a configuration. Moves there.
   bool startAt(std::span<const double> q);
-  /// Moves to t. Later calls may be about [t - half, t + half] or less.
+  /// Moves to t. Later calls are about [t - half, t + half], or t alone.
   void moveTo(double t, double half);
 
   /// Whether the pair stays apart by more than the margin on [t - half, t + half], or is within the
-  /// margin at t. `half` in units of t; in a tube, that of moveTo().
+  /// margin at t. `half` in units of t: that of moveTo().
   PairAnswer prove(std::uint32_t pair, double half);
   /// For a pair that prove() left open: a configuration of the tube at t in which it is within the
   /// margin. Climbs a few steps from where the tube lets the two come nearest along the direction

@@ -28,19 +28,18 @@ constexpr int kMostPushes = 4;
 
 }  // namespace
 
-/// Ranges of values, on which lever arms and roundings depend. A sliding joint stays within its
-/// limits.
+/// Ranges of values, on which lever arms and roundings depend: those of Q, which may pass the
+/// limits of a sliding joint on its way between two values within them.
 void PairQuery::widenRanges() {
   for (std::size_t i = 1; i < workspace_.motion.size(); ++i) {
     const JointTolerance& tolerance = model_.tube[i];
-    const MovingBody& body = model_.kinematics.bodies[i];
     JointMotion& joint = workspace_.motion[i];
     joint.largestAngle += tolerance.rotation;
     joint.lowAngle -= tolerance.rotation;
     joint.highAngle += tolerance.rotation;
-    if (slidesWithinLimits(body.type)) {
-      joint.low = std::max(joint.low - tolerance.translation, std::min(joint.low, body.lower));
-      joint.high = std::min(joint.high + tolerance.translation, std::max(joint.high, body.upper));
+    if (slidesWithinLimits(model_.kinematics.bodies[i].type)) {
+      joint.low -= tolerance.translation;
+      joint.high += tolerance.translation;
     } else {
       joint.maxTranslation += tolerance.translation;
     }
@@ -220,10 +219,11 @@ void pushAlong(const CheckerModel& model, std::span<const double> gradient, std:
     const std::size_t count = body.type == JointType::Planar ? 2 : 3;
     double squared = 0.0;
     for (std::size_t k = 0; k < count; ++k) squared += gradient[first + k] * gradient[first + k];
-    // A little less, for the length that is made of the components rounds.
-    const double share = tolerance.translation * (1.0 - 1e-12) / std::sqrt(squared);
-    if (squared > 0.0)
+    if (squared > 0.0) {
+      // A little less, for the length that is made of the components rounds.
+      const double share = tolerance.translation * (1.0 - 1e-12) / std::sqrt(squared);
       for (std::size_t k = 0; k < count; ++k) q[first + k] += share * gradient[first + k];
+    }
     if (body.type == JointType::Planar) pushOne(first + 2, tolerance.rotation);
   }
 }

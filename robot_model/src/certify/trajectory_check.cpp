@@ -2,6 +2,8 @@
 #include "certify/trajectory_check.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -91,9 +93,8 @@ class TrajectoryCheck {
     found_.verdict = Verdict::Free;
     found_.freeUntil = curve_.begin();
     runs_.forEach([this](const CurveRun& run, const JointPath& path) {
-      add(run, certifyMotion(model_, path, query_.contact, workspace_));
-      if (found_.verdict == Verdict::Undecided) return query_.contact == MotionQuery::VerdictOnly;
-      return found_.verdict == Verdict::Free;
+      add(run, path, certifyMotion(model_, path, query_.contact, workspace_));
+      return found_.verdict != Verdict::Collision;
     });
     if (query_.contact == MotionQuery::VerdictOnly && found_.verdict != Verdict::Free)
       found_.freeUntil = curve_.begin();
@@ -104,7 +105,7 @@ class TrajectoryCheck {
   }
 
  private:
-  void add(const CurveRun& run, MotionCertificate&& own) {
+  void add(const CurveRun& run, const JointPath& path, MotionCertificate&& own) {
     addEffort(own.effort, found_.effort);
     const bool open = found_.verdict != Verdict::Free;  // an earlier run was left undecided
     if (!open) found_.freeUntil = runs_.placeOf(run, own.freeUntil).time;
@@ -112,23 +113,41 @@ class TrajectoryCheck {
     if (own.verdict == Verdict::Collision) {
       found_.verdict = own.verdict;
       found_.undecided.reset();
-      addContact(run, std::move(own));
+      addContact(run, path, *std::move(own.witness));
     } else if (!open) {
       found_.verdict = own.verdict;
       found_.undecided = runs_.placeOf(run, own.undecidedAt);
     }
   }
 
-  void addContact(const CurveRun& run, MotionCertificate&& own) {
-    TrajectoryContact& contact = found_.contact.emplace();
-    static_cast<TrajectoryPlace&>(contact) = runs_.placeOf(run, own.witness->t);
-    contact.witness = *std::move(own.witness);
-    contact.witness.t = (contact.time - curve_.begin()) / curve_.duration();
-    const std::vector<double>& beside = contact.witness.configuration;
-    contact.configuration = curve_.position(contact.time);
+  void addContact(const CurveRun& run, const JointPath& path, Witness&& witness) {
+    std::vector<double>& q = workspace_.tubeState;
+    q.resize(static_cast<std::size_t>(model_.kinematics.dimension));
+    path.interpolate(witness.t, q);
+    std::vector<double>& beside = witness.configuration;
     // The time of moving obstacles comes last.
-    if (!beside.empty())
-      std::copy_n(beside.begin(), contact.configuration.size(), contact.configuration.begin());
+    const auto size = static_cast<std::size_t>(curve_.dimension());
+    q.resize(size);
+    if (!beside.empty()) {
+      beside.resize(size);
+      q = beside;
+    }
+    TrajectoryContact& contact = found_.contact.emplace();
+    static_cast<TrajectoryPlace&>(contact) = runs_.placeOf(run, witness.t);
+    countTurns(contact.time, q);
+    if (!beside.empty()) beside = q;
+    contact.configuration = Eigen::Map<const Eigen::VectorXd>(q.data(), curve_.dimension());
+    contact.witness = std::move(witness);
+    contact.witness.t = (contact.time - curve_.begin()) / curve_.duration();
+  }
+
+  /// Cyclic values in the turns of the curve.
+  void countTurns(double time, std::span<double> q) const {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const Eigen::VectorXd own = curve_.position(time);
+    for (std::size_t i = 0; i < q.size(); ++i)
+      if (model_.kinematics.cyclic[i] != 0)
+        q[i] += kTurn * std::round((own[static_cast<Eigen::Index>(i)] - q[i]) / kTurn);
   }
 
   void measure() {

@@ -134,9 +134,11 @@ double joinError(const PiecewisePolynomial& curve, std::size_t knot, int variabl
   const ValuePiece before(curve.coefficients(knot - 1), variable);
   const ValuePiece after(curve.coefficients(knot), variable);
   const double jump = std::abs(after.coefficient(0) - before.coefficient(before.degree));
-  const double kink =
-      std::abs(rateAtBegin(curve, knot, variable) - rateAtEnd(curve, knot - 1, variable));
-  return jump + 2.0 * kink * duration;
+  const double rateBefore = rateAtEnd(curve, knot - 1, variable);
+  const double rateAfter = rateAtBegin(curve, knot, variable);
+  const double kink = std::abs(rateAfter - rateBefore) +
+                      kValueRounding * (std::abs(rateBefore) + std::abs(rateAfter));
+  return (jump + kink * duration) * kArithmeticOutward;
 }
 
 /// Whether all joints move along a piece as StraightPath has them between its ends.
@@ -150,14 +152,14 @@ bool isStraight(const KinematicModel& model, const PiecewisePolynomial& curve, s
   return true;
 }
 
-/// Whether no orientation of a floating joint changes.
+/// Whether all orientations of floating joints are along a piece as they are where another begins.
 bool keepsOrientations(const KinematicModel& model, const PiecewisePolynomial& curve,
-                       std::size_t piece) {
-  const Eigen::MatrixXd& coefficients = curve.coefficients(piece);
+                       std::size_t piece, std::size_t other) {
   for (const MovingBody& body : model.bodies) {
     if (body.type != JointType::Floating || body.variable >= model.dimension) continue;
-    const auto orientation = coefficients.middleRows(body.variable + 3, 4);
-    if (!(orientation.colwise() - orientation.col(0)).isZero(0.0)) return false;
+    const auto orientation = curve.coefficients(piece).middleRows(body.variable + 3, 4);
+    const Eigen::Vector4d kept = curve.coefficients(other).block<4, 1>(body.variable + 3, 0);
+    if (!(orientation.colwise() - kept).isZero(0.0)) return false;
   }
   return true;
 }
@@ -170,11 +172,12 @@ CurveRun runFrom(const KinematicModel& model, const PiecewisePolynomial& curve, 
   const auto dimension = static_cast<std::size_t>(curve.dimension());
   std::vector<double>& joins = scratch.joins;
   joins.assign(dimension, 0.0);
-  if (run.straight || !keepsOrientations(model, curve, first)) return run;
+  if (run.straight || !keepsOrientations(model, curve, first, first)) return run;
   const std::size_t end = std::min(curve.pieces(), first + most);
   const double duration = curve.knots()[end] - curve.knots()[first];
   for (; run.last < end; ++run.last) {
-    bool joined = !isStraight(model, curve, run.last) && keepsOrientations(model, curve, run.last);
+    bool joined =
+        !isStraight(model, curve, run.last) && keepsOrientations(model, curve, run.last, first);
     for (std::size_t i = 0; i < dimension && joined; ++i)
       joined = joins[i] + joinError(curve, run.last, static_cast<int>(i), duration) <= kLargestJoin;
     if (!joined) return run;
@@ -206,9 +209,10 @@ CurvePath::CurvePath(const KinematicModel& model, const PiecewisePolynomial& cur
 /// limit is: its coefficients are divided until they are within, or a value is not.
 bool CurvePath::staysWithin(const MovingBody& body) const {
   constexpr int kMostDivisions = 48;
+  double rounding = 0.0;  // m, of the divisions: see L17
   const auto leaves = [&](double value) {
     const double place = body.multiplier * value + body.offset;
-    return !(place >= body.lower && place <= body.upper);
+    return !(place >= body.lower + rounding && place <= body.upper - rounding);
   };
   struct Part {
     Bernstein coefficients;
@@ -219,7 +223,13 @@ bool CurvePath::staysWithin(const MovingBody& body) const {
     const ValuePiece own(curve_.coefficients(piece), body.variable);
     const std::size_t count = own.degree + 1;
     Part whole{{}, 0};
-    for (std::size_t k = 0; k < count; ++k) whole.coefficients[k] = own.coefficient(k);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      whole.coefficients[k] = own.coefficient(k);
+      largest = std::max(largest, std::abs(whole.coefficients[k]));
+    }
+    rounding = 2.0 * kDouble * kMostDivisions * static_cast<double>(own.degree) *
+               std::abs(body.multiplier) * largest;
     parts.assign(1, whole);
     while (!parts.empty()) {
       const Part part = parts.back();
@@ -326,7 +336,9 @@ CurvePath::ValueMotion CurvePath::around(int variable, const Window& window) con
   const double join = scratch_.joins[static_cast<std::size_t>(variable)];
   motion.low -= join;
   motion.high += join;
-  motion.error += join + center.rounding.rate / length * window.half + motion.speed * timeError_;
+  const double rateError = center.rounding.rate / length;
+  motion.error += join + 2.0 * timeError_ * (motion.speed + motion.acceleration * window.half);
+  if (window.half > timeError_) motion.acceleration += 2.0 * rateError / (window.half - timeError_);
   return motion;
 }
 
@@ -352,6 +364,10 @@ bool CurvePath::linearize(double t, double half, std::span<JointMotion> joints) 
         turn(around(body.variable + 2, window), 1.0, 0.0, body.planarBasis.col(2), joint);
         break;
       case JointType::Floating: {
+        if (isLine()) {
+          if (!compileJoint(model_, body, endOfLine(0), endOfLine(1), joint)) return false;
+          break;
+        }
         slideFreely(body, window, joint);
         const Eigen::MatrixXd& piece = curve_.coefficients(window.center);
         const Eigen::Vector4d orientation = piece.block<4, 1>(body.variable + 3, 0);
@@ -431,6 +447,7 @@ void CurvePath::interpolate(double t, std::span<double> q) const {
   const double time = t == 1.0 ? begin_ + width_ : begin_ + t * width_;
   const auto dimension = static_cast<std::size_t>(curve_.dimension());
   curve_.position(time, q.first(dimension));
+  if (isLine()) interpolateOrientations(model_, endOfLine(0), endOfLine(1), t, q);
   if (q.size() > dimension) q[dimension] = clock_ + time;
 }
 

@@ -48,8 +48,9 @@ CurveRun runFrom(const KinematicModel& model, const PiecewisePolynomial& curve, 
 ///
 /// On a part [m - w, m + w] of a piece, with the Taylor coefficients T_k at m, a value is within
 /// the sum of |T_k| w^k, k > 0, of T_0; its rate and acceleration are bounded in the same way. Over
-/// several pieces the bounds are those of the parts together. L17 of ERROR_MODEL.md has the
-/// roundings.
+/// several pieces the bounds are those of the parts together. The bound on the acceleration has
+/// what the rate at m is off: it holds for the interval that linearize() was asked about, not for a
+/// shorter one. L17 of ERROR_MODEL.md has the roundings.
 class CurvePath final : public JointPath {
  public:
   /// `clock`: s, the obstacles' time at the curve's time 0. `scratch` has the `joins` of the run.
@@ -77,12 +78,18 @@ class CurvePath final : public JointPath {
     double high = 0.0;
     double speed = 0.0;         ///< per s
     double acceleration = 0.0;  ///< per s^2
-    double error = 0.0;         ///< what rounding takes of value and rate together, over the window
+    double error = 0.0;         ///< what rounding takes of the values
   };
 
   const CurveValue& valueOf(std::size_t piece, int variable) const {
     return scratch_.values[(piece - run_.first) * static_cast<std::size_t>(curve_.dimension()) +
                            static_cast<std::size_t>(variable)];
+  }
+  /// One piece of degree 1: orientations follow slerp.
+  bool isLine() const { return run_.last - run_.first == 1 && curve_.degree(run_.first) == 1; }
+  std::span<const double> endOfLine(Eigen::Index end) const {
+    return {curve_.coefficients(run_.first).col(end).data(),
+            static_cast<std::size_t>(curve_.dimension())};
   }
   void compileValues(CurveScratch& scratch) const;
   Window windowOf(double t, double half) const;

@@ -19,8 +19,9 @@ class JointPath {
   virtual ~JointPath() = default;
 
   /// Writes each joint's motion on I = [t - half, t + half], within [0, 1], into `joints`, by body:
-  /// value and rate at `t`; the range of the value, and bounds on rate and acceleration, over I. If
-  /// a joint's rate is constant over all of [0, 1], value and rate may be those at another time
+  /// value and rate at `t`; the range of the value, and bounds on rate and acceleration, over I.
+  /// The bound on the acceleration has what rounding takes of the rate at `t`, over I. If a joint's
+  /// rate is constant over all of [0, 1], value and rate may be those at another time
   /// (JointMotion::anchor). `joints` may be shorter than KinematicModel::bodies; the rest is left
   /// out.
   ///

@@ -375,6 +375,11 @@ void interpolateMotion(const KinematicModel& model, std::span<const double> from
     const double value = from[i] + t * cyclicDifference(from[i], to[i]);
     q[i] = std::abs(value) <= kPi ? value : std::remainder(value, 2.0 * kPi);
   }
+  interpolateOrientations(model, from, to, t, q);
+}
+
+void interpolateOrientations(const KinematicModel& model, std::span<const double> from,
+                             std::span<const double> to, double t, std::span<double> q) {
   for (const MovingBody& body : model.bodies) {
     if (body.type != JointType::Floating || body.variable >= model.dimension) continue;
     JointMotion motion;

@@ -147,5 +147,8 @@ void evaluateBody(const KinematicModel& model, std::span<const JointMotion> moti
 /// ignored.
 void interpolateMotion(const KinematicModel& model, std::span<const double> from,
                        std::span<const double> to, double t, std::span<double> q);
+/// The orientations of floating joints alone, by slerp.
+void interpolateOrientations(const KinematicModel& model, std::span<const double> from,
+                             std::span<const double> to, double t, std::span<double> q);
 
 }  // namespace swept::detail

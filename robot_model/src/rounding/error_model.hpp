@@ -95,7 +95,7 @@ inline double fieldRounding(double coordinates, double size) {
 inline constexpr float kBallOutward = 1.0F + 2e-6F;
 /// Sums of two radii and what has to be kept; 67 kSingle, of which 12 are used.
 inline constexpr float kPairOutward = 1.0F + 4e-6F;
-/// Sums of margins; 16 kSingle, of which 3 are used.
+/// Sums of margins; 16 kSingle, of which 5 are used.
 inline constexpr float kMarginOutward = 1.0F + 1e-6F;
 /// What one pair keeps more than others, and radii of hulls; 167 kSingle. For less than 10: these
 /// are lengths that nothing is gained from knowing better.
@@ -136,8 +136,8 @@ inline constexpr float kHalfOutward = 0.5F + 1e-6F;
 /// Joint tables: L12.
 
 /// rad. A value in single precision and the part of a cell that it is found in. For values and
-/// ways of up to 32 rad there are 3.4e-5: 1.1e-5 for the value, 0.8e-5 for half the way, 1.1e-5
-/// for the index, 0.4e-5 for the ends of the range.
+/// ways of up to 32 rad there are 3.6e-5: 1.1e-5 for the value, 0.8e-5 for half the way, 0.2e-5
+/// for what a tube adds, 1.1e-5 for the index, 0.4e-5 for the ends of the range.
 inline constexpr double kTableValueError = 4e-5;
 /// rad. The widest range of a table.
 inline constexpr double kTableWidest = 32.0;
@@ -176,8 +176,8 @@ inline double velocityRounding(double transforms) {
 inline constexpr double kParallelShare = 1e-14;
 /// Of t in [0, 1] on a part of a path: its begin, its width and their sum, 8 kDouble.
 inline constexpr double kTimeRounding = 8.0 * kDouble;
-/// One step of de Casteljau's and one of a difference, of the largest coefficient: L17 counts 5 and 1
-/// kDouble.
+/// Of a polynomial's largest coefficient, for each degree and times 3^degree: L17 counts at most
+/// (6 degree + 4) 2^degree kDouble for a value.
 inline constexpr double kCurveRoundings = 8.0 * kDouble;
 /// Bounds on what a box of joint values does to a chain (chain_bounds.hpp): up to a million
 /// roundings.

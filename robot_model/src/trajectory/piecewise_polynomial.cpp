@@ -163,7 +163,9 @@ Eigen::VectorXd blossom(int degree, const std::vector<double>& knots,
       const double high = knots[span + 1 + j - r];
       const double share = (arguments[r - 1] - low) / (high - low);
       const auto column = static_cast<Eigen::Index>(j);
-      points.col(column) = (1.0 - share) * points.col(column - 1) + share * points.col(column);
+      // What is constant stays so to the last bit.
+      points.col(column) =
+          points.col(column - 1) + share * (points.col(column) - points.col(column - 1));
     }
   }
   return points.col(degree);
