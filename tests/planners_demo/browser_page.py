@@ -192,13 +192,18 @@ class BrowserTest(unittest.TestCase):
         return found
 
 
-def main():
+def run_tests():
     """Runs the tests of the program, or says why it cannot."""
     for program in ("chromium", "chromedriver"):
         if shutil.which(program) is None:
             print(f"skipped: {program} is not installed")
             sys.exit(0)
+    unittest.main(argv=sys.argv[:1])
+
+
+def main():
+    """The same where `swept` makes the pages."""
     if "--html" not in run_swept(["plan", "--help"]).stdout:
         print("skipped: swept was built without three.js")
         sys.exit(0)
-    unittest.main(argv=sys.argv[:1])
+    run_tests()

@@ -17,12 +17,27 @@ swept.data = (function () {
   data.floats = (text) => new Float32Array(bytesOf(text));
   data.uint16s = (text) => new Uint16Array(bytesOf(text));
   data.uint32s = (text) => new Uint32Array(bytesOf(text));
+  data.doubles = (text) => new Float64Array(bytesOf(text));
 
   data.poses = data.floats(data.frames.poses);
   data.linkCount = data.frames.links.length;
   data.poseAt = (frame, link) => (frame * data.linkCount + link) * kPose;
   data.tipIndex = data.tip === null ? -1 : data.frames.links.indexOf(data.tip);
   data.isPath = data.motions.length > 0;
+  // Each motion is a curve in time: the page's clock shows its seconds.
+  data.isTimed = data.isPath && data.motions.every((motion) => motion.curve);
+
+  // Coefficients are piece by piece, and of each variable one after the other.
+  function unpackCurve(curve) {
+    for (const name of ['knots', 'coefficients', 'polyline']) curve[name] = data.doubles(curve[name]);
+    let first = 0;
+    curve.firsts = curve.degrees.map((degree) => {
+      const own = first;
+      first += data.variables.length * (degree + 1);
+      return own;
+    });
+  }
+  for (const motion of data.motions) if (motion.curve) unpackCurve(motion.curve);
 
   if (data.clearances) {
     for (const table of [data.clearances, data.clearances.world, data.clearances.self]) {
@@ -54,9 +69,19 @@ swept.data = (function () {
       total += motion.duration;
     }
     const scale = Math.min(30, Math.max(4, total / 0.45)) / total;
+    for (const motion of data.motions) motion.duration *= scale;
+  }
+  function takeTimes() {
+    for (const motion of data.motions) {
+      const knots = motion.curve.knots;
+      motion.duration = knots[knots.length - 1] - knots[0];
+    }
+  }
+  function layOutMotions() {
+    if (data.isTimed) takeTimes();
+    else layOutClock();
     let start = 0;
     for (const motion of data.motions) {
-      motion.duration *= scale;
       motion.start = start;
       start += motion.duration;
     }
@@ -67,7 +92,7 @@ swept.data = (function () {
   data.usePath = function (path) {
     data.path = path;
     data.motions = data.allMotions.filter((motion) => motion.path === path);
-    if (data.isPath) layOutClock();
+    if (data.isPath) layOutMotions();
     else data.duration = Math.max(0, data.states.length - 1);
   };
   data.usePath(0);
@@ -96,6 +121,11 @@ swept.data = (function () {
   data.timeOf = function (index, t) {
     return data.isPath ? data.motions[index].start + t * data.motions[index].duration : index;
   };
+
+  // A moment of a motion: t, or the time of its curve.
+  data.momentOf = (motion, t) => (motion.curve ? motion.curve.knots[0] + t * motion.duration : t);
+  data.momentText = (motion, t) => (motion.curve ? data.momentOf(motion, t).toFixed(3) + ' s'
+                                                 : 't ' + t.toFixed(3));
 
   // Frames of a path are near their neighbours; states are not.
   data.hasRow = (frame) => data.isPath || frame % data.clearances.stride === 0;

@@ -98,9 +98,14 @@ swept.joints = (function () {
     const lower = motion.pieces.lower[piece];
     return 'free' + (lower === null ? ', no pair to check' : ', keeps ' + data.millimetres(lower) + ' or more');
   }
+  function momentText(time) {
+    const at = data.locate(time);
+    return data.isTimed ? data.momentText(data.motions[at.index], at.t)
+                        : 'path point ' + (time / data.duration).toFixed(3);
+  }
   function knownText(time) {
     if (data.isPath)
-      return 'path point ' + (time / data.duration).toFixed(3) + ': ' + pieceText(time);
+      return momentText(time) + ': ' + pieceText(time);
     const state = data.states[data.locate(time).index];
     const least = state.clearance === null || state.clearance === undefined
         ? '' : ', \u2265 ' + data.millimetres(state.clearance);

@@ -23,12 +23,25 @@ swept.kinematics = (function () {
   function between(from, to, t) {
     const values = from.map((value, i) => value + t *
         (tree.variables[tree.group[i]].cyclic ? cyclicDifference(value, to[i]) : to[i] - value));
+    turnBetween(from, to, t, values);
+    return values;
+  }
+  function turnBetween(from, to, t, values) {
     for (const at of quaternions) {
       const turn = new THREE.Quaternion().fromArray(from, at).normalize();
       turn.slerp(new THREE.Quaternion().fromArray(to, at).normalize(), t).toArray(values, at);
     }
+  }
+
+  // The group's values at a time of a curve: orientations turn along pieces of degree 1 alone.
+  function onCurve(curve, time) {
+    const values = swept.curve.at(curve, time, 0), {piece, u} = swept.curve.place(curve, time);
+    if (quaternions.length > 0 && curve.degrees[piece] === 1)
+      turnBetween(swept.curve.end(curve, piece, false), swept.curve.end(curve, piece, true), u, values);
     return values;
   }
+  const onMotion = (motion, t) => (motion.curve ? onCurve(motion.curve, data.momentOf(motion, t))
+                                                : between(motion.from, motion.to, t));
 
   // The robot's values, of which the group has these.
   function whole(groupValues) {
@@ -41,8 +54,7 @@ swept.kinematics = (function () {
   function valuesAt(time) {
     const at = data.locate(time);
     if (!data.isPath) return data.states[at.index] ? whole(data.states[at.index].values) : tree.reference.slice();
-    const motion = data.motions[at.index];
-    return whole(between(motion.from, motion.to, at.t));
+    return whole(onMotion(data.motions[at.index], at.t));
   }
 
   function jointValue(joint, values) {
@@ -105,7 +117,7 @@ swept.kinematics = (function () {
       for (let i = 0; i <= motion.steps; ++i) {
         const t = i / motion.steps;
         // The end of a motion is not the start of the next one, which may begin elsewhere.
-        offer(data.timeOf(m, Math.min(t, 1 - 1e-9)), whole(between(motion.from, motion.to, t)));
+        offer(data.timeOf(m, Math.min(t, 1 - 1e-9)), whole(onMotion(motion, t)));
       }
     });
     return best;
@@ -119,5 +131,5 @@ swept.kinematics = (function () {
             variable.upper === null ? reach : variable.upper];
   }
 
-  return {valuesAt, poses, jointValue, nearestKnown, range, between};
+  return {valuesAt, poses, whole, jointValue, nearestKnown, range, between};
 })();

@@ -36,6 +36,7 @@
     isometric: () => swept.views.preset('isometric'),
     fit: () => swept.views.fit(),
     worst: () => swept.paths.showWorst(),
+    plots: () => swept.plots.toggle(),
     picture: () => swept.views.savePicture(),
     link: () => swept.views.link(),
     shadows: () => swept.pace.toggle(),
@@ -46,13 +47,16 @@
     c: actions.covers, x: actions.world, g: actions.ghosts, r: actions.reset, d: actions.theme,
     h: actions.help, '?': actions.help, ' ': playback.toggle, '1': actions.front,
     '2': actions.side, '3': actions.top, '4': actions.isometric, f: actions.fit,
-    w: actions.worst, p: actions.picture, l: actions.link, s: actions.shadows,
+    w: actions.worst, t: actions.plots, p: actions.picture, l: actions.link, s: actions.shadows,
     v: actions.looks, n: () => swept.paths.next(), a: () => swept.bodies.showAll(),
     '/': () => { byId('bodies-box').open = true; byId('bodies-filter').focus(); },
     Escape: () => {
       if (!byId('help').hidden) byId('help').hidden = true;
       else if (playback.state.values) playback.setTime(playback.state.time);
-      else swept.panel.pick(-1);
+      else {
+        swept.panel.pick(-1);
+        swept.plots.pin(-1);
+      }
     }
   };
 
@@ -69,7 +73,7 @@
     return presses && (target.type === 'checkbox' || target.tagName === 'SUMMARY');
   }
 
-  const keysWithoutPicture = ['d', 'h', '?', ' ', 'w', 'l', 'n', 'Escape'];
+  const keysWithoutPicture = ['d', 'h', '?', ' ', 'w', 'l', 'n', 't', 'Escape'];
 
   function onKey(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -99,15 +103,23 @@
     });
   }
 
+  // At the contact of a trajectory, if that is off the curve.
+  function touchesBeside(entry, t) {
+    const contact = entry && entry.curve ? entry.curve.contact : null;
+    return contact !== null && contact.beside && Math.abs(t - entry.contacts[0].t) < 0.01;
+  }
+
   function showMoment(state) {
     const at = data.locate(state.time);
     if (!picture) return;
-    if (state.values) swept.scene.poseLinks(swept.kinematics.poses(state.values));
+    if (state.values || data.isTimed)
+      swept.scene.poseLinks(swept.kinematics.poses(state.values || swept.kinematics.valuesAt(state.time)));
     else swept.scene.pose(at.frame);
     // Contacts are of what was checked.
     const entry = state.values ? null : (data.isPath ? data.motions : data.states)[at.index];
     if (entry !== showMoment.entry) swept.overlays.showContacts(entry ? entry.contacts : []);
     showMoment.entry = entry;
+    swept.overlays.showBeside(touchesBeside(entry, at.t) ? entry : null);
   }
 
   function loop(now) {
@@ -175,6 +187,7 @@
   buildPicture();
   swept.timeline.build();
   swept.panel.build();
+  swept.trajectory.build();
   playback.onChange(showMoment);
   wire();
   swept.paths.build();

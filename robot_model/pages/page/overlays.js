@@ -8,6 +8,7 @@ swept.overlays = (function () {
   const traces = []; // of each path, {mesh, radius}
   const covers = {meshes: [], material: null, balls: 0, finest: 0};
   const ends = {group: null, material: null};
+  const beside = {group: null, motion: null}; // the robot where it is in contact off its curve
   const contacts = {group: new THREE.Group(), shown: []};
 
   const tipAt = (frame) => new THREE.Vector3().fromArray(
@@ -64,6 +65,7 @@ swept.overlays = (function () {
       const own = path === data.path;
       Object.assign(mesh.material, {transparent: !own, opacity: own ? 1 : 0.35, depthWrite: own});
     });
+    swept.wayPoints.usePath();
     if (ends.group !== null) {
       const on = ends.group.visible;
       scene.scene.remove(ends.group);
@@ -95,21 +97,41 @@ swept.overlays = (function () {
     scene.changed();
   }
 
-  // The robot once more at a frame, faint.
-  function addGhost(frame) {
+  // The robot once more, faint; `place` puts a body where it is.
+  function addGhost(group, material, place) {
     data.bodies.forEach((body, b) => {
       if (body.frame === null) return;
       const ghost = new THREE.Group();
       ghost.userData.body = b;
-      scene.place(ghost, data.poses, data.poseAt(frame, body.frame));
+      place(ghost, body);
       for (const mesh of scene.bodies[b].shown) {
-        const copy = new THREE.Mesh(mesh.geometry, ends.material);
+        const copy = new THREE.Mesh(mesh.geometry, material);
         copy.position.copy(mesh.position);
         copy.quaternion.copy(mesh.quaternion);
         ghost.add(copy);
       }
-      ends.group.add(ghost);
+      group.add(ghost);
     });
+  }
+  const atFrame = (frame) => (ghost, body) => scene.place(ghost, data.poses, data.poseAt(frame, body.frame));
+  function atValues(groupValues) {
+    const poses = swept.kinematics.poses(swept.kinematics.whole(groupValues)), scale = new THREE.Vector3();
+    return (ghost, body) => poses[data.tree.links.indexOf(data.frames.links[body.frame])]
+        .decompose(ghost.position, ghost.quaternion, scale);
+  }
+
+  // The contact of a trajectory that is off its curve by what its tube allows; null: none.
+  function showBeside(motion) {
+    if (motion === beside.motion) return;
+    if (beside.group !== null) scene.scene.remove(beside.group);
+    Object.assign(beside, {group: null, motion: motion});
+    scene.changed();
+    if (motion === null) return;
+    beside.group = new THREE.Group();
+    const material = new THREE.MeshStandardMaterial(
+        {transparent: true, opacity: 0.35, depthWrite: false, roughness: 0.8, color: scene.colour('bad')});
+    addGhost(beside.group, material, atValues(motion.curve.contact.values));
+    scene.scene.add(beside.group);
   }
 
   function showEnds(on) {
@@ -118,8 +140,8 @@ swept.overlays = (function () {
       ends.group = new THREE.Group();
       ends.material = new THREE.MeshStandardMaterial(
           {transparent: true, opacity: 0.2, depthWrite: false, roughness: 0.8});
-      addGhost(data.firstFrame());
-      addGhost(data.lastFrame());
+      addGhost(ends.group, ends.material, atFrame(data.firstFrame()));
+      addGhost(ends.group, ends.material, atFrame(data.lastFrame()));
       scene.scene.add(ends.group);
       hideGhosts(scene.bodies.map((body) => body.group.visible));
       paint();
@@ -175,6 +197,7 @@ swept.overlays = (function () {
   function paint() {
     covers.material.color.copy(scene.colour('cover'));
     if (ends.material) ends.material.color.copy(scene.colour('accent'));
+    swept.wayPoints.paint();
     scene.changed();
   }
 
@@ -182,12 +205,13 @@ swept.overlays = (function () {
     size = Math.min(sceneSize, 4);
     if (data.isPath && data.tipIndex >= 0)
       for (let path = 0; path < Math.max(1, data.paths.length); ++path) addTrace(path);
+    swept.wayPoints.build(size);
     usePath();
     addCovers();
     scene.scene.add(contacts.group);
     paint();
   }
 
-  return {build, showCovers, showEnds, showContacts, placeLabels, paint, usePath,
+  return {build, showCovers, showEnds, showContacts, showBeside, placeLabels, paint, usePath, addRod,
           hideGhosts, covers, traces, contacts};
 })();

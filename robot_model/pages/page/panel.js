@@ -24,7 +24,7 @@ swept.panel = (function () {
 
   function verdictAmount(entry) {
     if (entry.verdict === 'collision')
-      return data.isPath ? 'free until t ' + entry.free_until.toFixed(3) : 'collision';
+      return data.isPath ? 'free until ' + data.momentText(entry, entry.free_until) : 'collision';
     if (!entry.verdict) return '';
     const bound = data.isPath ? least(entry.pieces.lower) : entry.clearance;
     return (entry.verdict === 'undecided' ? 'undecided, ' : '') +
@@ -34,7 +34,7 @@ swept.panel = (function () {
   function addList() {
     const entries = data.isPath ? data.motions : data.states;
     byId('list').textContent = '';
-    byId('list-title').textContent = data.isPath ? 'motions' : 'states';
+    byId('list-title').textContent = data.isTimed ? 'trajectory' : data.isPath ? 'motions' : 'states';
     entries.forEach((entry, index) => {
       const button = make('button', '', make('li', '', byId('list')));
       make('span', 'dot ' + (entry.verdict || 'unjudged'), button);
@@ -56,7 +56,7 @@ swept.panel = (function () {
       const button = make('button', '', make('li', '', byId('contacts')));
       make('span', 'dot collision', button);
       make('span', 'name', button, contact.body_a + ' – ' + contact.body_b);
-      make('span', 'amount', button, entry.label + (data.isPath ? ', t ' + contact.t.toFixed(3) : ''));
+      make('span', 'amount', button, entry.label + (data.isPath ? ', ' + data.momentText(entry, contact.t) : ''));
       button.addEventListener('click', () => {
         playback.pause();
         playback.setTime(data.timeOf(index, data.isPath ? contact.t : 0));

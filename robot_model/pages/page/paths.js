@@ -14,6 +14,7 @@ swept.paths = (function () {
     data.usePath(path);
     swept.timeline.rebuild();
     swept.panel.rebuild();
+    swept.trajectory.rebuild();
     if (swept.overlays.usePath) swept.overlays.usePath();
     buttons.forEach((button, i) => button.setAttribute('aria-current', i === path));
     playback.setTime(0);
@@ -34,6 +35,8 @@ swept.paths = (function () {
     const own = data.allMotions.filter((motion) => motion.path === index);
     amount.textContent = path.tone === 'bad' ? 'collision' : path.tone === 'unsure' ? 'undecided'
         : '\u2265 ' + data.millimetres(least(own));
+    if (own.some((motion) => motion.curve && motion.curve.violations.length > 0))
+      amount.textContent += ', beyond limits';
     button.append(dot, name, amount);
     button.addEventListener('click', () => show(index));
     item.append(button);
@@ -92,6 +95,7 @@ swept.paths = (function () {
 
   function build() {
     byId('paths-title').hidden = !several;
+    if (data.isTimed) byId('paths-title').textContent = 'trajectories';
     if (!several) return;
     data.paths.forEach(addPath);
     buttons[0].setAttribute('aria-current', true);

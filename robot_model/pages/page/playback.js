@@ -60,11 +60,16 @@ swept.playback = (function () {
     return setTime(data.timeOf(at.index - 1, (before.steps - 1) / before.steps));
   }
 
-  // To the next start of a motion, or the last one.
+  // Where motions begin, or the pieces of a curve.
+  function startsOf(motion) {
+    const knots = motion.curve ? Array.from(motion.curve.knots.slice(0, -1)) : [0];
+    return knots.map((knot) => motion.start + knot - knots[0]);
+  }
+  // To the next start, or the last one.
   function skip(way) {
     pause();
     if (!data.isPath) return setTime(state.time + way);
-    const starts = data.motions.map((motion) => motion.start).concat([data.duration]);
+    const starts = [].concat(...data.motions.map(startsOf), [data.duration]);
     const found = way > 0 ? starts.find((start) => start > state.time + 1e-6)
                           : starts.reverse().find((start) => start < state.time - 1e-6);
     return setTime(found === undefined ? state.time : found);

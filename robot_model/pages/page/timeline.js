@@ -20,7 +20,8 @@ swept.timeline = (function () {
   function pieceText(motion, i) {
     const pieces = motion.pieces, tier = pieces.tiers[i];
     const count = pieces.tiers.length;
-    const range = 't ' + (i / count).toFixed(3) + ' to ' + ((i + 1) / count).toFixed(3);
+    const [begin, end] = [i, i + 1].map((k) => data.momentOf(motion, k / count).toFixed(3));
+    const range = motion.curve ? begin + ' s to ' + end + ' s' : 't ' + begin + ' to ' + end;
     let text = motion.label + ', ' + range + ': ' + data.tierNames[tier];
     if (tier !== 'collision')
       text += pieces.lower[i] === null ? ', no pair to check'
@@ -47,7 +48,7 @@ swept.timeline = (function () {
 
   function addMotion(motion, index) {
     const segment = make('div', 'segment', box);
-    segment.style.flex = motion.duration + ' 1 0';
+    segment.style.flex = 1000 * motion.duration + ' 1 0'; // below 1 in all, they would not fill it
     segment.dataset.index = index;
     make('div', 'segment-name', segment).textContent = motion.label;
     // Lines between parts where these are wider than the lines.
@@ -61,6 +62,18 @@ swept.timeline = (function () {
       const chart = make('div', 'bounds ' + kind, segment);
       for (let i = 0; i < count; ++i) addBound(motion, i, lower[i], chart);
     }
+    if (motion.curve) addTimes(motion, segment);
+  }
+
+  // Seconds below the charts.
+  function addTimes(motion, segment) {
+    const row = make('div', 'times', segment), begin = motion.curve.knots[0];
+    swept.axis.ticks(begin, begin + motion.duration, Math.min(8, box.clientWidth / 70)).forEach((time, i) => {
+      const share = (time.value - begin) / motion.duration;
+      const tick = make('span', share < 0.02 ? 'first' : share > 0.98 ? 'last' : '', row);
+      tick.textContent = time.text + (i === 0 ? ' s' : '');
+      tick.style.left = 100 * share + '%';
+    });
   }
 
   function addState(state, index) {
@@ -130,14 +143,20 @@ swept.timeline = (function () {
                                    (event) => playback.setSpeed(Number(event.target.value)));
   }
 
+  function clockText(at) {
+    const motion = data.motions[at.index];
+    if (motion.curve) return data.momentOf(motion, at.t).toFixed(3) + ' / ' + data.momentText(motion, 1);
+    return (at.index + 1) + ' / ' + data.motions.length + ', t ' + at.t.toFixed(3);
+  }
+
   function showPath(state) {
     const at = data.locate(state.time);
     const segment = box.querySelectorAll('.segment')[at.index];
     if (!segment) return;
     cursor.style.left = segment.offsetLeft + at.t * segment.offsetWidth + 'px';
     byId('scrub').value = Math.round(1000 * state.time / data.duration);
-    byId('clock').textContent = (at.index + 1) + ' / ' + data.motions.length + ', t ' +
-        at.t.toFixed(3);
+    byId('clock').textContent = clockText(at);
+    if (data.isTimed) byId('scrub').setAttribute('aria-valuetext', data.momentText(data.motions[at.index], at.t));
     byId('play').textContent = state.playing ? '\u275a\u275a' : '\u25b6';
   }
 

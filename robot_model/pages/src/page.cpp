@@ -25,20 +25,48 @@ std::vector<double> checkedState(const Checker& checker, const std::string& labe
   return {state.begin(), state.end()};
 }
 
+void requireSizeOf(const Checker& checker, const std::string& label,
+                   const PiecewisePolynomial& curve) {
+  const Eigen::VectorXd begin = curve.position(curve.begin());
+  static_cast<void>(checkedState(checker, label, {begin.data(), std::size_t(begin.size())}));
+}
+
+/// A page draws no moving obstacles, and orientations have to be some.
+void requireDrawable(const Checker& checker, const std::string& label,
+                     const PiecewisePolynomial& curve) {
+  if (!checker.world().obstacles().empty())
+    throw std::invalid_argument("'" + label + "': a page shows no moving obstacles, and the world" +
+                                " has '" + checker.world().obstacles().front().name + "'");
+  for (const int index : checker.group().joints) {
+    const Joint& joint = checker.robot().joints()[static_cast<std::size_t>(index)];
+    if (joint.type != JointType::Floating) continue;
+    const auto found = std::ranges::find(checker.group().variables, joint.firstVariable);
+    const auto first = found - checker.group().variables.begin() + 3;
+    for (std::size_t piece = 0; piece < curve.pieces(); ++piece) {
+      const auto orientations = curve.coefficients(piece).middleRows(first, 4);
+      for (Eigen::Index k = 0; k < orientations.cols(); ++k)
+        if (!(orientations.col(k).norm() > 1e-6))
+          throw std::invalid_argument("'" + label + "': the quaternion of joint '" + joint.name +
+                                      "' has no direction in piece " + std::to_string(piece));
+    }
+  }
+}
+
 }  // namespace
 
 struct Page::Data {
-  enum class Kind { Nothing, States, Motions, Paths };
+  enum class Kind { Nothing, States, Motions, Paths, Trajectories };
 
   std::shared_ptr<const Checker> checker;
   PageOptions options;
   PageContent content;
-  std::vector<Finding> findings;  ///< of each motion, or each path
+  std::vector<Finding> findings;  ///< of each motion, path or trajectory
   Kind kind = Kind::Nothing;
 
   void require(Kind wanted) {
     if (kind != Kind::Nothing && kind != wanted)
-      throw std::invalid_argument("a page has either states, or motions, or paths");
+      throw std::invalid_argument(
+          "a page has either states, or motions, or paths, or trajectories");
     kind = wanted;
   }
   Finding addMotion(const std::string& label, const std::vector<double>& from,
@@ -65,8 +93,11 @@ PageContent Page::Data::judged() const {
   } else {
     all = content;
     all.tone = toneOf(worst(findings).verdict);
-    all.headline = countsText(kind == Kind::Paths ? "path" : "motion", findings);
+    all.headline = kind == Kind::Trajectories
+                       ? countsText("trajectory", findings, "trajectories")
+                       : countsText(kind == Kind::Paths ? "path" : "motion", findings);
     sayIfNothingIsChecked(all, *checker);
+    sayIfLimitsAreLeft(all);
   }
   all.title = options.title;
   all.facts = options.facts;
@@ -110,6 +141,28 @@ void Page::addPath(const std::string& label, std::span<const std::vector<double>
                                         states[std::min(i + 1, states.size() - 1)]));
   data_->findings.push_back(worst(segments));
   data_->content.paths.push_back({.label = label, .tone = toneOf(data_->findings.back().verdict)});
+}
+
+void Page::addTrajectory(const std::string& label, const PiecewisePolynomial& curve,
+                         const TrajectoryQuery& query,
+                         std::span<const std::vector<double>> polyline) {
+  const Checker& checker = *data_->checker;
+  requireSizeOf(checker, label, curve);
+  requireDrawable(checker, label, curve);
+  for (const std::vector<double>& state : polyline)
+    static_cast<void>(checkedState(checker, "polyline of " + label, state));
+  TrajectoryQuery asked = query;
+  asked.clearances = false;  // the parts have them
+  Workspace workspace(checker);
+  TrajectoryCertificate certificate = checker.certifyTrajectory(curve, workspace, asked);
+  data_->require(Data::Kind::Trajectories);
+  data_->findings.push_back(findingOf(certificate));
+  data_->content.paths.push_back({.label = label, .tone = toneOf(certificate.verdict)});
+  data_->content.trajectories.push_back({.label = label,
+                                         .curve = curve,
+                                         .query = query,
+                                         .certificate = std::move(certificate),
+                                         .polyline = {polyline.begin(), polyline.end()}});
 }
 
 std::string Page::html() const {

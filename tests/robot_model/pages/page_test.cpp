@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "input_files.hpp"
+#include "slide_page.hpp"
 #include "swept/robot_model/usage_error.hpp"
 #include "transcript.hpp"
 
@@ -21,27 +22,8 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A ball on a slide along x, with a wall at 1.5 m.
-std::shared_ptr<const Checker> slide(double wallAt = 1.5) {
-  const auto robot = Robot::parse(
-      "<robot name='slide'><link name='base'/><link name='ball'><visual><geometry><box size='0.1 "
-      "0.2 0.3'/></geometry></visual><collision><geometry><sphere radius='0.1'/></geometry>"
-      "</collision></link><joint name='x' type='prismatic'><parent link='base'/><child "
-      "link='ball'/><axis xyz='1 0 0'/><limit lower='-3' upper='3' effort='1' velocity='1'/>"
-      "</joint></robot>",
-      "slide.urdf");
-  const auto world = std::make_shared<World>();
-  world->add(WorldBody{
-      .name = "wall",
-      .parts = {{makeBox({0.1, 1, 1}), Eigen::Isometry3d(Eigen::Translation3d(wallAt, 0, 0))}}});
-  return std::make_shared<const Checker>(robot, "all", world);
-}
-
-json dataOf(const Page& page) {
-  const std::string html = page.html(), begin = "<script id=\"data\" type=\"application/json\">";
-  const std::size_t at = html.find(begin) + begin.size();
-  return json::parse(html.substr(at, html.find("</script>", at) - at));
-}
+using test::dataOf;
+using test::slide;
 
 const std::vector<double> kStart{0.0}, kFree{1.0}, kHit{1.5}, kBeyond{2.5};
 
@@ -156,7 +138,7 @@ TEST(PageTest, WhatCannotBeShownIsRefusedAndChangesNothing) {
   EXPECT_EQ(refused([&] { page.addPath("p", {}); }), "path 'p' has no state");
   page.addState("start", kStart);
   EXPECT_EQ(refused([&] { page.addMotion("m", kStart, kFree); }),
-            "a page has either states, or motions, or paths");
+            "a page has either states, or motions, or paths, or trajectories");
   EXPECT_EQ(dataOf(page)["states"].size(), 1U);
 }
 

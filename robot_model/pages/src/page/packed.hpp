@@ -16,11 +16,13 @@ namespace swept {
 /// RFC 4648, with padding.
 std::string base64Of(std::span<const std::uint8_t> bytes);
 
-/// Of 2 or 4 bytes each.
+/// Of 2, 4 or 8 bytes each.
 template <typename Number>
 requires(std::integral<Number> || std::floating_point<Number>) std::string
     packed(std::span<const Number> numbers) {
-  using Bits = std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint32_t>;
+  using Bits =
+      std::conditional_t<sizeof(Number) == 2, std::uint16_t,
+                         std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>>;
   static_assert(sizeof(Number) == sizeof(Bits));
   std::vector<std::uint8_t> bytes;
   bytes.reserve(numbers.size_bytes());

@@ -8,6 +8,8 @@
 #include "page/packed.hpp"
 #include "page/page_bodies.hpp"
 #include "page/page_clearances.hpp"
+#include "page/page_curve_json.hpp"
+#include "page/page_curves.hpp"
 #include "page/page_frames.hpp"
 #include "page/page_pieces.hpp"
 #include "page/page_tree.hpp"
@@ -92,6 +94,33 @@ Json motionsJson(const Checker& checker, const PageContent& content,
   return json;
 }
 
+/// Each is one motion, whose t is the share of its duration.
+Json trajectoriesJson(const Checker& checker, const PageContent& content,
+                      const std::vector<PageSpan>& spans, const PageFrames& frames) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < content.trajectories.size(); ++i) {
+    const PageContent::Trajectory& trajectory = content.trajectories[i];
+    const TrajectoryCertificate& certificate = trajectory.certificate;
+    const CurvePieces pieces =
+        piecesOf(checker, trajectory.curve, spans[i].steps / kFramesPerPiece);
+    const double proven = certificate.freeUntil - trajectory.curve.begin();
+    Json entry = {{"label", trajectory.label},
+                  {"path", i},
+                  {"verdict", swept::toString(certificate.verdict)},
+                  {"free_until", proven / trajectory.curve.duration()},
+                  {"from", toJson(spans[i].from)},
+                  {"to", toJson(spans[i].to)},
+                  {"first_frame", frames.firstFrame[i]},
+                  {"steps", spans[i].steps}};
+    entry["contacts"] = Json::array();
+    if (certificate.contact) entry["contacts"].push_back(toJson(certificate.contact->witness));
+    entry["pieces"] = piecesJson(pieces.pieces);
+    entry["curve"] = curveJson(checker, trajectory, pieces);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
 Json stateJson(const PageContent::State& state, const Checker* checker) {
   Json json = {{"label", state.label}, {"values", toJson(state.q)}};
   json["verdict"] = nullptr;
@@ -112,7 +141,17 @@ std::vector<PageSpan> spansOf(const PageContent& content) {
   const int steps = kFramesPerPiece * piecesPerMotion(content.motions.size());
   for (const PageContent::Motion& motion : content.motions)
     spans.push_back({.from = motion.from, .to = motion.to, .steps = steps});
-  if (content.motions.empty())
+  for (const PageContent::Trajectory& trajectory : content.trajectories) {
+    const auto ends = [&](double time) {
+      const Eigen::VectorXd q = trajectory.curve.position(time);
+      return std::vector<double>(q.begin(), q.end());
+    };
+    spans.push_back({.from = ends(trajectory.curve.begin()),
+                     .to = ends(trajectory.curve.end()),
+                     .steps = kFramesPerPiece * piecesPerTrajectory(content.trajectories.size()),
+                     .curve = &trajectory.curve});
+  }
+  if (spans.empty())
     for (const PageContent::State& state : content.states)
       spans.push_back({.from = state.q, .to = state.q, .steps = 0});
   return spans;
@@ -202,11 +241,13 @@ Json pageJson(const Robot& robot, const World& world, const Checker* checker,
                     : Json(robot.links()[static_cast<std::size_t>(group.tipLink)].name);
   json["motions"] = Json::array();
   json["states"] = Json::array();
-  if (content.motions.empty())
+  if (!content.motions.empty())
+    json["motions"] = motionsJson(*checker, content, spans, frames);
+  else if (!content.trajectories.empty())
+    json["motions"] = trajectoriesJson(*checker, content, spans, frames);
+  else
     for (const PageContent::State& state : content.states)
       json["states"].push_back(stateJson(state, checker));
-  else
-    json["motions"] = motionsJson(*checker, content, spans, frames);
   json["clearances"] =
       checker == nullptr ? Json(nullptr) : clearancesOf(*checker, bodies, frames).json();
   return json;

@@ -31,6 +31,14 @@ struct PageContent {
     std::string label;
     Tone tone = Tone::Plain;
   };
+  /// A curve that is played in real time.
+  struct Trajectory {
+    std::string label;
+    PiecewisePolynomial curve;
+    TrajectoryQuery query;
+    TrajectoryCertificate certificate;
+    std::vector<std::vector<double>> polyline;  ///< configurations that are shown beside it
+  };
   std::string title;    ///< stands above the headline: `swept check`
   std::string command;  ///< that makes the page again; empty: none does
   Tone tone = Tone::Plain;
@@ -40,6 +48,8 @@ struct PageContent {
   std::vector<State> states;    ///< shown one at a time, where there are no motions
   std::vector<Motion> motions;  ///< played one after the other
   std::vector<Path> paths;      ///< that the motions are of; empty: of one
+  /// Shown in turn, where there are no motions; `paths` has an entry for each.
+  std::vector<Trajectory> trajectories;
   /// Index of the state that the page opens at, with the camera at its contacts. None: at the
   /// first, with the camera at everything.
   std::optional<std::size_t> opensAt;
@@ -53,15 +63,20 @@ struct Finding {
   bool apart = false;  ///< in Collision: no two bodies touch that are within their margin
 };
 Finding findingOf(const MotionCertificate& certificate);
+Finding findingOf(const TrajectoryCertificate& certificate);
 
 /// The worst finding: Collision before Undecided before Free. Among collisions, one in which bodies
 /// touch comes before one in which they are only within their margin.
 Finding worst(const std::vector<Finding>& findings);
-/// `3 motions: 1 free, 2 in collision`, of `what` = `motion`.
-std::string countsText(const std::string& what, const std::vector<Finding>& findings);
+/// `3 motions: 1 free, 2 in collision`, of `what` = `motion`. `several`: its plural; default: with
+/// an s.
+std::string countsText(const std::string& what, const std::vector<Finding>& findings,
+                       const std::string& several = {});
 
 /// Where nothing is checked, green would say too much. So the tone and the headline say it.
 void sayIfNothingIsChecked(PageContent& content, const Checker& checker);
+/// The same where a trajectory leaves limits, which its verdict does not say.
+void sayIfLimitsAreLeft(PageContent& content);
 
 /// Judges states, to be shown one at a time.
 PageContent statesContent(const Checker& checker, std::vector<PageContent::State> states);

@@ -24,7 +24,13 @@ Finding findingOf(const MotionCertificate& certificate) {
           .apart = certificate.witness && keepsApart(*certificate.witness)};
 }
 
-std::string countsText(const std::string& what, const std::vector<Finding>& findings) {
+Finding findingOf(const TrajectoryCertificate& certificate) {
+  return {.verdict = certificate.verdict,
+          .apart = certificate.contact && keepsApart(certificate.contact->witness)};
+}
+
+std::string countsText(const std::string& what, const std::vector<Finding>& findings,
+                       const std::string& several) {
   static constexpr std::array<std::pair<Finding, const char*>, 4> kWords{
       {{{Verdict::Free, false}, "free"},
        {{Verdict::Collision, false}, "in collision"},
@@ -42,7 +48,7 @@ std::string countsText(const std::string& what, const std::vector<Finding>& find
                                           : (all ? "all" : std::to_string(count)) + " " + word);
   }
   if (findings.size() == 1) return what + ": " + counts.front();
-  return std::to_string(findings.size()) + " " + what + "s: " + joined(counts);
+  return countedText(findings.size(), what, several) + ": " + joined(counts);
 }
 
 Finding worst(const std::vector<Finding>& findings) {
@@ -58,6 +64,17 @@ void sayIfNothingIsChecked(PageContent& content, const Checker& checker) {
   if (!checker.checksNothing() || content.tone != PageContent::Tone::Good) return;
   content.tone = PageContent::Tone::Unsure;
   content.headline += ", nothing was checked";
+}
+
+void sayIfLimitsAreLeft(PageContent& content) {
+  const auto leaving = std::ranges::count_if(
+      content.trajectories, [](const auto& own) { return !own.certificate.violations.empty(); });
+  if (leaving == 0) return;
+  if (content.tone == PageContent::Tone::Good) content.tone = PageContent::Tone::Unsure;
+  const std::size_t limits = content.trajectories.front().certificate.violations.size();
+  content.headline += content.trajectories.size() == 1
+                          ? ", beyond " + countedText(limits, "limit")
+                          : "; " + std::to_string(leaving) + " beyond limits";
 }
 
 PageContent statesContent(const Checker& checker, std::vector<PageContent::State> states) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "swept/robot_model/piecewise_polynomial.hpp"
 #include "swept/robot_model/robot.hpp"
 
 namespace swept {
@@ -14,6 +15,7 @@ namespace swept {
 struct PageSpan {
   std::vector<double> from, to;
   int steps = 0;
+  const PiecewisePolynomial* curve = nullptr;  ///< from one to the other; null: straight
 };
 
 /// Poses of links, frame by frame.
@@ -26,9 +28,9 @@ struct PageFrames {
   const Eigen::Isometry3d& pose(std::size_t frame, int link) const;
 };
 
-/// The frames of all spans, one after the other. The parameter t of a motion advances evenly from
-/// frame to frame, and the poses are those that the checker checks. `reference` is as LinkMotion
-/// takes it.
+/// The frames of all spans, one after the other. The parameter t of a motion, or the time of a
+/// curve, advances evenly from frame to frame, and the poses are those that the checker checks.
+/// `reference` is as LinkMotion takes it. Values of a curve may be beyond their limits.
 PageFrames framesOf(const Robot& robot, const Group& group,
                     const std::optional<Eigen::VectorXd>& reference,
                     const std::vector<PageSpan>& spans, std::vector<int> links);

@@ -23,19 +23,27 @@ std::vector<PagePiece> piecesOf(const Checker& checker, const PageSpan& span) {
   for (int i = 1; i <= count; ++i) {
     std::vector<double> to = span.to;
     if (i < count) checker.interpolate(span.from, span.to, static_cast<double>(i) / count, to);
-    PagePiece piece{.certificate = checker.certifyMotion(from, to, workspace), .clearance = {}};
-    if (piece.certificate.verdict != Verdict::Collision)
-      piece.clearance = checker.motionClearance(from, to, clearanceAccuracy(checker), workspace);
-    pieces.push_back(std::move(piece));
+    const MotionCertificate certificate = checker.certifyMotion(from, to, workspace);
+    PagePiece& piece = pieces.emplace_back();
+    piece.verdict = certificate.verdict;
+    piece.effort = certificate.effort;
+    if (piece.verdict != Verdict::Collision) {
+      const MotionClearance least =
+          checker.motionClearance(from, to, clearanceAccuracy(checker), workspace);
+      piece.lower = least.lower;
+      piece.upper = least.upper;
+      piece.lowerWorld = least.world.lower;
+      piece.lowerSelf = least.self.lower;
+    }
     from = std::move(to);
   }
   return pieces;
 }
 
-std::string_view tierOf(const MotionCertificate& certificate) {
-  switch (certificate.verdict) {
+std::string_view tierOf(const PagePiece& piece) {
+  switch (piece.verdict) {
     case Verdict::Free:
-      return certificate.effort.intervals == 0 ? "lanes" : "exact";
+      return piece.effort.intervals == 0 ? "lanes" : "exact";
     case Verdict::Collision:
       return "collision";
     case Verdict::Undecided:
@@ -48,11 +56,11 @@ Json piecesJson(const std::vector<PagePiece>& pieces) {
   Json tiers = Json::array(), lower = Json::array(), upper = Json::array();
   Json world = Json::array(), self = Json::array();
   for (const PagePiece& piece : pieces) {
-    tiers.push_back(tierOf(piece.certificate));
-    lower.push_back(finiteOrNull(piece.clearance.lower));
-    upper.push_back(finiteOrNull(piece.clearance.upper));
-    world.push_back(finiteOrNull(piece.clearance.world.lower));
-    self.push_back(finiteOrNull(piece.clearance.self.lower));
+    tiers.push_back(tierOf(piece));
+    lower.push_back(finiteOrNull(piece.lower));
+    upper.push_back(finiteOrNull(piece.upper));
+    world.push_back(finiteOrNull(piece.lowerWorld));
+    self.push_back(finiteOrNull(piece.lowerSelf));
   }
   return {{"tiers", std::move(tiers)},
           {"lower", std::move(lower)},

@@ -10,11 +10,15 @@
 
 namespace swept {
 
-/// One of the equal parts of a motion, certified by itself.
+/// One of the equal parts of a motion or curve, certified by itself.
 struct PagePiece {
-  MotionCertificate certificate;
-  /// m, proven and attained; both 0 where there is a collision.
-  MotionClearance clearance;
+  Verdict verdict = Verdict::Undecided;
+  Effort effort;
+  ///@{
+  /// m, proven and attained; 0 where there is a collision, infinity without pairs.
+  double lower = 0.0, upper = 0.0;
+  double lowerWorld = 0.0, lowerSelf = 0.0;
+  ///@}
 };
 
 /// The equal parts of a motion. Their ends are Checker::interpolate's, so that each
@@ -23,7 +27,7 @@ std::vector<PagePiece> piecesOf(const Checker& checker, const PageSpan& span);
 
 /// `lanes`: proven in single precision alone; `exact`: exact geometry was asked too; `undecided`,
 /// `collision`.
-std::string_view tierOf(const MotionCertificate& certificate);
+std::string_view tierOf(const PagePiece& piece);
 
 /// Arrays `tiers`, `lower` and `upper` (m; null: no pairs), a value for each piece.
 Json piecesJson(const std::vector<PagePiece>& pieces);

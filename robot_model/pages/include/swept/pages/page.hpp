@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/piecewise_polynomial.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 #include "swept/robot_model/visual_model.hpp"
 
 /// An HTML page with a robot, its world, and what is proven about its states and motions.
@@ -24,9 +26,9 @@ struct PageOptions {
 };
 
 /// A page: one HTML file that any browser opens from disk, without network. It shows states one at
-/// a time, or motions one after the other, or paths one at a time. The checker judges each when it
-/// is added; verdicts, contacts and distances are the checker's. Poses are drawn in single
-/// precision.
+/// a time, or motions one after the other, or paths or trajectories one at a time. The checker
+/// judges each when it is added; verdicts, contacts and distances are the checker's. Poses are
+/// drawn in single precision.
 ///
 /// Only one thread at a time may use a page.
 class Page {
@@ -47,9 +49,20 @@ class Page {
                  std::span<const double> to);
   void addPath(const std::string& label, std::span<const std::vector<double>> states);
   ///@}
+  /// Adds a curve in time, which the page plays in real time, with plots of its values and rates.
+  /// The page shows the limits of positions and of `query`, the tube of CheckerOptions::tracking,
+  /// and the clearance of each of up to 96 equal parts, proven for the curve itself, without its
+  /// tube. `polyline`: configurations that the curve was made from, shown beside it as straight
+  /// motions.
+  ///
+  /// Throws std::invalid_argument as addPath() and Checker::certifyTrajectory() do, and for a world
+  /// with moving obstacles, and an orientation with a quaternion of zero.
+  void addTrajectory(const std::string& label, const PiecewisePolynomial& curve,
+                     const TrajectoryQuery& query = {},
+                     std::span<const std::vector<double>> polyline = {});
 
-  /// The whole file. Takes about the time of a hundred states and 24 motions for each motion.
-  /// Throws std::invalid_argument if nothing was added.
+  /// The whole file. Takes about the time of a hundred states and 24 motions for each motion, and
+  /// of clearances over all of each trajectory. Throws std::invalid_argument if nothing was added.
   std::string html() const;
   /// Writes html() to a file, completely or not at all. Throws UsageError for an extension other
   /// than .html or .htm and for a file that cannot be written.
