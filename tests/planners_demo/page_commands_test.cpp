@@ -45,6 +45,22 @@ class Page : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(Page, TrajectoryPlaysItsCurve) {
+  const std::vector<std::string> command{
+      "trajectory", kRook,    "models/trajectories/rook7_shelf.yaml",
+      "--group",    "arm",    "--tracking",
+      "0.005",      "--scene"};
+  std::vector<std::string> free = command, colliding = command;
+  free.push_back(kShelf);
+  colliding.push_back(kSlot);
+  const json data = pageOf(free);
+  EXPECT_EQ(data["headline"], "1 trajectory: free");
+  EXPECT_EQ(data["tone"], "good");
+  ASSERT_EQ(data["trajectories"].size(), 1u);
+  EXPECT_EQ(data["paths"][0]["label"], "trajectory");
+  EXPECT_EQ(pageOf(colliding, 1)["tone"], "bad");
+}
+
 TEST_F(Page, CheckShowsItsStatesAndContacts) {
   const std::vector<std::string> states{"home", "ready", "0.2,0.4,0,1.2,0,0.8,0"};
   std::vector<std::string> command{"check", kRook, "--group", "arm", "--scene", kSlot};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "certificate/verify_outcome.hpp"
 #include "command_line/arguments.hpp"
 #include "command_line/exit_code.hpp"
@@ -8,6 +11,8 @@
 #include "output/text_output.hpp"
 #include "planning/planning.hpp"
 #include "swept/robot_model/path_certificate.hpp"
+#include "swept/robot_model/piecewise_polynomial.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 
 namespace CLI {
 class App;
@@ -28,6 +33,16 @@ void writeCheckPage(const Arguments& args, const Model& model, const Task& task)
 void writeMotionPage(const Arguments& args, const Model& model, const Task& task);
 void writeCertifyPage(const Arguments& args, const Model& model, const Task& task,
                       const PathCertificate& path);
+/// A trajectory of a page.
+struct ShownTrajectory {
+  std::string label;
+  PiecewisePolynomial curve;
+  TrajectoryQuery query;
+  TrajectoryCertificate certificate;
+  std::vector<std::vector<double>> points;  ///< configurations that straight motions are shown of
+};
+void writeTrajectoryPage(const Arguments& args, const Model& model, const Checker& checker,
+                         const std::vector<ShownTrajectory>& trajectories);
 void writePlanPage(const Arguments& args, const Model& model, const Task& task,
                    const PlanRequest& request, const PlanOutcome& outcome);
 /// `file`: the path's, as parsed; its states are shown.

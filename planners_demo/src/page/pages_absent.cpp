@@ -16,6 +16,8 @@ void requirePageFile(const Arguments&) {}
 void writeCheckPage(const Arguments&, const Model&, const Task&) {}
 void writeMotionPage(const Arguments&, const Model&, const Task&) {}
 void writeCertifyPage(const Arguments&, const Model&, const Task&, const PathCertificate&) {}
+void writeTrajectoryPage(const Arguments&, const Model&, const Checker&,
+                         const std::vector<ShownTrajectory>&) {}
 void writePlanPage(const Arguments&, const Model&, const Task&, const PlanRequest&,
                    const PlanOutcome&) {}
 void writeVerifyPage(const Arguments&, const Model&, const Task&, const Json&,

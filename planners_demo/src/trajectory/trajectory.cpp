@@ -3,6 +3,10 @@
 #include <cmath>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "command_line/commands.hpp"
 #include "input/groups.hpp"
@@ -12,6 +16,7 @@
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "page/pages.hpp"
 #include "swept/robot_model/proven_trajectory.hpp"
 #include "swept/robot_model/trajectory_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
@@ -68,6 +73,7 @@ class TrajectoryRun {
       : args_(args), warnings_(args.quiet), model_(loadModel(args, warnings_)) {}
 
   ExitCode run() {
+    requirePageFile(args_);
     const Group& group = chooseGroup(*model_.robot, args_);
     limits_ = limitsOf(args_, model_, group);
     checker_ = makeChecker(args_, model_, group, model_.world, warnings_, {},
@@ -85,6 +91,7 @@ class TrajectoryRun {
       start = trajectories[i].points.back().positions;
     }
     print();
+    writeTrajectoryPage(args_, model_, *checker_, shown_);
     return code_;
   }
 
@@ -109,14 +116,29 @@ class TrajectoryRun {
         .begin = curve.begin(),
         .end = curve.end(),
         .certificate = checker_->certifyTrajectory(curve, workspace, query)};
-    text_ += trajectoryText(report);
-    reports_.push_back(trajectoryJson(report));
+    tell(report);
+    show(label.empty() ? "trajectory" : label, trajectory, curve, report.certificate);
     const ExitCode code = codeOf(report.certificate);
     if (!args_.trajectory.repair || code == ExitCode::Free) {
       code_ = worse(code_, code);
       return;
     }
     repair(curve);
+  }
+
+  void tell(const TrajectoryReport& report) {
+    text_ += trajectoryText(report);
+    reports_.push_back(trajectoryJson(report));
+  }
+
+  /// On the page, with the polyline through the points.
+  void show(const std::string& label, const JointTrajectory& trajectory,
+            const PiecewisePolynomial& curve, const TrajectoryCertificate& certificate) {
+    ShownTrajectory shown{
+        .label = label, .curve = curve, .query = {}, .certificate = certificate, .points = {}};
+    shown.query.limits = limits_;
+    for (const TrajectoryPoint& point : trajectory.points) shown.points.push_back(point.positions);
+    shown_.push_back(std::move(shown));
   }
 
   /// Limits of accelerations of joints that have none.
@@ -144,12 +166,13 @@ class TrajectoryRun {
                                     .begin = repaired.proven->timed.curve.begin(),
                                     .end = repaired.proven->timed.curve.end(),
                                     .certificate = repaired.proven->certificate};
-      text_ += trajectoryText(report);
+      tell(report);
+      show("repaired", repaired.proven->timed.trajectory, repaired.proven->timed.curve,
+           report.certificate);
       text_ += "  way points  " + std::to_string(repaired.wayPoints.size()) + ", " +
                std::to_string(repaired.inserted) + " of them inserted; " +
                countedText(stopsOf(*repaired.proven), "stop") + "\n";
       text_ += escapedLine("written to " + args_.output) + "\n";
-      reports_.push_back(trajectoryJson(report));
       code_ = worse(code_, codeOf(repaired.proven->certificate));
       return;
     }
@@ -188,6 +211,7 @@ class TrajectoryRun {
   std::shared_ptr<const Checker> checker_;
   std::string text_;
   Json reports_ = Json::array();
+  std::vector<ShownTrajectory> shown_;
   ExitCode code_ = ExitCode::Free;
 };
 

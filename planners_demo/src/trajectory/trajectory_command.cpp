@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
+#include "page/pages.hpp"
 
 namespace swept {
 namespace {
@@ -40,6 +41,7 @@ void addTrajectoryOptions(CLI::App& app, Arguments& args) {
                  "rad/s^2 or m/s^2; for --repair, of joints without a limit")
       ->type_name("A")
       ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"));
+  addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);
 }
