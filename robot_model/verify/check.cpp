@@ -8,20 +8,10 @@
 #include "environment.hpp"
 #include "motion.hpp"
 #include "proof.hpp"
+#include "trajectory.hpp"
 
 namespace swept::verify {
 namespace {
-
-/// rad or m. How far beyond a limit a state may be: 1e-5, and the rounding of such a decimal. The
-/// proof is about the state as it is.
-constexpr double kLimit = 1.000001e-5;
-const std::string kChanged = ": is not as it was when the path was certified";
-
-const Json& readArray(const Json& json, const char* key, const std::string& where) {
-  const Json& list = at(json, key, where);
-  if (!list.is_array()) throw Refusal(where + ": " + key + " is not a list");
-  return list;
-}
 
 void compareDigests(const Json& claimed, const Json& actual, const std::string& kind) {
   if (!claimed.is_object()) throw Refusal("proof, digests: there are none of " + kind);
@@ -56,25 +46,23 @@ class ProofCheck {
     requireSameModel(proof_, modelJson);
     model_ = readModel(modelJson);
     requireSameClaims();
-    const Json& states = readArray(path, "states", "path");
-    for (std::size_t i = 0; i < states.size(); ++i)
-      states_.push_back(readState(states[i], model_, "state " + std::to_string(i + 1)));
-    if (states_.size() < 2) throw Refusal("states: fewer than two");
+    if (path.contains("trajectory"))
+      readTrajectory();
+    else
+      readStates();
     pairs_ = pairsToProve(model_);
   }
 
   Summary run() {
-    const Json& segments = readArray(proof_, "segments", "proof");
-    if (segments.size() + 1 != states_.size())
+    const Json& segments = readList(proof_, "segments", "proof");
+    if (segments.size() + 1 != knots().size())
       throw Refusal("proof, segments: " + std::to_string(segments.size()) + ", and " +
-                    std::to_string(states_.size()) + " states");
+                    std::to_string(knots().size()) + " " + knotName() + "s");
     // Changed states first: otherwise the message would name consequences of them.
-    for (std::size_t i = 0; i < segments.size(); ++i) requireStates(segments, i);
+    for (std::size_t i = 0; i < segments.size(); ++i) requireKnots(segments, i);
     for (std::size_t i = 0; i < segments.size(); ++i) checkSegment(segments[i], i);
+    addDescription();
     summary_.segments = segments.size();
-    summary_.pairs = pairs_.size();
-    for (const auto& [pair, reason] : model_.allowed)
-      summary_.allowed[reason].push_back(nameOf({pair.first, pair.second}));
     return summary_;
   }
 
@@ -83,7 +71,7 @@ class ProofCheck {
   void requireSameClaims() const {
     compareDigests(at(at(proof_, "digests", "proof"), "claims", "digests"), claimDigests(path_),
                    "path file,");
-    const Json& names = readArray(path_, "joint_names", "path");
+    const Json& names = readList(path_, "joint_names", "path");
     for (std::size_t i = 0; i < std::max(names.size(), model_.variables.size()); ++i)
       if (i >= names.size() || i >= model_.variables.size() || names[i] != model_.variables[i].name)
         throw Refusal("joint_names: they are not the variables of the group, in its order");
@@ -95,29 +83,87 @@ class ProofCheck {
         throw Refusal(std::string(key) + ": it is not that of the model");
   }
 
+  void readStates() {
+    if (at(proof_, "digests", "proof").contains("points"))
+      throw Refusal("trajectory: is not there, and was when the path was certified");
+    const Json& states = readList(path_, "states", "path");
+    for (std::size_t i = 0; i < states.size(); ++i)
+      states_.push_back(readState(states[i], model_, "state " + std::to_string(i + 1)));
+    if (states_.size() < 2) throw Refusal("states: fewer than two");
+  }
+
+  /// Whoever reads only the states has the points' positions.
+  void readTrajectory() {
+    const Json& trajectory = path_["trajectory"];
+    const Json& digests = at(proof_, "digests", "proof");
+    if (!digests.contains("points"))
+      throw Refusal("trajectory: was not there when the path was certified");
+    requireSamePoints(digests["points"], trajectory, model_);
+    points_ = readPoints(trajectory, model_);
+    const Json& states = readList(path_, "states", "path");
+    if (states.size() != points_.size())
+      throw Refusal("states: " + std::to_string(states.size()) + ", and " +
+                    std::to_string(points_.size()) + " points");
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (states[i] != knots()[i]["positions"])
+        throw Refusal("state " + std::to_string(i + 1) + ": it is not the positions of point " +
+                      std::to_string(i + 1));
+  }
+
+  /// What each two of are a segment.
+  const Json& knots() const {
+    return points_.empty() ? path_["states"] : path_["trajectory"]["points"];
+  }
+  std::string knotName() const { return points_.empty() ? "state" : "point"; }
+
+  Motion motionOf(std::size_t segment) const {
+    return points_.empty() ? Motion(model_, states_[segment], states_[segment + 1])
+                           : Motion(model_, points_[segment], points_[segment + 1]);
+  }
+
+  void addDescription() {
+    summary_.pairs = pairs_.size();
+    for (const auto& [pair, reason] : model_.allowed)
+      summary_.allowed[reason].push_back(nameOf({pair.first, pair.second}));
+    if (!points_.empty()) summary_.duration = points_.back().time - points_.front().time;
+    addTube();
+  }
+
+  /// Joints that follow others are off as far as these let them.
+  void addTube() {
+    bool tight = true;
+    for (const Joint& joint : model_.joints) {
+      if (joint.variable < 0 || valuesOf(joint.kind) == 0 || joint.multiplier != 1.0) continue;
+      JointTube& own = summary_.tube[joint.name];
+      if (joint.kind != JointKind::Prismatic) own.rotation = joint.tolerance.rotation;
+      if (joint.kind != JointKind::Revolute) own.translation = joint.tolerance.translation;
+      tight = tight && joint.tolerance.rotation == 0.0 && joint.tolerance.translation == 0.0;
+    }
+    if (tight) summary_.tube.clear();
+  }
+
   std::string nameOf(PairToProve pair) const {
     return model_.bodies[static_cast<std::size_t>(pair.a)].name() + " - " +
            model_.bodies[static_cast<std::size_t>(pair.b)].name();
   }
 
-  bool statesFit(const Json& segments, std::size_t i) const {
-    const Json& states = path_["states"];
+  bool knotsFit(const Json& segments, std::size_t i) const {
     return at(segments[i], "states_digest", "segment " + std::to_string(i + 1)) ==
-           stateDigest(states[i], states[i + 1]);
+           stateDigest(knots()[i], knots()[i + 1]);
   }
 
-  /// Names the state that two segments share, if neither matches.
-  void requireStates(const Json& segments, std::size_t i) const {
-    if (statesFit(segments, i)) return;
-    const bool next = i + 1 < segments.size() && !statesFit(segments, i + 1);
-    const std::size_t state = next || i + 1 == segments.size() ? i + 2 : i + 1;
-    throw Refusal("state " + std::to_string(state) + kChanged);
+  /// Names the state or point that two segments share, if neither matches.
+  void requireKnots(const Json& segments, std::size_t i) const {
+    if (knotsFit(segments, i)) return;
+    const bool next = i + 1 < segments.size() && !knotsFit(segments, i + 1);
+    const std::size_t knot = next || i + 1 == segments.size() ? i + 2 : i + 1;
+    throw Refusal(knotName() + " " + std::to_string(knot) + kChanged);
   }
 
   void checkSegment(const Json& segment, std::size_t i) {
     const std::string where = "segment " + std::to_string(i + 1);
-    const Motion motion(model_, states_[i], states_[i + 1]);
-    const Json& proofs = readArray(segment, "pairs", where);
+    const Motion motion = motionOf(i);
+    const Json& proofs = readList(segment, "pairs", where);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const std::string place = where + ", " + nameOf(pairs_[k]);
       const Body& a = model_.bodies[static_cast<std::size_t>(pairs_[k].a)];
@@ -137,7 +183,8 @@ class ProofCheck {
   const Json& path_;
   const Json& proof_;
   Model model_;
-  std::vector<std::vector<double>> states_;
+  std::vector<std::vector<double>> states_;  ///< of a path that is no trajectory
+  std::vector<Point> points_;                ///< of a trajectory
   std::vector<PairToProve> pairs_;
   Summary summary_;
 };
@@ -159,7 +206,7 @@ Json digestsOf(const Json& model) {
   Json digests = {{"joints", Json::object()}, {"bodies", Json::object()}};
   Json rules = model;
   for (const char* kind : {"joints", "bodies"}) {
-    for (const Json& item : readArray(model, kind, "model")) {
+    for (const Json& item : readList(model, kind, "model")) {
       const Json& name = at(item, "name", kind);
       if (!name.is_string()) throw Refusal(std::string(kind) + ": a name is not a text");
       Json& digest = digests[kind][name.get<std::string>()];
@@ -177,7 +224,8 @@ Json digestsOf(const Json& model) {
 Json claimDigests(const Json& path) {
   Json digests = Json::object();
   for (const auto& [key, value] : path.items())
-    if (key != "states" && key != "proof" && key != "model" && key != "inputs")
+    if (key != "states" && key != "trajectory" && key != "proof" && key != "model" &&
+        key != "inputs")
       digests[key] = digestOf(value.dump());
   return digests;
 }

@@ -11,10 +11,10 @@ namespace swept::verify {
 /// Names of the parts of `model`, with a digest of each: `joints`, `bodies` and, together, `rules`
 /// (everything else).
 Json digestsOf(const Json& model);
-/// Digest of the content of a path file besides its states, its proof and the source of its model:
-/// `claims`.
+/// Digest of the content of a path file besides its states, its trajectory, its proof and the
+/// source of its model: `claims`.
 Json claimDigests(const Json& path);
-/// Digest of the two states of a segment.
+/// Digest of the two states of a segment, or the two points of a trajectory.
 std::string stateDigest(const Json& from, const Json& to);
 /// Digest of the proof that a pair of bodies stays apart during a segment, without its own
 /// `digest`.

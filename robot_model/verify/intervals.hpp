@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,15 @@
 
 namespace swept::verify {
 
+/// How far a joint may be off; without a value where joints of its type cannot be.
+struct JointTube {
+  std::optional<double> rotation;     ///< rad
+  std::optional<double> translation;  ///< m
+};
+
 /// The content of a proof, or of a part of one.
 struct Summary {
-  std::size_t segments = 0;
+  std::size_t segments = 0;   ///< between states, or between points of a trajectory
   std::size_t pairs = 0;      ///< of bodies, each over the whole path
   std::size_t intervals = 0;  ///< of a pair
   std::size_t planes = 0;     ///< between two sets of elements during an interval
@@ -27,6 +34,9 @@ struct Summary {
   ///@}
   /// Pairs that may touch, `hand - shelf`, by who says so.
   std::map<std::string, std::vector<std::string>> allowed = {};
+  std::optional<double> duration = {};  ///< s, of a trajectory
+  /// Of every joint of the group, by name; empty: none has one.
+  std::map<std::string, JointTube> tube = {};
 
   void add(const Summary& part);
 };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,6 +28,15 @@ class Refusal : public std::runtime_error {
 };
 
 enum class JointKind : std::uint8_t { Fixed, Revolute, Prismatic, Planar, Floating };
+/// How many values a joint has.
+std::size_t valuesOf(JointKind kind);
+
+/// How far a joint may be from where its values put it, at every instant anew: a revolute joint by
+/// a rotation, a prismatic one by a translation, a planar or floating one by both in any direction.
+struct Tolerance {
+  double rotation = 0.0;     ///< rad
+  double translation = 0.0;  ///< m
+};
 
 /// The child's frame in the parent's: parent_from_joint, then the motion by the values. A revolute
 /// joint turns about `axis`, a prismatic one slides along it, a planar one slides orthogonally to
@@ -43,7 +53,17 @@ struct Joint {
   double multiplier = 1.0;  ///< value = multiplier * configuration + offset
   double offset = 0.0;      ///< rad or m
   std::vector<double> values = {};  ///< of a joint that the group does not move
+  Tolerance tolerance = {};
+  /// m. Where a prismatic joint with a tolerance ends: none of what it allows is beyond.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
 };
+
+/// rad or m. How far beyond a limit a value may be: 1e-5, and the rounding of such a decimal. The
+/// proof is about the value as it is.
+constexpr double kLimit = 1.000001e-5;
+/// Where something was changed.
+inline const std::string kChanged = ": is not as it was when the path was certified";
 
 /// One number of a configuration.
 struct Variable {
@@ -80,6 +100,9 @@ struct Model {
 /// Reads the `model` of a path file. Throws Refusal.
 Model readModel(const Json& json);
 
+/// Reads `tracking` of a model, the tolerances of its joints, into the joints. Throws Refusal.
+void readTracking(const Json& tracking, Model& model);
+
 /// The parts of a link's shape. Throws Refusal. `frame` is body_from_shape.
 struct ShapeParts {
   std::vector<Element> elements;
@@ -97,5 +120,7 @@ Eigen::Vector3d readUnit(const Json& json, const char* key, const std::string& w
 double readNumber(const Json& json, const std::string& where);
 /// `json[key]`. Throws Refusal if it is missing.
 const Json& at(const Json& json, const char* key, const std::string& where);
+/// The same, of a list.
+const Json& readList(const Json& json, const char* key, const std::string& where);
 
 }  // namespace swept::verify

@@ -36,6 +36,61 @@ Quaterniond orientation(const double* xyzw, const std::string& joint) {
   return turn.normalized();
 }
 
+/// A value that is the same all the time.
+bool isConstant(const Course& course) {
+  return std::ranges::all_of(course.curve.steps, [](double step) { return step == 0.0; });
+}
+
+/// Along an axis.
+Curve<Vector3d> along(const Curve<double>& curve, const Vector3d& axis) {
+  Curve<Vector3d> place{.degree = curve.degree, .start = curve.start * axis, .steps = {}};
+  for (std::size_t k = 0; k < curve.steps.size(); ++k) place.steps[k] = curve.steps[k] * axis;
+  return place;
+}
+
+/// The sum of places of one degree.
+Curve<Vector3d> sum(Curve<Vector3d> a, const Curve<Vector3d>& b) {
+  a.start += b.start;
+  for (std::size_t k = 0; k < a.steps.size(); ++k) a.steps[k] += b.steps[k];
+  return a;
+}
+
+/// How much of a tolerance is left to go before a limit, which may be `room` away or passed.
+double within(double tolerance, double room) {
+  return room < tolerance ? std::max(room, 0.0) : tolerance;
+}
+
+/// `pose`: of the joint in the reference frame; `place`: of the child's origin in the joint's.
+Play playOf(const Joint& joint, const Isometry3d& pose, const Around<Vector3d>& place) {
+  const Tolerance& tolerance = joint.tolerance;
+  const Vector3d axis = pose.linear() * joint.axis;
+  Play play;
+  play.origin = pose * place.value;
+  switch (joint.kind) {
+    case JointKind::Fixed:
+      break;
+    case JointKind::Revolute:
+      play.turn = tolerance.rotation * axis;
+      break;
+    case JointKind::Prismatic: {
+      const double value = place.value.dot(joint.axis);
+      play.axis = axis;
+      play.forward = within(tolerance.translation, joint.upper - (value - place.range));
+      play.backward = within(tolerance.translation, value + place.range - joint.lower);
+      break;
+    }
+    case JointKind::Planar:
+      play.turn = tolerance.rotation * axis;
+      play.slideAnywhere = tolerance.translation;
+      break;
+    case JointKind::Floating:
+      play.turnAnywhere = tolerance.rotation;
+      play.slideAnywhere = tolerance.translation;
+      break;
+  }
+  return play;
+}
+
 }  // namespace
 
 bool isMoved(const Model& model, int link, int reference) {
@@ -55,16 +110,43 @@ int commonAncestor(const Model& model, int a, int b) {
 Motion::Motion(const Model& model, std::span<const double> from, std::span<const double> to)
     : model_(model) {
   for (const Joint& joint : model.joints) {
-    const std::span<const double> held(joint.values);
+    const bool held = joint.variable < 0;
     const auto first = static_cast<std::size_t>(std::max(joint.variable, 0));
-    joints_.push_back(joint.variable < 0
-                          ? jointMotion(joint, held, held)
-                          : jointMotion(joint, from.subspan(first), to.subspan(first)));
+    const auto begin = held ? std::span<const double>(joint.values) : from.subspan(first);
+    const auto end = held ? std::span<const double>(joint.values) : to.subspan(first);
+    std::vector<Course> courses;
+    for (std::size_t i = 0; i < valuesOf(joint.kind); ++i) {
+      const bool shorter = valuesOf(joint.kind) == 1 ? !held && model.variables[first].cyclic
+                                                     : joint.kind == JointKind::Planar && i == 2;
+      courses.push_back(straightCourse(
+          begin[i], shorter ? shorterWay(begin[i], end[i]) : end[i] - begin[i], end[i]));
+    }
+    joints_.push_back(jointMotion(joint, begin, end, courses));
+  }
+}
+
+Motion::Motion(const Model& model, const Point& from, const Point& to)
+    : model_(model), curved_(isCurved(from, to)) {
+  for (const Joint& joint : model.joints) {
+    const bool held = joint.variable < 0;
+    const auto first = static_cast<std::size_t>(std::max(joint.variable, 0));
+    std::vector<Course> courses;
+    for (std::size_t i = 0; i < valuesOf(joint.kind); ++i)
+      courses.push_back(held ? straightCourse(joint.values[i], 0.0, joint.values[i])
+                             : courseOf(from, to, first + i));
+    const std::span<const double> begin(from.positions), end(to.positions), still(joint.values);
+    if (curved_ && joint.kind == JointKind::Floating)
+      for (std::size_t i = 3; i < courses.size(); ++i)
+        if (!isConstant(courses[i]))
+          throw Refusal("joint " + joint.name + ": its orientation changes on a curve");
+    joints_.push_back(jointMotion(joint, held ? still : begin.subspan(first),
+                                  held ? still : end.subspan(first), courses));
   }
 }
 
 Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const double> from,
-                                        std::span<const double> to) const {
+                                        std::span<const double> to,
+                                        const std::vector<Course>& courses) {
   JointMotion motion;
   motion.axis = joint.axis;
   switch (joint.kind) {
@@ -72,58 +154,59 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
       break;
     case JointKind::Revolute:
     case JointKind::Prismatic: {
-      const bool cyclic =
-          joint.variable >= 0 && model_.variables[static_cast<std::size_t>(joint.variable)].cyclic;
-      const double start = joint.multiplier * from[0] + joint.offset;
-      const double change =
-          joint.multiplier * (cyclic ? shorterWay(from[0], to[0]) : to[0] - from[0]);
+      Curve<double> value = courses[0].curve;
+      value.start = joint.multiplier * value.start + joint.offset;
+      for (double& step : value.steps) step *= joint.multiplier;
       // The shorter way from a small angle to a large one is small, and an offset may cancel most
       // of a large value.
-      const double made =
-          std::abs(joint.multiplier) * std::max(std::abs(from[0]), std::abs(to[0])) +
-          std::abs(joint.offset);
+      const double made = std::abs(joint.multiplier) * std::max(courses[0].begin, courses[0].end) +
+                          std::abs(joint.offset);
       if (joint.kind == JointKind::Revolute) {
-        motion.angle = start;
-        motion.spin = change;
+        motion.angle = value;
         motion.angles = made;
       } else {
-        motion.translation = start * joint.axis;
-        motion.rate = change * joint.axis;
+        motion.place = along(value, joint.axis);
         motion.lengths = made;
       }
       break;
     }
     case JointKind::Planar: {
       const Vector3d y = joint.axis.cross(joint.planarX);
-      motion.translation = from[0] * joint.planarX + from[1] * y;
-      motion.rate = (to[0] - from[0]) * joint.planarX + (to[1] - from[1]) * y;
-      motion.angle = from[2];
-      motion.spin = shorterWay(from[2], to[2]);
-      motion.angles = std::max(std::abs(from[2]), std::abs(to[2]));
+      motion.place = sum(along(courses[0].curve, joint.planarX), along(courses[1].curve, y));
+      motion.angle = courses[2].curve;
+      motion.angles = std::max(courses[2].begin, courses[2].end);
       motion.lengths =
-          std::max(std::abs(from[0]) + std::abs(from[1]), std::abs(to[0]) + std::abs(to[1]));
+          std::max(courses[0].begin + courses[1].begin, courses[0].end + courses[1].end);
       break;
     }
     case JointKind::Floating: {
-      motion.translation = {from[0], from[1], from[2]};
-      const Vector3d goal(to[0], to[1], to[2]);
-      motion.rate = goal - motion.translation;
-      motion.lengths = std::max(motion.translation.lpNorm<1>(), goal.lpNorm<1>());
-      motion.rotation = orientation(from.data() + 3, joint.name);
-      Quaterniond relative = orientation(to.data() + 3, joint.name) * motion.rotation.conjugate();
-      const double product = from[3] * to[3] + from[4] * to[4] + from[5] * to[5] + from[6] * to[6];
-      if (product < 0.0) relative.coeffs() = -relative.coeffs();
-      if (const double sine = relative.vec().norm(); sine > 0.0) {
-        motion.axis = relative.vec() / sine;
-        motion.spin = 2.0 * std::atan2(sine, relative.w());
-      }
+      motion.place = sum(sum(along(courses[0].curve, Vector3d::UnitX()),
+                             along(courses[1].curve, Vector3d::UnitY())),
+                         along(courses[2].curve, Vector3d::UnitZ()));
+      const Vector3d begin(courses[0].begin, courses[1].begin, courses[2].begin);
+      const Vector3d end(courses[0].end, courses[1].end, courses[2].end);
+      motion.lengths = std::max(begin.lpNorm<1>(), end.lpNorm<1>());
+      fly(joint, from, to, motion);
       break;
     }
   }
   return motion;
 }
 
-Placed Motion::at(int link, int reference, double t) const {
+/// The orientation of a floating joint.
+void Motion::fly(const Joint& joint, std::span<const double> from, std::span<const double> to,
+                 JointMotion& motion) {
+  motion.rotation = orientation(from.data() + 3, joint.name);
+  Quaterniond relative = orientation(to.data() + 3, joint.name) * motion.rotation.conjugate();
+  const double product = from[3] * to[3] + from[4] * to[4] + from[5] * to[5] + from[6] * to[6];
+  if (product < 0.0) relative.coeffs() = -relative.coeffs();
+  if (const double sine = relative.vec().norm(); sine > 0.0) {
+    motion.axis = relative.vec() / sine;
+    motion.angle.steps[0] = 2.0 * std::atan2(sine, relative.w());
+  }
+}
+
+Placed Motion::at(int link, int reference, double t, double half) const {
   std::vector<std::size_t> chain;
   for (; link != reference && link >= 0; link = parentOf(model_, link)) {
     const int joint = model_.jointOf[static_cast<std::size_t>(link)];
@@ -131,46 +214,64 @@ Placed Motion::at(int link, int reference, double t) const {
   }
   Placed placed;
   for (; !chain.empty(); chain.pop_back()) {
+    const Joint& joint = model_.joints[chain.back()];
     const JointMotion& motion = joints_[chain.back()];
-    const Isometry3d reference_from_joint =
-        placed.reference_from_link * model_.joints[chain.back()].parent_from_joint;
+    const Around<Vector3d> place = around(motion.place, t, half);
+    const Around<double> turn = around(motion.angle, t, half);
+    const Isometry3d reference_from_joint = placed.reference_from_link * joint.parent_from_joint;
     Isometry3d joint_from_child = Isometry3d::Identity();
-    joint_from_child.translation() = motion.translation + t * motion.rate;
-    joint_from_child.linear() =
-        Eigen::AngleAxisd(motion.angle + t * motion.spin, motion.axis).toRotationMatrix() *
-        motion.rotation.toRotationMatrix();
+    joint_from_child.translation() = place.value;
+    joint_from_child.linear() = Eigen::AngleAxisd(turn.value, motion.axis).toRotationMatrix() *
+                                motion.rotation.toRotationMatrix();
     placed.reference_from_link = reference_from_joint * joint_from_child;
-    const Vector3d spin = reference_from_joint.linear() * (motion.spin * motion.axis);
+    const Vector3d spin = reference_from_joint.linear() * (turn.rate * motion.axis);
     // About the child's origin, which itself moves.
     placed.angular += spin;
-    placed.linear += reference_from_joint.linear() * motion.rate -
+    placed.linear += reference_from_joint.linear() * place.rate -
                      spin.cross(placed.reference_from_link.translation());
+    if (joint.tolerance.rotation > 0.0 || joint.tolerance.translation > 0.0)
+      placed.plays.push_back(playOf(joint, reference_from_joint, place));
   }
   return placed;
 }
 
-/// A point's acceleration is the sum over all pairs of joints of the second derivatives of its
-/// position, times both rates. For two joints, of which the one nearer to the reference turns about
-/// a, the derivative is a x (the point's derivative by the other joint alone). It is at most the
-/// other's rate times the point's distance from the other's origin, or its rate if it slides. If
-/// the nearer one slides, it is zero.
-Bounds Motion::bounds(int link, int reference, double reach) const {
+/// The distance that the child's origin may have from that of the joint.
+double Motion::farthest(const JointMotion& motion, const Around<Vector3d>& place) const {
+  if (curved_) return place.value.norm() + place.range;
+  return std::max(motion.place.start.norm(), (motion.place.start + motion.place.steps[0]).norm());
+}
+
+/// A point's acceleration is the sum over all joints of its derivative times their acceleration,
+/// and over all pairs of joints of its second derivatives times both rates. For two joints, of
+/// which the one nearer to the reference turns about a, the latter is a x (the point's derivative
+/// by the other joint alone). It is at most the other's rate times the point's distance from the
+/// other's origin, or its rate if it slides. If the nearer one slides, it is zero.
+Bounds Motion::bounds(int link, int reference, double reach, double middle, double half) const {
   Bounds bounds;
   bounds.extent = reach;
   double arm = reach;  // m, from the origin of the link that the walk has come to
-  double speed = 0.0;  // m per unit of time, relative to that link
+  double speed = 0.0;  // m per unit of u, relative to that link
   for (; link != reference && link >= 0; link = parentOf(model_, link)) {
     const int index = model_.jointOf[static_cast<std::size_t>(link)];
     if (index < 0) break;
+    const Joint& joint = model_.joints[static_cast<std::size_t>(index)];
     const JointMotion& motion = joints_[static_cast<std::size_t>(index)];
-    const double spin = std::abs(motion.spin);
-    bounds.acceleration += spin * (spin * arm + 2.0 * speed);
-    speed += spin * arm + motion.rate.norm();
-    const double offset =
-        model_.joints[static_cast<std::size_t>(index)].parent_from_joint.translation().norm();
-    arm += offset + std::max(motion.translation.norm(), (motion.translation + motion.rate).norm());
-    bounds.extent += offset + motion.lengths;
-    bounds.turn += motion.angles + 2.0 * spin;
+    const Around<Vector3d> place = around(motion.place, middle, half);
+    const Around<double> turn = around(motion.angle, middle, half);
+    const double spin = half * turn.speed + joint.tolerance.rotation;
+    // The spin of a floating joint turns with the error of its orientation.
+    const double bend =
+        half * half * turn.acceleration +
+        (joint.kind == JointKind::Floating ? half * turn.speed * joint.tolerance.rotation : 0.0);
+    const double slideBend = half * half * place.acceleration;
+    bounds.acceleration += spin * (spin * arm + 2.0 * speed) + bend * arm + slideBend;
+    speed += spin * arm + half * place.speed + joint.tolerance.translation;
+    const double offset = joint.parent_from_joint.translation().norm();
+    arm += offset + farthest(motion, place) + joint.tolerance.translation;
+    bounds.extent += offset + motion.lengths + joint.tolerance.translation + 2.0 * slideBend;
+    if (curved_) bounds.extent += 0.5 * place.speed;
+    bounds.turn += motion.angles + 2.0 * turn.speed + half * turn.acceleration +
+                   4.0 * joint.tolerance.rotation;
     bounds.spin += spin;
     ++bounds.joints;
   }

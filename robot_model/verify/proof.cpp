@@ -2,6 +2,7 @@
 #include "proof.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rounding.hpp"
@@ -60,16 +61,16 @@ PairMotion::PairMotion(const Model& model, const Motion& motion, PairToProve pai
   const int linkB = model.linkOf[static_cast<std::size_t>(pair.b)];
   const int reference = linkB < 0 ? -1 : commonAncestor(model, linkA, linkB);
   const double middle = 0.5 * (begin + end);
-  a_ = motion.at(linkA, reference, middle);
-  b_ = motion.at(linkB, reference, middle);
-  const Bounds boundsA = motion.bounds(linkA, reference, bodyA_.reach());
-  const Bounds boundsB = motion.bounds(linkB, reference, bodyB_.reach());
+  a_ = motion.at(linkA, reference, middle, half_);
+  b_ = motion.at(linkB, reference, middle, half_);
+  const Bounds boundsA = motion.bounds(linkA, reference, bodyA_.reach(), middle, half_);
+  const Bounds boundsB = motion.bounds(linkB, reference, bodyB_.reach(), middle, half_);
   const double acceleration = boundsA.acceleration + boundsB.acceleration;
   const double size = boundsA.extent + boundsB.extent + bodyA_.size() + bodyB_.size();
   const double turn = 1.0 + boundsA.turn + boundsB.turn;
-  // What a direction swings by grows with half_, and so does what that rounds by.
-  const double swing = 1.0 + half_ * (boundsA.spin + boundsB.spin);
-  slack_ = 0.5 * half_ * half_ * acceleration +
+  // What a direction swings by grows with the interval, and so does what that rounds by.
+  const double swing = 1.0 + (boundsA.spin + boundsB.spin);
+  slack_ = 0.5 * acceleration +
            kRounding * (boundsA.joints + boundsB.joints + 4) * turn * swing * size + kUnderflow;
   // NaN, too: numbers were too large on the way.
   if (!(turn <= kLargest && size <= kLargest)) slack_ = std::numeric_limits<double>::infinity();
@@ -89,7 +90,29 @@ double PairMotion::gap(int nodeA, int nodeB, const Vector3d& direction) const {
   const auto at = [&](double s) {
     return -most(bodyB_, nodeB, b_, s, -n) - most(bodyA_, nodeA, a_, s, n);
   };
-  return std::min(at(-half_), at(half_)) - slack_;
+  return std::min(at(-half_), at(half_)) - play(nodeA, nodeB, n) - slack_;
+}
+
+double PairMotion::play(int nodeA, int nodeB, const Vector3d& n) const {
+  return playOf(bodyA_, nodeA, a_, n) + playOf(bodyB_, nodeB, b_, -n);
+}
+
+double PairMotion::playOf(const Body& body, int node, const Placed& placed, const Vector3d& n) {
+  double sum = 0.0;
+  for (const Play& play : placed.plays) {
+    const Vector3d way = n.cross(play.turn);
+    if (!way.isZero(0.0)) {
+      const double origin = way.dot(play.origin);
+      sum += std::max(most(body, node, placed, 0.0, way) - origin,
+                      most(body, node, placed, 0.0, -way) + origin);
+    }
+    const double arm =
+        (placed.reference_from_link.translation() - play.origin).norm() + body.reach();
+    const double along = n.dot(play.axis);
+    sum += along * (along > 0.0 ? play.forward : -play.backward) + play.slideAnywhere +
+           play.turnAnywhere * arm;
+  }
+  return sum;
 }
 
 double PairMotion::gapToFlat(int nodeA, std::size_t flat, int side) const {
@@ -98,7 +121,7 @@ double PairMotion::gapToFlat(int nodeA, std::size_t flat, int side) const {
   // From a towards the flat, which stands still: bodies with flats are the world's.
   const Vector3d n = -static_cast<double>(side) * plane.normal;
   const auto at = [&](double s) { return -side * plane.offset - most(bodyA_, nodeA, a_, s, n); };
-  return std::min(at(-half_), at(half_)) - slack_;
+  return std::min(at(-half_), at(half_)) - playOf(bodyA_, nodeA, a_, n) - slack_;
 }
 
 }  // namespace swept::verify

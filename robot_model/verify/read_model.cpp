@@ -41,12 +41,6 @@ std::string readText(const Json& json, const char* key, const std::string& where
   return value.get<std::string>();
 }
 
-const Json& readList(const Json& json, const char* key, const std::string& where) {
-  const Json& value = at(json, key, where);
-  if (!value.is_array()) throw Refusal(where + ": " + key + " is not a list");
-  return value;
-}
-
 /// Index of a name; -1 for null.
 int indexOf(const std::vector<std::string>& names, const Json& name, const std::string& where) {
   if (name.is_null()) return -1;
@@ -65,21 +59,6 @@ JointKind kindOf(const std::string& type, const std::string& where) {
   throw Refusal(where + ": no type of joint '" + type + "'");
 }
 
-std::size_t sizeOf(JointKind kind) {
-  switch (kind) {
-    case JointKind::Fixed:
-      return 0;
-    case JointKind::Revolute:
-    case JointKind::Prismatic:
-      return 1;
-    case JointKind::Planar:
-      return 3;
-    case JointKind::Floating:
-      return 7;
-  }
-  return 0;
-}
-
 bool isWhole(double number) {
   return number == std::round(number);
 }
@@ -89,11 +68,11 @@ void readValues(const Json& json, const Model& model, const std::string& where, 
   if (variable.is_null()) {
     for (const Json& value : readList(json, "values", where))
       joint.values.push_back(readNumber(value, where + ", values"));
-    if (joint.values.size() != sizeOf(joint.kind))
+    if (joint.values.size() != valuesOf(joint.kind))
       throw Refusal(where + ": values has another number of values than the joint");
     return;
   }
-  const std::size_t values = sizeOf(joint.kind), count = model.variables.size();
+  const std::size_t values = valuesOf(joint.kind), count = model.variables.size();
   if (!variable.is_number_unsigned() || values > count ||
       variable.get<std::size_t>() > count - values)
     throw Refusal(where + ": no variable " + variable.dump());
@@ -200,9 +179,30 @@ void readRules(const Json& json, Model& model) {
 
 }  // namespace
 
+std::size_t valuesOf(JointKind kind) {
+  switch (kind) {
+    case JointKind::Fixed:
+      return 0;
+    case JointKind::Revolute:
+    case JointKind::Prismatic:
+      return 1;
+    case JointKind::Planar:
+      return 3;
+    case JointKind::Floating:
+      return 7;
+  }
+  return 0;
+}
+
 const Json& at(const Json& json, const char* key, const std::string& where) {
   if (!json.is_object() || !json.contains(key)) throw Refusal(where + ": there is no " + key);
   return json[key];
+}
+
+const Json& readList(const Json& json, const char* key, const std::string& where) {
+  const Json& value = at(json, key, where);
+  if (!value.is_array()) throw Refusal(where + ": " + key + " is not a list");
+  return value;
 }
 
 double readNumber(const Json& json, const std::string& where) {
@@ -270,6 +270,7 @@ Model readModel(const Json& json) {
   if (ofRobot > 0 && model.bodies.size() > kMaxPairs / ofRobot)
     throw Refusal("model: more than " + std::to_string(kMaxPairs) + " pairs of bodies");
   readRules(json, model);
+  if (json.contains("tracking")) readTracking(json["tracking"], model);
   return model;
 }
 

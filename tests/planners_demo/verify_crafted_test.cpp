@@ -53,6 +53,12 @@ TEST(VerifyCrafted, DirectionsOfAnyLengthProveTheSame) {
   }
 }
 
+/// Of a model without variables.
+verify::Motion standing(const verify::Model& model) {
+  const std::vector<double> none;
+  return {model, none, none};
+}
+
 /// Of the smallest numbers there are, squares are nothing and lengths have no digits.
 TEST(VerifyCrafted, DirectionsOfTheSmallestNumbersHaveLengthOne) {
   verify::Model model;
@@ -66,7 +72,7 @@ TEST(VerifyCrafted, DirectionsOfTheSmallestNumbersHaveLengthOne) {
                             std::vector<verify::Surface>{});
   model.linkOf = {0, -1};
   model.paddings = {0.0, 0.0};
-  const verify::PairMotion motion(model, verify::Motion(model, {}, {}), {0, 1}, 0.0, 1.0);
+  const verify::PairMotion motion(model, standing(model), {0, 1}, 0.0, 1.0);
   for (const double unit : {5e-324, 1e-322, 1e-315, 1e-310, 1.0, 1e307})
     EXPECT_NEAR(motion.gap(0, 0, {3.0 * unit, 4.0 * unit, 0.0}), 5.0, 1e-9) << unit;
   EXPECT_NEAR(motion.gap(0, 0, {5e-324, 5e-324, 0.0}), 7.0 / std::sqrt(2.0), 1e-9);
@@ -96,7 +102,7 @@ verify::Model solidAndGround(double height, bool isSolid) {
 }
 
 std::string refusalOfFlat(const verify::Model& model, const Json& intervals) {
-  const verify::Motion motion(model, {}, {});
+  const verify::Motion motion = standing(model);
   const Json proof = {{"flats", Json::array({intervals})}};
   return refusalOf([&] { checkPair(model, motion, {0, 1}, proof, "here"); });
 }
@@ -135,7 +141,7 @@ TEST(VerifyCrafted, BelowTheGroundNothingIsFree) {
 /// A plane of the world has no intervals, whatever the file has under that name.
 TEST(VerifyCrafted, IntervalsThatProveNothingAreNotLookedAt) {
   const verify::Model model = solidAndGround(-1.0, true);
-  const verify::Motion motion(model, {}, {});
+  const verify::Motion motion = standing(model);
   const Json flats = Json::array({Json::array({Json::array({0.0, 1.0, Json::array({1, 0.9})})})});
   for (const Json& intervals : {Json::array(), Json(5), Json::array({5})}) {
     const Json proof = {{"flats", flats}, {"intervals", intervals}};
@@ -157,8 +163,8 @@ TEST(VerifyCrafted, LargeAnglesRoundAtEitherEnd) {
   model.variables = {{"turn", -INFINITY, INFINITY, true}};
   const std::vector<double> small{2.41}, large{1e15};
   for (const auto& [from, to] : {std::pair(small, large), std::pair(large, small)})
-    EXPECT_GE(verify::Motion(model, from, to).bounds(1, -1, 1.0).turn, 1e15);
-  EXPECT_LT(verify::Motion(model, small, small).bounds(1, -1, 1.0).turn, 3.0);
+    EXPECT_GE(verify::Motion(model, from, to).bounds(1, -1, 1.0, 0.5, 0.5).turn, 1e15);
+  EXPECT_LT(verify::Motion(model, small, small).bounds(1, -1, 1.0, 0.5, 0.5).turn, 3.0);
 }
 
 /// Of a model of a link that turns, after a change; empty: it is read.

@@ -232,8 +232,11 @@ TEST(VerifyRounding, ExtentsCountWhatPlacesAreMadeOf) {
                    .offset = 8.0}};
   model.variables.resize(7, {"joint", -INFINITY, INFINITY, false});
   const auto extent = [&](const std::vector<double>& from, const std::vector<double>& to) {
-    const double there = verify::Motion(model, from, to).bounds(0, -1, 0.5).extent;
-    EXPECT_EQ(verify::Motion(model, to, from).bounds(0, -1, 0.5).extent, there);
+    const auto extentOf = [](const verify::Motion& motion) {
+      return motion.bounds(0, -1, 0.5, 0.5, 0.5).extent;
+    };
+    const double there = extentOf(verify::Motion(model, from, to));
+    EXPECT_EQ(extentOf(verify::Motion(model, to, from)), there);
     return there;
   };
   EXPECT_EQ(extent({4.0}, {3.0}), 16.5);

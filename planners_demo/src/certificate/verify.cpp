@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -98,15 +99,44 @@ std::string keptText(const verify::Summary& summary) {
          kept("of the robot's bodies", summary.clearanceSelf);
 }
 
+/// `0.005 rad`, `0.001 to 0.005 rad`, of the joints that have such a tolerance; empty: none has.
+std::string rangeText(const verify::Summary& summary,
+                      std::optional<double> verify::JointTube::*tolerance, const char* unit) {
+  std::optional<double> least, most;
+  for (const auto& [joint, tube] : summary.tube) {
+    if (!(tube.*tolerance)) continue;
+    least = std::min(least.value_or(*(tube.*tolerance)), *(tube.*tolerance));
+    most = std::max(most.value_or(*(tube.*tolerance)), *(tube.*tolerance));
+  }
+  if (!most) return "";
+  return (*least == *most ? "" : shortNumber(*least) + " to ") + shortNumber(*most) + " " + unit;
+}
+
+std::string tubeText(const verify::Summary& summary) {
+  if (summary.tube.empty()) return summary.duration ? "no tube, " : "";
+  const std::string turned = rangeText(summary, &verify::JointTube::rotation, "rad");
+  const std::string slid = rangeText(summary, &verify::JointTube::translation, "m");
+  return "tube " + turned + (turned.empty() || slid.empty() ? "" : " and ") + slid + ", ";
+}
+
 std::string summaryText(const verify::Summary& summary) {
-  std::string text = painted(Hue::Good, "verified") + ": " +
-                     countedText(summary.segments, "segment") + ", " +
+  const std::string what = summary.duration ? "trajectory of " + secondsText(*summary.duration) +
+                                                  ", " + countedText(summary.segments, "piece")
+                                            : countedText(summary.segments, "segment");
+  std::string text = painted(Hue::Good, "verified") + ": " + what + ", " + tubeText(summary) +
                      countedText(summary.pairs, "pair of bodies", "pairs of bodies") + ", " +
                      countedText(summary.intervals, "interval") + ", " +
                      countedText(summary.planes, "plane") + "\n" + keptText(summary) + "\n";
   for (const auto& [reason, pairs] : summary.allowed)
     text += escapedLine("not checked (" + reason + "): " + joined(pairs)) + "\n";
   return text;
+}
+
+/// A page has the straight motions between states, which a trajectory does not take.
+void requireShown(const Arguments& args, const Json& path) {
+  if (!args.page.file.empty() && path.contains("trajectory"))
+    throw UsageError("--html shows straight motions, and '" + args.verify.path +
+                     "' has a trajectory");
 }
 
 /// What the path says that it is not about, where no files say it again.
@@ -128,6 +158,11 @@ Json outcomeJson(const VerifyOutcome& outcome) {
                {"clearance", finiteOrNull(summary.clearance)},
                {"clearance_world", finiteOrNull(summary.clearanceWorld)},
                {"clearance_self", finiteOrNull(summary.clearanceSelf)}};
+  if (summary.duration) json["duration"] = *summary.duration;
+  for (const auto& [joint, tube] : summary.tube) {
+    if (tube.rotation) json["tube"][joint]["rotation"] = *tube.rotation;
+    if (tube.translation) json["tube"][joint]["translation"] = *tube.translation;
+  }
   json["not_checked"] = Json::object();
   for (const auto& [reason, pairs] : summary.allowed) json["not_checked"][reason] = pairs;
   return json;
@@ -139,6 +174,7 @@ ExitCode runVerify(const Arguments& args) {
   requirePageFile(args);
   Warnings warnings(args.quiet);
   const Json path = pathWithProof(args.verify.path);
+  requireShown(args, path);
   std::optional<Files> files;
   VerifyOutcome outcome;
   std::vector<std::string> remarks;

@@ -21,11 +21,16 @@ constexpr double kOriginal = 0.5;
 Json partOf(const Json& original, Random& random) {
   const Json& states = original["states"];
   const std::size_t i = random.below(states.size() - 1);
-  return {{"joint_names", original["joint_names"]},
-          {"margin", original["margin"]},
-          {"states", {states[i], states[i + 1]}},
-          {"model", original["model"]},
-          {"original", true}};
+  Json part = {{"joint_names", original["joint_names"]},
+               {"margin", original["margin"]},
+               {"states", {states[i], states[i + 1]}},
+               {"model", original["model"]},
+               {"original", true}};
+  if (!original.contains("trajectory")) return part;
+  const Json& trajectory = original["trajectory"];
+  part["trajectory"] = {{"variables", trajectory["variables"]},
+                        {"points", {trajectory["points"][i], trajectory["points"][i + 1]}}};
+  return part;
 }
 
 bool mutateOften(Json& path, Field field, Random& random) {

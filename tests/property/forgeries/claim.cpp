@@ -9,6 +9,7 @@
 #include "verify/check.hpp"
 #include "verify/motion.hpp"
 #include "verify/proof.hpp"
+#include "verify/trajectory.hpp"
 
 namespace forgeries {
 namespace {
@@ -141,20 +142,39 @@ class PairClaim {
   Random& random_;
 };
 
-std::vector<double> stateOf(const Json& json) {
-  return json.get<std::vector<double>>();
+/// What each two of are a segment.
+const Json& knotsOf(const Json& path) {
+  return path.contains("trajectory") ? path["trajectory"]["points"] : path["states"];
+}
+
+std::vector<Motion> motionsOf(const Json& path, const Model& model) {
+  std::vector<Motion> motions;
+  if (path.contains("trajectory")) {
+    const auto points = swept::verify::readPoints(path["trajectory"], model);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      motions.emplace_back(model, points[i], points[i + 1]);
+    return motions;
+  }
+  const auto states = path["states"].get<std::vector<std::vector<double>>>();
+  for (std::size_t i = 0; i + 1 < states.size(); ++i)
+    motions.emplace_back(model, states[i], states[i + 1]);
+  return motions;
 }
 
 }  // namespace
 
+void takePositions(Json& path) {
+  if (!path.contains("trajectory")) return;
+  Json& points = path["trajectory"]["points"];
+  for (std::size_t i = 0; i < points.size(); ++i) points[i]["positions"] = path["states"][i];
+}
+
 void claimMost(Json& path, Random& random) {
+  takePositions(path);
   const Model model = swept::verify::readModel(path["model"]);
   const std::vector<PairToProve> pairs = swept::verify::pairsToProve(model);
   Json segments = Json::array();
-  for (std::size_t i = 0; i + 1 < path["states"].size(); ++i) {
-    const std::vector<double> from = stateOf(path["states"][i]),
-                              to = stateOf(path["states"][i + 1]);
-    const Motion motion(model, from, to);
+  for (const Motion& motion : motionsOf(path, model)) {
     Json proofs = Json::array();
     for (const PairToProve& pair : pairs)
       proofs.push_back(PairClaim(model, motion, pair, random).run());
@@ -164,12 +184,16 @@ void claimMost(Json& path, Random& random) {
 }
 
 void sign(Json& path) {
+  takePositions(path);
   Json& proof = path["proof"];
   proof["digests"] = swept::verify::digestsOf(path["model"]);
   proof["digests"]["claims"] = swept::verify::claimDigests(path);
+  if (path.contains("trajectory"))
+    proof["digests"]["points"] = swept::verify::pointDigests(path["trajectory"]);
+  const Json& knots = knotsOf(path);
   for (std::size_t i = 0; i < proof["segments"].size(); ++i) {
     Json& segment = proof["segments"][i];
-    segment["states_digest"] = swept::verify::stateDigest(path["states"][i], path["states"][i + 1]);
+    segment["states_digest"] = swept::verify::stateDigest(knots[i], knots[i + 1]);
     for (Json& pair : segment["pairs"]) pair["digest"] = swept::verify::pairDigest(pair);
   }
 }

@@ -9,6 +9,9 @@ namespace forgeries {
 
 using Json = nlohmann::ordered_json;
 
+/// Gives the points of a trajectory the states as their positions, whatever became of these.
+void takePositions(Json& path);
+
 /// Gives a path file a proof that claims all that the checker believes: planes whose bounds are
 /// what it computes itself. What it does not believe, it claims too. Throws verify::Refusal where
 /// the model is refused.

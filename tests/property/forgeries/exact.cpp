@@ -116,6 +116,13 @@ Pose Pose::operator*(const Pose& o) const {
           *this * o.translation};
 }
 
+ExactMotion::ExactMotion(const Json& path, std::size_t segment)
+    : model_(path["model"]), from_(path["states"][segment]), to_(path["states"][segment + 1]) {
+  if (!path.contains("trajectory")) return;
+  begin_ = &path["trajectory"]["points"][segment];
+  end_ = &path["trajectory"]["points"][segment + 1];
+}
+
 const Json* ExactMotion::jointAbove(const std::string& link) const {
   for (const Json& joint : model_["joints"])
     if (joint["child"] == link) return &joint;
@@ -134,29 +141,73 @@ std::string ExactMotion::commonAncestor(const std::string& a, const std::string&
     }
 }
 
-Pose ExactMotion::moved(const Json& joint, const Real& t) const {
-  const std::string type = joint["type"];
+/// The cubic or quintic whose derivatives at both ends are the points', by its Bernstein
+/// coefficients: the first ones have the derivatives at the begin, and the last ones at the end.
+Real ExactMotion::valueOf(std::size_t variable, const Real& t) const {
+  const Real first = numberOf(from_[variable]), last = numberOf(to_[variable]);
+  const auto both = [&](const char* key) {
+    return begin_ != nullptr && begin_->contains(key) && end_->contains(key);
+  };
+  if (!both("velocities")) return first * (1 - t) + last * t;
+  const Real time = numberOf((*end_)["time"]) - numberOf((*begin_)["time"]);
+  const auto rate = [&](const Json* point, const char* key) {
+    return numberOf((*point)[key][variable]);
+  };
+  const bool quintic = both("accelerations");
+  const Real step = time / (quintic ? 5 : 3);
+  std::vector<Real> b{first, first + step * rate(begin_, "velocities")};
+  if (quintic) {
+    const Real square = time * time / 20;
+    b.push_back(2 * b[1] - first + square * rate(begin_, "accelerations"));
+    const Real before = last - step * rate(end_, "velocities");
+    b.push_back(2 * before - last + square * rate(end_, "accelerations"));
+  }
+  b.push_back(last - step * rate(end_, "velocities"));
+  b.push_back(last);
+  for (std::size_t left = b.size() - 1; left > 0; --left)
+    for (std::size_t k = 0; k < left; ++k) b[k] = b[k] * (1 - t) + b[k + 1] * t;
+  return b[0];
+}
+
+Pose ExactMotion::moved(const Json& joint, const Real& t, const Errors& errors) const {
+  const std::string type = joint["type"], name = joint["name"];
   const bool held = joint["variable"].is_null();
   const Json& from = held ? joint["values"] : from_;
   const Json& to = held ? joint["values"] : to_;
   if (type == "fixed") return {};
   const std::size_t first = held ? 0 : joint["variable"].get<std::size_t>();
-  if (type == "floating") return flown(from, to, first, t);
+  // Of a trajectory no value takes another way than its own.
+  const auto valueAt = [&](std::size_t i, bool shorter) {
+    if (held) return numberOf(from[i]);
+    if (!shorter || begin_ != nullptr) return valueOf(i, t);
+    return numberOf(from[i]) + t * shorterWay(from[i].get<double>(), to[i].get<double>());
+  };
+  const auto slide = [&] {
+    return errors.slides.contains(name) ? errors.slides.at(name) : Vec{0, 0, 0};
+  };
+  const Real rotation = errors.rotation.contains(name) ? errors.rotation.at(name) : Real(0);
+  if (type == "floating") {
+    Pose pose = flown(from, to, first, t);
+    pose.translation =
+        Vec{valueAt(first, false), valueAt(first + 1, false), valueAt(first + 2, false)} + slide();
+    if (rotation == 0) return pose;
+    const Vec place = pose.translation;
+    pose.translation = {0, 0, 0};
+    pose = turn(errors.axes.at(name), rotation) * pose;
+    pose.translation = place;
+    return pose;
+  }
   const Vec axis = unit(vecOf(joint["axis"]));
-  const auto between = [&](std::size_t i) {
-    return numberOf(from[i]) * (1 - t) + numberOf(to[i]) * t;
-  };
-  const auto way = [&](std::size_t i) {
-    return shorterWay(from[i].get<double>(), to[i].get<double>());
-  };
   if (type == "planar") {
     const Vec x = unit(vecOf(joint["planar_x"]));
-    Pose pose = turn(axis, numberOf(from[first + 2]) + t * way(first + 2));
-    pose.translation = x * between(first) + axis.cross(x) * between(first + 1);
+    Pose pose = turn(axis, valueAt(first + 2, true) + rotation);
+    pose.translation =
+        x * valueAt(first, false) + axis.cross(x) * valueAt(first + 1, false) + slide();
     return pose;
   }
   const bool cyclic = !held && model_["variables"][first]["cyclic"].get<bool>();
-  const Real own = cyclic ? numberOf(from[first]) + t * way(first) : between(first);
+  const Real error = held || !errors.values.contains(first) ? Real(0) : errors.values.at(first);
+  const Real own = valueAt(first, cyclic) + error;
   const Real value = held ? own : numberOf(joint["multiplier"]) * own + numberOf(joint["offset"]);
   if (type != "prismatic") return turn(axis, value);
   Pose pose;
@@ -164,14 +215,14 @@ Pose ExactMotion::moved(const Json& joint, const Real& t) const {
   return pose;
 }
 
-Pose ExactMotion::placed(const std::string& link, const std::string& reference,
-                         const Real& t) const {
+Pose ExactMotion::placed(const std::string& link, const std::string& reference, const Real& t,
+                         const Errors& errors) const {
   if (link == reference || link.empty()) return {};
   const Json* joint = jointAbove(link);
   if (joint == nullptr) return {};
   const Json& parent = (*joint)["parent"];
-  return placed(parent.is_null() ? "" : parent, reference, t) * poseOf((*joint)["pose"]) *
-         moved(*joint, t);
+  return placed(parent.is_null() ? "" : parent, reference, t, errors) * poseOf((*joint)["pose"]) *
+         moved(*joint, t, errors);
 }
 
 bool isInside(const Shell& shell, const Vec& point) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -74,23 +75,37 @@ struct ExactBody {
 };
 ExactBody bodyOf(const Json& body);
 
-/// Where links are at t, on the way from one state to another.
+/// How far joints are off, within what `tracking` of a model allows.
+struct Errors {
+  std::map<std::size_t, Real> values;    ///< rad or m, by variable, of joints with one value
+  std::map<std::string, Vec> slides;     ///< m, by planar or floating joint, in its frame
+  std::map<std::string, Vec> axes;       ///< of a floating joint's error
+  std::map<std::string, Real> rotation;  ///< rad, of a planar or floating joint's
+};
+
+/// Where links are at t in [0, 1] of a segment: on the way from one state to the next, or from one
+/// point of a trajectory to the next.
 class ExactMotion {
  public:
-  ExactMotion(const Json& model, const Json& from, const Json& to)
-      : model_(model), from_(from), to_(to) {}
+  ExactMotion(const Json& path, std::size_t segment);
+
   /// The link's frame in that of a link above, or the model's ("").
-  Pose placed(const std::string& link, const std::string& reference, const Real& t) const;
+  Pose placed(const std::string& link, const std::string& reference, const Real& t,
+              const Errors& errors) const;
   /// The link nearest to both that is above, or is, each; "": the model frame.
   std::string commonAncestor(const std::string& a, const std::string& b) const;
+  /// A value of the configuration.
+  Real valueOf(std::size_t variable, const Real& t) const;
 
  private:
   const Json* jointAbove(const std::string& link) const;
-  Pose moved(const Json& joint, const Real& t) const;
+  Pose moved(const Json& joint, const Real& t, const Errors& errors) const;
 
   const Json& model_;
-  const Json& from_;
+  const Json& from_;  ///< values
   const Json& to_;
+  const Json* begin_ = nullptr;  ///< point of a trajectory; null: none
+  const Json* end_ = nullptr;
 };
 
 /// Whether a point is in what closed triangles enclose, by a ray that crosses none of their edges.

@@ -3,8 +3,13 @@
 
 #include <algorithm>
 
+#include "errors.hpp"
+
 namespace forgeries {
 namespace {
+
+/// Sets of errors at each time.
+constexpr int kErrors = 4;
 
 struct Plane {
   Vec direction;
@@ -29,8 +34,7 @@ Real support(const Solid& solid, const Pose& pose, const Vec& direction) {
 class Pair {
  public:
   Pair(const Json& path, std::size_t segment, const std::string& a, const std::string& b)
-      : motion_(path["model"], path["states"][segment], path["states"][segment + 1]),
-        keep_(path["model"]["margin"].get<double>()) {
+      : path_(path), motion_(path, segment), keep_(path["model"]["margin"].get<double>()) {
     const Json& model = path["model"];
     for (const Json& body : model["bodies"]) {
       const std::string name = body["name"];
@@ -44,9 +48,13 @@ class Pair {
   const ExactBody& a() const { return a_; }
   const ExactBody& b() const { return b_; }
   const Real& keep() const { return keep_; }
-  Pose poseOf(const ExactBody& body, double t) const {
-    return motion_.placed(body.link, reference_, Real(t));
+  Pose poseOf(const ExactBody& body, double t, const Errors& errors) const {
+    return motion_.placed(body.link, reference_, Real(t), errors);
   }
+  Errors errorsAt(double t, Random& random) const {
+    return drawErrors(path_, motion_, Real(t), random);
+  }
+  bool inTube() const { return path_["model"].contains("tracking"); }
   /// Of all of a, at its pose.
   Real fromWall(std::size_t wall, int side, const Pose& poseA) const {
     const Vec away = b_.walls[wall].normal * Real(-side);
@@ -56,6 +64,7 @@ class Pair {
   }
 
  private:
+  const Json& path_;
   ExactMotion motion_;
   ExactBody a_, b_;
   std::string reference_;
@@ -103,9 +112,20 @@ class PairJudge {
     }
     return end == 1.0 ? "" : "nothing from " + std::to_string(end);
   }
-  std::vector<double> timesOf(const Json& interval) {
+  /// A time, and what joints are off at it.
+  struct Instant {
+    double t;
+    Errors errors;
+  };
+  std::vector<Instant> instantsOf(const Json& interval) {
     const double begin = interval[0], end = interval[1];
-    return {begin, end, 0.5 * (begin + end), random_.uniform(begin, end)};
+    std::vector<Instant> instants;
+    for (const double t : {begin, end, 0.5 * (begin + end), random_.uniform(begin, end)}) {
+      instants.push_back({t, {}});
+      for (int i = 0; pair_.inTube() && i < kErrors; ++i)
+        instants.push_back({t, pair_.errorsAt(t, random_)});
+    }
+    return instants;
   }
   static std::string text(double t, const Real& truth, const Real& bound) {
     return "at " + Real(t).str(20) + " only " + truth.str(20) + " m, not " + bound.str(20) + " m";
@@ -116,8 +136,9 @@ class PairJudge {
     planesIn(interval[2], planes);
     for (const Plane& plane : planes)
       if (plane.bound < pair_.keep()) return "a bound below the margin";
-    for (const double t : timesOf(interval)) {
-      const Pose poseA = pair_.poseOf(pair_.a(), t), poseB = pair_.poseOf(pair_.b(), t);
+    for (const auto& [t, errors] : instantsOf(interval)) {
+      const Pose poseA = pair_.poseOf(pair_.a(), t, errors);
+      const Pose poseB = pair_.poseOf(pair_.b(), t, errors);
       for (const Solid& a : pair_.a().solids)
         for (const Solid& b : pair_.b().solids) {
           std::string found = "no plane";
@@ -137,8 +158,8 @@ class PairJudge {
     const Real bound(interval[2][1].get<double>());
     if (bound < pair_.keep()) return "a bound below the margin";
     if (side < 0 && pair_.b().walls[wall].isSolid) return "inside of a half-space";
-    for (const double t : timesOf(interval)) {
-      const Real truth = pair_.fromWall(wall, side, pair_.poseOf(pair_.a(), t));
+    for (const auto& [t, errors] : instantsOf(interval)) {
+      const Real truth = pair_.fromWall(wall, side, pair_.poseOf(pair_.a(), t, errors));
       if (truth < bound) return text(t, truth, bound);
     }
     return "";
@@ -146,7 +167,7 @@ class PairJudge {
 
   std::string enclosed() const {
     if (proof_["intervals"][0][2].is_array()) return "";
-    const Pose poseA = pair_.poseOf(pair_.a(), 0.0), poseB = pair_.poseOf(pair_.b(), 0.0);
+    const Pose poseA = pair_.poseOf(pair_.a(), 0.0, {}), poseB = pair_.poseOf(pair_.b(), 0.0, {});
     const bool found = encloses(pair_.a(), poseA, pair_.b(), poseB) ||
                        encloses(pair_.b(), poseB, pair_.a(), poseA);
     return found ? "one is inside the other at the beginning" : "";
@@ -184,11 +205,12 @@ std::string refutation(const Json& path, Random& random) {
 }
 
 Real separation(const Json& path, std::size_t segment, const std::string& a, const std::string& b,
-                const Json& direction, double t) {
+                const Json& direction, double t, Random* errors) {
   const Pair pair(path, segment, a, b);
+  const Errors off = errors == nullptr ? Errors{} : pair.errorsAt(t, *errors);
   const Vec way = vecOf(direction);
   const Plane plane{way, way.norm(), 0};
-  const Pose poseA = pair.poseOf(pair.a(), t), poseB = pair.poseOf(pair.b(), t);
+  const Pose poseA = pair.poseOf(pair.a(), t, off), poseB = pair.poseOf(pair.b(), t, off);
   Real least = apart(pair.a().solids.front(), poseA, pair.b().solids.front(), poseB, plane);
   for (const Solid& own : pair.a().solids)
     for (const Solid& other : pair.b().solids)
@@ -197,9 +219,10 @@ Real separation(const Json& path, std::size_t segment, const std::string& a, con
 }
 
 Real wallSeparation(const Json& path, std::size_t segment, const std::string& a,
-                    const std::string& b, std::size_t wall, int side, double t) {
+                    const std::string& b, std::size_t wall, int side, double t, Random* errors) {
   const Pair pair(path, segment, a, b);
-  return pair.fromWall(wall, side, pair.poseOf(pair.a(), t));
+  const Errors off = errors == nullptr ? Errors{} : pair.errorsAt(t, *errors);
+  return pair.fromWall(wall, side, pair.poseOf(pair.a(), t, off));
 }
 
 }  // namespace forgeries

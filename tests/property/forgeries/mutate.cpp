@@ -121,7 +121,11 @@ void numbersIn(Json& json, std::vector<Json*>& numbers) {
 
 bool mutateExtreme(Json& path, Random& random) {
   std::vector<Json*> numbers;
-  numbersIn(random.chance(0.3) ? path["states"] : path["model"], numbers);
+  const bool ofPoints = path.contains("trajectory") && random.chance(0.3);
+  numbersIn(ofPoints             ? path["trajectory"]
+            : random.chance(0.3) ? path["states"]
+                                 : path["model"],
+            numbers);
   if (numbers.empty()) return false;
   Json& number = *numbers[random.below(numbers.size())];
   number = random.chance(0.7) ? extreme(random) : number.get<double>() * extreme(random);
@@ -137,11 +141,52 @@ bool mutateLimit(Json& path, Random& random) {
   return true;
 }
 
+bool mutateTime(Json& path, Random& random) {
+  if (!path.contains("trajectory")) return false;
+  Json& points = path["trajectory"]["points"];
+  const double duration = random.chance(0.5) ? std::abs(extreme(random)) : random.scale(-6.0, 4.0);
+  const double begin = random.chance(0.5) ? 0.0 : large(random);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i]["time"] = begin + static_cast<double>(i) * duration;
+  return true;
+}
+
+/// Of one variable. On a curve its value comes back from far away, or is there for a short time.
+bool mutateRate(Json& path, Random& random) {
+  if (!path.contains("trajectory")) return false;
+  Json& points = path["trajectory"]["points"];
+  const char* key = random.chance(0.5) ? "velocities" : "accelerations";
+  Json* point = any(points, random);
+  if (!point->contains(key) || (*point)[key].empty()) return false;
+  Json& number = (*point)[key][random.below((*point)[key].size())];
+  if (number == 0.0) return false;  // of an orientation
+  number = random.chance(0.5) ? large(random) : number.get<double>() * large(random);
+  return true;
+}
+
+bool mutateTube(Json& path, Random& random) {
+  Json& model = path["model"];
+  Json* joint = any(model["joints"], random);
+  if (joint == nullptr || !model.contains("tracking")) return false;
+  const std::string name = (*joint)["name"];
+  if (!model["tracking"].contains(name)) return false;
+  for (Json& number : model["tracking"][name])
+    number = random.chance(0.2) ? std::abs(extreme(random))
+                                : number.get<double>() * random.scale(-9.0, 3.0);
+  if (!isSingle(*joint) || random.chance(0.5)) return true;
+  // A limit that it may not reach.
+  const std::size_t v = (*joint)["variable"];
+  const double value = path["states"][0][v];
+  model["variables"][v]["lower"] = value - random.pick({0.0, 1e-6, 1e-4, 2.0});
+  model["variables"][v]["upper"] = value + random.pick({0.0, 1e-6, 1e-4, 2.0});
+  return true;
+}
+
 /// In the order of Field.
 constexpr std::array<bool (*)(Json&, Random&), kFields> kChanges = {
-    cancelOffset, cancelValue, cancelOrigin,   cancelShape, cancelWall,
-    cancelBody,   mutateAxis,  mutateRotation, mutateTurn,  mutateQuaternion,
-    mutateSize,   mutateRule,  mutateExtreme,  mutateLimit};
+    cancelOffset,  cancelValue,    cancelOrigin, cancelShape,      cancelWall, cancelBody,
+    mutateAxis,    mutateRotation, mutateTurn,   mutateQuaternion, mutateSize, mutateRule,
+    mutateExtreme, mutateLimit,    mutateTime,   mutateRate,       mutateTube};
 
 }  // namespace
 

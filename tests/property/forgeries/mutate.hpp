@@ -28,11 +28,14 @@ enum class Field : std::uint8_t {
   Rule,        ///< margin and paddings
   Extreme,     ///< any number of the model or the states, at the ends of what doubles can be
   Limit,       ///< limits
+  Time,        ///< times of a trajectory: long, short, and of large numbers
+  Rate,        ///< velocities and accelerations of a trajectory that take each other back
+  Tube,        ///< what joints may be off, and limits near by
 };
-constexpr std::size_t kFields = 14;
+constexpr std::size_t kFields = 17;
 constexpr std::array<std::string_view, kFields> kFieldNames = {
-    "offset",   "value", "origin",     "shape", "wall", "body",    "axis",
-    "rotation", "turn",  "quaternion", "size",  "rule", "extreme", "limit"};
+    "offset",     "value", "origin", "shape",   "wall",  "body", "axis", "rotation", "turn",
+    "quaternion", "size",  "rule",   "extreme", "limit", "time", "rate", "tube"};
 
 /// False where the path has nothing of the kind.
 bool mutate(Json& path, Field field, Random& random);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "places.hpp"
 #include "verify/encoding.hpp"
 
 namespace forgeries {
@@ -135,6 +136,54 @@ Json nearBy(Random& random, const Json& model, const Json& state) {
   return random.chance(0.05) && model["variables"].size() > 0 ? state : next;
 }
 
+/// A value of a quaternion, which may not change on a curve.
+bool isOrientation(const Json& model, std::size_t variable) {
+  for (const Json& joint : model["joints"])
+    if (typeOf(joint) == "floating" && !joint["variable"].is_null() &&
+        variable >= joint["variable"].get<std::size_t>() + 3 &&
+        variable < joint["variable"].get<std::size_t>() + 7)
+      return true;
+  return false;
+}
+
+Json ratesJson(Random& random, const Json& model) {
+  const double most = random.scale(-3.0, 0.5);
+  Json rates = Json::array();
+  for (std::size_t v = 0; v < model["variables"].size(); ++v)
+    rates.push_back(isOrientation(model, v) ? 0.0 : random.uniform(-most, most));
+  return rates;
+}
+
+/// Makes the states points of a trajectory.
+void addTrajectory(Random& random, Json& path) {
+  const Json& model = path["model"];
+  Json points = Json::array();
+  double time = random.uniform(0.0, 3.0);
+  const bool curved = random.chance(0.8), quintic = random.chance(0.5);
+  for (Json& state : path["states"]) {
+    for (std::size_t v = 0; curved && v < state.size(); ++v)
+      if (isOrientation(model, v)) state[v] = path["states"][0][v];
+    Json point = {{"time", time}, {"positions", state}};
+    if (curved) point["velocities"] = ratesJson(random, model);
+    if (curved && quintic) point["accelerations"] = ratesJson(random, model);
+    points.push_back(std::move(point));
+    time += random.uniform(0.1, 2.0);
+  }
+  path["trajectory"] = {{"variables", path["joint_names"]}, {"points", std::move(points)}};
+}
+
+void addTube(Random& random, Json& model) {
+  for (const Json& joint : model["joints"]) {
+    const std::string type = typeOf(joint), name = joint["name"];
+    if (joint["variable"].is_null() || type == "fixed" || joint["multiplier"] != 1.0 ||
+        random.chance(0.3))
+      continue;
+    if (type != "prismatic") model["tracking"][name]["rotation"] = random.scale(-5.0, -1.5);
+    if (type != "revolute" && type != "continuous")
+      model["tracking"][name]["translation"] = random.scale(-5.0, -1.5);
+  }
+}
+
 }  // namespace
 
 Json unitJson(Random& random) {
@@ -191,7 +240,9 @@ Json makeScene(Random& random) {
   const std::size_t count = random.chance(0.8) ? 2 : 3;
   while (path["states"].size() < count)
     path["states"].push_back(nearBy(random, model, path["states"].back()));
+  if (random.chance(0.3)) addTube(random, model);
   path["model"] = std::move(model);
+  if (random.chance(0.4)) addTrajectory(random, path);
   return path;
 }
 

@@ -14,7 +14,8 @@ using Json = nlohmann::ordered_json;
 
 /// A path file without a proof: a robot of up to three joints of any kind, of which one may mimic
 /// another, one or two bodies on it and one or two in the world, of all kinds of shapes, and two or
-/// three states. Ordinary numbers.
+/// three states. Of some the states are points of a trajectory, and in some joints have tolerances.
+/// Ordinary numbers.
 Json makeScene(Random& random);
 
 /// A direction of length 1, one in three along an axis.

@@ -2,6 +2,7 @@
 #include "certificate/certificate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -9,39 +10,39 @@
 #include <utility>
 
 #include "certificate/pair_search.hpp"
+#include "certificate/trajectory_json.hpp"
 #include "verify/check.hpp"
+#include "verify/trajectory.hpp"
 
 namespace swept {
 namespace {
 
 /// The share of the clearance beyond the margin that the planes have to prove.
 constexpr double kShareOfClearance = 0.5;
+/// The same where joints have tolerances, which clearances do not count: as much as there is.
+constexpr std::array kSharesInTube = {kShareOfClearance, 0.1, 0.0};
 
 class CertificateSearch {
  public:
   CertificateSearch(const Checker& checker, const Json& model)
-      : model_(verify::readModel(model)), pairs_(verify::pairsToProve(model_)) {
+      : model_(verify::readModel(model)),
+        pairs_(verify::pairsToProve(model_)),
+        inTube_(model.contains("tracking")) {
     const std::vector<CertifiedBody> sources = certifiedBodies(checker);
     for (std::size_t i = 0; i < sources.size(); ++i)
       bodies_.emplace_back(model_.bodies[i], sources[i]);
     findMeasured(checker, sources);
   }
 
+  const verify::Model& model() const { return model_; }
+
   /// Null where a pair is not proven; then `missing` says why.
-  Json segment(std::span<const double> from, std::span<const double> to, double clearance,
-               std::string& missing) {
-    const verify::Motion motion(model_, from, to);
+  Json segment(const verify::Motion& motion, double clearance, std::string& missing) {
     Json proofs = Json::array();
     for (const verify::PairToProve& pair : pairs_) {
-      SearchedBody& a = bodies_[static_cast<std::size_t>(pair.a)];
-      SearchedBody& b = bodies_[static_cast<std::size_t>(pair.b)];
-      const double margin = model_.marginOf(pair.a, pair.b);
-      const bool measured = measured_.contains({pair.a, pair.b});
-      const double share = measured ? std::max(0.0, kShareOfClearance * (clearance - margin)) : 0.0;
-      const double keep = std::isfinite(share) ? margin + share : margin;
-      Json entry = PairSearch(model_, motion, pair, a, b, keep).run();
+      Json entry = pairProof(motion, pair, clearance);
       if (entry.is_null()) {
-        missing = a.body().name() + " - " + b.body().name();
+        missing = nameOf(pair.a) + " - " + nameOf(pair.b);
         return nullptr;
       }
       entry["digest"] = verify::pairDigest(entry);
@@ -51,6 +52,24 @@ class CertificateSearch {
   }
 
  private:
+  const std::string& nameOf(int body) const {
+    return model_.bodies[static_cast<std::size_t>(body)].name();
+  }
+
+  Json pairProof(const verify::Motion& motion, verify::PairToProve pair, double clearance) {
+    const double margin = model_.marginOf(pair.a, pair.b);
+    const bool measured = measured_.contains({pair.a, pair.b});
+    for (const double share : kSharesInTube) {
+      const double more = measured ? std::max(0.0, share * (clearance - margin)) : 0.0;
+      const double keep = std::isfinite(more) ? margin + more : margin;
+      Json entry = PairSearch(model_, motion, pair, bodies_[static_cast<std::size_t>(pair.a)],
+                              bodies_[static_cast<std::size_t>(pair.b)], keep)
+                       .run();
+      if (!entry.is_null() || !inTube_ || keep == margin) return entry;
+    }
+    return nullptr;
+  }
+
   void findMeasured(const Checker& checker, const std::vector<CertifiedBody>& sources) {
     std::map<std::pair<std::string, bool>, int> numbers;
     for (std::size_t i = 0; i < sources.size(); ++i)
@@ -62,32 +81,67 @@ class CertificateSearch {
 
   verify::Model model_;
   std::vector<verify::PairToProve> pairs_;
+  bool inTube_;
   std::deque<SearchedBody> bodies_;
   /// Pairs that the clearances cover. Bodies out of a link's reach have to be proven apart as well,
   /// and may be nearer than these.
   std::set<std::pair<int, int>> measured_;
 };
 
-}  // namespace
-
-Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
-                          std::span<const double> clearances) {
+/// `motionOf` and `clearanceOf`: of a segment. `knots`: what each two of are one.
+template <typename MotionOf, typename ClearanceOf>
+Certificate certificateBetween(const Checker& checker, const Json& knots, const MotionOf& motionOf,
+                               const ClearanceOf& clearanceOf) {
   Certificate certificate{.model = modelJson(checker), .proof = nullptr, .missing = {}};
   CertificateSearch search(checker, certificate.model);
   Json segments = Json::array();
-  for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     std::string pair;
-    Json proofs = search.segment(states[i], states[i + 1], clearances[i], pair);
+    Json proofs = search.segment(motionOf(search.model(), i), clearanceOf(i), pair);
     if (proofs.is_null()) {
       certificate.missing = "segment " + std::to_string(i + 1) + ", " + pair;
       return certificate;
     }
-    segments.push_back(
-        {{"states_digest", verify::stateDigest(toJson(states[i]), toJson(states[i + 1]))},
-         {"pairs", std::move(proofs)}});
+    segments.push_back({{"states_digest", verify::stateDigest(knots[i], knots[i + 1])},
+                        {"pairs", std::move(proofs)}});
   }
   certificate.proof = {{"digests", verify::digestsOf(certificate.model)},
                        {"segments", std::move(segments)}};
+  return certificate;
+}
+
+}  // namespace
+
+Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
+                          std::span<const double> clearances) {
+  Json knots = Json::array();
+  for (const std::vector<double>& q : states) knots.push_back(toJson(q));
+  return certificateBetween(
+      checker, knots,
+      [&](const verify::Model& model, std::size_t i) {
+        return verify::Motion(model, states[i], states[i + 1]);
+      },
+      [&](std::size_t i) { return clearances[i]; });
+}
+
+Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
+                          double clearance) {
+  const auto pointOf = [&](std::size_t i) {
+    const TrajectoryPoint& point = trajectory.points[i];
+    return verify::Point{.time = point.time,
+                         .positions = point.positions,
+                         .velocities = point.velocities,
+                         .accelerations = point.accelerations};
+  };
+  const Json json = trajectoryJson(trajectory);
+  Certificate certificate = certificateBetween(
+      checker, json["points"],
+      [&](const verify::Model& model, std::size_t i) {
+        return verify::Motion(model, pointOf(i), pointOf(i + 1));
+      },
+      [&](std::size_t) { return clearance; });
+  if (!certificate.proof.is_null())
+    certificate.proof["digests"]["points"] = verify::pointDigests(json);
   return certificate;
 }
 

@@ -7,6 +7,7 @@
 
 #include "output/text_output.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/joint_trajectory.hpp"
 
 namespace swept {
 
@@ -22,8 +23,14 @@ struct Certificate {
 /// before. The planes prove that the bodies of each pair stay farther apart than the margin plus
 /// half of the rest of `clearances` (m, one per segment, proven). Bodies out of a link's reach are
 /// not part of the clearances; the planes prove that they stay farther apart than the margin.
-/// Throws UsageError for moving obstacles.
+/// Likewise pairs to which the joints' tolerances leave no more. Throws UsageError for moving
+/// obstacles.
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
                           std::span<const double> clearances);
+
+/// The same for the curve that a controller makes of a trajectory, between its points. `clearance`:
+/// m, of all of it. Variables are those of the group, in its order.
+Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,
+                          double clearance);
 
 }  // namespace swept

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "certificate/shape_json.hpp"
+#include "certificate/trajectory_json.hpp"
 #include "output/robot_json.hpp"
 #include "robot/joint_types.hpp"
 #include "swept/core/axis_frame.hpp"
@@ -180,6 +181,8 @@ Json modelJson(const Checker& checker) {
   json["allowed"] = allowedJson(checker);
   Json asked = askedJson(checker);
   if (!asked.empty()) json["asked"] = std::move(asked);
+  Json tracking = trackingJson(checker);
+  if (!tracking.empty()) json["tracking"] = std::move(tracking);
   return json;
 }
 

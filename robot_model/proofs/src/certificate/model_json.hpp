@@ -28,8 +28,8 @@ struct CertifiedBody {
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 
 /// The model that a proof is about, in the form that robot_model/verify reads: kinematics, geometry
-/// bit for bit, margins, pairs that may touch. Throws UsageError for moving obstacles, which the
-/// form cannot express.
+/// bit for bit, margins, pairs that may touch, tolerances of joints. Throws UsageError for moving
+/// obstacles, which the form cannot express.
 Json modelJson(const Checker& checker);
 
 /// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is

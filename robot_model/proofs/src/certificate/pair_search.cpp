@@ -85,10 +85,14 @@ Json PairSearch::tree(Between& between, int a, int b) {
   const DistanceResult found = distance(
       partA.shape, partB.shape, reference_from_a.inverse() * placedB * partB.body_from_shape);
   if (found.lower > 0.0 && !found.normal.isZero()) {
-    Json leaf = plane(between, a, b, reference_from_a.linear() * found.normal);
+    const Vector3d way = reference_from_a.linear() * found.normal;
+    Json leaf = plane(between, a, b, way);
     if (!leaf.is_null()) return leaf;
-    const double apart = found.lower - a_.grownBy(a) - b_.grownBy(b);
-    if (apart >= keep_ + kShare * (distanceOf(between) - keep_)) return nullptr;
+    // Of smaller parts, the tolerances of joints take less.
+    const double play = between.motion.play(a, b, way);
+    const double spare = distanceOf(between) - keep_ - play;
+    const double apart = found.lower - a_.grownBy(a) - b_.grownBy(b) - play;
+    if (apart >= keep_ + kShare * (play > 0.0 ? std::max(spare, 0.0) : spare)) return nullptr;
   }
   const bool leafA = a_.body().isLeaf(a), leafB = b_.body().isLeaf(b);
   if (leafA && leafB) return nullptr;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/path_json.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
 
+#include "certificate/trajectory_json.hpp"
 #include "output/clouds_json.hpp"
 #include "output/unchecked_json.hpp"
 #include "swept/robot_model/text_file.hpp"
@@ -14,8 +16,15 @@
 namespace swept {
 namespace {
 
-/// Writes each member of the first two levels, and each pair of a proof, on a line of its own. The
-/// lines are short enough to read and to compare.
+/// A list with each item on a line of its own.
+std::string itemLines(const Json& list) {
+  std::string text = "[";
+  for (const Json& item : list) text += (text.back() == '[' ? "\n  " : ",\n  ") + item.dump();
+  return text + "]";
+}
+
+/// Writes each member of the first two levels, each point of a trajectory and each pair of a proof
+/// on a line of its own. The lines are short enough to read and to compare.
 std::string linesOf(const Json& json) {
   std::string text = "{";
   for (const auto& [key, value] : json.items()) {
@@ -30,10 +39,11 @@ std::string linesOf(const Json& json) {
         text += "]}";
       }
       text += "]}";
+    } else if (key == "trajectory") {
+      text += "{\"variables\": " + value["variables"].dump() +
+              ", \"points\": " + itemLines(value["points"]) + "}";
     } else if (value.is_array()) {
-      text += "[";
-      for (const Json& item : value) text += (text.back() == '[' ? "\n  " : ",\n  ") + item.dump();
-      text += "]";
+      text += itemLines(value);
     } else {
       text += value.dump();
     }
@@ -79,6 +89,28 @@ ProvenPath provenPath(const ConfigurationList& states, const PathCertificate& ce
   return path;
 }
 
+ProvenPath provenPath(const JointTrajectory& trajectory, const TrajectoryCertificate& certificate) {
+  ProvenPath path;
+  for (const TrajectoryPoint& point : trajectory.points) path.states.push_back(point.positions);
+  if (path.states.size() < 2)
+    throw std::invalid_argument("a proof needs a trajectory of two points or more");
+  const bool isFree = certificate.verdict == Verdict::Free;
+  if (isFree && certificate.freeUntil != trajectory.points.back().time)
+    throw std::invalid_argument("a certificate of another trajectory");
+  if (isFree && (!certificate.world || !certificate.self))
+    throw std::invalid_argument("a proof needs a certificate with clearances");
+  SegmentRecord record{.verdict = certificate.verdict, .clearance = 0.0, .clearances = {}};
+  if (certificate.world && certificate.self) {
+    record.clearance = std::min(certificate.world->lower, certificate.self->lower);
+    const auto nearest = [](const TrajectoryClearance& own) {
+      return NearestPair{.clearance = own.lower, .bodyA = own.bodyA, .bodyB = own.bodyB};
+    };
+    record.clearances = {nearest(*certificate.world), nearest(*certificate.self)};
+  }
+  path.segments.assign(path.states.size() - 1, record);
+  return path;
+}
+
 std::string pathJsonText(const Checker& checker, const PathRecord& record,
                          const Certificate& certificate, bool embed, const std::string& where) {
   Json json = {{"robot", checker.robot().name()}, {"group", checker.group().name}};
@@ -91,6 +123,7 @@ std::string pathJsonText(const Checker& checker, const PathRecord& record,
   json["joint_names"] = jointNames(checker);
   json["states"] = Json::array();
   for (const std::vector<double>& q : record.states) json["states"].push_back(toJson(q));
+  if (record.trajectory != nullptr) json["trajectory"] = trajectoryJson(*record.trajectory);
   json["segments"] = Json::array();
   for (const SegmentRecord& segment : record.segments) {
     json["segments"].push_back(

@@ -11,7 +11,9 @@
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/configuration.hpp"
+#include "swept/robot_model/joint_trajectory.hpp"
 #include "swept/robot_model/path_certificate.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 
 namespace swept {
 
@@ -29,6 +31,8 @@ struct PathRecord {
   std::vector<SegmentRecord> segments;
   Json inputs;                        ///< what its checker was made from; null: nobody says
   std::vector<std::string> warnings;  ///< on what is not checked
+  /// That the states are the points of, if they are.
+  const JointTrajectory* trajectory = nullptr;
 };
 
 /// A path whose segments were certified, as files have it.
@@ -40,6 +44,10 @@ struct ProvenPath {
 };
 /// Throws std::invalid_argument for a certificate of another path, or without clearances.
 ProvenPath provenPath(const ConfigurationList& states, const PathCertificate& certificate);
+
+/// The points of a trajectory as a path. Each segment has the clearance of the whole curve. Throws
+/// std::invalid_argument for a certificate of another trajectory, or without clearances.
+ProvenPath provenPath(const JointTrajectory& trajectory, const TrajectoryCertificate& certificate);
 
 /// The path file that robot_model/verify and readPath() read. `embed`: with the robot and the
 /// world. Throws UsageError, beginning with `where`, for names that are not UTF-8, and for a file

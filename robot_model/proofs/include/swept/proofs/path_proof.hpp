@@ -4,15 +4,20 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/configuration.hpp"
+#include "swept/robot_model/joint_trajectory.hpp"
 #include "swept/robot_model/path_certificate.hpp"
+#include "swept/robot_model/tracking_tolerance.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 
-/// Proofs of paths in files that others can check, with `swept verify` or verifyProof(). Both run
-/// the code of robot_model/verify, which shares nothing with the code that finds proofs.
+/// Proofs of paths and trajectories in files that others can check, with `swept verify` or
+/// verifyProof(). Both run the code of robot_model/verify, which shares nothing with the code that
+/// finds proofs.
 namespace swept {
 
 /// The result of writing a proof.
@@ -28,7 +33,8 @@ struct WrittenProof {
 /// with the path, the robot and the world, bit for bit, to a `.json` file that can be checked
 /// without any other file. The file is written completely or not at all. `certificate`: the result
 /// of certifyPath() for the same states, with clearances. `warnings`: lines about what is not
-/// checked, which the reader of the file sees again (LoadOptions::warnOfUnchecked).
+/// checked, which the reader of the file sees again (LoadOptions::warnOfUnchecked). The planes
+/// hold wherever CheckerOptions::tracking lets the robot be.
 ///
 /// Throws UsageError for a path that is not Free, a world with moving obstacles, names that are not
 /// UTF-8, a file that cannot be written or has another extension, and a proof that is larger than
@@ -38,12 +44,24 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
                         const ConfigurationList& states, const PathCertificate& certificate,
                         const std::vector<std::string>& warnings = {});
 
+/// The same for a trajectory: for the curve that controllerCurve() makes of it, from its first
+/// point to its last. A start that is no point of it is not part of the file. `certificate`: the
+/// result of certifyTrajectory() for that curve, with clearances.
+///
+/// Throws UsageError as writeProof() does, and for a curve that leaves the limits of a position;
+/// std::invalid_argument for a trajectory that controllerCurve() refuses, variables other than the
+/// group's in its order, a certificate that ends at another time, or one without clearances.
+WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,
+                                  const JointTrajectory& trajectory,
+                                  const TrajectoryCertificate& certificate,
+                                  const std::vector<std::string>& warnings = {});
+
 /// The result of checking a proof.
 struct CheckedProof {
   /// The first place where it does not hold, or what was changed. Empty: it holds, and the other
   /// members are meaningful.
   std::string refusal;
-  std::size_t segments = 0;   ///< of the path
+  std::size_t segments = 0;   ///< of the path, or pieces of the trajectory
   std::size_t pairs = 0;      ///< of bodies that must stay apart
   std::size_t intervals = 0;  ///< of all pairs and segments
   std::size_t planes = 0;     ///< likewise
@@ -54,13 +72,19 @@ struct CheckedProof {
   ///@}
   /// Pairs that may touch and were not checked (`a - b`), by who says so.
   std::map<std::string, std::vector<std::string>> notChecked;
+  /// s, between the first point and the last. Without a value the proof is not of a trajectory but
+  /// of the straight motions between states.
+  std::optional<double> duration = {};
+  /// How far each joint of the group may be off, by name: all this holds wherever it is within
+  /// that. Empty: it holds of the path or trajectory itself.
+  std::map<std::string, JointTolerance> tube = {};
 
   bool holds() const { return refusal.empty(); }  ///< whether the file's claims are proven
 };
 
 /// Checks the proof of a path file against the robot and the world in it. The file must come from
-/// writeProof(), `swept plan --embed` or `swept certify --embed`. Throws InputError for a file that
-/// is no path with a proof, or has no robot and world.
+/// writeProof(), writeTrajectoryProof(), `swept plan --embed` or `swept certify --embed`. Throws
+/// InputError for a file that is no path with a proof, or has no robot and world.
 CheckedProof verifyProof(const std::filesystem::path& file);
 
 /// The same for any path file with a proof; also checks that robot, world and rules are those of
