@@ -183,7 +183,7 @@ TEST(VerifyEnclosure, WhatIsInsideIsRefused) {
     model.bodies.emplace_back(
         "box", faces, std::vector<verify::Flat>{},
         solid ? std::vector<verify::Surface>{cube} : std::vector<verify::Surface>{});
-    const verify::Motion motion(model, {}, {});
+    const verify::Motion motion(model, std::vector<double>{}, std::vector<double>{});
     const verify::PairMotion between(model, motion, {0, 1}, 0.0, 1.0);
     const verify::Body& box = model.bodies[1];
     const auto tree = [&](const auto& self, int node) -> Json {
@@ -227,7 +227,8 @@ TEST(VerifyEnclosure, OfABodyInPartsNoneIsInside) {
     const Json divided = {{"a", Json::array()}};
     const Json proof = {{"intervals", Json::array({Json::array({0.0, 1.0, divided})})}};
     try {
-      requireNotEnclosed(model, verify::Motion(model, {}, {}), {0, 1}, proof, "here");
+      requireNotEnclosed(model, verify::Motion(model, std::vector<double>{}, std::vector<double>{}),
+                         {0, 1}, proof, "here");
     } catch (const verify::Refusal&) {
       return true;
     }

@@ -75,7 +75,8 @@ class TrajectoryRun {
   ExitCode run() {
     requirePageFile(args_);
     const Group& group = chooseGroup(*model_.robot, args_);
-    limits_ = limitsOf(args_, model_, group);
+    query_.limits = limits_ = limitsOf(args_, model_, group);
+    query_.clearances = true;
     checker_ = makeChecker(args_, model_, group, model_.world, warnings_, {},
                            trackingOf(args_, *model_.robot));
     requireOutput();
@@ -107,15 +108,12 @@ class TrajectoryRun {
     const PiecewisePolynomial curve = curveOf(trajectory, start, args_.trajectory.file);
     Progress progress("certifying", args_.quiet);
     Workspace workspace(*checker_);
-    TrajectoryQuery query;
-    query.limits = limits_;
-    query.clearances = true;
     const TrajectoryReport report{
         .label = label,
         .points = trajectory.points.size(),
         .begin = curve.begin(),
         .end = curve.end(),
-        .certificate = checker_->certifyTrajectory(curve, workspace, query)};
+        .certificate = checker_->certifyTrajectory(curve, workspace, query_)};
     tell(report);
     show(label.empty() ? "trajectory" : label, trajectory, curve, report.certificate);
     const ExitCode code = codeOf(report.certificate);
@@ -134,11 +132,9 @@ class TrajectoryRun {
   /// On the page, with the polyline through the points.
   void show(const std::string& label, const JointTrajectory& trajectory,
             const PiecewisePolynomial& curve, const TrajectoryCertificate& certificate) {
-    ShownTrajectory shown{
-        .label = label, .curve = curve, .query = {}, .certificate = certificate, .points = {}};
-    shown.query.limits = limits_;
-    for (const TrajectoryPoint& point : trajectory.points) shown.points.push_back(point.positions);
-    shown_.push_back(std::move(shown));
+    std::vector<std::vector<double>> points;
+    for (const TrajectoryPoint& point : trajectory.points) points.push_back(point.positions);
+    shown_.push_back({label, curve, query_, certificate, std::move(points)});
   }
 
   /// Limits of accelerations of joints that have none.
@@ -208,6 +204,7 @@ class TrajectoryRun {
   Warnings warnings_;
   const Model model_;
   RateLimits limits_;
+  TrajectoryQuery query_;
   std::shared_ptr<const Checker> checker_;
   std::string text_;
   Json reports_ = Json::array();
