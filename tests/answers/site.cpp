@@ -198,7 +198,8 @@ Site inProblem(const Actor& actor, const Problem& problem) {
 void addFiles(const Actor& actor, const fs::path& folder, std::vector<Place>& places) {
   for (const fs::path& file : filesBelow(folder, {".yaml", ".yml", ".scene"})) {
     const std::string name = file.filename().string();
-    if (name == "queries.yaml") continue;
+    // Starts and goals, and trajectories, are no scenes.
+    if (name == "queries.yaml" || file.parent_path().filename() == "trajectories") continue;
     places.push_back({actor.name, name, [=] { return inSceneFile(actor, file, name); }});
   }
   for (const fs::path& file : filesBelow(folder, {".pcd", ".ply", ".xyz", ".bt", ".ot"})) {

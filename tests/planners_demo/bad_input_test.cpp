@@ -88,13 +88,15 @@ const Case kOptions[] = {
     {"NoSubcommand",
      {},
      kError +
-         "a subcommand is required; there are info, check, motion, certify, plan, verify, acm, "
+         "a subcommand is required; there are info, check, motion, certify, plan, verify, "
+         "trajectory, acm, "
          "replay, " +
          (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
      kError +
-         "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, acm, "
+         "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, trajectory, "
+         "acm, "
          "replay, " +
          (programHasPages() ? "view, " : "") +
          "bench, report, completion; did you mean 'verify'? (try --help)"},

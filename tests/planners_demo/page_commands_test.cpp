@@ -54,7 +54,7 @@ TEST_F(Page, TrajectoryPlaysItsCurve) {
   free.push_back(kShelf);
   colliding.push_back(kSlot);
   const json data = pageOf(free);
-  EXPECT_EQ(data["headline"], "1 trajectory: free");
+  EXPECT_EQ(data["headline"], "trajectory: free");
   EXPECT_EQ(data["tone"], "good");
   ASSERT_EQ(data["trajectories"].size(), 1u);
   EXPECT_EQ(data["paths"][0]["label"], "trajectory");

@@ -255,7 +255,8 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"p.json", R"({"points": []})",
                "p.json: error: the path has the unknown key 'points'; allowed are robot, group, "
                "planner, seed, margin, margin_self, margin_world, tolerance, clouds, joint_names, "
-               "states, segments, nothing_checked, links_without_geometry, warnings, inputs, model "
+               "states, trajectory, segments, nothing_checked, links_without_geometry, warnings, "
+               "inputs, model "
                "and proof"}));
 
 INSTANTIATE_TEST_SUITE_P(
