@@ -179,6 +179,23 @@ TEST(PiecewisePolynomial, OfABSplineIsThatSpline) {
   }
 }
 
+/// The orientation of a floating joint must not change along a piece of a higher degree than 1:
+/// shares of 1 once made of a constant what differs in the last bit.
+TEST(PiecewisePolynomial, OfABSplineKeepsWhatIsConstant) {
+  std::mt19937 random(49);
+  std::uniform_real_distribution<double> value(-2.0, 2.0);
+  std::uniform_real_distribution<double> length(0.05, 1.0);
+  for (int degree = 2; degree <= PiecewisePolynomial::kMaxDegree; ++degree) {
+    std::vector<double> knots{0.3};
+    while (knots.size() < 20) knots.push_back(knots.back() + length(random));
+    Eigen::MatrixXd control(8, 19 - degree);
+    for (Eigen::Index i = 0; i < control.rows(); ++i) control.row(i).setConstant(value(random));
+    const PiecewisePolynomial curve = PiecewisePolynomial::bSpline(degree, knots, control);
+    for (std::size_t piece = 0; piece < curve.pieces(); ++piece)
+      EXPECT_TRUE((curve.coefficients(piece).colwise() - control.col(0)).isZero(0.0));
+  }
+}
+
 TEST(PiecewisePolynomial, NamesWhatItCannotTake) {
   using Pieces = std::vector<Eigen::MatrixXd>;
   Eigen::MatrixXd line(1, 2);
