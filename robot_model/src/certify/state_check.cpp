@@ -187,9 +187,11 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   report.clearance = least.clearance;
   report.nearestA = least.bodyA;
   report.nearestB = least.bodyB;
+  // In a tube the SIMD tier may prove what exact geometry leaves open: its tables know all values.
   if (!report.contacts.empty()) {
     report.verdict = Verdict::Collision;
-  } else if (proven) {
+  } else if (proven || (!model.tube.empty() &&
+                        checkState(model, configuration, workspace) == Verdict::Free)) {
     report.verdict = Verdict::Free;
   }
   return report;

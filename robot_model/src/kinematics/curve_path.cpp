@@ -336,9 +336,12 @@ CurvePath::ValueMotion CurvePath::around(int variable, const Window& window) con
   const double join = scratch_.joins[static_cast<std::size_t>(variable)];
   motion.low -= join;
   motion.high += join;
-  const double rateError = center.rounding.rate / length;
-  motion.error += join + 2.0 * timeError_ * (motion.speed + motion.acceleration * window.half);
-  if (window.half > timeError_) motion.acceleration += 2.0 * rateError / (window.half - timeError_);
+  motion.error += join + 2.0 * timeError_ * motion.speed;
+  const double half = window.half - timeError_;  // of what was asked about
+  if (half > 0.0)
+    motion.acceleration =
+        (motion.acceleration * window.half + 2.0 * center.rounding.rate / length) * window.half /
+        (half * half);
   return motion;
 }
 

@@ -28,26 +28,30 @@ void StraightPath::interpolate(double t, std::span<double> q) const {
 
 namespace {
 
-/// The derivative by t' with t = begin + width t'.
-void rescale(double begin, double width, JointMotion& joint) {
+/// The derivative by t' with t = begin + width t'. `wider`: how much more of t than of t' the
+/// bounds are about.
+void rescale(double begin, double width, double wider, JointMotion& joint) {
   joint.anchor = width > 0.0 ? (joint.anchor - begin) / width : 0.0;
   joint.rate *= width;
   joint.spin *= width;
   joint.angleRate *= width;
   joint.speed *= width * kArithmeticOutward;
   joint.spinSpeed *= width * kArithmeticOutward;
-  joint.acceleration *= width * width * kArithmeticOutward;
-  joint.spinAcceleration *= width * width * kArithmeticOutward;
+  const double stretch = width * wider;
+  joint.acceleration *= stretch * stretch * kArithmeticOutward;
+  joint.spinAcceleration *= stretch * stretch * kArithmeticOutward;
 }
 
 }  // namespace
 
 bool PathSegment::linearize(double t, double half, std::span<JointMotion> joints) const {
   const double width = end_ - begin_;
+  const double part = half * width;
   const auto robot = std::min(static_cast<std::size_t>(model_->firstObstacle), joints.size());
-  if (!path_->linearize(begin_ + t * width, half * width + kTimeRounding, joints.first(robot)))
+  if (!path_->linearize(begin_ + t * width, part + kTimeRounding, joints.first(robot)))
     return false;
-  for (std::size_t i = 1; i < robot; ++i) rescale(begin_, width, joints[i]);
+  const double wider = part > 0.0 ? (part + kTimeRounding) / part : 1.0;
+  for (std::size_t i = 1; i < robot; ++i) rescale(begin_, width, wider, joints[i]);
   for (std::size_t i = robot; i < joints.size(); ++i)
     if (!compileJoint(*model_, model_->bodies[i], from_, to_, joints[i])) return false;
   return true;
