@@ -211,10 +211,11 @@ TrajectoryCertificate Checker::certifyTrajectory(const PiecewisePolynomial& curv
     return inDefaultEnvironment([&] { return certifyTrajectory(curve, workspace, query); });
   }
   const std::size_t values = group().variables.size();
-  const auto require = [&](std::size_t size, const std::string& what) {
+  const auto require = [&](std::size_t size, const char* what) {
     if (size == values) return;
-    throw std::invalid_argument("Checker: " + what + " of group '" + group().name + "' has " +
-                                std::to_string(values) + " values, not " + std::to_string(size));
+    throw std::invalid_argument("Checker: " + std::string(what) + " of group '" + group().name +
+                                "' has " + std::to_string(values) + " values, not " +
+                                std::to_string(size));
   };
   require(static_cast<std::size_t>(curve.dimension()), "a curve");
   if (query.limits) {

@@ -218,11 +218,12 @@ bool CurvePath::staysWithin(const MovingBody& body) const {
     Bernstein coefficients;
     int divisions;
   };
-  std::vector<Part> parts;
+  // Of each division, one half waits.
+  std::array<Part, kMostDivisions + 2> parts;
   for (std::size_t piece = run_.first; piece < run_.last; ++piece) {
     const ValuePiece own(curve_.coefficients(piece), body.variable);
     const std::size_t count = own.degree + 1;
-    Part whole{{}, 0};
+    Part& whole = parts[0] = {{}, 0};
     double largest = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
       whole.coefficients[k] = own.coefficient(k);
@@ -230,21 +231,17 @@ bool CurvePath::staysWithin(const MovingBody& body) const {
     }
     rounding = 2.0 * kDouble * kMostDivisions * static_cast<double>(own.degree) *
                std::abs(body.multiplier) * largest;
-    parts.assign(1, whole);
-    while (!parts.empty()) {
-      const Part part = parts.back();
-      parts.pop_back();
+    for (std::size_t waiting = 1; waiting > 0;) {
+      const Part part = parts[--waiting];
       const std::span<const double> coefficients(part.coefficients.data(), count);
       if (std::ranges::none_of(coefficients, leaves)) continue;
       if (leaves(coefficients.front()) || leaves(coefficients.back()) ||
           part.divisions == kMostDivisions)
         return false;
-      Part first{{}, part.divisions + 1};
-      Part rest = first;
+      Part& first = parts[waiting++] = {{}, part.divisions + 1};
+      Part& rest = parts[waiting++] = {{}, part.divisions + 1};
       divide(coefficients, 0.5, std::span(first.coefficients).first(count),
              std::span(rest.coefficients).first(count));
-      parts.push_back(first);
-      parts.push_back(rest);
     }
   }
   return true;
