@@ -160,7 +160,7 @@ constexpr std::array kRows{
     Row{Obstacle::Box, 0.001, 0.41},       Row{Obstacle::Box, 0.005, 0.34},
     Row{Obstacle::Box, 0.01, 0.59},        Row{Obstacle::Box, 0.02, 0.74}};
 
-TEST(TubeRoom, IsLittleMoreThanTheTubeReaches) {
+TEST(TubeRoom, IsNoMoreThanWasMeasured) {
   constexpr std::size_t kConfigurations = 60;
   std::printf("| obstacle | tube, rad | reach, mm | median | 95 %% | largest |\n");
   for (const Row& row : kRows) {

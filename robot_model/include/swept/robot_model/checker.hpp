@@ -76,7 +76,9 @@ struct CheckerOptions {
 class Checker;
 
 /// Scratch memory for one thread. No result depends on its content. It grows when it is used with
-/// another checker than before. Used with one checker, no query but reportState() allocates memory.
+/// another checker than before. Used with one checker, queries allocate memory only for results of
+/// no fixed size: reportState(), what certifyTrajectory() lists of contacts and limits, and
+/// contacts beside a motion in a tube.
 class Workspace {
  public:
   /// For this checker and its versions; any other checker may use it too, see above.
@@ -154,8 +156,8 @@ class Checker {
   /// scaled body, may take more time than in a Checker made with these rules.
   Checker withRules(CollisionRules rules) const;
 
-  /// The same checks in another tube: see CheckerOptions::tracking. It is compiled anew, which takes
-  /// as long as the constructor. Throws as the constructor does.
+  /// The same checks in another tube: see CheckerOptions::tracking. It is compiled anew, which
+  /// takes as long as the constructor. Throws as the constructor does.
   Checker withTracking(TrackingTolerance tracking) const;
 
   /// An attached body at its pose in a configuration, as a body of the world: the object that a
