@@ -146,6 +146,8 @@ void Page::addPath(const std::string& label, std::span<const std::vector<double>
 void Page::addTrajectory(const std::string& label, const PiecewisePolynomial& curve,
                          const TrajectoryQuery& query,
                          std::span<const std::vector<double>> polyline) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { addTrajectory(label, curve, query, polyline); });
   const Checker& checker = *data_->checker;
   requireSizeOf(checker, label, curve);
   requireDrawable(checker, label, curve);
