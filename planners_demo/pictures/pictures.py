@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the pictures of planners_demo/pictures: pages of `swept`, seen in Chromium.
+"""Makes the pictures of planners_demo/pictures: pages of `swept` and of an example, seen in Chromium.
 
-pictures.py SWEPT [NAME ...], where SWEPT is the program; without names all; run from anywhere.
+pictures.py SWEPT [NAME ...], where SWEPT is the program, with the examples in a folder beside it; without
+names all; run from anywhere.
 """
 import pathlib
 import subprocess
@@ -22,20 +23,29 @@ PICTURES = {
     "cloud": (["plan", ROBOT, "-0.9,0.4,0,1.9,0,0.8,0", "0.9,0.4,0,1.9,0,0.8,0", "--group", "arm",
                "--cloud", "models/clouds/shelf.bt"], "#t=0.5"),
 }
+# The example that writes the page, in the same way.
+EXAMPLES = {"trajectory": ("example_17_trajectory_page", "#t=0.35")}
+
+
+def command_and_address(swept, name, page):
+    if name in EXAMPLES:
+        example, address = EXAMPLES[name]
+        return [swept.parent / "examples" / example, "models", page.name], address
+    command, address = PICTURES[name]
+    return [swept, *command, "--html", page.name], address
 
 
 def draw(swept, name):
-    command, address = PICTURES[name]
     picture = FOLDER / f"{name}.png"
     with tempfile.TemporaryDirectory() as folder:
         # Pages show their command: as a reader would type it.
         page = pathlib.Path(folder) / "page.html"
         page.with_name("models").symlink_to(ROOT / "models")
+        command, address = command_and_address(swept, name, page)
         # Exit code 1: a collision, which is what there is to see.
-        run = subprocess.run([swept, *command, "--html", page.name], cwd=folder,
-                             stdout=subprocess.DEVNULL)
+        run = subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL)
         if run.returncode not in (0, 1):
-            sys.exit(f"pictures.py: swept ended with exit code {run.returncode}")
+            sys.exit(f"pictures.py: {command[0].name} ended with exit code {run.returncode}")
         subprocess.run(
             ["chromium", "--headless", "--no-sandbox", "--use-angle=swiftshader",
              "--enable-unsafe-swiftshader", "--hide-scrollbars", "--window-size=1200,720",
@@ -47,7 +57,7 @@ def draw(swept, name):
 def main():
     swept = pathlib.Path(sys.argv[1]).resolve()
     FOLDER.mkdir(exist_ok=True)
-    for name in sys.argv[2:] or PICTURES:
+    for name in sys.argv[2:] or [*PICTURES, *EXAMPLES]:
         draw(swept, name)
 
 

@@ -27,6 +27,9 @@ class PathPage(BrowserTest):
         self.assertIn("RRTConnect", self.text("#facts"))
         self.assertIn("swept plan " + ROOK, self.text("#facts dd.command"))
         self.assertTrue(self.find("#legend")[0].is_displayed())
+        # A path has no time: nothing is plotted over it.
+        self.assertFalse(self.find("#plots")[0].is_displayed())
+        self.assertFalse(self.find("#tool-plots")[0].is_displayed())
         self.assert_shows_something(self.picture())
         self.assert_quiet()
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pages of trajectories, for trajectory_page_browser.py: trajectory_pages NAME --html FILE.html
+// Pages of trajectories, for trajectory_browser.py: trajectory_pages NAME --html FILE.html
 // Beside it, FILE.json has what the library says of the first curve at 1001 times.
 #include <Eigen/Geometry>
 #include <cmath>

@@ -28,7 +28,8 @@ swept.data = (function () {
   data.isTimed = data.isPath && data.motions.every((motion) => motion.curve);
 
   // Coefficients are piece by piece, and of each variable one after the other.
-  function unpackCurve(curve) {
+  function unpackCurve(motion) {
+    const curve = motion.curve;
     for (const name of ['knots', 'coefficients', 'polyline']) curve[name] = data.doubles(curve[name]);
     let first = 0;
     curve.firsts = curve.degrees.map((degree) => {
@@ -36,8 +37,9 @@ swept.data = (function () {
       first += data.variables.length * (degree + 1);
       return own;
     });
+    motion.duration = curve.knots[curve.knots.length - 1] - curve.knots[0];
   }
-  for (const motion of data.motions) if (motion.curve) unpackCurve(motion.curve);
+  for (const motion of data.motions) if (motion.curve) unpackCurve(motion);
 
   if (data.clearances) {
     for (const table of [data.clearances, data.clearances.world, data.clearances.self]) {
@@ -71,15 +73,9 @@ swept.data = (function () {
     const scale = Math.min(30, Math.max(4, total / 0.45)) / total;
     for (const motion of data.motions) motion.duration *= scale;
   }
-  function takeTimes() {
-    for (const motion of data.motions) {
-      const knots = motion.curve.knots;
-      motion.duration = knots[knots.length - 1] - knots[0];
-    }
-  }
+  // Those of curves have their own time.
   function layOutMotions() {
-    if (data.isTimed) takeTimes();
-    else layOutClock();
+    if (!data.isTimed) layOutClock();
     let start = 0;
     for (const motion of data.motions) {
       motion.start = start;

@@ -14,6 +14,15 @@ swept.overlays = (function () {
   const tipAt = (frame) => new THREE.Vector3().fromArray(
       data.poses, data.poseAt(frame, data.tipIndex));
 
+  // The tip on a motion: at its frames, or on a curve as many times as often as it has pieces for.
+  function wayOf(motion) {
+    const often = motion.curve ? Math.min(8, Math.max(2, Math.ceil(2 * motion.curve.degrees.length / motion.steps))) : 1;
+    const count = often * motion.steps, link = data.tree.links.indexOf(data.tip);
+    const tipOn = (t) => new THREE.Vector3().setFromMatrixPosition(
+        swept.kinematics.poses(swept.kinematics.whole(swept.kinematics.onMotion(motion, t)))[link]);
+    return Array.from({length: count + 1}, (_, i) => (motion.curve ? tipOn(i / count) : tipAt(motion.first_frame + i)));
+  }
+
   // A prism from a to b with its own colour.
   function addRod(positions, colours, a, b, radius, rgb) {
     const sides = 8;
@@ -35,20 +44,19 @@ swept.overlays = (function () {
   }
 
   // One path is coloured by its clearance; several have a colour each.
-  function colourAt(motion, step) {
+  function colourAt(motion, share) {
     const lower = motion.pieces.lower;
-    if (data.paths.length < 2)
-      return data.clearanceColour(lower[Math.floor(step * lower.length / motion.steps)]);
+    if (data.paths.length < 2) return data.clearanceColour(lower[Math.floor(share * lower.length + 1e-9)]);
     return new THREE.Color(data.pathColour(motion.path)).toArray().map((c) => 255 * c);
   }
 
   function addTrace(path) {
     const positions = [], colours = [];
-    for (const motion of data.allMotions.filter((m) => m.path === path))
-      for (let i = 0; i < motion.steps; ++i) {
-        const frame = motion.first_frame + i;
-        addRod(positions, colours, tipAt(frame), tipAt(frame + 1), 0.0028 * size, colourAt(motion, i));
-      }
+    for (const motion of data.allMotions.filter((m) => m.path === path)) {
+      const way = wayOf(motion), count = way.length - 1;
+      for (let i = 0; i < count; ++i)
+        addRod(positions, colours, way[i], way[i + 1], 0.0028 * size, colourAt(motion, i / count));
+    }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
     geometry.setAttribute('color', new THREE.Float32BufferAttribute(colours, 3));
@@ -174,7 +182,7 @@ swept.overlays = (function () {
     label.className = 'contact-label';
     label.textContent = contact.body_a + ' – ' + contact.body_b;
     document.getElementById('contact-labels').append(label);
-    contacts.shown.push({label: label, middle: a.clone().add(b).multiplyScalar(0.5)});
+    contacts.shown.push({label: label, width: label.offsetWidth, middle: a.clone().add(b).multiplyScalar(0.5)});
   }
 
   // Those of one state, or of one motion.
@@ -189,7 +197,9 @@ swept.overlays = (function () {
   function placeLabels() {
     for (const shown of contacts.shown) {
       const at = scene.project(shown.middle);
-      shown.label.style.left = at.x + 'px';
+      // Not out of the picture: the label is 12 pixels to the right of its place.
+      const most = scene.canvas.clientWidth - shown.width - 12;
+      shown.label.style.left = (at.x < scene.canvas.clientWidth ? Math.min(at.x, most) : at.x) + 'px';
       shown.label.style.top = at.y + 'px';
     }
   }

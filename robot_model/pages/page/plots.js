@@ -10,7 +10,7 @@ swept.plots = (function () {
   const kColours = 8; // --joint-0, ... of the style
   const kDashes = ['', '6 3', '2 2'];
   const kJump = 1e-6; // of the velocity: more than rounding makes
-  const kRoom = 680; // pixels, of a window that is high enough for plots
+  const kRoom = 620; // pixels, of a window that is high enough for plots
   const variables = []; // indices of those that are plotted: no components of quaternions
   const plots = [];
   let pinned = -1, hovered = -1, pointed = null; // indices into `variables`; the pointer's time

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -19,6 +18,7 @@ namespace {
 
 using nlohmann::json;
 using test::dataOf;
+using test::rideTo;
 using test::slide;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -42,27 +42,8 @@ std::vector<Number> unpacked(const std::string& base64) {
   return numbers;
 }
 
-/// One value: from 0 to 1 m at rest within 2 s, waits, and goes on to `end` at an even speed within
-/// 1 s; from `begin` on.
-PiecewisePolynomial rideTo(double end, double begin = 0.0) {
-  std::vector<Eigen::MatrixXd> pieces;
-  for (const std::vector<double>& row :
-       {std::vector<double>{0, 0, 0, 1, 1, 1}, std::vector<double>{1, 1, 1}, {1, end}})
-    pieces.push_back(Eigen::Map<const Eigen::RowVectorXd>(row.data(), std::ssize(row)));
-  return {{begin, begin + 2.0, begin + 2.25, begin + 3.25}, pieces};
-}
-
 double placeOf(const PiecewisePolynomial& curve, double share) {
   return curve.position(curve.begin() + share * curve.duration())[0];
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(TrajectoryPageTest, CurvesAreThereBitForBit) {
@@ -308,13 +289,6 @@ TEST(TrajectoryPageTest, OrientationsTurnEvenly) {
     EXPECT_NEAR(poses[7 * i + 5], std::sin(time * std::numbers::pi / 4), 1e-6) << i;
     EXPECT_NEAR(poses[7 * i + 6], std::cos(time * std::numbers::pi / 4), 1e-6) << i;
   }
-  // No quaternion, no picture.
-  pieces[1].bottomRows(4).setZero();
-  pieces.erase(pieces.begin());
-  EXPECT_EQ(refusal([&] {
-              page.addTrajectory("nowhere", {{0, 1}, pieces});
-            }),
-            "'nowhere': the quaternion of joint 'j' has no direction in piece 0");
 }
 
 TEST(TrajectoryPageTest, IsTheSameInEveryFloatingPointEnvironment) {
@@ -323,47 +297,6 @@ TEST(TrajectoryPageTest, IsTheSameInEveryFloatingPointEnvironment) {
                                          page.addTrajectory("ride", rideTo(1.7));
                                          t.add(page.html());
                                        }}});
-}
-
-TEST(TrajectoryPageTest, WhatCannotBeShownIsRefusedAndChangesNothing) {
-  Page page(slide());
-  const PiecewisePolynomial ride = rideTo(1.3);
-  std::vector<Eigen::MatrixXd> wide;
-  wide.push_back(Eigen::MatrixXd::Zero(2, 2));
-  const PiecewisePolynomial other({0, 1}, wide);
-  const std::vector<std::vector<double>> crooked{{0.0}, {0.0, 1.0}}, endless{{kInfinity}};
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", other); }),
-            "'t' has 2 values; group 'all' has 1 variables");
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", ride, {}, crooked); }),
-            "'polyline of t' has 2 values; group 'all' has 1 variables");
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", ride, {}, endless); }),
-            "'polyline of t' has a value that is not finite");
-  TrajectoryQuery query;
-  query.clock = kInfinity;
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", ride, query); }),
-            "Checker: clock inf s must be a finite number");
-  query = {};
-  query.limits = RateLimits{.velocity = {1, 2}, .acceleration = {1}, .jerk = {1}};
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", ride, query); }),
-            "Checker: RateLimits::velocity of group 'all' has 1 values, not 2");
-  EXPECT_EQ(refusal([&] { page.html(); }), "a page of nothing");
-  page.addTrajectory("t", ride);
-  EXPECT_EQ(refusal([&] { page.addState("s", std::vector<double>{0.0}); }),
-            "a page has either states, or motions, or paths, or trajectories");
-  Page states(slide());
-  states.addState("s", std::vector<double>{0.0});
-  EXPECT_EQ(refusal([&] { states.addTrajectory("t", ride); }),
-            "a page has either states, or motions, or paths, or trajectories");
-  EXPECT_EQ(dataOf(page)["motions"].size(), 1U);
-  EXPECT_EQ(dataOf(states)["states"].size(), 1U);
-}
-
-TEST(TrajectoryPageTest, MovingObstaclesAreRefused) {
-  MovingObstacle cart{.name = "cart", .parts = {{Sphere{0.1}, Eigen::Isometry3d::Identity()}}};
-  cart.waypoints.push_back({0.0, Eigen::Isometry3d(Eigen::Translation3d(9, 0, 0))});
-  Page page(std::make_shared<const Checker>(slide()->withObstacle(cart)));
-  EXPECT_EQ(refusal([&] { page.addTrajectory("t", rideTo(1.3)); }),
-            "'t': a page shows no moving obstacles, and the world has 'cart'");
 }
 
 }  // namespace
