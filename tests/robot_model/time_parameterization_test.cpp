@@ -187,8 +187,9 @@ TEST(TimeParameterization, IsTheSameAfterAMessage) {
     JointTrajectory message = timed.trajectory;
     for (TrajectoryPoint& point : message.points) {
       const long long time = test::nanosecondsOf(point);
-      point.time = static_cast<double>(time / 1'000'000'000) +
-                   static_cast<double>(time % 1'000'000'000) * 1e-9;
+      const long long whole = time / 1'000'000'000;
+      const long long rest = time % 1'000'000'000;
+      point.time = static_cast<double>(whole) + static_cast<double>(rest) * 1e-9;
     }
     const PiecewisePolynomial curve = controllerCurve(message);
     for (int k = 0; k <= 100; ++k) {
