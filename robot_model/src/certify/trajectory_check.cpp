@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "certify/motion_check.hpp"
+#include "kinematics/chord_path.hpp"
 #include "kinematics/curve_path.hpp"
 #include "trajectory/curve_limits.hpp"
 
@@ -23,46 +24,70 @@ constexpr std::size_t kMostPieces = 32;
 constexpr double kShareOfTolerance = 0.1;
 constexpr double kLeastAccuracy = 1e-5;  // m
 
-/// The runs of a curve as paths.
-class CurveRuns {
+/// Pieces of a curve that are certified as one path.
+struct Part {
+  std::size_t first = 0;
+  std::size_t last = 0;          ///< one past the last piece
+  const Chord* chord = nullptr;  ///< if the path is that of a chord
+};
+
+/// The parts of a curve as paths.
+class CurveParts {
  public:
-  CurveRuns(const CheckerModel& model, const PiecewisePolynomial& curve, double clock,
-            WorkspaceData& workspace)
+  CurveParts(const CheckerModel& model, const PiecewisePolynomial& curve, double clock,
+             WorkspaceData& workspace)
       : model_(model), curve_(curve), clock_(clock), workspace_(workspace) {}
 
-  /// Calls visit(run, path) for each run in order, until it returns false.
+  /// Calls visit(part, path) for each part in order, until it returns false.
   template <typename Visit>
   void forEach(const Visit& visit) const {
     const KinematicModel& kinematics = model_.kinematics;
-    for (std::size_t first = 0; first < curve_.pieces();) {
+    bool more = true;
+    for (std::size_t first = 0; first < curve_.pieces() && more;) {
+      const Chord chord = chordFrom(kinematics, curve_, first, kMostPieces);
+      if (chord.last > first) {
+        more = visit(Part{first, chord.last, &chord},
+                     ChordPath(kinematics, beginOf(first), endOf(chord.last - 1), chord.deviation));
+        first = chord.last;
+        continue;
+      }
       const CurveRun run = runFrom(kinematics, curve_, first, kMostPieces, workspace_.curve);
+      const Part part{first, run.last};
+      more = run.straight
+                 ? visit(part, StraightPath(kinematics, beginOf(first), endOf(run.last - 1)))
+                 : visit(part, CurvePath(kinematics, curve_, run, clock_, workspace_.curve));
       first = run.last;
-      const bool more =
-          run.straight ? visit(run, StraightPath(kinematics, endOf(run, 0, workspace_.curveBegin),
-                                                 endOf(run, 1, workspace_.curveEnd)))
-                       : visit(run, CurvePath(kinematics, curve_, run, clock_, workspace_.curve));
-      if (!more) return;
     }
   }
 
-  /// The time at a share of a run.
-  TrajectoryPlace placeOf(const CurveRun& run, double t) const {
-    const double begin = curve_.knots()[run.first];
-    const double end = curve_.knots()[run.last];
+  /// The time at a share of a part.
+  TrajectoryPlace placeOf(const Part& part, double t) const {
+    const double begin = curve_.knots()[part.first];
+    const double end = curve_.knots()[part.last];
     TrajectoryPlace place;
-    place.time = t >= 1.0 ? end : begin + t * (end - begin);
-    place.piece = std::clamp(curve_.pieceAt(place.time), run.first, run.last - 1);
+    if (t >= 1.0) {
+      place.time = end;
+    } else {
+      place.time =
+          part.chord == nullptr ? begin + t * (end - begin) : timeOnChord(curve_, *part.chord, t);
+    }
+    place.piece = std::clamp(curve_.pieceAt(place.time), part.first, part.last - 1);
     return place;
   }
 
  private:
-  /// A straight run's configuration at an end, with the time if the model has one.
-  std::span<const double> endOf(const CurveRun& run, Eigen::Index end,
-                                std::vector<double>& q) const {
-    const auto ends = curve_.coefficients(run.first).col(end);
-    q.assign(ends.begin(), ends.end());
-    if (!model_.world->obstacles().empty())
-      q.push_back(clock_ + curve_.knots()[run.first + static_cast<std::size_t>(end)]);
+  /// The configuration at an end of a piece, with the time if the model has one.
+  std::span<const double> beginOf(std::size_t piece) const {
+    return configurationOf(piece, 0, workspace_.curveBegin);
+  }
+  std::span<const double> endOf(std::size_t piece) const {
+    return configurationOf(piece, 1, workspace_.curveEnd);
+  }
+  std::span<const double> configurationOf(std::size_t piece, std::size_t end,
+                                          std::vector<double>& q) const {
+    const auto own = curve_.coefficients(piece).col(end == 0 ? 0 : curve_.degree(piece));
+    q.assign(own.begin(), own.end());
+    if (!model_.world->obstacles().empty()) q.push_back(clock_ + curve_.knots()[piece + end]);
     return q;
   }
 
@@ -87,13 +112,13 @@ class TrajectoryCheck {
         curve_(curve),
         query_(query),
         workspace_(workspace),
-        runs_(model, curve, query.clock, workspace) {}
+        parts_(model, curve, query.clock, workspace) {}
 
   TrajectoryCertificate run() {
     found_.verdict = Verdict::Free;
     found_.freeUntil = curve_.begin();
-    runs_.forEach([this](const CurveRun& run, const JointPath& path) {
-      add(run, path, certifyMotion(model_, path, query_.contact, workspace_));
+    parts_.forEach([this](const Part& part, const JointPath& path) {
+      add(part, path, certifyMotion(model_, path, query_.contact, workspace_));
       return found_.verdict != Verdict::Collision;
     });
     if (query_.contact == MotionQuery::VerdictOnly && found_.verdict != Verdict::Free)
@@ -105,22 +130,22 @@ class TrajectoryCheck {
   }
 
  private:
-  void add(const CurveRun& run, const JointPath& path, MotionCertificate&& own) {
+  void add(const Part& part, const JointPath& path, MotionCertificate&& own) {
     addEffort(own.effort, found_.effort);
     const bool open = found_.verdict != Verdict::Free;  // an earlier run was left undecided
-    if (!open) found_.freeUntil = runs_.placeOf(run, own.freeUntil).time;
+    if (!open) found_.freeUntil = parts_.placeOf(part, own.freeUntil).time;
     if (own.verdict == Verdict::Free) return;
     if (own.verdict == Verdict::Collision) {
       found_.verdict = own.verdict;
       found_.undecided.reset();
-      addContact(run, path, *std::move(own.witness));
+      addContact(part, path, *std::move(own.witness));
     } else if (!open) {
       found_.verdict = own.verdict;
-      found_.undecided = runs_.placeOf(run, own.undecidedAt);
+      found_.undecided = parts_.placeOf(part, own.undecidedAt);
     }
   }
 
-  void addContact(const CurveRun& run, const JointPath& path, Witness&& witness) {
+  void addContact(const Part& part, const JointPath& path, Witness&& witness) {
     std::vector<double>& q = workspace_.tubeState;
     q.resize(static_cast<std::size_t>(model_.kinematics.dimension));
     path.interpolate(witness.t, q);
@@ -133,7 +158,7 @@ class TrajectoryCheck {
       q = beside;
     }
     TrajectoryContact& contact = found_.contact.emplace();
-    static_cast<TrajectoryPlace&>(contact) = runs_.placeOf(run, witness.t);
+    static_cast<TrajectoryPlace&>(contact) = parts_.placeOf(part, witness.t);
     countTurns(contact.time, q);
     if (!beside.empty()) beside = q;
     contact.configuration = Eigen::Map<const Eigen::VectorXd>(q.data(), curve_.dimension());
@@ -154,20 +179,20 @@ class TrajectoryCheck {
     const double accuracy = std::max(kShareOfTolerance * model_.options.tolerance, kLeastAccuracy);
     TrajectoryClearance& world = found_.world.emplace();
     TrajectoryClearance& self = found_.self.emplace();
-    runs_.forEach([&](const CurveRun& run, const JointPath& path) {
+    parts_.forEach([&](const Part& part, const JointPath& path) {
       const MotionClearance own = motionClearance(model_, path, accuracy, ClearanceQuery::ByKind,
                                                   workspace_, {world.upper, self.upper});
-      addClearance(run, own.world, world);
-      addClearance(run, own.self, self);
+      addClearance(part, own.world, world);
+      addClearance(part, own.self, self);
       return true;
     });
   }
 
-  void addClearance(const CurveRun& run, const ClearanceInterval& own,
+  void addClearance(const Part& part, const ClearanceInterval& own,
                     TrajectoryClearance& all) const {
     all.lower = std::min(all.lower, own.lower);
     if (!(own.upper < all.upper)) return;
-    static_cast<TrajectoryPlace&>(all) = runs_.placeOf(run, own.t);
+    static_cast<TrajectoryPlace&>(all) = parts_.placeOf(part, own.t);
     all.upper = own.upper;
     all.bodyA = own.bodyA;
     all.bodyB = own.bodyB;
@@ -177,7 +202,7 @@ class TrajectoryCheck {
   const PiecewisePolynomial& curve_;
   const TrajectoryQuery& query_;
   WorkspaceData& workspace_;
-  const CurveRuns runs_;
+  const CurveParts parts_;
   TrajectoryCertificate found_;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kinematics/chord_path.hpp"
 #include "rounding/error_model.hpp"
 #include "trajectory/bernstein.hpp"
 
@@ -176,8 +177,9 @@ CurveRun runFrom(const KinematicModel& model, const PiecewisePolynomial& curve, 
   const std::size_t end = std::min(curve.pieces(), first + most);
   const double duration = curve.knots()[end] - curve.knots()[first];
   for (; run.last < end; ++run.last) {
-    bool joined =
-        !isStraight(model, curve, run.last) && keepsOrientations(model, curve, run.last, first);
+    bool joined = !isStraight(model, curve, run.last) &&
+                  keepsOrientations(model, curve, run.last, first) &&
+                  chordFrom(model, curve, run.last, 1).last == run.last;
     for (std::size_t i = 0; i < dimension && joined; ++i)
       joined = joins[i] + joinError(curve, run.last, static_cast<int>(i), duration) <= kLargestJoin;
     if (!joined) return run;

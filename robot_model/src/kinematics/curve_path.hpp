@@ -38,8 +38,8 @@ struct CurveScratch {
 };
 
 /// The longest run from a piece on, at most `most` pieces: their values and rates join at the
-/// knots, up to rounding. `joins` becomes how far each value is off a curve that is continuously
-/// differentiable.
+/// knots, up to rounding, and no chord (chordFrom()) begins after the first piece. `joins` becomes
+/// how far each value is off a curve that is continuously differentiable.
 CurveRun runFrom(const KinematicModel& model, const PiecewisePolynomial& curve, std::size_t first,
                  std::size_t most, CurveScratch& scratch);
 

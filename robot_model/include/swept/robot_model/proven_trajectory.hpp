@@ -28,8 +28,8 @@ struct ProvenTrajectory {
 /// free although all straight motions are, because a tube or a margin leaves no room for their
 /// proof in other pieces, the corners beside that place become stops.
 ///
-/// So if every straight motion of the path is Free, the verdict is Free, too. It may be Undecided
-/// where a motion keeps its margin by less than CheckerOptions::tolerance. Throws
+/// A straight part between two stops is proven as the motion is. So if every straight motion of the
+/// path is Free, the verdict is Free, too, unless one is so by less than what rounding takes. Throws
 /// std::invalid_argument as timeParameterize() and Checker::certifyTrajectory() do, and for a world
 /// with moving obstacles, whose places depend on the times.
 ProvenTrajectory provenTrajectory(const Checker& checker, const ConfigurationList& wayPoints,
