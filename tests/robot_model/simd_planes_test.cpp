@@ -111,6 +111,48 @@ class Pass {
     return result.upper;
   }
 
+  /// Puts the motion in a tube in which each joint that turns errs by up to this (rad). Only what
+  /// is known along a direction proves anything then.
+  void err(double turn, double slide = 0.0) {
+    model_.tube.assign(model_.kinematics.bodies.size(), {});
+    for (std::size_t i = 0; i < model_.tube.size(); ++i)
+      if (detail::turns(model_.kinematics.bodies[i].type) &&
+          model_.kinematics.bodies[i].type != Floating)
+        model_.tube[i] = {.rotation = std::abs(model_.kinematics.bodies[i].multiplier) * turn,
+                          .translation = slide};
+    model_.pairs.front().tube = 1e9;
+  }
+
+  /// m, over a lane and the tube, at samples and where these lead: never below the least there is.
+  double nearestInTube(int lane) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const double at : {-1.0, 0.0, 1.0}) {
+      errors_.assign(from_.size(), 0.0);
+      const double t = middle(lane) + kHalf * at;
+      double own = distanceAt(t);
+      for (std::size_t i = 1; i < model_.tube.size(); ++i) {
+        const detail::MovingBody& body = model_.kinematics.bodies[i];
+        if (model_.tube[i].rotation == 0.0) continue;
+        double& error =
+            errors_[static_cast<std::size_t>(body.variable) + (body.type == Planar ? 2U : 0U)];
+        const double kept = error;
+        double best = kept;
+        for (const double way : {-1.0, 1.0}) {
+          error = way * model_.tube[i].rotation / std::abs(body.multiplier);
+          const double there = distanceAt(t);
+          if (there < own) {
+            own = there;
+            best = error;
+          }
+        }
+        error = best;
+      }
+      nearest = std::min(nearest, own);
+    }
+    errors_.assign(from_.size(), 0.0);
+    return nearest;
+  }
+
   /// Makes the second geometry a ball and the first a plate beside the ball's way in its frame, on
   /// the side to which that way bends during the lane. False: it hardly bends.
   bool bendTowardsPlate(Random& random, int lane) {
@@ -189,9 +231,14 @@ class Pass {
 
   Eigen::Isometry3d placed(int geometry, double t) const {
     const RobotGeometry& piece = model_.robotGeometry[geometry];
+    std::vector<double> from = from_, to = to_;
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      from[i] += errors_[i];
+      to[i] += errors_[i];
+    }
     Pose pose = Pose::Identity();
     for (int b = piece.body; b != 0; b = model_.kinematics.bodies[b].parent)
-      pose = jointPose(model_.kinematics, model_.kinematics.bodies[b], from_, to_,
+      pose = jointPose(model_.kinematics, model_.kinematics.bodies[b], from, to,
                        static_cast<Real>(t)) *
              pose;
     return pose.cast<double>() * piece.body_from_shape;
@@ -203,6 +250,7 @@ class Pass {
   Shape obstacle_ = Sphere{1.0};
   Eigen::Isometry3d obstacleAt_ = Eigen::Isometry3d::Identity();
   std::vector<double> from_, to_;
+  std::vector<double> errors_;  ///< rad, of the values; empty: none
 };
 
 struct Tally {
@@ -279,6 +327,56 @@ TEST(SimdPlanes, NoPlaneIsFoundWhereAWayBendsTooNear) {
     EXPECT_GT(tally.asked, 200);
     EXPECT_GT(tally.halfProven, 100);
   });
+}
+
+/// What errors of joints add along a direction is enough for all of the tube, at every time.
+TEST(SimdPlanes, NoPlaneIsFoundWhereATubeComesTooNear) {
+  tallyOnAllTargets<Tally>([](Tally& tally) {
+    Random random(85);
+    constexpr int kRounds = 600;
+    int matters = 0;  // without its tube, the motion keeps more
+    for (int round = 0; round < kRounds; ++round) {
+      SCOPED_TRACE(round);
+      Pass pass(random, round, round % 2 == 0);
+      if (!pass.paired()) continue;
+      pass.err(random.scale(1e-4, 0.1));
+      const int lane = random.below(detail::kLanes);
+      const double nearest = pass.nearestInTube(lane);
+      Eigen::Vector3d direction;
+      if (!(nearest > 0.0) || !(pass.distanceAt(Pass::middle(lane), &direction) > 0.0)) continue;
+      const double more = nearest * (1.0 + random.scale(1e-6, 1e-2));
+      const Pass::Found found = pass.divide(more, lane, direction);
+      if (!found.usable) continue;
+      ASSERT_EQ(found.lanes >> lane & 1U, 0U) << "of " << nearest << " m";
+      ++tally.asked;
+      matters += pass.nearestIn(lane) > more ? 1 : 0;
+      ++tally.roomy;
+      tally.halfProven += pass.divide(0.5 * nearest, lane, direction).lanes >> lane & 1U;
+    }
+    EXPECT_GT(tally.asked, kRounds / 3);
+    EXPECT_GT(matters, tally.asked / 3);
+    EXPECT_GT(tally.halfProven, tally.roomy / 5);
+  });
+}
+
+/// Errors that are no turns have no direction here.
+TEST(SimdPlanes, NoPlaneIsFoundInATubeOfSlides) {
+  Random random(86);
+  int proven = 0;
+  for (int round = 0; round < 100; ++round) {
+    Pass pass(random, 2 + 5 * round, round % 2 == 0);
+    if (!pass.paired()) continue;
+    const double nearest = pass.nearestIn(3);
+    Eigen::Vector3d direction;
+    if (!(nearest > 0.0) || !(pass.distanceAt(Pass::middle(3), &direction) > 0.0)) continue;
+    pass.err(1e-6);
+    const bool turning = pass.divide(0.5 * nearest, 3, direction).lanes != 0;
+    pass.err(1e-6, 1e-9);
+    const bool sliding = pass.divide(0.5 * nearest, 3, direction).lanes != 0;
+    proven += turning && !sliding ? 1 : 0;
+    EXPECT_TRUE(turning || !sliding);
+  }
+  EXPECT_GT(proven, 20);
 }
 
 TEST(SimdPlanes, NothingIsProvenAcrossNoDirection) {

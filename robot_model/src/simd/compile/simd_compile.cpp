@@ -144,8 +144,13 @@ class SimdCompiler {
       all = std::max(all, tube);
     }
     for (SimdBodyPair& pair : simd_.bodyPairs) pair.extra += pair.tube;
-    for (const JointTolerance& joint : model_.tube)
+    for (std::size_t i = 0; i < model_.tube.size(); ++i) {
+      const JointTolerance& joint = model_.tube[i];
       simd_.tubeTurn.push_back(singleAbove(joint.rotation));
+      simd_.errsByTurns.push_back(
+          joint.translation == 0.0 && (joint.rotation == 0.0 || !floats(simd_.bodies[i].kind)) ? 1
+                                                                                               : 0);
+    }
   }
 
   const PairModel& model_;

@@ -207,6 +207,8 @@ struct SimdModel {
   std::vector<float> tubes;      ///< m, per pair: GeometryPair::tube
   std::vector<float> worldTube;  ///< m, per body: the largest of its pairs with the world
   std::vector<float> tubeTurn;   ///< rad, per body: how far its joint may be off its value
+  /// Per body: whether turns about its own z axis are all that its joint's errors are.
+  std::vector<char> errsByTurns;
   ///@}
   SharedArray<int> allBodies;               ///< the moving ones, parents first
   SharedArray<std::vector<int>> ancestors;  ///< per body, itself included, root first

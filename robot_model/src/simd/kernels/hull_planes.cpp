@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simd/kernels/hull_planes.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/kernels/hull_planes.cpp"  // compiled once for each instruction set
 #include <hwy/foreach_target.h>
@@ -22,6 +27,32 @@ struct HalfMotion {
   V3 angular;  ///< rad
 };
 
+/// What one joint's error does to points of a body, along a direction: |along . p + shift| is how
+/// far it moves the point p of the body's frame at most, to first order.
+struct JointError {
+  V3 along;  ///< m per m
+  F8 shift;  ///< m
+};
+
+/// Of the joints between a body and the reference.
+struct JointErrors {
+  static constexpr int kMost = 12;
+  JointError of[kMost];
+  int count = 0;
+};
+
+/// m, at most, to first order.
+HWY_INLINE F8 movedBy(const JointErrors& errors, const F8& x, const F8& y, const F8& z) {
+  F8 sum = set(0.0F);
+  for (int i = 0; i < errors.count; ++i) {
+    const JointError& own = errors.of[i];
+    sum = sum +
+          absolute(multiplyAdd(
+              own.along.x, x, multiplyAdd(own.along.y, y, multiplyAdd(own.along.z, z, own.shift))));
+  }
+  return sum;
+}
+
 /// How far a hull reaches along a direction at both ends of the interval, if its points moved
 /// straight.
 struct Reach {
@@ -31,9 +62,10 @@ struct Reach {
 
 /// Lemma: n . (x_p + s g_p) is affine in the point p and in s. So over a hull of points and |s| <=
 /// 1 it is largest at a point and at s = -1 or 1. For a ball of radius r around each point it is
-/// larger by at most r |c|, with c the coefficients of p.
+/// larger by at most r |c|, with c the coefficients of p. Errors of joints add what is convex in p.
 HWY_INLINE Reach reachOf(const SimdHulls& hulls, const SimdHull& hull, const V3& n,
-                         const SimdBodyState& state, const HalfMotion& motion) {
+                         const SimdBodyState& state, const HalfMotion& motion,
+                         const JointErrors& errors) {
   const V3 w = cross(n, motion.angular);
   const V3 origin = load3(state.origin);
   const V3 still = turnedBack(state.rotation, n);
@@ -49,8 +81,9 @@ HWY_INLINE Reach reachOf(const SimdHulls& hulls, const SimdHull& hull, const V3&
     const F8 z = set(eight.z.lane[i % kLanes]);
     const F8 atFirst = multiplyAdd(first.x, x, multiplyAdd(first.y, y, first.z * z));
     const F8 atLast = multiplyAdd(last.x, x, multiplyAdd(last.y, y, last.z * z));
-    before = larger(before, atFirst);
-    after = larger(after, atLast);
+    const F8 moved = movedBy(errors, x, y, z);
+    before = larger(before, atFirst + moved);
+    after = larger(after, atLast + moved);
   }
   Reach reach;
   const F8 offset = dot(n, origin);
@@ -58,7 +91,10 @@ HWY_INLINE Reach reachOf(const SimdHulls& hulls, const SimdHull& hull, const V3&
   reach.before = before + (offset - shift);
   reach.after = after + (offset + shift);
   if (hull.radius > 0.0F) {
-    const F8 grown = set(hull.radius * kExtraOutward) * (set(1.0F) + root(dot(swept, swept)));
+    F8 share = set(1.0F) + root(dot(swept, swept));
+    for (int i = 0; i < errors.count; ++i)
+      share = share + root(dot(errors.of[i].along, errors.of[i].along));
+    const F8 grown = set(hull.radius * kExtraOutward) * share;
     reach.before = reach.before + grown;
     reach.after = reach.after + grown;
   }
@@ -112,18 +148,73 @@ class DividedPair {
     const float margin = (model.margin + model.extraOf(pair) + model.tubeOf(pair)) * kMarginOutward;
     required_ = (set(4.0F * scratch.rounding + margin) + inflation(half_, acceleration)) *
                 set(kPairOutward);
+    if (!model.tubes.empty()) requireInTube(pair, scratch);
   }
 
   /// Planes orthogonal to a direction that is fixed in the frame of the first body, then of the
   /// other.
   Lanes divide(const float (&towards)[3], int lane, Lanes lanes) const {
     const V3 n = set3(towards);
-    Lanes apart = lanes & above(gap(turnedWith(bodyA_, n, lane)), required_);
-    if (apart == lanes) return apart;
-    return apart | (lanes & above(gap(turnedWith(bodyB_, n, lane)), required_));
+    Lanes apart = divideAcross(turnedWith(bodyA_, n, lane), lanes);
+    if (apart != lanes) apart |= divideAcross(turnedWith(bodyB_, n, lane), lanes & ~apart);
+    return apart;
   }
 
  private:
+  Lanes divideAcross(const V3& direction, Lanes lanes) const {
+    const V3 n = (set(1.0F) / root(larger(dot(direction, direction), set(1e-20F)))) * direction;
+    JointErrors none;  // count alone is set
+    Lanes apart = lanes & above(gap(n, none, none), required_);
+    if (apart != lanes && errsByTurns_)
+      apart |= lanes & above(gap(n, errorsOf(bodyA_, n), errorsOf(bodyB_, n)), requiredInTube_);
+    return apart;
+  }
+
+  /// The joints of a body's path that are between it and the reference.
+  std::span<const int> joints(int body) const {
+    const std::vector<int>& path = model_.ancestors[body];
+    const std::size_t before = model_.ancestors[model_.references[reference_].body].size();
+    return std::span(path).subspan(std::min(before, path.size()));
+  }
+
+  /// By L18 of ERROR_MODEL.md, with the errors along n left to the gap.
+  void requireInTube(std::uint32_t pair, SimdScratch& scratch) {
+    float turns = 0.0F;  // rad
+    errsByTurns_ = true;
+    for (const int body : {bodyA_, bodyB_}) {
+      int count = 0;
+      for (const int joint : joints(body)) {
+        errsByTurns_ = errsByTurns_ && model_.errsByTurns[joint] != 0;
+        count += model_.tubeTurn[joint] > 0.0F ? 1 : 0;
+        turns += model_.tubeTurn[joint];
+      }
+      errsByTurns_ = errsByTurns_ && count <= JointErrors::kMost;
+    }
+    if (!errsByTurns_) return;
+    const float half = *std::ranges::max_element(block_.half.lane);
+    float beyond = tubeAccelerationOfPoints(model_, reference_, source_.geometry, half, scratch);
+    if (self_) beyond += tubeAccelerationOfPoints(model_, reference_, source_.other, half, scratch);
+    const float margin = (model_.margin + model_.extraOf(pair)) * kMarginOutward;
+    // Four for each error's arm, which is made of two positions and an axis, and as much again.
+    const float rounding = (4.0F + 8.0F * turns) * scratch.rounding;
+    requiredInTube_ = set((rounding + margin + 0.5F * beyond) * kPairOutward);
+  }
+
+  JointErrors errorsOf(int body, const V3& n) const {
+    JointErrors errors;
+    const SimdBodyState& own = block_.states[body];
+    for (const int joint : joints(body)) {
+      const float turn = model_.tubeTurn[joint];
+      if (turn == 0.0F) continue;
+      const SimdBodyState& at = block_.states[joint];
+      const V3 axis = {load(at.rotation[2]), load(at.rotation[5]), load(at.rotation[8])};
+      const V3 moved = set(turn) * cross(n, axis);
+      errors.of[errors.count++] = {turnedBack(own.rotation, moved),
+                                   dot(moved, load3(own.origin) - load3(at.origin))};
+    }
+    return errors;
+  }
+
   /// The direction of one lane in the other lanes, as the body turns.
   V3 turnedWith(int body, const V3& n, int lane) const {
     if (body == 0) return n;
@@ -141,20 +232,20 @@ class DividedPair {
             half_ * (load3(own.angular) - load3(base.angular))};
   }
 
-  /// m; along n divided by its length. Lemma: the bodies' points are at x + s g + w, with |w|
-  /// within what `required_` counts. n . (x + s g) of the one is below that of the other by the gap
-  /// for s = -1 and s = 1, so between them too: the maximum over a body is convex in s.
-  F8 gap(const V3& direction) const {
-    const V3 n = (set(1.0F) / root(larger(dot(direction, direction), set(1e-20F)))) * direction;
+  /// m, along a unit vector. Lemma: the bodies' points are at x + s g + w, with |w| within what
+  /// `required_` counts, and what the errors add. n . (x + s g) of the one is below that of the
+  /// other by the gap for s = -1 and s = 1, so between them too: the maximum over a body is convex
+  /// in s.
+  F8 gap(const V3& n, const JointErrors& errorsA, const JointErrors& errorsB) const {
     const Reach ofA = reachOf(*model_.hulls, model_.hulls->of[source_.geometry], n,
-                              block_.states[bodyA_], motionOf(bodyA_));
+                              block_.states[bodyA_], motionOf(bodyA_), errorsA);
     const V3 back = {-n.x, -n.y, -n.z};
     if (!self_) {
       const SimdObstacle& obstacle = model_.obstacles.obstacles[source_.obstacle];
       return -(larger(ofA.before, ofA.after) + reachOf(model_.obstacles, obstacle, back));
     }
     const Reach ofB = reachOf(*model_.hulls, model_.hulls->of[source_.other], back,
-                              block_.states[bodyB_], motionOf(bodyB_));
+                              block_.states[bodyB_], motionOf(bodyB_), errorsB);
     return -larger(ofA.before + ofB.before, ofA.after + ofB.after);
   }
 
@@ -167,6 +258,8 @@ class DividedPair {
   int bodyB_ = 0;
   int reference_ = 0;
   F8 required_;
+  bool errsByTurns_ = false;  ///< so do all joints between the two: errors are known along n
+  F8 requiredInTube_;
 };
 
 std::uint32_t Divide(const SimdModel& model, std::uint32_t pair, const SimdDirection& direction,

@@ -36,23 +36,80 @@ void addAccelerations(const SimdJointMotion& joint, std::size_t at, SimdScratch&
   scratch.slid[at] = (scratch.slid[at] + joint.acceleration) * kBoundOutward;
 }
 
+/// What joints do in one unit of time: that of the motion, or that of L18's Q.
+struct MotionRates {
+  const SimdScratch& scratch;
+  float spin(int body) const { return scratch.motion[body].spin; }
+  float together(int body, int /*parent*/) const { return scratch.together[body]; }
+  float speed(int body) const { return scratch.motion[body].speed; }
+  float spinAcceleration(int body) const { return scratch.motion[body].spinAcceleration; }
+  float acceleration(int body) const { return scratch.motion[body].acceleration; }
+};
+
+struct TubeRates {
+  const SimdScratch& scratch;
+  const std::vector<float>& errors;  ///< rad, per body
+  float half;
+  float spin(int body) const { return half * scratch.motion[body].spin + errors[body]; }
+  float together(int body, int parent) const {
+    return half * scratch.together[body] + errors[body] + errors[parent];
+  }
+  float speed(int body) const { return half * scratch.motion[body].speed; }
+  float spinAcceleration(int body) const {
+    return half * half * scratch.motion[body].spinAcceleration;
+  }
+  float acceleration(int body) const { return half * half * scratch.motion[body].acceleration; }
+};
+
 /// Like boundSteps, only for the joints of a path from the index `first` on: `turned` and `slid` of
 /// the scratch, by their index.
-void boundPath(const SimdModel& model, const std::vector<int>& path, std::size_t first,
-               SimdScratch& scratch) {
+template <typename Rates>
+void boundPath(const SimdModel& model, const Rates& rates, const std::vector<int>& path,
+               std::size_t first, SimdScratch& scratch) {
   float before = 0.0F;  // rad per unit t, of the body that the joint hangs on,
   float start = 0.0F;   // and of the one before that
   for (std::size_t i = first; i < path.size(); ++i) {
-    const SimdJointMotion& joint = scratch.motion[path[i]];
-    float next = before + joint.spin;
-    if (i > first && model.bodies[path[i]].cosine >= 0.0F)
-      next = std::min(next, start + scratch.together[path[i]]);
-    scratch.turned[i] = joint.spin * (2.0F * before + joint.spin) * kBoundOutward;
-    scratch.slid[i] = 2.0F * joint.speed * before * kBoundOutward;
-    if (scratch.curved) addAccelerations(joint, i, scratch);
+    const int body = path[i];
+    const float spin = rates.spin(body);
+    float next = before + spin;
+    if (i > first && model.bodies[body].cosine >= 0.0F)
+      next = std::min(next, start + rates.together(body, path[i - 1]));
+    scratch.turned[i] = spin * (2.0F * before + spin) * kBoundOutward;
+    scratch.slid[i] = 2.0F * rates.speed(body) * before * kBoundOutward;
+    if (scratch.curved) {
+      scratch.turned[i] = (scratch.turned[i] + rates.spinAcceleration(body)) * kBoundOutward;
+      scratch.slid[i] = (scratch.slid[i] + rates.acceleration(body)) * kBoundOutward;
+    }
     start = before;
     before = next * kBoundOutward;
   }
+}
+
+/// Of the points of a geometry, relative to a reference.
+template <typename Rates>
+float boundPoints(const SimdModel& model, const Rates& rates, int index, int geometry,
+                  SimdScratch& scratch) {
+  const int reference = model.references[index].body;
+  const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
+  const std::size_t first = model.ancestors[reference].size();
+  if (path.size() <= first || (first > 0 && path[first - 1] != reference)) return 0.0F;
+  const SimdHull& hull = model.hulls->of[geometry];
+  const float* arms = model.hulls->arms.data() + hull.firstArm;
+  boundPath(model, rates, path, first, scratch);
+  float sum = 0.0F;
+  float beyond = 0.0F;  // m, of what slides
+  for (std::size_t i = path.size(); i-- > first;) {
+    sum += scratch.turned[i] * (arms[i] + beyond) + scratch.slid[i];
+    if (hull.growsByAll) beyond += scratch.motion[path[i]].slid;
+  }
+  for (std::int32_t i = 0; i < hull.growthCount; ++i) {
+    const SimdHulls::Growth& growth = model.hulls->growths[hull.firstGrowth + i];
+    if (static_cast<std::size_t>(growth.joint) >= first)
+      sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
+  }
+  // One rounding for each term, plus that of the last products.
+  const auto terms = static_cast<float>(path.size() * (hull.growsByAll ? 2 : 1) + hull.growthCount);
+  return sum * (kBoundOutward + kBoundPerTerm * terms);
 }
 
 }  // namespace
@@ -99,28 +156,16 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch) {
   }
 }
 
-float accelerationOfPoints(const SimdModel& model, int index, int geometry, SimdScratch& scratch) {
-  const int reference = model.references[index].body;
-  const std::vector<int>& path = model.ancestors[model.geometryBody[geometry]];
-  const std::size_t first = model.ancestors[reference].size();
-  if (path.size() <= first || (first > 0 && path[first - 1] != reference)) return 0.0F;
-  const SimdHull& hull = model.hulls->of[geometry];
-  const float* arms = model.hulls->arms.data() + hull.firstArm;
-  boundPath(model, path, first, scratch);
-  float sum = 0.0F;
-  float beyond = 0.0F;  // m, of what slides
-  for (std::size_t i = path.size(); i-- > first;) {
-    sum += scratch.turned[i] * (arms[i] + beyond) + scratch.slid[i];
-    if (hull.growsByAll) beyond += scratch.motion[path[i]].slid;
-  }
-  for (std::int32_t i = 0; i < hull.growthCount; ++i) {
-    const SimdHulls::Growth& growth = model.hulls->growths[hull.firstGrowth + i];
-    if (static_cast<std::size_t>(growth.joint) >= first)
-      sum += scratch.turned[growth.joint] * growth.share * scratch.motion[growth.slide].slid;
-  }
-  // One rounding for each term, plus that of the last products.
-  const auto terms = static_cast<float>(path.size() * (hull.growsByAll ? 2 : 1) + hull.growthCount);
-  return sum * (kBoundOutward + kBoundPerTerm * terms);
+float accelerationOfPoints(const SimdModel& model, int reference, int geometry,
+                           SimdScratch& scratch) {
+  return boundPoints(model, MotionRates{scratch}, reference, geometry, scratch);
+}
+
+float tubeAccelerationOfPoints(const SimdModel& model, int reference, int geometry, float half,
+                               SimdScratch& scratch) {
+  return boundPoints(model, TubeRates{scratch, model.tubeTurn, half}, reference, geometry,
+                     scratch) *
+         kBoundOutward;
 }
 
 }  // namespace swept::detail

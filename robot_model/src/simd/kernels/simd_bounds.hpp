@@ -41,4 +41,9 @@ void boundCarried(const SimdModel& model, SimdScratch& scratch);
 float accelerationOfPoints(const SimdModel& model, int reference, int geometry,
                            SimdScratch& scratch);
 
+/// m; the same for the motions Q of L18 of ERROR_MODEL.md, per square of their unit, in intervals
+/// of up to `half` on either side. Joints between the two err by turns alone.
+float tubeAccelerationOfPoints(const SimdModel& model, int reference, int geometry, float half,
+                               SimdScratch& scratch);
+
 }  // namespace swept::detail
