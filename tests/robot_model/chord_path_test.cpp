@@ -161,8 +161,16 @@ TEST(ChordPath, KnowsWhenTheCurveHasComeToAShare) {
       const double value = curve.position(time)[chord.leading];
       // Rates are small where all coefficients but one are the same: values are near, not times.
       EXPECT_NEAR((value - from) / (to - from), share, 1e-9 + 1e-13 / std::abs(to - from));
+      // In 50 digits it is not beyond the share.
+      std::size_t piece = 0;
+      while (piece + 1 < curve.pieces() && curve.knots()[piece + 1] <= time) ++piece;
+      const Digits exact = valueOf(curve, piece, chord.leading, Digits(time), 0);
+      if (share > 0.0) {
+        EXPECT_LE((exact - Digits(from)) / (Digits(to) - Digits(from)), Digits(share));
+      }
     }
     EXPECT_LE(before, curve.end());
+    EXPECT_EQ(timeOnChord(curve, chord, 0.0), curve.begin());
   }
 }
 

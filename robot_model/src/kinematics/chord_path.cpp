@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "rounding/error_model.hpp"
 #include "trajectory/bernstein.hpp"
@@ -129,10 +130,13 @@ Chord chordFrom(const KinematicModel& model, const PiecewisePolynomial& curve, s
 
 double timeOnChord(const PiecewisePolynomial& curve, const Chord& chord, double share) {
   const double begin = beginOf(curve, chord.first)[chord.leading];
-  const double change = endOf(curve, chord.last - 1)[chord.leading] - begin;
-  const auto shareOf = [&](double value) { return (value - begin) / change; };
+  const double end = endOf(curve, chord.last - 1)[chord.leading];
+  const double change = end - begin;
+  // Where the curve begins at rest, its value stays the same for a while.
+  const double rounding = kValueRounding * (std::abs(begin) + std::abs(end)) / std::abs(change);
+  const auto isBefore = [&](double value) { return (value - begin) / change + rounding < share; };
   std::size_t piece = chord.first;
-  while (piece + 1 < chord.last && shareOf(endOf(curve, piece)[chord.leading]) <= share) ++piece;
+  while (piece + 1 < chord.last && isBefore(endOf(curve, piece)[chord.leading])) ++piece;
   const auto coefficients = curve.coefficients(piece).row(chord.leading);
   Bernstein whole;
   Bernstein before;
@@ -146,9 +150,12 @@ double timeOnChord(const PiecewisePolynomial& curve, const Chord& chord, double 
     if (middle == low || middle == high) break;
     divide(std::span(whole).first(count), middle, std::span(before).first(count),
            std::span(after).first(count));
-    (shareOf(after[0]) <= share ? low : high) = middle;
+    (isBefore(after[0]) ? low : high) = middle;
   }
-  return curve.knots()[piece] + low * (curve.knots()[piece + 1] - curve.knots()[piece]);
+  const std::vector<double>& knots = curve.knots();
+  const double time = knots[piece] + low * (knots[piece + 1] - knots[piece]);
+  return std::max(knots[chord.first],
+                  time - kTimeRounding * (std::abs(time) + knots[piece + 1] - knots[piece]));
 }
 
 bool ChordPath::linearize(double t, double half, std::span<JointMotion> joints) const {

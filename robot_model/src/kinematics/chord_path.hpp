@@ -29,8 +29,8 @@ struct Chord {
 Chord chordFrom(const KinematicModel& model, const PiecewisePolynomial& curve, std::size_t first,
                 std::size_t most);
 
-/// The time (s) until which a chord's curve has come no farther than to a share of its straight
-/// motion, to within rounding.
+/// The time (s) at which a chord's curve comes to a share of its straight motion: not later, and
+/// earlier by no more than rounding makes of it.
 double timeOnChord(const PiecewisePolynomial& curve, const Chord& chord, double share);
 
 /// The straight motion of a chord, t in [0, 1] the share of its length. What the curve deviates is
