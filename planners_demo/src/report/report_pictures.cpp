@@ -49,7 +49,7 @@ Plot executedPlot(Plot plot, const std::vector<ExecutedRow>& rows) {
       if (row.curve == curve)
         series.points.push_back({.x = row.mean,
                                  .y = row.collisionRate(),
-                                 .label = row.setting ? shortNumber(*row.setting) : "",
+                                 .label = row.setting ? shortNumber(*row.setting) : row.curve,
                                  .title = row.name() + ": " + shortNumber(row.collisionRate()) +
                                           ", " + shortNumber(row.mean) + " ns"});
     if (!series.points.empty()) plot.series.push_back(std::move(series));
