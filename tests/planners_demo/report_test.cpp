@@ -72,7 +72,7 @@ TEST(Report, CertifiedMissesNothingAndStatesDo) {
 TEST(Report, ErrorsKeepTheirBounds) {
   std::map<std::string, int> queries;
   for (const json& row : report()["rows"]) {
-    if (row["part"] == "motions") continue;
+    if (row["part"] == "motions" || row["part"] == "executed curves") continue;
     const std::string part = row["part"];
     queries[part] = row["queries"];
     if (row["method"] != "certified") continue;
@@ -109,6 +109,7 @@ json withoutTimes(json from) {
   for (json& row : from["rows"]) {
     row.erase("mean_ns");
     row.erase("median_ns");
+    row.erase("relative_time");
   }
   from.erase("command");
   return from;

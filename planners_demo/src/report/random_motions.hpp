@@ -24,11 +24,12 @@ class RandomMotions {
   ReportMotion next();
   /// A uniformly random state, free or not.
   std::vector<double> state();
+  /// A uniformly random one of those that are proven free.
+  std::vector<double> freeState();
 
  private:
   struct Space;
   bool isFree(const std::vector<double>& q);
-  std::vector<double> freeState();
 
   const ReportWorld& world_;
   const Checker& checker_;

@@ -62,6 +62,34 @@ struct ReportRow {
   std::optional<LengthErrors> error;  ///< of the other parts
 };
 
+/// What is executed of planned paths in one way, over all paths of a report.
+struct ExecutedRow {
+  std::string curve;              ///< `polyline`, `blends`, `spline`, `tube` or `proven blends`
+  std::optional<double> setting;  ///< rad or m; deviation of blends, tolerance of a tube
+  std::size_t free = 0, collisions = 0, undecided = 0;
+  /// Collisions that states along the curve, kStateStep apart, do not show; none: not asked.
+  std::optional<std::size_t> missed;
+  double mean = 0.0, median = 0.0;  ///< ns per path, on the processor
+  double relativeTime = 1.0;        ///< mean, relative to that of the polyline
+
+  std::size_t paths() const { return free + collisions + undecided; }
+  double collisionRate() const;
+  std::optional<double> missedRate() const;
+  std::string name() const;  ///< `blends:0.1`, `spline`
+};
+
+/// What tables call this part.
+inline constexpr const char* kExecutedPart = "executed curves";
+/// rad or m, along the curve.
+inline constexpr double kStateStep = 0.05;
+
+/// Paths whose straight motions are all proven free, and what is executed of them.
+struct ExecutedPaths {
+  std::size_t paths = 0, corners = 0;
+  std::string leftOut;            ///< why there are none, a sentence; empty: there are some
+  std::vector<ExecutedRow> rows;  ///< the polyline first
+};
+
 /// The random motions, by what is proven of them at the finest tolerance.
 struct MotionCounts {
   std::size_t motions = 0, free = 0, collision = 0, undecided = 0;
@@ -98,6 +126,7 @@ struct ErrorReport {
   MotionCounts counts;
   std::vector<JudgedMotion> motions;
   std::vector<ReportRow> rows;  ///< by part, then method, from coarse to fine
+  ExecutedPaths executed;
 
   std::vector<ReportRow> rowsOf(ReportPart part) const;
 };

@@ -29,7 +29,9 @@ void addWorldOptions(CLI::App& app, Arguments& args) {
 
 void addMeasureOptions(CLI::App& app, Arguments& args) {
   app.add_option("--motions", args.report.motions,
-                 "random motions between valid states, over all worlds (default 1000)")
+                 "random motions between valid states, over all worlds, and a planned path for "
+                 "each 20 of them "
+                 "(default 1000)")
       ->type_name("N")
       ->check(within(1, 10'000'000, "between 1 and 1e7"));
   addSeedOption(app, args);

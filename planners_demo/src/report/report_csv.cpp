@@ -7,7 +7,7 @@ namespace {
 constexpr std::string_view kHeader =
     "part,method,setting,queries,free,collision,missed,missed_rate,false_alarms,false_alarm_rate,"
     "deepest_missed [m],mean_error [m],largest_error [m],mean_bound [m],largest_bound [m],"
-    "mean [ns],median [ns]\n";
+    "mean [ns],median [ns],undecided,relative_time\n";
 
 std::string cell(const std::optional<double>& value) {
   return value ? exactNumber(*value) : "";
@@ -36,6 +36,24 @@ std::string csvRow(const ReportRow& row) {
   }
   cells.push_back(exactNumber(row.mean));
   cells.push_back(exactNumber(row.median));
+  cells.resize(cells.size() + 2);
+  return joined(cells, ",") + "\n";
+}
+
+std::string executedCsvRow(const ExecutedRow& row) {
+  const std::vector<std::string> cells{kExecutedPart,
+                                       row.curve,
+                                       cell(row.setting),
+                                       std::to_string(row.paths()),
+                                       std::to_string(row.free),
+                                       std::to_string(row.collisions),
+                                       row.missed ? std::to_string(*row.missed) : "",
+                                       cell(row.missedRate()),
+                                       ",,,,,,",  // errors of other parts
+                                       exactNumber(row.mean),
+                                       exactNumber(row.median),
+                                       std::to_string(row.undecided),
+                                       exactNumber(row.relativeTime)};
   return joined(cells, ",") + "\n";
 }
 
@@ -58,6 +76,7 @@ std::string namesText(const std::vector<ReportMethod>& methods) {
 std::string reportCsv(const ErrorReport& report) {
   std::string text(kHeader);
   for (const ReportRow& row : report.rows) text += csvRow(row);
+  for (const ExecutedRow& row : report.executed.rows) text += executedCsvRow(row);
   return text;
 }
 

@@ -34,7 +34,8 @@ constexpr const char* kReading =
     "the space's extent. It hardly ever refuses a free motion; what happens between two states it "
     "does not "
     "see, and finer steps take more time. Of two methods the one that is below the other and not "
-    "to its right is better.";
+    "to its right is better. In the picture of executed curves a point is what is executed of "
+    "paths that are proven free, and what certifying it takes.";
 
 std::string element(const std::string& tag, const std::string& text, const std::string& kind = {}) {
   const std::string open = kind.empty() ? tag : tag + " class=\"" + kind + "\"";
@@ -48,8 +49,9 @@ std::string tableHtml(const ReportTable& table) {
       cells += element(tag, cellOf(c), table.columns[c].number ? "number" : "");
     return "<tr>" + cells + "</tr>\n";
   };
-  std::string html = element("h2", table.title) + element("p", table.remark) + "\n<table>\n" +
-                     line("th", [&](std::size_t c) { return table.columns[c].title; });
+  std::string html = element("h2", table.title) + element("p", table.remark) + "\n";
+  if (table.rows.empty()) return "<section>\n" + html + "</section>\n";
+  html += "<table>\n" + line("th", [&](std::size_t c) { return table.columns[c].title; });
   for (const std::vector<std::string>& row : table.rows)
     html += line("td", [&](std::size_t c) { return row[c]; });
   return "<section>\n" + html + "</table>\n</section>\n";
@@ -79,6 +81,10 @@ std::string factsHtml(const ErrorReport& report, const std::string& commandLine)
           ", median " + shortNumber(report.counts.median));
   add("truth", "certified at a tolerance of " + exactNumber(kTruthTolerance) +
                    " m; motions that are undecided then are counted, and left out");
+  if (report.executed.paths > 0)
+    add("paths",
+        "by RRTConnect, simplified, between random free states whose straight motion is not free; "
+        "proven blends keep the velocities of the URDF, and 1 (rad, m, s) where there is no limit");
   return html + "</dl>\n</section>\n";
 }
 

@@ -37,6 +37,27 @@ Json rowJson(const ReportRow& row) {
   return json;
 }
 
+Json executedRowJson(const ExecutedRow& row) {
+  return {{"part", kExecutedPart},
+          {"method", row.curve},
+          {"setting", orNull(row.setting)},
+          {"queries", row.paths()},
+          {"free", row.free},
+          {"collision", row.collisions},
+          {"undecided", row.undecided},
+          {"missed", row.missed ? Json(*row.missed) : Json(nullptr)},
+          {"missed_rate", orNull(row.missedRate())},
+          {"mean_ns", row.mean},
+          {"median_ns", row.median},
+          {"relative_time", row.relativeTime}};
+}
+
+Json executedJson(const ExecutedPaths& executed) {
+  return {{"paths", executed.paths},
+          {"corners", executed.corners},
+          {"left_out", executed.leftOut.empty() ? Json(nullptr) : Json(executed.leftOut)}};
+}
+
 }  // namespace
 
 Json reportJson(const ErrorReport& report, const std::string& commandLine) {
@@ -59,9 +80,11 @@ Json reportJson(const ErrorReport& report, const std::string& commandLine) {
                      {"shortest", counts.shortest},
                      {"median_length", counts.median},
                      {"longest", counts.longest}};
+  json["executed_curves"] = executedJson(report.executed);
   for (const auto& [name, value] : machineFacts()) json["machine"][name] = value;
   json["rows"] = Json::array();
   for (const ReportRow& row : report.rows) json["rows"].push_back(rowJson(row));
+  for (const ExecutedRow& row : report.executed.rows) json["rows"].push_back(executedRowJson(row));
   return json;
 }
 

@@ -38,6 +38,25 @@ Plot plotOf(Plot plot, const std::vector<ReportRow>& rows, const Value& value) {
   return plot;
 }
 
+/// The curves that may collide. A marker is where its curve's collisions and time are.
+Plot executedPlot(Plot plot, const std::vector<ExecutedRow>& rows) {
+  constexpr std::pair<const char*, const char*> kCurves[] = {
+      {"blends", "blends, by deviation"}, {"tube", "tube, by tolerance"}, {"spline", "spline"}};
+  int style = 0;
+  for (const auto& [curve, name] : kCurves) {
+    PlotSeries series{.name = name, .style = style++, .points = {}};
+    for (const ExecutedRow& row : rows)
+      if (row.curve == curve)
+        series.points.push_back({.x = row.mean,
+                                 .y = row.collisionRate(),
+                                 .label = row.setting ? shortNumber(*row.setting) : row.curve,
+                                 .title = row.name() + ": " + shortNumber(row.collisionRate()) +
+                                          ", " + shortNumber(row.mean) + " ns"});
+    if (!series.points.empty()) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
 }  // namespace
 
 std::vector<ReportPicture> reportPictures(const ErrorReport& report) {
@@ -69,6 +88,11 @@ std::vector<ReportPicture> reportPictures(const ErrorReport& report) {
                      report.rowsOf(part),
                      [](const ReportRow& row) { return std::optional(row.error->mean); }));
   }
+  add("executed-curves", executedPlot({.title = of + "free paths whose curves collide",
+                                       .yLabel = "of the paths",
+                                       .unit = Plot::Unit::Share,
+                                       .series = {}},
+                                      report.executed.rows));
   return pictures;
 }
 

@@ -39,6 +39,18 @@ std::optional<double> RateErrors::falseAlarmRate() const {
   return share(falseAlarms, free);
 }
 
+double ExecutedRow::collisionRate() const {
+  return share(collisions, paths()).value_or(0.0);
+}
+
+std::optional<double> ExecutedRow::missedRate() const {
+  return missed ? share(*missed, collisions) : std::nullopt;
+}
+
+std::string ExecutedRow::name() const {
+  return setting ? curve + ":" + exactNumber(*setting) : curve;
+}
+
 std::string toString(ReportPart part) {
   switch (part) {
     case ReportPart::Motions:

@@ -12,6 +12,8 @@
 #include "output/progress.hpp"
 #include "planning/planning.hpp"
 #include "report/course_parts.hpp"
+#include "report/executed_part.hpp"
+#include "report/planned_paths.hpp"
 #include "report/random_motion_part.hpp"
 #include "report/report_output.hpp"
 #include "report/shape_parts.hpp"
@@ -33,6 +35,8 @@ Arguments inOrder(Arguments args) {
 
 // Motions, or states, of a part, over all worlds; each world has at least one.
 constexpr std::size_t kMostContacts = 200, kMostClearances = 10, kMostStates = 1000;
+/// There is one planned path for so many motions.
+constexpr std::size_t kMotionsPerPath = 20;
 
 std::vector<ReportMethod> without(std::vector<ReportMethod> methods, Validator::Kind kind) {
   std::erase_if(methods, [&](const ReportMethod& method) { return method.kind == kind; });
@@ -76,6 +80,7 @@ class ReportRun {
         clearances_(ReportPart::Clearance, without(methods_, Validator::Kind::Fcl)),
         distances_(ReportPart::Distance, certified()),
         penetrations_(ReportPart::Penetration, certified()),
+        executed_(*model_.robot, group_, args.passes),
         bar_("answers", 0, answers(), args.quiet) {
     if (static_cast<std::size_t>(args.report.motions) < worlds_.size())
       throw UsageError("--motions " + std::to_string(args.report.motions) +
@@ -97,7 +102,8 @@ class ReportRun {
                        .passes = args_.passes,
                        .counts = motions_.counts(),
                        .motions = motions_.judged(),
-                       .rows = motions_.rows()};
+                       .rows = motions_.rows(),
+                       .executed = executed_.found()};
     for (const LengthTally* tally : {&contacts_, &clearances_, &distances_, &penetrations_})
       std::ranges::copy(tally->rows(), std::back_inserter(report.rows));
     for (const ReportWorld& world : worlds_) report.worlds.push_back(world.name);
@@ -141,6 +147,16 @@ class ReportRun {
       tick(0);
     }
     askAll(world.name, checkers, motions, random);
+    if (executed_.applies()) addExecuted(place, checkers);
+  }
+
+  void addExecuted(std::size_t place, const ReportCheckers& checkers) {
+    const ReportTick tick = [this](std::size_t) { this->tick(0); };
+    const auto all = static_cast<std::size_t>(args_.report.motions) / kMotionsPerPath;
+    executed_.add(checkers,
+                  plannedPaths(worlds_[place], checkers.truth, share(all),
+                               seedOfRun(args_.seed, static_cast<int>(place) + 1), tick),
+                  stopwatch_, tick);
   }
 
   void askAll(const std::string& world, const ReportCheckers& checkers,
@@ -182,6 +198,7 @@ class ReportRun {
   std::vector<ReportMethod> methods_;
   RandomMotionPart motions_;
   LengthTally contacts_, clearances_, distances_, penetrations_;
+  ExecutedPart executed_;
   Stopwatch stopwatch_;
   std::size_t done_ = 0;
   ProgressBar bar_;

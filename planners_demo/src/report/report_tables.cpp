@@ -96,6 +96,41 @@ ReportTable lengthTable(ReportPart part, const std::vector<ReportRow>& rows) {
   return table;
 }
 
+ReportTable executedTable(const ExecutedPaths& executed) {
+  if (!executed.leftOut.empty())
+    return {.title = kExecutedPart, .remark = executed.leftOut, .columns = {}, .rows = {}};
+  ReportTable table{
+      .title = kExecutedPart,
+      .remark =
+          "Of " + countedText(executed.paths, "planned path") + " with " +
+          countedText(executed.corners, "corner") +
+          ", whose straight motions are all proven free. blends: a circular arc at "
+          "each corner, as MoveIt makes it, up to so far off the path (rad, m). "
+          "spline: the cubic spline through the way points. tube: the path, each "
+          "joint up to so much off it (rad, m). proven blends: what provenTrajectory "
+          "makes of the path, and the time of making it. missed: collisions that "
+          "states every " +
+          exactNumber(kStateStep) +
+          " (rad, m) of the curve do not show. Times per path; relative: to the polyline's mean.",
+      .columns = {{"curve"},
+                  {"collide", true},
+                  {"of paths", true},
+                  {"undecided", true},
+                  {"proven", true},
+                  {"missed", true},
+                  {"mean", true},
+                  {"median", true},
+                  {"relative", true}},
+      .rows = {}};
+  for (const ExecutedRow& row : executed.rows)
+    table.rows.push_back({row.name(), std::to_string(row.collisions),
+                          percentText(row.collisionRate()), std::to_string(row.undecided),
+                          std::to_string(row.free), row.missed ? std::to_string(*row.missed) : "-",
+                          durationText(row.mean), durationText(row.median),
+                          threeDigits(row.relativeTime)});
+  return table;
+}
+
 }  // namespace
 
 std::vector<ReportTable> reportTables(const ErrorReport& report) {
@@ -104,6 +139,7 @@ std::vector<ReportTable> reportTables(const ErrorReport& report) {
                                 ReportPart::Distance, ReportPart::Penetration})
     if (const auto rows = report.rowsOf(part); !rows.empty())
       tables.push_back(lengthTable(part, rows));
+  tables.push_back(executedTable(report.executed));
   return tables;
 }
 
@@ -128,7 +164,8 @@ std::string reportText(const ErrorReport& report) {
   for (const ReportTable& table : reportTables(report)) {
     TextTable lines(table.columns);
     for (const std::vector<std::string>& row : table.rows) lines.add(row);
-    text += "\n" + table.title + ". " + table.remark + "\n" + lines.text();
+    text += "\n" + table.title + ". " + escapedLine(table.remark) + "\n";
+    if (!table.rows.empty()) text += lines.text();
   }
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include "input/problem_choice.hpp"
 #include "input/rules.hpp"
+#include "swept/core/tolerances.hpp"
 
 namespace swept {
 namespace {
@@ -50,6 +51,11 @@ CheckerMaker::CheckerMaker(const Arguments& args, const Model& model, const Grou
   };
   like_.truth = make(kTruthTolerance);
   for (const double tolerance : args.report.tolerances) like_.certified.push_back(make(tolerance));
+  // At a finer tolerance, tubes that touch something by less take a thousand times as long.
+  const auto still = make(tolerance::kMotion);
+  for (const double tube : kTubes)
+    like_.tubes.push_back(std::make_shared<const Checker>(
+        still->withTracking({{.rotation = tube, .translation = tube}})));
 }
 
 ReportCheckers CheckerMaker::in(const std::shared_ptr<const World>& world) const {
@@ -57,6 +63,8 @@ ReportCheckers CheckerMaker::in(const std::shared_ptr<const World>& world) const
   checkers.truth = makeNextChecker(args_, model_, *like_.truth, world, warnings_);
   for (const auto& like : like_.certified)
     checkers.certified.push_back(makeNextChecker(args_, model_, *like, world, warnings_));
+  for (const auto& like : like_.tubes)
+    checkers.tubes.push_back(makeNextChecker(args_, model_, *like, world, warnings_));
   return checkers;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,10 +20,14 @@ struct ReportWorld {
 /// InputError.
 std::vector<ReportWorld> reportWorlds(const Arguments& args, const Model& model);
 
-/// Checkers of one world that differ in their tolerance.
+/// rad or m. What each joint may be off in the tubes around executed paths.
+inline constexpr std::array kTubes{0.01, 0.005};
+
+/// Checkers of one world that differ in their tolerance, or in their tube.
 struct ReportCheckers {
   std::shared_ptr<const Checker> truth;                   ///< at the finest tolerance there is
   std::vector<std::shared_ptr<const Checker>> certified;  ///< as --tolerances has them
+  std::vector<std::shared_ptr<const Checker>> tubes;      ///< in kTubes, at tolerance::kMotion
 };
 
 /// Makes them, for one world after the other.
