@@ -75,7 +75,7 @@ class BlendLengths {
   }
 
   bool improve(std::size_t corner, double step) {
-    constexpr double kNoise = 1.0 - 1e-7;  // gains below are not worth a round
+    constexpr double kNoise = 1.0 - 1e-5;  // gains below are not worth a round
     const double longer = 1.0 + step;
     const double shorter = 1.0 / longer;
     const std::array<CornerBlend, 6> factors{{{longer, longer},

@@ -17,8 +17,7 @@ double changeLength(double from, double to, const StraightLimits& limits) {
 /// above, since the function is convex there.
 double cubicRoot(double p, double q) {
   constexpr int kSteps = 60;
-  double x = std::cbrt(q);
-  if (p * x > q) x = q / p;
+  double x = p * p * p > q * q ? q / p : std::cbrt(q);  // both are above it
   for (int i = 0; i < kSteps; ++i) {
     const double next = (2.0 * x * x * x + q) / (3.0 * x * x + p);
     if (!(next < x)) break;
@@ -29,46 +28,66 @@ double cubicRoot(double p, double q) {
 
 /// With a limit of jerk. The change d solves (speed + d / 2) changeTime(d) = length.
 double reachableByRamps(double speed, double length, const StraightLimits& limits) {
-  const double full = limits.acceleration * limits.acceleration / limits.jerk;
-  const double root = cubicRoot(2.0 * speed, length * std::sqrt(limits.jerk));
-  if (root * root <= full) return speed + root * root;
-  // Beyond `full` the acceleration reaches its limit: d^2 + b d + c = 0.
+  const double ramp = limits.acceleration / limits.jerk;
+  const double full = limits.acceleration * ramp;
+  if (length < (2.0 * speed + full) * ramp) {
+    const double root = cubicRoot(2.0 * speed, length * std::sqrt(limits.jerk));
+    return speed + root * root;
+  }
+  // The acceleration reaches its limit: d^2 + b d + c = 0.
   const double b = 2.0 * speed + full;
   const double c = 2.0 * (speed * full - limits.acceleration * length);
   return speed - 2.0 * c / (b + std::sqrt(std::max(0.0, b * b - 4.0 * c)));
 }
 
-/// With a limit of jerk: the peak above both speeds at which nothing is left to cruise, by regula
-/// falsi (M. Dowell and P. Jarratt, A modified regula falsi method, 1971).
-double peakByRamps(double from, double to, double length, const StraightLimits& limits) {
-  constexpr int kSteps = 100;
-  constexpr double kNothing = 1e-13;
-  const auto excess = [&](double peak) {
-    return changeLength(from, peak, limits) + changeLength(to, peak, limits) - length;
-  };
-  double low = std::max(from, to);
-  double high = limits.speed;
-  double atLow = excess(low);
-  double atHigh = excess(high);
-  if (!(atLow < 0.0)) return low;
-  if (!(atHigh > 0.0)) return high;
-  for (int i = 0, side = 0; i < kSteps; ++i) {
-    const double middle = std::clamp((low * atHigh - high * atLow) / (atHigh - atLow), low, high);
-    const double at = excess(middle);
-    if (std::abs(at) <= kNothing * length) return middle;
-    if (at < 0.0) {
-      low = middle;
-      atLow = at;
-      if (side == -1) atHigh *= 0.5;
-      side = -1;
-    } else {
-      high = middle;
-      atHigh = at;
-      if (side == 1) atLow *= 0.5;
-      side = 1;
-    }
+/// The way of a change of speed by `change` to the peak, and its derivative by x, where the peak is
+/// a square of x above something.
+struct RampWay {
+  double length, slope;
+
+  RampWay(double all, double rate) : length(all), slope(rate) {}
+  RampWay(double from, double peak, double x, const StraightLimits& limits) {
+    const double change = peak - from;
+    const double ramp = limits.acceleration / limits.jerk;
+    const bool full = change >= limits.acceleration * ramp;
+    const double root = full ? 0.0 : std::sqrt(change / limits.jerk);
+    const double time = full ? change / limits.acceleration + ramp : 2.0 * root;
+    // d time / d peak times x, which is finite where the change is none: there x is its root.
+    const double rate = full           ? x / limits.acceleration
+                        : change > 0.0 ? x / (limits.jerk * root)
+                                       : 1.0 / std::sqrt(limits.jerk);
+    length = 0.5 * (from + peak) * time;
+    slope = x * time + (from + peak) * rate;
   }
-  return low;
+};
+
+/// With a limit of jerk: the peak above both speeds at which nothing is left to cruise. By x, the
+/// root of how far the peak is above the larger speed, both ways are convex and increase; Newton's
+/// method descends to the root from above. The first x is above it, since a change takes at least
+/// twice the root of change / jerk.
+double peakByRamps(double from, double to, double length, const StraightLimits& limits) {
+  constexpr int kSteps = 60;
+  const double most = std::max(from, to);
+  const double scaled = length * std::sqrt(limits.jerk);
+  double x = std::sqrt(std::max(0.0, limits.speed - most));
+  const auto excess = [&] {
+    const double peak = most + x * x;
+    const RampWay up(from, peak, x, limits);
+    const RampWay down(to, peak, x, limits);
+    return RampWay{up.length + down.length - length, up.slope + down.slope};
+  };
+  if (changeLength(from, most, limits) + changeLength(to, most, limits) >= length) return most;
+  if (!(excess().length > 0.0)) return limits.speed;
+  x = std::min(x, std::cbrt(0.5 * scaled));
+  const double speeds = 3.0 * most + std::min(from, to);
+  if (speeds * x > scaled) x = scaled / speeds;
+  for (int i = 0; i < kSteps; ++i) {
+    const RampWay at = excess();
+    const double next = x - at.length / at.slope;
+    if (!(next < x)) break;
+    x = next;
+  }
+  return most + x * x;
 }
 
 }  // namespace
