@@ -18,6 +18,10 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed);
   app.add_option("--samples", options.samples,
                  "most of one curve; 0: every millisecond and milliradian");
+  app.add_option("--seconds", options.seconds, "that a curve takes at most")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--stage", options.curvesOfStage, "curves of each robot, world and tube in turn")
+      ->check(CLI::PositiveNumber);
   app.add_option("--report", report, "a line after so many curves")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   if (app.count("--first") > 0 && app.count("--count") == 0) options.count = 1;

@@ -50,7 +50,8 @@ class StageCampaign {
 
   void run(std::uint64_t index) {
     Random random(options_.seed, index);
-    const RandomCurve curve = makeCurve(stage_, workspace_, plainWorkspace_, random);
+    const RandomCurve curve =
+        makeCurve(stage_, workspace_, plainWorkspace_, random, options_.seconds);
     swept::TrajectoryQuery query;
     query.clock = random.uniform(-2.0, 2.0);
     if (random.chance(0.5)) query.limits = randomLimits(stage_, random);
@@ -144,9 +145,9 @@ CampaignReport runCampaign(const CampaignOptions& options) {
   report.scenes.resize(scenes().size());
   const std::uint64_t end = options.first + options.count;
   for (std::uint64_t index = options.first; index < end;) {
-    const std::uint64_t stage = index / kCurvesOfStage;
+    const std::uint64_t stage = index / options.curvesOfStage;
     StageCampaign curves(options, stage, report);
-    for (; index < end && index / kCurvesOfStage == stage; ++index) curves.run(index);
+    for (; index < end && index / options.curvesOfStage == stage; ++index) curves.run(index);
   }
   return report;
 }

@@ -10,7 +10,7 @@
 
 namespace trajectories {
 
-/// Curves of each stage: see makeStage().
+/// Curves of each stage, see makeStage(), unless another number is asked for.
 inline constexpr std::uint64_t kCurvesOfStage = 20;
 
 struct CampaignOptions {
@@ -18,6 +18,8 @@ struct CampaignOptions {
   std::uint64_t count = 1000;
   std::uint64_t seed = 1;
   std::size_t samples = 0;  ///< most of one curve; 0: as many as there are
+  std::uint64_t curvesOfStage = kCurvesOfStage;
+  double seconds = kLongest;  ///< s, that a curve takes at most
 };
 
 /// Of curves, or of those of one kind.

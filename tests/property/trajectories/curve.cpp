@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "pivot.hpp"
@@ -22,7 +23,7 @@ constexpr double kRim = 0.03;
 /// Makes one curve around a configuration.
 class Maker {
  public:
-  Maker(const Stage& stage, const State& pivot, Random& random)
+  Maker(const Stage& stage, const State& pivot, double seconds, Random& random)
       : stage_(stage), random_(random), pivot_(pivot) {
     const auto pieces =
         static_cast<std::size_t>(std::floor(random_.decades(0.0, std::log10(41.0))));
@@ -31,6 +32,9 @@ class Maker {
     for (std::size_t i = 0; i < pieces; ++i)
       lengths_.push_back(std::clamp(
           alike ? scale * random_.decades(-0.4, 0.4) : random_.decades(-3.0, 1.0), 1e-3, 10.0));
+    const double all = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
+    if (all > seconds)
+      for (double& length : lengths_) length = std::max(1e-3, length * seconds / all);
     swing_ = random_.decades(-2.5, -0.1);
     held_ = random_.chance(0.2);
     walk();
@@ -206,9 +210,9 @@ class Maker {
 }  // namespace
 
 RandomCurve makeCurve(const Stage& stage, swept::Workspace& workspace,
-                      swept::Workspace& plainWorkspace, Random& random) {
+                      swept::Workspace& plainWorkspace, Random& random, double seconds) {
   const State pivot = makePivot(stage, workspace, plainWorkspace, random);
-  Maker maker(stage, pivot, random);
+  Maker maker(stage, pivot, seconds, random);
   // Controllers know no floating joints.
   const auto kind = static_cast<Kind>(maker.floats() ? 4 + random.below(2) : random.below(6));
   switch (kind) {

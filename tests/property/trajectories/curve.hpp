@@ -30,9 +30,13 @@ struct RandomCurve {
   Truth truth;
 };
 
-/// 1 to 40 pieces of 1 ms to 10 s, at up to some 4 rad/s. Most pass a configuration that is near
-/// what the tube allows, or near contact. Values that slide stay within their limits.
+/// s. What the longest curve takes, and more.
+inline constexpr double kLongest = 1e3;
+
+/// 1 to 40 pieces of 1 ms to 10 s, at up to some 4 rad/s, shortened to take no more than `seconds`
+/// together. Most pass a configuration that is near what the tube allows, or near contact. Values
+/// that slide stay within their limits.
 RandomCurve makeCurve(const Stage& stage, swept::Workspace& workspace,
-                      swept::Workspace& plainWorkspace, Random& random);
+                      swept::Workspace& plainWorkspace, Random& random, double seconds = kLongest);
 
 }  // namespace trajectories
