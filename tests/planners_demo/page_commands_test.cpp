@@ -143,6 +143,7 @@ TEST_F(Page, AnUnsolvedProblemShowsItsEnds) {
   EXPECT_EQ(data["headline"], "not solved: goal is in collision");
   EXPECT_THAT(data["reason"].get<std::string>(),
               testing::StartsWith("goal is in collision: link5 - plate_left ("));
+  EXPECT_TRUE(data["motions"].empty());
   EXPECT_EQ(data["states"].size(), 2u);
   EXPECT_EQ(data["opens_at"], 1);
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "certificate/trajectory_json.hpp"
 #include "input/clouds.hpp"
 #include "input/unchecked.hpp"
 #include "output/clearance_text.hpp"
@@ -74,10 +75,13 @@ std::string planText(const Arguments& args, const Checker& checker, const PlanRe
 Json planJson(const Arguments& args, const Checker& checker, const PlanReport& report,
               const Warnings& warnings) {
   const auto& [request, outcome, timed, written] = report;
-  Json json = {
-      {"robot", checker.robot().name()}, {"group", checker.group().name},
-      {"planner", request.planner},      {"seed", request.seed},
-      {"solved", outcome.solved()},      {"proven", outcome.proven() && !checker.checksNothing()}};
+  Json json = {{"robot", checker.robot().name()},
+               {"group", checker.group().name},
+               {"planner", request.planner},
+               {"seed", request.seed},
+               {"tracking", trackingJson(checker)},
+               {"solved", outcome.solved()},
+               {"proven", outcome.proven() && !checker.checksNothing()}};
   json["failure"] = outcome.solved() ? Json(nullptr) : Json(outcome.failure);
   json["bad_ends"] = Json::array();
   for (const EndReport& end : outcome.badEnds) json["bad_ends"].push_back(endJson(end));

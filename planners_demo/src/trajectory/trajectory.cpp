@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "certificate/path_files.hpp"
+#include "certificate/trajectory_json.hpp"
 #include "command_line/commands.hpp"
 #include "input/groups.hpp"
 #include "input/inputs.hpp"
@@ -196,6 +197,7 @@ class TrajectoryRun {
                  {"margin_self", checker_->options().marginOf(true)},
                  {"margin_world", checker_->options().marginOf(false)},
                  {"tolerance", args_.tolerance},
+                 {"tracking", trackingJson(*checker_)},
                  {"trajectories", reports_}};
     if (file_) json["trajectory_file"] = notWritten_.empty() ? Json(args_.output) : Json(nullptr);
     if (file_) json["not_written"] = notWritten_.empty() ? Json(nullptr) : Json(notWritten_);
