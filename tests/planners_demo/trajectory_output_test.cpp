@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gantry.hpp"
+#include "page_data.hpp"
 #include "timed_trajectories.hpp"
 
 namespace swept::test {
@@ -184,12 +185,19 @@ TEST_F(TrajectoryOutput, RefusesWhatItCannotWrite) {
 }
 
 TEST_F(TrajectoryOutput, PagesOfPathsRefuseItsProof) {
-  const std::string proof = file("proof.json");
+  if (!programHasPages()) GTEST_SKIP() << "swept was built without three.js";
+  const std::string proof = file("proof.json"), page = file("page.html");
   ASSERT_EQ(run({over("0.3"), "-o", proof}).exitCode, 0);
-  const Outcome verified = runSwept({"verify", proof, "--html", file("page.html")});
+  const Outcome viewed = runSwept({"view", gantry_.urdf, proof, "-o", page});
+  EXPECT_EQ(viewed.exitCode, 3);
+  EXPECT_EQ(viewed.err, "swept: error: '" + proof +
+                            "' has a trajectory, and paths are shown as straight motions; swept "
+                            "trajectory --html shows it\n");
+  const Outcome verified = runSwept({"verify", proof, "--html", page});
   EXPECT_EQ(verified.exitCode, 3);
   EXPECT_EQ(verified.err, "swept: error: --html shows straight motions, and '" + proof +
                               "' has a trajectory; swept trajectory --html shows it\n");
+  EXPECT_EQ(run({proof, "--html", page}).exitCode, 0);
 }
 
 }  // namespace
