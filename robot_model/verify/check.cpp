@@ -198,7 +198,7 @@ void requireSameModel(const Json& proof, const Json& model) {
   compareDigests(at(claimed, "bodies", "digests"), actual["bodies"], "body");
   if (at(claimed, "rules", "digests") != actual["rules"])
     throw Refusal(
-        "rules: the group, its limits, margins or pairs that may touch are not as they "
+        "rules: the group, its limits, margins, tolerances or pairs that may touch are not as they "
         "were when the path was certified");
 }
 

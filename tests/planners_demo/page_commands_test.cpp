@@ -56,9 +56,29 @@ TEST_F(Page, TrajectoryPlaysItsCurve) {
   const json data = pageOf(free);
   EXPECT_EQ(data["headline"], "trajectory: free");
   EXPECT_EQ(data["tone"], "good");
-  ASSERT_EQ(data["trajectories"].size(), 1u);
+  ASSERT_EQ(data["motions"].size(), 1u);
+  EXPECT_TRUE(data["motions"][0].contains("curve"));
   EXPECT_EQ(data["paths"][0]["label"], "trajectory");
   EXPECT_EQ(pageOf(colliding, 1)["tone"], "bad");
+}
+
+TEST_F(Page, TimedPlanPlaysItsTrajectory) {
+  const std::vector<std::string> plan{"plan",    kRook, "home",    "ready",
+                                      "--group", "arm", "--scene", kSlot};
+  std::vector<std::string> timed = plan, said = plan;
+  timed.insert(timed.end(), {"--timed", "--max-acceleration", "3"});
+  said.emplace_back("--json");
+  const json data = pageOf(timed);
+  EXPECT_EQ(data["title"], "swept plan");
+  EXPECT_EQ(data["headline"], "trajectory: free");
+  EXPECT_EQ(data["tone"], "good");
+  ASSERT_EQ(data["motions"].size(), 1u);
+  // Beside it are the states of the path, packed: 7 values of 8 bytes, 4 characters for 3 bytes.
+  const std::size_t states = jsonOf(runSwept(said))["states"].size();
+  ASSERT_GE(states, 3u);
+  EXPECT_EQ(data["motions"][0]["curve"]["polyline"].get<std::string>().size(),
+            4 * ((states * 7 * 8 + 2) / 3));
+  EXPECT_THAT(data["facts"].dump(), testing::HasSubstr("RRTConnect"));
 }
 
 TEST_F(Page, CheckShowsItsStatesAndContacts) {

@@ -130,9 +130,9 @@ TEST_F(Trajectory, RepairsWhatIsTooFast) {
   EXPECT_THAT(fast.out, HasSubstr("limit       velocity of slide 2, allowed 1"));
   const std::string slow = gantry_.folder().path("slow.yaml");
   EXPECT_THAT(run(file, {"--repair"}).err, HasSubstr("--repair needs -o FILE"));
-  EXPECT_THAT(run(file, {"-o", slow}).err, HasSubstr("-o is for what --repair makes"));
   EXPECT_THAT(run(file, {"--repair", "-o", slow}).err,
-              HasSubstr("--limits and --max-acceleration give limits"));
+              HasSubstr("--repair: joint slide has no limit of acceleration, which its times "
+                        "depend on; --limits or --max-acceleration gives one\n"));
   const Outcome repaired = run(file, {"--repair", "-o", slow, "--max-acceleration", "2"});
   EXPECT_EQ(repaired.exitCode, 0) << repaired.out << repaired.err;
   // 2 m at 1 m/s, and 1 / 2 s more for both ramps.

@@ -200,7 +200,7 @@ TEST_F(Verify, AChangedRobotIsNamed) {
   gantry_.folder().write("gantry.urdf", replaced(urdf, "upper=\"2.5\"", "upper=\"2.6\""));
   EXPECT_EQ(
       refusalOf(file_),
-      "refused: rules: the group, its limits, margins or pairs that may touch are not as they "
+      "refused: rules: the group, its limits, margins, tolerances or pairs that may touch are not as they "
       "were when the path was certified\n");
   gantry_.folder().write("gantry.urdf", replaced(urdf, "<robot ", "<!-- the same --><robot "));
   EXPECT_EQ(runSwept({"verify", file_}).exitCode, 0);

@@ -55,17 +55,23 @@ TEST(TrajectoryKeys, OfJson) {
   const std::string turned =
       R"({"trajectory": {"variables": ["wheel", "turn", "slide"], "points": [{"time": 0, )"
       R"("positions": [1, 0, 0]}]}})";
-  test::walkFormat(
-      "Trajectory (.json)",
-      {{"trajectory", plain, turned},
-       {"trajectory/variables", plain, turned},
-       {"trajectory/points", plain,
-        point(R"("time": 0, "positions": [1, 0, 0]}, {"time": 1, "positions": [1, 0, 0])")},
-       {"trajectory/points/time", plain, point(R"("time": 1, "positions": [1, 0, 0])")},
-       {"trajectory/points/positions", plain, point(R"("time": 0, "positions": [0, 0, 0])")},
-       with("velocities"),
-       with("accelerations")},
-      [](const std::string& text) { return answer(".json", text, "arm"); });
+  std::vector<KeyCase> cases{
+      {"trajectory", plain, turned},
+      {"trajectory/variables", plain, turned},
+      {"trajectory/points", plain,
+       point(R"("time": 0, "positions": [1, 0, 0]}, {"time": 1, "positions": [1, 0, 0])")},
+      {"trajectory/points/time", plain, point(R"("time": 1, "positions": [1, 0, 0])")},
+      {"trajectory/points/positions", plain, point(R"("time": 0, "positions": [0, 0, 0])")},
+      with("velocities"),
+      with("accelerations")};
+  for (const char* claim :
+       {"robot", "group", "planner", "seed", "margin", "margin_self", "margin_world", "tolerance",
+        "clouds", "joint_names", "states", "segments", "nothing_checked", "links_without_geometry",
+        "warnings", "inputs", "model", "proof"})
+    cases.push_back(
+        {claim, plain, "{\"" + std::string(claim) + "\": [\"other\"], " + plain.substr(1)});
+  test::walkFormat("Trajectory (.json)", cases,
+                   [](const std::string& text) { return answer(".json", text, "arm"); });
   test::expectKeysOf("Trajectory (.json)", {"trajectory_json.cpp"});
 }
 

@@ -136,7 +136,7 @@ std::string summaryText(const verify::Summary& summary) {
 void requireShown(const Arguments& args, const Json& path) {
   if (!args.page.file.empty() && path.contains("trajectory"))
     throw UsageError("--html shows straight motions, and '" + args.verify.path +
-                     "' has a trajectory");
+                     "' has a trajectory; swept trajectory --html shows it");
 }
 
 /// What the path says that it is not about, where no files say it again.

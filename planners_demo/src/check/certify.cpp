@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "certificate/certificate.hpp"
-#include "certificate/model_json.hpp"
+#include "certificate/path_files.hpp"
 #include "certificate/path_json.hpp"
 #include "check/many_states.hpp"
 #include "check/segment_report.hpp"
@@ -18,7 +18,6 @@
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
-#include "plan/path_files.hpp"
 #include "replay/query_dump.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 #include "swept/robot_model/path_file.hpp"
@@ -49,11 +48,8 @@ Task pathTask(const Arguments& args, const Model& model, Warnings& warnings) {
   return task;
 }
 
-/// What decides which robot, world and rules the proof is for. The path is in the file itself.
 Json inputsOfProof(const Arguments& args, const Task& task) {
-  Arguments inputs = args;
-  inputs.states = {stateText(task.states.front().q), stateText(task.states.back().q)};
-  return inputsJson(inputs, args.output);
+  return inputsOfPath(args, args.output, task.states.front().q, task.states.back().q);
 }
 
 /// Where the proof goes, refused before the work where it cannot.
@@ -65,9 +61,7 @@ std::optional<PathFile> proofFile(const Arguments& args, const Task& task) {
   PathFile file(args.output, task.checker->robot(), task.checker->group());
   if (!file.holdsProof())
     throw UsageError("'" + args.output + "': a file with a proof ends in .json");
-  const std::string where = "-o '" + args.output + "'";
-  requireUtf8(inputsOfProof(args, task), where);
-  requireModelNames(*task.checker, where);
+  file.requireNames(inputsOfProof(args, task), *task.checker);
   return file;
 }
 

@@ -20,9 +20,7 @@ void addCertifyOptions(CLI::App& app, Arguments& args) {
   app.add_option("-o,--output", args.output,
                  "the path with a proof for 'swept verify', if every segment is free")
       ->type_name("FILE.json");
-  app.add_flag("--embed", args.embed,
-               "the .json has the robot and the world in it, so that 'swept verify' needs no other "
-               "file");
+  addEmbedOption(app, args);
   addDumpOption(app, args);
   addHtmlOption(app, args);
   addJsonOption(app, args);

@@ -107,14 +107,22 @@ struct Arguments {
     bool files = false;
   } verify;
 
-  std::string tracking;  ///< E or JOINT=E,...; empty: no joint is off
+  std::string tracking;     ///< E or JOINT=E,...; empty: no joint is off
+  std::string controllers;  ///< parameters of ros2_control; empty: none
+
+  std::string limits;  ///< joint_limits.yaml; empty: the URDF's velocities
+
+  /// How a path becomes a trajectory.
+  struct Timing {
+    bool timed = false;                     ///< whether that of plan does
+    std::optional<double> maxAcceleration;  ///< rad/s^2 or m/s^2
+    double speed = 1.0;                     ///< share of the velocities that limits allow
+    bool jerkLimited = false;
+  } timing;
 
   struct Trajectory {
     std::string file;
-    std::string start;                      ///< state at time 0; empty: the first point's
-    std::string limits;                     ///< joint_limits.yaml; empty: the URDF's velocities
-    std::string controllers;                ///< parameters of ros2_control; empty: none
-    std::optional<double> maxAcceleration;  ///< rad/s^2 or m/s^2
+    std::string start;  ///< state at time 0; empty: the first point's
     bool repair = false;
   } trajectory;
 

@@ -167,6 +167,49 @@ void addAgainstOption(CLI::App& app, Arguments& args, const std::string& what) {
           ""));
 }
 
+void addTrackingOptions(CLI::App& app, Arguments& args) {
+  app.add_option("--tracking", args.tracking,
+                 "rad or m; each joint may be off by so much at every instant, or these joints "
+                 "(default 0)")
+      ->type_name("E|JOINT=E,...");
+  app.add_option("--controllers", args.controllers,
+                 "parameters of ros2_control: tolerances are those at which its "
+                 "joint_trajectory_controllers abort")
+      ->type_name("FILE.yaml");
+}
+
+CLI::Option* addLimitsOption(CLI::App& app, Arguments& args) {
+  return app
+      .add_option("--limits", args.limits,
+                  "MoveIt's joint_limits.yaml: limits of velocities, accelerations and jerks; "
+                  "without it, velocities of the URDF")
+      ->type_name("FILE.yaml");
+}
+
+void addTimingOptions(CLI::App& app, Arguments& args, CLI::Option* user) {
+  app.add_option("--max-acceleration", args.timing.maxAcceleration,
+                 "rad/s^2 or m/s^2; of joints without a limit of their own")
+      ->type_name("A")
+      ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"))
+      ->needs(user);
+  app.add_option("--speed", args.timing.speed,
+                 "share of the full speed: limits of velocities are multiplied by S, those of "
+                 "accelerations by S^2 and those of jerks by S^3, so that it is the same curve "
+                 "(default 1)")
+      ->type_name("S")
+      ->check(within(1e-3, 1.0, "between 0.001 and 1"))
+      ->needs(user);
+  app.add_flag("--jerk-limited", args.timing.jerkLimited,
+               "accelerations are continuous and keep limits of jerk, which --limits has to give")
+      ->needs(user);
+}
+
+void addEmbedOption(CLI::App& app, Arguments& args) {
+  app.add_flag("--embed", args.embed,
+               "the .json has the robot and the world in it, so that 'swept verify' needs no other "
+               "file");
+}
+
 void addSeedOption(CLI::App& app, Arguments& args) {
   app.add_option("--seed", args.seed, "of the random numbers, 1 or more (default 1)")
       ->type_name("N")

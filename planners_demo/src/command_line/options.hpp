@@ -30,6 +30,14 @@ void addStateListOption(CLI::App& app, Arguments& args, const std::string& what)
 void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
 /// `what` says what is done with the peer.
 void addAgainstOption(CLI::App& app, Arguments& args, const std::string& what);
+/// --tracking and --controllers.
+void addTrackingOptions(CLI::App& app, Arguments& args);
+/// --limits.
+CLI::Option* addLimitsOption(CLI::App& app, Arguments& args);
+/// How a path is timed, for `user`: the option without which nothing is.
+void addTimingOptions(CLI::App& app, Arguments& args, CLI::Option* user);
+/// Whether the file of -o needs others to be verified.
+void addEmbedOption(CLI::App& app, Arguments& args);
 void addSeedOption(CLI::App& app, Arguments& args);
 void addJsonOption(CLI::App& app, Arguments& args);
 void addQuietOption(CLI::App& app, Arguments& args);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "input/state_lists.hpp"
 #include "input/task.hpp"
 #include "output/whole_file.hpp"
 
@@ -161,6 +162,8 @@ void visit(Visitor& visitor, Args& args) {
   visitor.texts("scale", args.scales);
   visitor.texts("allow", args.allowed);
   visitor.attached("attach", args.attached);
+  visitor.text("tracking", args.tracking);
+  visitor.file("controllers", args.controllers);
 }
 
 }  // namespace
@@ -181,6 +184,13 @@ Json inputsJson(const Arguments& args, const fs::path& file) {
   if (args.worldMargin) json["margin_world"] = *args.worldMargin;
   json["tolerance"] = args.tolerance;
   return json;
+}
+
+Json inputsOfPath(const Arguments& args, const fs::path& file, std::span<const double> from,
+                  std::span<const double> to) {
+  Arguments inputs = args;
+  inputs.states = {stateText(from), stateText(to)};
+  return inputsJson(inputs, file);
 }
 
 Arguments inputsOf(const JsonValue& inputs) {

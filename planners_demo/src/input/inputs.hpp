@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "command_line/arguments.hpp"
 #include "io/json_value.hpp"
@@ -14,7 +15,11 @@ namespace swept {
 /// `file` is a symbolic link, to the folder of its target.
 Json inputsJson(const Arguments& args, const std::filesystem::path& file);
 
-/// The inverse. Throws InputError, naming the value and what is allowed.
+/// The same for a path that is in the file itself: `states` are its ends.
+Json inputsOfPath(const Arguments& args, const std::filesystem::path& file,
+                  std::span<const double> from, std::span<const double> to);
+
+/// The inverse of inputsJson(). Throws InputError, naming the value and what is allowed.
 Arguments inputsOf(const JsonValue& inputs);
 
 }  // namespace swept

@@ -16,6 +16,7 @@
 #include "input/rules.hpp"
 #include "input/state_lists.hpp"
 #include "input/states.hpp"
+#include "input/tracking.hpp"
 #include "input/unchecked.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
@@ -206,7 +207,7 @@ void warnOfDefaultContacts(const Checker& checker, const Model& model, Warnings&
 std::shared_ptr<const Checker> makeCheckerWith(
     const CollisionRules& rules, const Arguments& args, const Model& model, const Group& group,
     std::shared_ptr<const World> world, Warnings& warnings, bool alone,
-    const std::optional<Eigen::VectorXd>& reference = {}, const TrackingTolerance& tracking = {}) {
+    const std::optional<Eigen::VectorXd>& reference = {}) {
   if (group.variables.empty())
     throw UsageError("group '" + group.name + "' has no joint that moves");
   CheckerOptions options;
@@ -216,7 +217,7 @@ std::shared_ptr<const Checker> makeCheckerWith(
   options.tolerance = args.tolerance;
   options.rules = rules;
   options.attached = model.attached;
-  options.tracking = tracking;
+  options.tracking = trackingOf(args, *model.robot);
   options.reference = reference ? reference : model.reference;
   std::shared_ptr<const Checker> checker;
   const std::shared_ptr<const World> in = world;
@@ -237,10 +238,9 @@ std::shared_ptr<const Checker> makeCheckerWith(
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
-                                           const std::optional<Eigen::VectorXd>& reference,
-                                           const TrackingTolerance& tracking) {
+                                           const std::optional<Eigen::VectorXd>& reference) {
   return makeCheckerWith(rulesOf(args).over(model.weakerRules), args, model, group,
-                         std::move(world), warnings, true, reference, tracking);
+                         std::move(world), warnings, true, reference);
 }
 
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,

@@ -77,12 +77,11 @@ struct Model {
 Model loadModel(const Arguments& args, Warnings& warnings);
 
 /// Throws UsageError when no joint of the group moves. Warns of standing contacts. `reference`:
-/// values of the variables outside the group, and `tracking`, as in CheckerOptions.
+/// values of the variables outside the group, as in CheckerOptions.
 std::shared_ptr<const Checker> makeChecker(const Arguments& args, const Model& model,
                                            const Group& group, std::shared_ptr<const World> world,
                                            Warnings& warnings,
-                                           const std::optional<Eigen::VectorXd>& reference = {},
-                                           const TrackingTolerance& tracking = {});
+                                           const std::optional<Eigen::VectorXd>& reference = {});
 /// A checker in the first of the worlds of many problems. Leaves out rules about bodies that this
 /// world does not have; they are for other worlds.
 std::shared_ptr<const Checker> makeFirstChecker(const Arguments& args, const Model& model,

@@ -43,8 +43,10 @@ struct ShownTrajectory {
 };
 void writeTrajectoryPage(const Arguments& args, const Model& model, const Checker& checker,
                          const std::vector<ShownTrajectory>& trajectories);
+/// `trajectory`: shown instead of the path that it was made of; null: none was made.
 void writePlanPage(const Arguments& args, const Model& model, const Task& task,
-                   const PlanRequest& request, const PlanOutcome& outcome);
+                   const PlanRequest& request, const PlanOutcome& outcome,
+                   const ShownTrajectory* trajectory);
 /// `file`: the path's, as parsed; its states are shown.
 void writeVerifyPage(const Arguments& args, const Model& model, const Task& task, const Json& file,
                      const VerifyOutcome& outcome);

@@ -19,7 +19,7 @@ void writeCertifyPage(const Arguments&, const Model&, const Task&, const PathCer
 void writeTrajectoryPage(const Arguments&, const Model&, const Checker&,
                          const std::vector<ShownTrajectory>&) {}
 void writePlanPage(const Arguments&, const Model&, const Task&, const PlanRequest&,
-                   const PlanOutcome&) {}
+                   const PlanOutcome&, const ShownTrajectory*) {}
 void writeVerifyPage(const Arguments&, const Model&, const Task&, const Json&,
                      const VerifyOutcome&) {}
 void writeInfoPage(const Arguments&, const Model&, const Checker*) {}

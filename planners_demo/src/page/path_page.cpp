@@ -86,6 +86,10 @@ ReadPath readPath(const Arguments& args, const std::string& file, Json& model, W
   const Json path = parseOrderedJson(file);
   if (!path.is_object() || !path.contains("inputs"))
     throw InputError(file, 0, "no path of swept plan: it does not say which files it is for");
+  if (path.contains("trajectory"))
+    throw UsageError("'" + file +
+                     "' has a trajectory, and paths are shown as straight motions; swept "
+                     "trajectory --html shows it");
   const nlohmann::json recorded(path["inputs"]);
   Arguments inputs = inputsOf(JsonValue(recorded, "inputs", file));
   inputs.command = &kPlanCommand;

@@ -87,10 +87,13 @@ void addPlanFacts(PageContent& content, const PlanRequest& request, const PlanOu
 }  // namespace
 
 void writePlanPage(const Arguments& args, const Model& model, const Task& task,
-                   const PlanRequest& request, const PlanOutcome& outcome) {
+                   const PlanRequest& request, const PlanOutcome& outcome,
+                   const ShownTrajectory* trajectory) {
   if (args.page.file.empty()) return;
   PageContent content;
-  if (outcome.solved()) {
+  if (trajectory != nullptr) {
+    showTrajectories(content, {*trajectory});
+  } else if (outcome.solved()) {
     std::vector<Finding> findings;
     for (std::size_t i = 0; i < outcome.segments.size(); ++i) {
       content.motions.push_back({.label = "segment " + std::to_string(i + 1),
@@ -106,11 +109,11 @@ void writePlanPage(const Arguments& args, const Model& model, const Task& task,
     content.reason = outcome.failure;
     content.opensAt = badEnd(content.states, outcome);
   }
-  content.headline = pathHeadline(outcome, *task.checker);
+  if (trajectory == nullptr) content.headline = pathHeadline(outcome, *task.checker);
   sayIfNothingIsChecked(content, *task.checker);
   addPlanFacts(content, request, outcome);
   // A path may consist of its start alone.
-  if (content.motions.empty() && content.states.empty())
+  if (content.motions.empty() && content.states.empty() && content.trajectories.empty())
     content.states = pageStates({task.states.front()});
   writePage(args, model, task.checker.get(), content);
 }

@@ -7,10 +7,7 @@
 
 namespace swept {
 
-void writeTrajectoryPage(const Arguments& args, const Model& model, const Checker& checker,
-                         const std::vector<ShownTrajectory>& trajectories) {
-  if (args.page.file.empty()) return;
-  PageContent content;
+void showTrajectories(PageContent& content, const std::vector<ShownTrajectory>& trajectories) {
   std::vector<Finding> findings;
   for (const ShownTrajectory& shown : trajectories) {
     const Finding finding = findingOf(shown.certificate);
@@ -25,6 +22,13 @@ void writeTrajectoryPage(const Arguments& args, const Model& model, const Checke
   content.tone = toneOf(worst(findings).verdict);
   content.headline = countsText("trajectory", findings, "trajectories");
   sayIfLimitsAreLeft(content);
+}
+
+void writeTrajectoryPage(const Arguments& args, const Model& model, const Checker& checker,
+                         const std::vector<ShownTrajectory>& trajectories) {
+  if (args.page.file.empty()) return;
+  PageContent content;
+  showTrajectories(content, trajectories);
   sayIfNothingIsChecked(content, checker);
   writePage(args, model, &checker, content);
 }

@@ -31,11 +31,10 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
   addSeedOption(app, args);
   app.add_option("-o,--output", args.output,
                  "path file, by its ending: .json (with certificates), .csv, or .yaml "
-                 "(RobotTrajectory without time stamps)")
+                 "(RobotTrajectory without time stamps); with --timed a trajectory: .json, .csv, "
+                 "or .yaml (JointTrajectory)")
       ->type_name("FILE");
-  app.add_flag("--embed", args.embed,
-               "the .json has the robot and the world in it, so that 'swept verify' needs no other "
-               "file");
+  addEmbedOption(app, args);
   app.add_option("--request", args.request,
                  "planning request (moveit_msgs/MotionPlanRequest as YAML): start and goals")
       ->type_name("FILE.yaml");
@@ -66,6 +65,13 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
                  "numbers depend on timing)")
       ->type_name("N")
       ->check(within(1, 1024, "between 1 and 1024"));
+  addTrackingOptions(app, args);
+  CLI::Option* timed =
+      app.add_flag("--timed", args.timing.timed,
+                   "times the path, with blended corners, and proves the curve that ros2_control "
+                   "makes of this trajectory");
+  addLimitsOption(app, args)->needs(timed);
+  addTimingOptions(app, args, timed);
   addDumpOption(app, args);
   addHtmlOption(app, args);
   addJsonOption(app, args);

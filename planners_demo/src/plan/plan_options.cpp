@@ -35,6 +35,8 @@ void requireOneProblemOrSeveral(const Arguments& args) {
     throw UsageError("-o writes one path; choose one problem with --set and --index");
   if (!args.page.file.empty())
     throw UsageError("--html shows one problem: it needs --set and --index");
+  if (args.timing.timed)
+    throw UsageError("--timed makes one trajectory; choose one problem with --set and --index");
 }
 
 void requireEnds(const Arguments& args) {

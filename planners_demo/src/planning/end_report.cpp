@@ -52,7 +52,8 @@ std::string contactText(const EndContact& contact) {
          (contact.depth > 0.0 ? lengthText(contact.depth) + " m deep"
                               : lengthText(-contact.depth) + " m apart, margin " +
                                     lengthText(contact.margin) + " m") +
-         ", at " + pointText(contact.point) + ")";
+         (contact.inTube ? ", in the tube beside the state" : "") + ", at " +
+         pointText(contact.point) + ")";
 }
 
 }  // namespace
@@ -65,12 +66,15 @@ EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspac
   for (const Witness& contact : found.contacts) {
     const auto a = std::ranges::find(bodies, contact.bodyA, &CertifiedBody::name);
     const CertifiedBody* b = secondOf(bodies, contact);
+    const std::vector<double>& off = contact.configuration;
+    const bool inTube = !off.empty();
     report.contacts.push_back({.bodyA = contact.bodyA,
                                .bodyB = contact.bodyB,
                                .depth = a == bodies.end() || b == nullptr
                                             ? -contact.distance
-                                            : depthOf(checker, *a, *b, state.q),
+                                            : depthOf(checker, *a, *b, inTube ? off : state.q),
                                .margin = contact.margin,
+                               .inTube = inTube,
                                .point = 0.5 * (contact.pointA + contact.pointB)});
   }
   return report;
@@ -100,6 +104,7 @@ Json endJson(const EndReport& report) {
                                 {"b", contact.bodyB},
                                 {"depth", contact.depth},
                                 {"margin", contact.margin},
+                                {"in_tube", contact.inTube},
                                 {"point", toJson(contact.point)}});
   return json;
 }

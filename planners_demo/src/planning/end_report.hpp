@@ -16,7 +16,8 @@ struct EndContact {
   std::string bodyA, bodyB;
   double depth;  ///< m, proven upper bound of the shortest translation that separates the two; 0 or
                  ///< less: they are nearer than their margin but do not overlap
-  double margin;          ///< m, what the two have to keep
+  double margin;  ///< m, what the two have to keep
+  bool inTube;    ///< of a state within the tolerances of joints, beside the one that is asked for
   Eigen::Vector3d point;  ///< m, model frame: on or in both, or between them
 };
 

@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "output/seconds_since.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "planning/planners.hpp"
@@ -175,10 +176,6 @@ void setEnds(og::SimpleSetup& setup, const StateConversion& conversion, const En
     goals->addState(state);
   }
   setup.setGoal(goals);
-}
-
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometric& path,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
+#include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -8,40 +8,29 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/path_files.hpp"
+#include "certificate/trajectory_json.hpp"
 #include "command_line/commands.hpp"
 #include "input/groups.hpp"
+#include "input/inputs.hpp"
 #include "input/states.hpp"
 #include "input/task.hpp"
 #include "input/unchecked.hpp"
 #include "output/progress.hpp"
+#include "output/seconds_since.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
 #include "swept/robot_model/proven_trajectory.hpp"
 #include "swept/robot_model/trajectory_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
-#include "trajectory/tracking.hpp"
+#include "trajectory/timed_trajectory.hpp"
+#include "trajectory/timing.hpp"
 #include "trajectory/trajectory_report.hpp"
+#include "trajectory/written_form.hpp"
 
 namespace swept {
 namespace {
-
-RateLimits limitsOf(const Arguments& args, const Model& model, const Group& group) {
-  if (args.trajectory.limits.empty()) return RateLimits::of(*model.robot, group);
-  return RateLimits::read(args.trajectory.limits, *model.robot, group, model.options);
-}
-
-/// Those of controllers, and what the command line says instead.
-TrackingTolerance trackingOf(const Arguments& args, const Robot& robot) {
-  const TrackingTolerance typed =
-      args.tracking.empty() ? TrackingTolerance{} : readTracking(args.tracking, robot);
-  if (args.trajectory.controllers.empty()) return typed;
-  TrackingTolerance tracking = readControllers(args.trajectory.controllers, robot, typed);
-  tracking.rotation = typed.rotation;
-  tracking.translation = typed.translation;
-  for (const auto& [name, tolerance] : typed.joints) tracking.joints[name] = tolerance;
-  return tracking;
-}
 
 /// Where the robot is before a trajectory: at the state given, or where the one before ends.
 std::optional<std::vector<double>> startOf(const Arguments& args, const Model& model,
@@ -49,12 +38,6 @@ std::optional<std::vector<double>> startOf(const Arguments& args, const Model& m
   if (args.trajectory.start.empty()) return std::nullopt;
   return readState(*model.robot, group, args.trajectory.start, "--start",
                    [&](const std::string& line) { warnings(line); });
-}
-
-/// Free, and within its limits.
-ExitCode codeOf(const TrajectoryCertificate& found) {
-  const ExitCode code = exitCodeOf(found.verdict);
-  return found.violations.empty() ? code : worse(code, ExitCode::Collision);
 }
 
 PiecewisePolynomial curveOf(const JointTrajectory& trajectory,
@@ -67,6 +50,12 @@ PiecewisePolynomial curveOf(const JointTrajectory& trajectory,
   }
 }
 
+void requireOutput(const Arguments& args) {
+  if (args.trajectory.repair && args.output.empty()) throw UsageError("--repair needs -o FILE");
+  if (args.embed && std::filesystem::path(args.output).extension() != ".json")
+    throw UsageError("--embed needs -o FILE.json");
+}
+
 class TrajectoryRun {
  public:
   explicit TrajectoryRun(const Arguments& args)
@@ -75,19 +64,20 @@ class TrajectoryRun {
   ExitCode run() {
     requirePageFile(args_);
     const Group& group = chooseGroup(*model_.robot, args_);
-    query_.limits = limits_ = limitsOf(args_, model_, group);
+    query_.limits = limitsOf(args_, model_, group);
     query_.clearances = true;
-    checker_ = makeChecker(args_, model_, group, model_.world, warnings_, {},
-                           trackingOf(args_, *model_.robot));
-    requireOutput();
+    checker_ = makeChecker(args_, model_, group, model_.world, warnings_);
+    if (!args_.output.empty())
+      file_.emplace(args_.output, *model_.robot, group, PathFile::Content::Trajectory);
     std::optional<std::vector<double>> start = startOf(args_, model_, group, warnings_);
     const std::vector<JointTrajectory> trajectories = readTrajectories(
         args_.trajectory.file, *model_.robot, group, model_.reference, model_.options);
-    if (args_.trajectory.repair && trajectories.size() > 1)
-      throw UsageError("--repair: the file has " + std::to_string(trajectories.size()) +
-                       " trajectories; it repairs files of one");
+    if (file_ && trajectories.size() > 1)
+      throw UsageError("-o writes one trajectory; '" + args_.trajectory.file + "' has " +
+                       std::to_string(trajectories.size()));
+    if (file_) file_->requireNames(inputsOf(trajectories.front()), *checker_);
     for (std::size_t i = 0; i < trajectories.size(); ++i) {
-      examine(trajectories[i], start,
+      examine(file_ ? writtenForm(trajectories[i], start, args_.output) : trajectories[i], start,
               trajectories.size() > 1 ? "trajectory " + std::to_string(i + 1) : std::string());
       start = trajectories[i].points.back().positions;
     }
@@ -97,10 +87,9 @@ class TrajectoryRun {
   }
 
  private:
-  void requireOutput() const {
-    if (args_.trajectory.repair == args_.output.empty())
-      throw UsageError(args_.output.empty() ? "--repair needs -o FILE"
-                                            : "-o is for what --repair makes");
+  Json inputsOf(const JointTrajectory& trajectory) const {
+    return inputsOfPath(args_, args_.output, trajectory.points.front().positions,
+                        trajectory.points.back().positions);
   }
 
   void examine(const JointTrajectory& trajectory, const std::optional<std::vector<double>>& start,
@@ -115,13 +104,17 @@ class TrajectoryRun {
         .end = curve.end(),
         .certificate = checker_->certifyTrajectory(curve, workspace, query_)};
     tell(report);
-    show(label.empty() ? "trajectory" : label, trajectory, curve, report.certificate);
+    std::vector<std::vector<double>> points;
+    for (const TrajectoryPoint& point : trajectory.points) points.push_back(point.positions);
+    shown_.push_back({label.empty() ? "trajectory" : label, curve, query_, report.certificate,
+                      std::move(points)});
     const ExitCode code = codeOf(report.certificate);
-    if (!args_.trajectory.repair || code == ExitCode::Free) {
-      code_ = worse(code_, code);
+    if (args_.trajectory.repair && code != ExitCode::Free) {
+      repair(curve);
       return;
     }
-    repair(curve);
+    code_ = worse(code_, code);
+    write(trajectory, report.certificate);
   }
 
   void tell(const TrajectoryReport& report) {
@@ -129,59 +122,68 @@ class TrajectoryRun {
     reports_.push_back(trajectoryJson(report));
   }
 
-  /// On the page, with the polyline through the points.
-  void show(const std::string& label, const JointTrajectory& trajectory,
-            const PiecewisePolynomial& curve, const TrajectoryCertificate& certificate) {
-    std::vector<std::vector<double>> points;
-    for (const TrajectoryPoint& point : trajectory.points) points.push_back(point.positions);
-    shown_.push_back({label, curve, query_, certificate, std::move(points)});
-  }
-
-  /// Limits of accelerations of joints that have none.
-  RateLimits limitsOfRepair() const {
-    RateLimits limits = limits_;
-    if (args_.trajectory.maxAcceleration)
-      for (double& limit : limits.acceleration)
-        if (std::isinf(limit)) limit = *args_.trajectory.maxAcceleration;
-    return limits;
-  }
-
   void repair(const PiecewisePolynomial& curve) {
+    const RateLimits limits = timingLimits(args_, model_, checker_->group(), "--repair");
+    const auto begin = std::chrono::steady_clock::now();
     RepairedTrajectory repaired;
     try {
-      repaired = repairTrajectory(*checker_, curve, limitsOfRepair());
+      repaired = repairTrajectory(*checker_, curve, limits, timingOptions(args_));
     } catch (const std::invalid_argument& error) {
-      throw UsageError(std::string("--repair: ") + error.what() +
-                       "; --limits and --max-acceleration give limits");
+      throw UsageError(std::string("--repair: ") + error.what());
     }
-    if (repaired.proven) {
-      writeTrajectory(args_.output, repaired.proven->timed.trajectory, *model_.robot,
-                      TrajectoryMessage::Joint);
-      const TrajectoryReport report{.label = "repaired",
-                                    .points = repaired.proven->timed.trajectory.points.size(),
-                                    .begin = repaired.proven->timed.curve.begin(),
-                                    .end = repaired.proven->timed.curve.end(),
-                                    .certificate = repaired.proven->certificate};
-      tell(report);
-      show("repaired", repaired.proven->timed.trajectory, repaired.proven->timed.curve,
-           report.certificate);
-      text_ += "  way points  " + std::to_string(repaired.wayPoints.size()) + ", " +
-               std::to_string(repaired.inserted) + " of them inserted; " +
-               countedText(stopsOf(*repaired.proven), "stop") + "\n";
-      text_ += escapedLine("written to " + args_.output) + "\n";
-      code_ = worse(code_, codeOf(repaired.proven->certificate));
+    if (!repaired.proven) {
+      sayWhyNot(repaired);
       return;
     }
+    const std::size_t wayPoints = repaired.wayPoints.size();
+    TimedTrajectory timed =
+        timedTrajectory(*checker_, std::move(*repaired.proven), std::move(repaired.wayPoints),
+                        limits, secondsSince(begin), "repaired");
+    tell(timed.report);
+    text_ += "  way points  " + std::to_string(wayPoints) + ", " +
+             std::to_string(repaired.inserted) + " of them inserted\n";
+    code_ = worse(code_, codeOf(timed.report.certificate));
+    write(timed.trajectory, timed.report.certificate);
+    shown_.push_back(std::move(timed.shown));
+  }
+
+  void sayWhyNot(const RepairedTrajectory& repaired) {
     text_ += "repaired: cannot be, for at " + shortNumber(repaired.place->time) + " s " +
              (repaired.contact ? "the curve itself is in contact: " + witnessText(*repaired.contact)
                                : std::string("the curve itself is too near to be proven")) +
              "\n";
+    notWritten_ = "no trajectory is free";
     code_ = worse(code_, repaired.contact ? ExitCode::Collision : ExitCode::Undecided);
   }
 
-  static std::size_t stopsOf(const ProvenTrajectory& proven) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        proven.timed.corners, [](const TimedCorner& corner) { return corner.stops(); }));
+  /// A proof that was asked for and not found is a question that stays open.
+  void write(const JointTrajectory& trajectory, const TrajectoryCertificate& found) {
+    if (!file_) return;
+    notWritten_ = reasonNotToWrite(found);
+    if (notWritten_.empty()) notWritten_ = writeProven(trajectory, found);
+    if (!notWritten_.empty()) code_ = worse(code_, ExitCode::Undecided);
+    text_ +=
+        escapedLine(notWritten_.empty() ? "written to " + args_.output
+                                        : "not written to " + args_.output + ": " + notWritten_) +
+        "\n";
+  }
+
+  /// Empty, or why there is no proof and so no file.
+  std::string writeProven(const JointTrajectory& trajectory, const TrajectoryCertificate& found) {
+    PathProof proof;
+    if (file_->holdsProof()) {
+      proof = proofOf(*checker_, trajectory, found);
+      if (!proof.certificate.missing.empty())
+        return "no separating planes were found for " + proof.certificate.missing;
+    }
+    file_->write(*checker_,
+                 {.states = proof.path.states,
+                  .segments = proof.path.segments,
+                  .inputs = inputsOf(trajectory),
+                  .warnings = warnings_.unchecked(),
+                  .trajectory = &trajectory},
+                 proof.certificate, args_.embed);
+    return {};
   }
 
   void print() const {
@@ -195,7 +197,10 @@ class TrajectoryRun {
                  {"margin_self", checker_->options().marginOf(true)},
                  {"margin_world", checker_->options().marginOf(false)},
                  {"tolerance", args_.tolerance},
+                 {"tracking", trackingJson(*checker_)},
                  {"trajectories", reports_}};
+    if (file_) json["trajectory_file"] = notWritten_.empty() ? Json(args_.output) : Json(nullptr);
+    if (file_) json["not_written"] = notWritten_.empty() ? Json(nullptr) : Json(notWritten_);
     addUnchecked(json, *checker_, warnings_);
     std::cout << dumped(json) << '\n';
   }
@@ -203,11 +208,12 @@ class TrajectoryRun {
   const Arguments& args_;
   Warnings warnings_;
   const Model model_;
-  RateLimits limits_;
+  std::optional<PathFile> file_;
   TrajectoryQuery query_;
   std::shared_ptr<const Checker> checker_;
   std::string text_;
   Json reports_ = Json::array();
+  std::string notWritten_;  ///< why; empty: it is
   std::vector<ShownTrajectory> shown_;
   ExitCode code_ = ExitCode::Free;
 };
@@ -215,6 +221,7 @@ class TrajectoryRun {
 }  // namespace
 
 ExitCode runTrajectory(const Arguments& args) {
+  requireOutput(args);
   return TrajectoryRun(args).run();
 }
 

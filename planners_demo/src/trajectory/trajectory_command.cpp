@@ -11,36 +11,27 @@ void addTrajectoryOptions(CLI::App& app, Arguments& args) {
   app.add_option("file", args.trajectory.file,
                  "trajectory of any planner: .yaml (JointTrajectory, RobotTrajectory, "
                  "DisplayTrajectory; several with --- between), .csv (time, joints, "
-                 "JOINT_velocity, JOINT_acceleration) or .json (of swept)")
+                 "JOINT_velocity, JOINT_acceleration) or .json (of swept, with or without a proof)")
       ->required()
       ->type_name("FILE");
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
-  app.add_option("--tracking", args.tracking,
-                 "rad or m; each joint may be off by so much at every instant, or these joints "
-                 "(default 0)")
-      ->type_name("E|JOINT=E,...");
-  app.add_option("--controllers", args.trajectory.controllers,
-                 "parameters of ros2_control: tolerances are those at which its "
-                 "joint_trajectory_controllers abort")
-      ->type_name("FILE.yaml");
+  addTrackingOptions(app, args);
   app.add_option("--start", args.trajectory.start,
                  "state that the robot starts from at time 0, at rest: a name or values between "
                  "commas")
       ->type_name("STATE");
-  app.add_option("--limits", args.trajectory.limits,
-                 "MoveIt's joint_limits.yaml: limits of velocities, accelerations and jerks; "
-                 "without it, velocities of the URDF")
-      ->type_name("FILE.yaml");
-  app.add_flag("--repair", args.trajectory.repair,
-               "where a trajectory is not free, or leaves limits of rates: the nearest one that is "
-               "proven, into the file of -o");
-  app.add_option("-o,--output", args.output, "file of --repair: .yaml, .csv or .json")
+  addLimitsOption(app, args);
+  app.add_option("-o,--output", args.output,
+                 "the trajectory, if it is free: .json (with a proof for 'swept verify'), .csv, "
+                 "or .yaml (JointTrajectory)")
       ->type_name("FILE");
-  app.add_option("--max-acceleration", args.trajectory.maxAcceleration,
-                 "rad/s^2 or m/s^2; for --repair, of joints without a limit")
-      ->type_name("A")
-      ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"));
+  addEmbedOption(app, args);
+  CLI::Option* repair =
+      app.add_flag("--repair", args.trajectory.repair,
+                   "where a trajectory is not free, or leaves limits of rates: the nearest one "
+                   "that is proven, into the file of -o");
+  addTimingOptions(app, args, repair);
   addHtmlOption(app, args);
   addJsonOption(app, args);
   addQuietOption(app, args);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trajectory/trajectory_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "output/terminal_text.hpp"
@@ -40,7 +41,28 @@ Json clearanceJson(const TrajectoryClearance& clearance) {
   return json;
 }
 
+/// `4 corners: 3 blended, 1 stop`.
+std::string cornersText(const TimingReport& timing) {
+  const std::size_t corners = timing.blended + timing.stops;
+  if (corners == 0) return "no corner";
+  return countedText(corners, "corner") + ": " + std::to_string(timing.blended) + " blended, " +
+         countedText(timing.stops, "stop");
+}
+
 }  // namespace
+
+ExitCode codeOf(const TrajectoryCertificate& certificate) {
+  const ExitCode code = exitCodeOf(certificate.verdict);
+  return certificate.violations.empty() ? code : worse(code, ExitCode::Collision);
+}
+
+std::string reasonNotToWrite(const TrajectoryCertificate& certificate) {
+  if (certificate.verdict != Verdict::Free) return "it is not free";
+  const bool leaves = std::ranges::any_of(
+      certificate.violations,
+      [](const LimitViolation& violation) { return violation.kind == LimitKind::Position; });
+  return leaves ? "it leaves limits of positions" : "";
+}
 
 std::string trajectoryText(const TrajectoryReport& report) {
   const TrajectoryCertificate& found = report.certificate;
@@ -48,6 +70,9 @@ std::string trajectoryText(const TrajectoryReport& report) {
                      painted(found.verdict) + "\n";
   text += "  duration    " + shortNumber(report.end - report.begin) + " s, " +
           countedText(report.points, "point") + "\n";
+  if (report.timing)
+    text += "  timing      " + secondsText(report.timing->seconds) + ", " +
+            cornersText(*report.timing) + "\n";
   if (found.verdict != Verdict::Free)
     text += "  free until  " + shortNumber(found.freeUntil) + " s\n";
   if (found.contact) {
@@ -75,6 +100,12 @@ Json trajectoryJson(const TrajectoryReport& report) {
                {"end", report.end},
                {"verdict", toString(found.verdict)},
                {"free_until", found.freeUntil}};
+  if (report.timing) {
+    json["corners"] = report.timing->blended + report.timing->stops;
+    json["blended"] = report.timing->blended;
+    json["stops"] = report.timing->stops;
+    json["timing_time"] = report.timing->seconds;
+  }
   json["contact"] = nullptr;
   if (found.contact) {
     json["contact"] = placeJson(*found.contact);

@@ -19,7 +19,7 @@ namespace swept {
 ///   `JOINT_acceleration`, in any order, then a line for each point;
 /// * `.yaml`, `.yml`: trajectory_msgs/JointTrajectory, moveit_msgs/RobotTrajectory or
 ///   moveit_msgs/DisplayTrajectory as ROS prints them, one or several with `---` between;
-/// * `.json`: an object `trajectory`, as writeTrajectory() writes it.
+/// * `.json`: an object `trajectory`, as writeTrajectory() writes it, also in a file with a proof.
 ///
 /// robot_model/FORMATS.md says how each key is treated. There is a trajectory for each message, and
 /// for each trajectory of a DisplayTrajectory, each of which begins where the one before it ends.

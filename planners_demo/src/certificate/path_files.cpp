@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plan/path_files.hpp"
+#include "certificate/path_files.hpp"
 
+#include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/states.hpp"
 #include "output/text_output.hpp"
 #include "output/whole_file.hpp"
 #include "robot/joint_types.hpp"
+#include "swept/robot_model/trajectory_file.hpp"
 
 namespace swept {
 namespace {
@@ -48,10 +50,6 @@ std::string yamlText(const Checker& checker, const PathRecord& record) {
   return text;
 }
 
-bool isYaml(const std::filesystem::path& file) {
-  return file.extension() == ".yaml" || file.extension() == ".yml";
-}
-
 void requireOneValuePerJoint(const std::filesystem::path& file, const Robot& robot,
                              const Group& group) {
   for (const int j : group.joints) {
@@ -64,12 +62,17 @@ void requireOneValuePerJoint(const std::filesystem::path& file, const Robot& rob
 
 }  // namespace
 
-PathFile::PathFile(const std::string& file, const Robot& robot, const Group& group) : file_(file) {
+bool isYaml(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+PathFile::PathFile(const std::string& file, const Robot& robot, const Group& group, Content content)
+    : file_(file) {
   const std::filesystem::path ending = file_.extension();
   if (ending != ".json" && ending != ".csv" && !isYaml(file_))
     throw UsageError("'" + file + "': a path file ends in .json, .csv or .yaml");
   requireWritable(file_);
-  if (isYaml(file_)) requireOneValuePerJoint(file_, robot, group);
+  if (isYaml(file_) && content == Content::Path) requireOneValuePerJoint(file_, robot, group);
   if (ending != ".csv") requireUtf8(variableNames(robot, group), optionText(file_));
   if (!holdsProof()) return;
   requireUtf8({robot.name(), group.name}, optionText(file_));
@@ -80,14 +83,29 @@ bool PathFile::holdsProof() const {
   return file_.extension() == ".json";
 }
 
+void PathFile::requireNames(const Json& inputs, const Checker& checker) const {
+  if (!holdsProof()) return;
+  requireUtf8(inputs, optionText(file_));
+  requireModelNames(checker, optionText(file_));
+}
+
 void PathFile::write(const Checker& checker, const PathRecord& record,
                      const Certificate& certificate, bool embed) const {
   if (holdsProof())
     writeWholeFile(file_, pathJsonText(checker, record, certificate, embed, optionText(file_)));
+  else if (record.trajectory != nullptr)
+    writeTrajectory(file_, *record.trajectory, checker.robot(), TrajectoryMessage::Joint);
   else if (file_.extension() == ".csv")
     writeWholeFile(file_, csvText(checker, record));
   else
     writeWholeFile(file_, yamlText(checker, record));
+}
+
+PathProof proofOf(const Checker& checker, const JointTrajectory& trajectory,
+                  const TrajectoryCertificate& certificate) {
+  PathProof proof{.path = provenPath(trajectory, certificate), .certificate = {}};
+  proof.certificate = certificateOf(checker, trajectory, proof.path.segments.front().clearance);
+  return proof;
 }
 
 }  // namespace swept

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trajectory/tracking.hpp"
+#include "input/tracking.hpp"
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -96,8 +98,6 @@ class Controllers {
   bool found_ = false;
 };
 
-}  // namespace
-
 TrackingTolerance readTracking(const std::string& text, const Robot& robot) {
   TrackingTolerance tracking;
   bool first = true;
@@ -124,6 +124,19 @@ TrackingTolerance readControllers(const std::filesystem::path& file, const Robot
                                   const TrackingTolerance& except) {
   const detail::InputSource source(file.string(), {});
   return Controllers(robot, except).read(detail::YamlPlace::parse(readTextFile(file), source));
+}
+
+}  // namespace
+
+TrackingTolerance trackingOf(const Arguments& args, const Robot& robot) {
+  const TrackingTolerance typed =
+      args.tracking.empty() ? TrackingTolerance{} : readTracking(args.tracking, robot);
+  if (args.controllers.empty()) return typed;
+  TrackingTolerance tracking = readControllers(args.controllers, robot, typed);
+  tracking.rotation = typed.rotation;
+  tracking.translation = typed.translation;
+  for (const auto& [name, tolerance] : typed.joints) tracking.joints[name] = tolerance;
+  return tracking;
 }
 
 }  // namespace swept
