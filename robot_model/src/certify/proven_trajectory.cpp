@@ -40,6 +40,7 @@ class Timing {
     // Each round turns the blends beside a place into stops; there are only so many.
     while (proven.certificate.verdict != Verdict::Free && addStops(proven, stops))
       proven = timed(stops);
+    if (proven.certificate.verdict == Verdict::Undecided) decideFiner(proven);
     return proven;
   }
 
@@ -52,10 +53,30 @@ class Timing {
     };
     TimedPath path =
         timeParameterize(checker_.robot(), checker_.group(), wayPoints_, limits_, proves, options_);
+    TrajectoryCertificate certificate = certify(checker_, path.curve);
+    return {std::move(path), std::move(certificate), checker_.options().tolerance};
+  }
+
+  TrajectoryCertificate certify(const Checker& checker, const PiecewisePolynomial& curve) {
     TrajectoryQuery query;
     query.limits = limits_;
-    TrajectoryCertificate certificate = checker_.certifyTrajectory(path.curve, workspace_, query);
-    return {std::move(path), std::move(certificate)};
+    return checker.certifyTrajectory(curve, workspace_, query);
+  }
+
+  /// Two motions along one line are one straight part, whose proof is another one than theirs.
+  /// Where both keep little more than the margin, it may take a smaller tolerance.
+  void decideFiner(ProvenTrajectory& proven) {
+    constexpr double kFiner = 1.0 / 8.0;
+    constexpr int kRounds = 3;
+    double tolerance = checker_.options().tolerance;
+    for (int round = 0; round < kRounds; ++round) {
+      tolerance *= kFiner;
+      TrajectoryCertificate found = certify(checker_.withTolerance(tolerance), proven.timed.curve);
+      if (found.verdict == Verdict::Undecided) continue;
+      proven.certificate = std::move(found);
+      proven.tolerance = tolerance;
+      return;
+    }
   }
 
   /// False: there is no blend beside the place that is not proven.

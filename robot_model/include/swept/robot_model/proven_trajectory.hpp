@@ -21,6 +21,7 @@ struct ProvenTrajectory {
   TimedPath timed;  ///< the trajectory, its curve and its corners
   /// Of `timed.curve`, with MotionQuery::FirstContact and the limits that it was timed with.
   TrajectoryCertificate certificate;
+  double tolerance = 0.0;  ///< m, of the certificate: that of the checker, or a smaller one
 };
 
 /// Times a path with timeParameterize(), where each blend is the largest that is proven free, and
@@ -28,8 +29,10 @@ struct ProvenTrajectory {
 /// free although all straight motions are, because a tube or a margin leaves no room for their
 /// proof in other pieces, the corners beside that place become stops.
 ///
-/// A straight part between two stops is proven as the motion is. So if every straight motion of the
-/// path is Free, the verdict is Free, too, unless one is so by less than what rounding takes. Throws
+/// A straight part between two stops is proven as the motion is; motions along one line are one
+/// part, and what is left undecided then is asked again with smaller tolerances. So if every
+/// straight motion of the path is Free, the verdict is Free, too, unless one is so by less than a
+/// five-hundredth of CheckerOptions::tolerance. Throws
 /// std::invalid_argument as timeParameterize() and Checker::certifyTrajectory() do, and for a world
 /// with moving obstacles, whose places depend on the times.
 ProvenTrajectory provenTrajectory(const Checker& checker, const ConfigurationList& wayPoints,
