@@ -10,6 +10,7 @@
 #include "model_robots.hpp"
 #include "random_trajectories.hpp"
 #include "swept/proofs/path_proof.hpp"
+#include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/named_states.hpp"
 
 /// Proofs of random trajectories of the models hold.
@@ -112,6 +113,52 @@ TEST_P(RandomTrajectoryProof, HoldsOfWhatIsFree) {
             << " pieces, " << planes_ << " planes" << std::endl;
   EXPECT_GE(proven, made / 4);
   EXPECT_LT(proven, made);
+}
+
+/// A plate as near to what moves as the tube just leaves room for. There planes between whole
+/// links show nothing, in intervals of any length: those between parts of them do.
+TEST(TightTrajectoryProof, HoldsOfNearlyAllThatIsFree) {
+  const auto robot = modelRobot("rook7");
+  CheckerOptions options;
+  options.tracking.rotation = 0.005;
+  const Checker empty(robot, "arm", std::make_shared<const World>(), options);
+  const TemporaryFolder folder;
+  RandomTrajectories random(empty, 9);
+  constexpr double kRoom = 2e-4;  // m
+  int tight = 0, proven = 0;
+  for (int i = 0; i < 24; ++i) {
+    const JointTrajectory trajectory =
+        random.make({0.0, -0.3, 0.0, 1.9, 0.0, 1.54, 0.0}, 2, 0.3, Spline::Cubic);
+    const PiecewisePolynomial curve = controllerCurve(trajectory);
+    const Eigen::Isometry3d wrist = linkPose(*robot, "arm", i % 2 == 0 ? "link5" : "hand",
+                                             curve.position(0.5 * (curve.begin() + curve.end())));
+    const auto checkerAt = [&](double distance) {
+      return empty.withBody(
+          "plate", makeBox({0.5, 0.5, 0.02}),
+          wrist *
+              Eigen::AngleAxisd(0.7 * i, Eigen::Vector3d(1.0, 0.3 * (i % 3), 0.2).normalized()) *
+              Eigen::Translation3d(0.0, 0.0, distance));
+    };
+    const auto certify = [&](const Checker& checker) {
+      Workspace workspace(checker);
+      return checker.certifyTrajectory(curve, workspace, {.clearances = true});
+    };
+    double open = 0.0, free = 1.0;
+    if (certify(checkerAt(free)).verdict != Verdict::Free) continue;
+    while (free - open > 2e-5) {
+      const double middle = 0.5 * (open + free);
+      (certify(checkerAt(middle)).verdict == Verdict::Free ? free : open) = middle;
+    }
+    ++tight;
+    const Checker checker = checkerAt(free + kRoom);
+    const std::filesystem::path file = folder.path() / "proof.json";
+    if (!writeTrajectoryProof(file, checker, trajectory, certify(checker)).isWritten()) continue;
+    EXPECT_EQ(verifyProof(file, checker).refusal, "");
+    ++proven;
+  }
+  std::cout << proven << " of " << tight << std::endl;
+  EXPECT_GT(tight, 12);
+  EXPECT_GE(5 * proven, 4 * tight);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, RandomTrajectoryProof, testing::ValuesIn(kSubjects));

@@ -47,7 +47,14 @@ struct PairSearch::Between {
   std::optional<double> distance =
       {};              ///< m, of the two bodies in the middle, when it was asked for
   int nodes = kNodes;  ///< pairs of nodes that may still be looked at
+  double middle = 0.0;
+  std::optional<verify::PairMotion> still = {};  ///< in the middle alone, when it was asked for
 };
+
+const verify::PairMotion& PairSearch::stillOf(Between& between) const {
+  if (!between.still) between.still.emplace(model_, motion_, pair_, between.middle, between.middle);
+  return *between.still;
+}
 
 double PairSearch::distanceOf(Between& between) const {
   if (between.distance) return *between.distance;
@@ -91,7 +98,9 @@ Json PairSearch::tree(Between& between, int a, int b) {
     // Of smaller parts, the tolerances of joints take less.
     const double play = between.motion.play(a, b, way);
     const double spare = distanceOf(between) - keep_ - play;
-    const double apart = found.lower - a_.grownBy(a) - b_.grownBy(b) - play;
+    // What tolerances take beyond the first order is there in the shortest interval, too.
+    const double apart = play > 0.0 ? stillOf(between).gap(a, b, way)
+                                    : found.lower - a_.grownBy(a) - b_.grownBy(b);
     if (apart >= keep_ + kShare * (play > 0.0 ? std::max(spare, 0.0) : spare)) return nullptr;
   }
   const bool leafA = a_.body().isLeaf(a), leafB = b_.body().isLeaf(b);
@@ -125,7 +134,7 @@ bool PairSearch::intervals(double begin, double end, int depth, Json& list, bool
   if (flat) {
     proof = besideFlat(motion, index);
   } else {
-    Between between{.motion = motion};
+    Between between{.motion = motion, .middle = 0.5 * (begin + end)};
     proof = tree(between, 0, 0);
     if (between.distance && !(*between.distance > keep_)) return false;
   }

@@ -25,6 +25,7 @@ class PairSearch {
  private:
   struct Between;
   double distanceOf(Between& between) const;
+  const verify::PairMotion& stillOf(Between& between) const;
   bool intervals(double begin, double end, int depth, Json& list, bool flat, std::size_t index);
   Json tree(Between& between, int a, int b);
   Json plane(const Between& between, int a, int b, const Eigen::Vector3d& direction) const;
