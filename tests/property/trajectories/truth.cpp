@@ -163,10 +163,13 @@ Truth truthOf(std::vector<double> knots, std::vector<Eigen::MatrixXd> coefficien
         b.pop_back();
       }
       const auto d = static_cast<int>(b.size()) - 1;
+      // Powers of 1 - u come from the last term on, by Horner's scheme.
       Real sum = 0;
-      for (int k = 0; k <= d; ++k)
-        sum +=
-            choose(d, k) * std::pow(u, k) * std::pow(1 - u, d - k) * b[static_cast<std::size_t>(k)];
+      Real power = 1;
+      for (int k = 0; k <= d; ++k) {
+        sum = sum * (1 - u) + choose(d, k) * power * b[static_cast<std::size_t>(k)];
+        power *= u;
+      }
       values[static_cast<std::size_t>(i)] = static_cast<double>(sum);
     }
     if (order == 0 && degree == 1)
