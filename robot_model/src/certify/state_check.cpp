@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "certify/motion_check.hpp"
 #include "certify/near_pairs.hpp"
 #include "certify/nearest_points.hpp"
 #include "certify/simd_witness.hpp"
@@ -75,9 +76,7 @@ Verdict verdictOf(const CheckerModel& model, std::span<const double> q, int lane
   return checkPairs(model, q, pairs, workspace);
 }
 
-}  // namespace
-
-Verdict checkState(const CheckerModel& model, std::span<const double> configuration,
+Verdict checkAlone(const CheckerModel& model, std::span<const double> configuration,
                    WorkspaceData& workspace) {
   const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   const bool fits =
@@ -86,6 +85,23 @@ Verdict checkState(const CheckerModel& model, std::span<const double> configurat
   searchStates(model.simd, SimdMode::State, SimdContacts::Sought, workspace.simd);
   const std::uint32_t contacts = workspace.simd.block.contactLanes;
   return verdictOf(model, q, contacts == 0 ? 0 : std::countr_zero(contacts), workspace);
+}
+
+/// In a tube, planes between hulls may prove of a motion that stays where it is what exact geometry
+/// leaves open: they take the largest error at each vertex, not in a box around all of them.
+Verdict settled(const CheckerModel& model, std::span<const double> configuration, Verdict verdict,
+                WorkspaceData& workspace) {
+  if (verdict != Verdict::Undecided || model.tube.empty()) return verdict;
+  const MotionCertificate still =
+      certifyMotion(model, configuration, configuration, MotionQuery::VerdictOnly, workspace);
+  return still.verdict == Verdict::Free ? Verdict::Free : Verdict::Undecided;
+}
+
+}  // namespace
+
+Verdict checkState(const CheckerModel& model, std::span<const double> configuration,
+                   WorkspaceData& workspace) {
+  return settled(model, configuration, checkAlone(model, configuration, workspace), workspace);
 }
 
 void checkStates(const CheckerModel& model, std::span<const double> states,
@@ -100,8 +116,12 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::span<const double> q = some.subspan(lane * dimension, dimension);
       verdicts[first + lane] = fits ? verdictOf(model, q, static_cast<int>(lane), workspace)
-                                    : checkState(model, q, workspace);
+                                    : checkAlone(model, q, workspace);
     }
+    // Only now: it needs the workspace.
+    for (std::size_t lane = 0; lane < count; ++lane)
+      verdicts[first + lane] = settled(model, some.subspan(lane * dimension, dimension),
+                                       verdicts[first + lane], workspace);
   }
 }
 
