@@ -40,7 +40,8 @@ bool PairQuery::start(const JointPath& path) {
     slid += joint.slid() + joint.speed;
     curved = curved || !joint.hasConstantRates();
   }
-  path_ = curved ? &path : nullptr;
+  // The SIMD tier linearizes any other path than a straight one in the same place.
+  path_ = curved || path.asStraight() == nullptr ? &path : nullptr;
   source_ = &path;
   return slid < kLargestNorm;
 }

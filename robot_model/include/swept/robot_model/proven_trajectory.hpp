@@ -29,10 +29,10 @@ struct ProvenTrajectory {
 /// free although all straight motions are, because a tube or a margin leaves no room for their
 /// proof in other pieces, the corners beside that place become stops.
 ///
-/// A straight part between two stops is proven as the motion is; motions along one line are one
-/// part, and what is left undecided then is asked again with smaller tolerances. So if every
-/// straight motion of the path is Free, the verdict is Free, too, unless one is so by less than a
-/// five-hundredth of CheckerOptions::tolerance. Throws
+/// A straight part between two stops is proven as the motion is. So if every straight motion of the
+/// path is Free, the verdict is Free, too, but for rounding, and but for motions along one line:
+/// these are one part, whose proof in a tube may end otherwise than theirs. What is left undecided
+/// then is asked again with smaller tolerances. Throws
 /// std::invalid_argument as timeParameterize() and Checker::certifyTrajectory() do, and for a world
 /// with moving obstacles, whose places depend on the times.
 ProvenTrajectory provenTrajectory(const Checker& checker, const ConfigurationList& wayPoints,
