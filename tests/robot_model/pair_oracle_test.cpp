@@ -8,13 +8,15 @@
 #include <limits>
 #include <optional>
 
+#include "kinematics/chord_path.hpp"
+#include "simd/kernels/simd_motion.hpp"
 #include "version_arms.hpp"
 
 namespace swept {
 namespace {
 
 /// A slide of 1 m, with balls in its way at 0.2, 0.5 and 0.8 m.
-std::shared_ptr<const detail::CheckerModel> slideBetweenBalls() {
+std::shared_ptr<const detail::CheckerModel> slideBetweenBalls(const CheckerOptions& options = {}) {
   const auto robot =
       Robot::parse("<robot name='slide'>" + test::urdfLink("base", {}) +
                        test::urdfLink("tip", {{test::sphere(0.05), {0, 0, 0}}}) +
@@ -27,7 +29,7 @@ std::shared_ptr<const detail::CheckerModel> slideBetweenBalls() {
   for (const double x : {0.2, 0.5, 0.8}) {
     world->add("ball at " + std::to_string(x), Sphere{0.03}, test::at(x, 0, 0));
   }
-  return detail::compileChecker(robot, *robot->findGroup("all"), world, {});
+  return detail::compileChecker(robot, *robot->findGroup("all"), world, options);
 }
 
 /// In whatever order they are found.
@@ -58,6 +60,28 @@ TEST(PairOracle, KeepsTheEarliestContact) {
     }
     EXPECT_EQ(effort.intervals, 9);
   } while (std::next_permutation(times.begin(), times.end()));
+}
+
+/// Single precision linearizes paths in the same place, and knows no tube there.
+TEST(PairQuery, HasTheRangesOfItsTubeAfterSinglePrecision) {
+  CheckerOptions options;
+  options.tracking.translation = 0.01;
+  const auto model = slideBetweenBalls(options);
+  detail::WorkspaceData workspace(*model);
+  const std::vector<double> from{0.3}, to{0.4};
+  const detail::ChordPath path(model->kinematics, from, to, 0.0);
+  detail::PairQuery query(*model, workspace);
+  ASSERT_TRUE(query.start(path));
+  detail::SimdMotion motion(model->simd, model->kinematics, path, workspace.motion, workspace.simd);
+  ASSERT_TRUE(motion.compile());
+  query.moveTo(0.5, 0.25);
+  const auto slide =
+      std::ranges::find(model->kinematics.bodies, JointType::Prismatic, &detail::MovingBody::type);
+  ASSERT_NE(slide, model->kinematics.bodies.end());
+  const detail::JointMotion& joint =
+      workspace.motion[static_cast<std::size_t>(slide - model->kinematics.bodies.begin())];
+  EXPECT_LE(joint.low, 0.29 + 1e-12);
+  EXPECT_GE(joint.high, 0.41 - 1e-12);
 }
 
 /// A box of 0.2 m on the base, and a ball of 0.1 m on a link that slides along x.
