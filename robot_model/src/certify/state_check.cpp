@@ -207,7 +207,7 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
   report.clearance = least.clearance;
   report.nearestA = least.bodyA;
   report.nearestB = least.bodyB;
-  // In a tube the SIMD tier may prove what exact geometry leaves open: its tables know all values.
+  // In a tube, checkState() proves what exact geometry alone leaves open: by tables, and by planes.
   if (!report.contacts.empty()) {
     report.verdict = Verdict::Collision;
   } else if (proven || (!model.tube.empty() &&
