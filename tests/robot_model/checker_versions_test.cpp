@@ -136,19 +136,6 @@ TEST(CheckerVersions, ChangedRulesAreThoseOfACheckerMadeWithThem) {
   EXPECT_EQ(verdictsOf(version, 3), verdictsOf(plain, 3));
 }
 
-TEST(CheckerVersions, AnotherToleranceIsThatOfACheckerMadeWithIt) {
-  const auto robot = parseArm(armUrdf({}));
-  const auto world = shared(test::clutter(25));
-  const Checker plain(robot, "all", world);
-  const Checker finer = plain.withTolerance(1e-5);
-  EXPECT_EQ(finer.options().tolerance, 1e-5);
-  EXPECT_EQ(plain.options().tolerance, CheckerOptions{}.tolerance);
-  agreementOf(finer, Checker(robot, "all", world, {.tolerance = 1e-5}), 300, 40)
-      .expectRepresentative(40);
-  EXPECT_EQ(messageOf([&] { plain.withTolerance(0.0); }),
-            "Checker: tolerance 0 m must be a finite number greater than zero");
-}
-
 TEST(CheckerVersions, AMeshInTheWorldIsShared) {
   std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}};
   const std::vector<TriangleMesh::Triangle> faces{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};

@@ -175,6 +175,21 @@ TEST(ChordPath, KnowsWhenTheCurveHasComeToAShare) {
 }
 
 /// Pieces of a curve that a change makes: a chord of so many.
+TEST(ChordPath, EndsWhereTheRobotStops) {
+  Random random(93);
+  const KinematicModel model = jointsSideBySide();
+  Straight straight = straightMotion(random, model.dimension, 4);
+  const auto endOf = [&](std::size_t first) {
+    return chordFrom(model, straight.curve(), first, 32).last;
+  };
+  ASSERT_EQ(endOf(0), 4U);
+  std::vector<double>& second = straight.shares[1];
+  second[second.size() - 2] = second.back();
+  EXPECT_EQ(endOf(0), 2U);
+  EXPECT_EQ(endOf(1), 2U);
+  EXPECT_EQ(endOf(2), 4U);
+}
+
 TEST(ChordPath, IsNoneWhereTheWayBendsOrTurnsBack) {
   Random random(93);
   KinematicModel model = jointsSideBySide();

@@ -131,6 +131,39 @@ TEST(TimingExtremes, StopWhereThePathTurnsBack) {
   EXPECT_FALSE(beside.corners[0].stops());
 }
 
+TEST(TimingExtremes, StopWhereTheyAreToldTo) {
+  const RateLimits limits = test::sameLimits(2, 2.0, 5.0, 50.0);
+  const VectorXd step{{0.3, 0.2}}, side{{0.0, 0.4}};
+  // 1 and 4 are on a line, 2 repeats, 5 is a corner.
+  const VectorXd start = VectorXd::Zero(2);
+  const WayPoints path{start,          start + step,     start + 2.0 * step,       start + 2.0 * step,
+                       start + 3.0 * step, start + 4.0 * step, start + 4.0 * step + side};
+  for (const bool jerkLimited : {false, true}) {
+    TimingOptions options;
+    options.jerkLimited = jerkLimited;
+    const auto stopsOf = [&](std::vector<std::size_t> stops) {
+      options.stops = std::move(stops);
+      const TimedPath timed = timedOf(path, limits, options);
+      std::vector<std::size_t> found;
+      for (const TimedCorner& corner : timed.corners) {
+        if (!corner.stops()) continue;
+        found.push_back(corner.wayPoint);
+        EXPECT_EQ(timed.curve.position(corner.begin), path[corner.wayPoint]);
+        EXPECT_EQ(timed.curve.velocity(corner.begin), VectorXd::Zero(2));
+      }
+      test::expectWellTimed(timed, path, limits, options);
+      return found;
+    };
+    using Indices = std::vector<std::size_t>;
+    EXPECT_EQ(stopsOf({}), Indices{});
+    EXPECT_EQ(stopsOf({5}), Indices{5});
+    EXPECT_EQ(stopsOf({4, 1}), (Indices{1, 4}));
+    // Of way points that repeat there is one stop; the ends are stops in any case.
+    EXPECT_EQ(stopsOf({2}), Indices{2});
+    EXPECT_EQ(stopsOf({3, 0, 6, 3}), Indices{2});
+  }
+}
+
 TEST(TimingExtremes, OfAPathThatStaysAreAMillisecond) {
   const VectorXd q{{0.5, -0.25}};
   for (const WayPoints& path : {WayPoints{q}, WayPoints{q, q, q}})
@@ -257,6 +290,10 @@ TEST(TimingExtremes, NameWhatIsNotAllowed) {
   options.accelerationScale = 0.0;
   EXPECT_EQ(of(path, limits, options),
             "timeParameterize: accelerationScale is 0, allowed is above 0 and at most 1");
+
+  options = {};
+  options.stops = {1, 3};
+  EXPECT_EQ(of(path, limits, options), "timeParameterize: stop 3 is no way point, there are 3");
 
   EXPECT_EQ(of({path[0], VectorXd{{1e10, 0.0}}}, limits),
             "timeParameterize: the trajectory takes 2^31 s or more, which no message carries");

@@ -22,14 +22,13 @@ TimedTrajectory timedTrajectory(const Checker& checker, ProvenTrajectory proven,
   TrajectoryQuery query;
   query.limits = limits;
   query.clearances = true;
-  const Checker same = checker.withTolerance(proven.tolerance);
-  Workspace workspace(same);
+  Workspace workspace(checker);
   TrajectoryReport report{
       .label = label,
       .points = path.trajectory.points.size(),
       .begin = path.curve.begin(),
       .end = path.curve.end(),
-      .certificate = same.certifyTrajectory(path.curve, workspace, query),
+      .certificate = checker.certifyTrajectory(path.curve, workspace, query),
       .timing =
           TimingReport{.blended = path.corners.size() - stops, .stops = stops, .seconds = seconds}};
   ShownTrajectory shown{label, std::move(path.curve), query, report.certificate, std::move(states)};

@@ -79,16 +79,6 @@ Checker::Checker(std::shared_ptr<const Robot> robot, std::string_view group,
 
 Checker::Checker(std::shared_ptr<const detail::CheckerModel> model) : model_(std::move(model)) {}
 
-Checker Checker::withTolerance(double tolerance) const {
-  if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return withTolerance(tolerance); });
-  }
-  CheckerOptions changed = options();
-  changed.tolerance = tolerance;
-  validate(robot(), changed);
-  return version(model_->world, std::move(changed));
-}
-
 detail::WorkspaceData& Checker::dataOf(Workspace& workspace) const {
   if (workspace.data_->version != model_->version)
     workspace.data_ = std::make_unique<detail::WorkspaceData>(*model_);

@@ -21,9 +21,6 @@ void requireStill(const Checker& checker, const char* function) {
                               "that are to be found");
 }
 
-/// Way points at which the robot stops, besides those that no blend is proven for.
-using Stops = std::set<std::size_t>;
-
 class Timing {
  public:
   Timing(const Checker& checker, const ConfigurationList& wayPoints, const RateLimits& limits,
@@ -32,75 +29,62 @@ class Timing {
         wayPoints_(wayPoints),
         limits_(limits),
         options_(options),
-        workspace_(checker) {}
+        workspace_(checker),
+        stops_(options.stops.begin(), options.stops.end()) {}
 
   ProvenTrajectory run() {
-    Stops stops;
-    ProvenTrajectory proven = timed(stops);
-    // Each round turns the blends beside a place into stops; there are only so many.
-    while (proven.certificate.verdict != Verdict::Free && addStops(proven, stops))
-      proven = timed(stops);
-    if (proven.certificate.verdict == Verdict::Undecided) decideFiner(proven);
+    ProvenTrajectory proven = timed();
+    // Each round adds stops beside a place; there are only so many.
+    while (proven.certificate.verdict != Verdict::Free && addStops(proven)) proven = timed();
     return proven;
   }
 
  private:
-  ProvenTrajectory timed(const Stops& stops) {
-    const BlendProver proves = [&](std::size_t wayPoint, const PiecewisePolynomial& blend) {
+  ProvenTrajectory timed() {
+    const BlendProver proves = [&](std::size_t, const PiecewisePolynomial& blend) {
       const TrajectoryQuery query{.contact = MotionQuery::VerdictOnly};
-      return !stops.contains(wayPoint) &&
-             checker_.certifyTrajectory(blend, workspace_, query).verdict == Verdict::Free;
+      return checker_.certifyTrajectory(blend, workspace_, query).verdict == Verdict::Free;
     };
+    options_.stops.assign(stops_.begin(), stops_.end());
     TimedPath path =
         timeParameterize(checker_.robot(), checker_.group(), wayPoints_, limits_, proves, options_);
-    TrajectoryCertificate certificate = certify(checker_, path.curve);
-    return {std::move(path), std::move(certificate), checker_.options().tolerance};
-  }
-
-  TrajectoryCertificate certify(const Checker& checker, const PiecewisePolynomial& curve) {
     TrajectoryQuery query;
     query.limits = limits_;
-    return checker.certifyTrajectory(curve, workspace_, query);
+    TrajectoryCertificate certificate = checker_.certifyTrajectory(path.curve, workspace_, query);
+    return {std::move(path), std::move(certificate)};
   }
 
-  /// Two motions along one line are one straight part, whose proof is another one than theirs.
-  /// Where both keep little more than the margin, it may take a smaller tolerance.
-  void decideFiner(ProvenTrajectory& proven) {
-    constexpr double kFiner = 1.0 / 8.0;
-    constexpr int kRounds = 3;
-    double tolerance = checker_.options().tolerance;
-    for (int round = 0; round < kRounds; ++round) {
-      tolerance *= kFiner;
-      TrajectoryCertificate found = certify(checker_.withTolerance(tolerance), proven.timed.curve);
-      if (found.verdict == Verdict::Undecided) continue;
-      proven.certificate = std::move(found);
-      proven.tolerance = tolerance;
-      return;
-    }
-  }
-
-  /// False: there is no blend beside the place that is not proven.
-  static bool addStops(const ProvenTrajectory& proven, Stops& stops) {
+  /// The blends beside the place become stops. Without any, the motion that it is in has been left
+  /// undecided: then way points that are on its line become stops, so that the motions between them
+  /// are proven one by one. False: nothing is left to do.
+  bool addStops(const ProvenTrajectory& proven) {
     const TrajectoryCertificate& found = proven.certificate;
     const double time = found.contact ? found.contact->time : found.undecided->time;
     const std::vector<TimedCorner>& corners = proven.timed.corners;
     // The corners of the straight part, or the blend, that the place is in.
     const auto after = std::ranges::find_if(
-        corners, [time](const TimedCorner& corner) { return corner.end >= time; });
+        corners, [time](const TimedCorner& corner) { return corner.end > time; });
+    const bool isFirst = after == corners.begin();
+    const bool isLast = after == corners.end();
     bool added = false;
     const auto add = [&](const TimedCorner& corner) {
-      if (!corner.stops()) added = stops.insert(corner.wayPoint).second || added;
+      if (!corner.stops()) added = stops_.insert(corner.wayPoint).second || added;
     };
-    if (after != corners.end()) add(*after);
-    if (after != corners.begin()) add(*std::prev(after));
+    if (!isLast) add(*after);
+    if (!isFirst) add(*std::prev(after));
+    if (added || found.verdict != Verdict::Undecided) return added;
+    const std::size_t begin = isFirst ? 0 : std::prev(after)->wayPoint;
+    const std::size_t end = isLast ? wayPoints_.size() - 1 : after->wayPoint;
+    for (std::size_t i = begin + 1; i < end; ++i) added = stops_.insert(i).second || added;
     return added;
   }
 
   const Checker& checker_;
   const ConfigurationList& wayPoints_;
   const RateLimits& limits_;
-  const TimingOptions& options_;
+  TimingOptions options_;
   Workspace workspace_;
+  std::set<std::size_t> stops_;  ///< indices of way points
 };
 
 /// Straight motions along a curve.

@@ -71,6 +71,13 @@ class Straightness {
   double deviation_ = 0.0;
 };
 
+/// Whether the robot is at rest at the end of a piece.
+bool stopsAfter(const PiecewisePolynomial& curve, std::size_t piece) {
+  const Eigen::MatrixXd& coefficients = curve.coefficients(piece);
+  const Eigen::Index last = curve.degree(piece);
+  return coefficients.col(last) == coefficients.col(last - 1);
+}
+
 /// Whether the joints can take part: see chordFrom().
 bool jointsTakePart(const KinematicModel& model, const PiecewisePolynomial& curve,
                     std::size_t piece) {
@@ -113,6 +120,7 @@ Chord chordFrom(const KinematicModel& model, const PiecewisePolynomial& curve, s
         !turnsLittle(model, curve, chord, chord.last) || !jointsTakePart(model, curve, chord.last))
       break;
     ++chord.last;
+    if (stopsAfter(curve, chord.last - 1)) break;
   }
   // All of them beside the motion to the last one's end.
   for (; chord.last > first; --chord.last) {

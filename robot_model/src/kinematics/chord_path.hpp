@@ -10,7 +10,8 @@
 namespace swept::detail {
 
 /// Consecutive pieces of a curve that lead along a straight motion, from the first one's begin to
-/// the last one's end, at any speed but never back.
+/// the last one's end, at any speed but never back. The robot stops nowhere in between, so pieces
+/// from one stop of a path to the next are proven as that motion is, whatever comes after it.
 struct Chord {
   std::size_t first = 0;
   std::size_t last = 0;    ///< one past the last piece; `first`: there is no such piece

@@ -38,7 +38,7 @@ class BlendLengths {
     std::vector<double> speeds(speeds_.parts() + 1);
     for (std::size_t corner = 1; corner < speeds_.parts(); ++corner) {
       const CornerShape& shape = speeds_.shape(corner);
-      if (shape.turnsBack()) continue;
+      if (shape.mustStop()) continue;
       const double fastest =
           std::min(path_.straight[corner - 1].speed, path_.straight[corner].speed);
       const CornerBlend blend = equalBlend(corner, fastest);

@@ -25,8 +25,9 @@ CornerShape::CornerShape(const WayPointPath& path, std::size_t corner)
     : path_(&path),
       corner_(static_cast<Eigen::Index>(corner)),
       turn_((path.directions.col(corner_) - path.directions.col(corner_ - 1)).norm()),
-      turnsBack_((path.directions.col(corner_) + path.directions.col(corner_ - 1)).norm() <=
-                 kOpposite) {}
+      mustStop_(path.stops[corner] != 0 ||
+                (path.directions.col(corner_) + path.directions.col(corner_ - 1)).norm() <=
+                    kOpposite) {}
 
 // Lemma: with A = before f(1 - u) and B = after f(u), the point w - A d1 + B d2 is min(A, B) |d2 -
 // d1| from a point of the straight parts, and so is a point of these from it. The minimum is

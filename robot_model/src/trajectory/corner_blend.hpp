@@ -27,8 +27,8 @@ class CornerShape {
  public:
   CornerShape(const WayPointPath& path, std::size_t corner);
 
-  /// Whether the path turns back: then the robot must stop.
-  bool turnsBack() const { return turnsBack_; }
+  /// Whether the robot must stop: where it is told to, or the path turns back.
+  bool mustStop() const { return mustStop_; }
   /// rad or m. Bounds the distance of each point of the blend from the straight parts, and of each
   /// point of these from blend and straight parts that are left.
   double deviation(const CornerBlend& blend) const;
@@ -44,7 +44,7 @@ class CornerShape {
   const WayPointPath* path_;
   Eigen::Index corner_;
   double turn_;  ///< length of the difference of the directions
-  bool turnsBack_;
+  bool mustStop_;
 };
 
 }  // namespace swept::detail

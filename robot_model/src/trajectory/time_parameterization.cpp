@@ -105,6 +105,17 @@ void requireWayPoints(const ConfigurationList& wayPoints, const GroupVariables& 
   }
 }
 
+/// Whether the robot must stop at each way point.
+std::vector<char> stopsOf(const TimingOptions& options, std::size_t wayPoints) {
+  std::vector<char> result(wayPoints, 0);
+  for (const std::size_t stop : options.stops) {
+    requireTiming(stop < wayPoints, "stop " + std::to_string(stop) + " is no way point, there are " +
+                                        std::to_string(wayPoints));
+    result[stop] = 1;
+  }
+  return result;
+}
+
 /// The trajectory that stays.
 std::vector<TrajectoryPoint> stayingPoints(ConfigurationView q, bool ramps) {
   constexpr double kStay = 1e-3;  // s
@@ -153,7 +164,8 @@ TimedPath timeParameterize(const Robot& robot, const Group& group,
   requireWayPoints(wayPoints, variables);
   const detail::WayPointPath path =
       detail::straightParts(detail::continuousPoints(wayPoints, variables.cyclic),
-                            detail::withSlack(whole), variables.names);
+                            stopsOf(options, wayPoints.size()), detail::withSlack(whole),
+                            variables.names);
   if (path.parts() > 0)
     return timedMotion(path, variables.names, whole, proves, options.blendDeviation);
   JointTrajectory trajectory{variables.names, stayingPoints(wayPoints[0], whole.ramps)};

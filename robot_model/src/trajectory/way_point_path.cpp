@@ -19,15 +19,23 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 /// value. Rounding puts points of a line that far off; the path is nearer than 1e-12 then.
 constexpr double kOnPath = 0x1p-42;
 
+/// A way point of the path.
+struct KeptPoint {
+  std::size_t index = 0;  ///< among all
+  bool stops = false;
+};
+
 /// Chooses the way points to keep, from the first on.
 class PointFilter {
  public:
-  explicit PointFilter(const Eigen::MatrixXd& points)
-      : points_(points), tolerance_(kOnPath * std::max(1.0, points.cwiseAbs().maxCoeff())) {}
+  PointFilter(const Eigen::MatrixXd& points, const std::vector<char>& stops)
+      : points_(points),
+        stops_(stops),
+        tolerance_(kOnPath * std::max(1.0, points.cwiseAbs().maxCoeff())) {}
 
-  std::vector<std::size_t> kept() {
+  std::vector<KeptPoint> kept() {
     const auto count = static_cast<std::size_t>(points_.cols());
-    kept_ = {0};
+    kept_ = {{0, false}};
     for (std::size_t i = 1; i < count; ++i) take(i, i + 1 == count);
     return std::move(kept_);
   }
@@ -36,25 +44,27 @@ class PointFilter {
   auto point(std::size_t i) const { return points_.col(static_cast<Eigen::Index>(i)); }
 
   void take(std::size_t i, bool isLast) {
-    if ((point(i) - point(kept_.back())).norm() <= tolerance_) {
+    KeptPoint& last = kept_.back();
+    if ((point(i) - point(last.index)).norm() <= tolerance_) {
+      last.stops = last.stops || stops_[i] != 0;
       if (!isLast) return;
       // The path ends exactly where it should.
       if (kept_.size() > 1)
-        kept_.back() = i;
+        last.index = i;
       else if (point(i) != point(0))
-        kept_.push_back(i);
+        kept_.push_back({i, false});
       return;
     }
-    if (kept_.size() > 1) {
-      const double off = offLine(kept_[kept_.size() - 2], kept_.back(), i);
+    if (kept_.size() > 1 && !last.stops) {
+      const double off = offLine(kept_[kept_.size() - 2].index, last.index, i);
       if (leftOut_ + off <= tolerance_) {
         leftOut_ += off;
-        kept_.back() = i;
+        last = {i, stops_[i] != 0};
         return;
       }
     }
     leftOut_ = 0.0;
-    kept_.push_back(i);
+    kept_.push_back({i, stops_[i] != 0});
   }
 
   /// The distance of a point from the straight part between two others.
@@ -67,8 +77,9 @@ class PointFilter {
   }
 
   const Eigen::MatrixXd& points_;
+  const std::vector<char>& stops_;
   double tolerance_;
-  std::vector<std::size_t> kept_;
+  std::vector<KeptPoint> kept_;
   /// Bounds how far the way points left out since the last but one are off: each line is turned
   /// against the one before by no more than the end of that one is off it.
   double leftOut_ = 0.0;
@@ -113,11 +124,14 @@ VariableLimits withSlack(const VariableLimits& limits) {
   return result;
 }
 
-WayPointPath straightParts(const Eigen::MatrixXd& points, const VariableLimits& limits,
-                           const std::vector<std::string>& names) {
+WayPointPath straightParts(const Eigen::MatrixXd& points, const std::vector<char>& stops,
+                           const VariableLimits& limits, const std::vector<std::string>& names) {
   WayPointPath path;
   path.variables = limits;
-  path.indices = PointFilter(points).kept();
+  for (const KeptPoint& kept : PointFilter(points, stops).kept()) {
+    path.indices.push_back(kept.index);
+    path.stops.push_back(kept.stops);
+  }
   path.points.resize(points.rows(), static_cast<Eigen::Index>(path.indices.size()));
   for (std::size_t i = 0; i < path.indices.size(); ++i)
     path.points.col(static_cast<Eigen::Index>(i)) =

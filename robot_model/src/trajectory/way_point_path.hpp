@@ -28,10 +28,11 @@ inline constexpr double kSlack = 1e-6, kRampSlack = 1e-4;
 /// need one of these, and the rounding of positions, velocities and differences of times the rest.
 VariableLimits withSlack(const VariableLimits& limits);
 
-/// Straight parts between the way points at which a path turns. Lengths are Euclidean (rad or m).
+/// Straight parts between the way points at which a path turns or stops. Lengths are Euclidean (rad or m).
 struct WayPointPath {
   Eigen::MatrixXd points;                ///< a column for each way point that is kept
   std::vector<std::size_t> indices;      ///< of these among all
+  std::vector<char> stops;               ///< whether the robot stops at each of these
   Eigen::MatrixXd directions;            ///< of unit length, a column for each straight part
   std::vector<double> lengths;           ///< of the straight parts, positive
   std::vector<StraightLimits> straight;  ///< along each straight part
@@ -44,10 +45,11 @@ struct WayPointPath {
 Eigen::MatrixXd continuousPoints(const ConfigurationList& wayPoints,
                                  const std::vector<char>& cyclic);
 
-/// Leaves out way points that repeat, and those on the line between their neighbours. A path that
-/// does not move has no parts. Throws std::invalid_argument for a variable of `names` that moves
+/// Leaves out way points that repeat, and those on the line between their neighbours where the
+/// robot need not stop. `stops`: whether it must, of each way point. A path that does not move has
+/// no parts. Throws std::invalid_argument for a variable of `names` that moves
 /// without a limit, and for lengths that are not finite.
-WayPointPath straightParts(const Eigen::MatrixXd& points, const VariableLimits& limits,
-                           const std::vector<std::string>& names);
+WayPointPath straightParts(const Eigen::MatrixXd& points, const std::vector<char>& stops,
+                           const VariableLimits& limits, const std::vector<std::string>& names);
 
 }  // namespace swept::detail

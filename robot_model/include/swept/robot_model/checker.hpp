@@ -160,9 +160,6 @@ class Checker {
   /// takes as long as the constructor. Throws as the constructor does.
   Checker withTracking(TrackingTolerance tracking) const;
 
-  /// The same checks with another CheckerOptions::tolerance (m). Throws as the constructor does.
-  Checker withTolerance(double tolerance) const;
-
   /// An attached body at its pose in a configuration, as a body of the world: the object that a
   /// gripper releases. Throws std::invalid_argument for an unknown name, and for a configuration in
   /// which no pose is known (see checkState).

@@ -21,20 +21,18 @@ struct ProvenTrajectory {
   TimedPath timed;  ///< the trajectory, its curve and its corners
   /// Of `timed.curve`, with MotionQuery::FirstContact and the limits that it was timed with.
   TrajectoryCertificate certificate;
-  double tolerance = 0.0;  ///< m, of the certificate: that of the checker, or a smaller one
 };
 
 /// Times a path with timeParameterize(), where each blend is the largest that is proven free, and
 /// proves the whole curve. CheckerOptions::tracking is the tube around it. Where the curve is not
 /// free although all straight motions are, because a tube or a margin leaves no room for their
-/// proof in other pieces, the corners beside that place become stops.
+/// proof in other pieces, the corners beside that place become stops, and if need be way points on
+/// the line between their neighbours.
 ///
 /// A straight part between two stops is proven as the motion is. So if every straight motion of the
-/// path is Free, the verdict is Free, too, but for rounding, and but for motions along one line:
-/// these are one part, whose proof in a tube may end otherwise than theirs. What is left undecided
-/// then is asked again with smaller tolerances. Throws
-/// std::invalid_argument as timeParameterize() and Checker::certifyTrajectory() do, and for a world
-/// with moving obstacles, whose places depend on the times.
+/// path is Free, the verdict is Free, too, but for rounding. Throws std::invalid_argument as
+/// timeParameterize() and Checker::certifyTrajectory() do, and for a world with moving obstacles,
+/// whose places depend on the times.
 ProvenTrajectory provenTrajectory(const Checker& checker, const ConfigurationList& wayPoints,
                                   const RateLimits& limits, const TimingOptions& options = {});
 

@@ -24,6 +24,9 @@ struct TimingOptions {
   /// Whether the acceleration is continuous and limits of jerks hold too. If not, accelerations
   /// jump.
   bool jerkLimited = false;
+  /// Indices of way points at which the robot stops, in any order. Such a way point is a corner,
+  /// even if it is on the line between its neighbours.
+  std::vector<std::size_t> stops = {};
 };
 
 /// Whether a blend may be driven: a callback, for example a proof that it is free of collision. The
@@ -31,7 +34,7 @@ struct TimingOptions {
 /// its shape does not depend on its speed.
 using BlendProver = std::function<bool(std::size_t wayPoint, const PiecewisePolynomial& blend)>;
 
-/// A way point at which the path turns, and what was made of it.
+/// A way point at which the path turns or stops, and what was made of it.
 struct TimedCorner {
   std::size_t wayPoint = 0;  ///< its index
   double before = 0.0;     ///< rad or m, from where the blend begins to the way point; 0: no blend
@@ -58,7 +61,7 @@ struct TimedPath {
 /// of velocity and acceleration at every instant, roundings of the trajectory's numbers included. A
 /// corner where the path turns back, and one where `proves` accepts no blend, is a stop. Way points
 /// that repeat or lie on the line between their neighbours (to within 1e-12 of the larger of 1 and
-/// the largest value) are left out. A path that does not move stays for a millisecond. All times
+/// the largest value) are left out, but for TimingOptions::stops. A path that does not move stays for a millisecond. All times
 /// are whole nanoseconds, as messages of ROS carry them.
 ///
 /// Blends: at each corner the joint acceleration is constant, so the blend is a parabola that
@@ -79,7 +82,7 @@ struct TimedPath {
 ///
 /// Throws std::invalid_argument, with the variable's name: for no way point; values or limits of
 /// the wrong number; values that are not finite; limits that are not above 0; an option that is not
-/// as above; a variable that moves and has no limit of velocity or acceleration (or jerk, with
+/// as above; a stop that is no way point; a variable that moves and has no limit of velocity or acceleration (or jerk, with
 /// `jerkLimited`); an orientation of a floating joint that changes, since a slerp is no polynomial;
 /// and a trajectory of 2^31 s or more, which no message carries.
 TimedPath timeParameterize(const Robot& robot, const Group& group,
