@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -209,6 +210,34 @@ TEST(Oracle, MeshOfABoxBehavesAsTheBox) {
   EXPECT_GT(hits, 900);
   EXPECT_LT(hits, 2400);
   EXPECT_GT(enclosed, 300);
+}
+
+/// What is read from a file has corners in single precision.
+TEST(Oracle, ShallowOverlapsOfMeshesOfFilesAreNotSure) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "oracle_cube.obj";
+  {
+    std::ofstream out(file);
+    for (const Vector3d& p : cubeCorners(0.3))
+      out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    for (const auto& f : kCubeFaces)
+      out << "f " << f[0] + 1 << ' ' << f[1] + 1 << ' ' << f[2] + 1 << '\n';
+  }
+  const Piece mesh(std::make_shared<Mesh>(Mesh::read(file, Vector3d::Ones())));
+  const double off = mesh.mesh->rounding();
+  EXPECT_GT(off, 1e-8);
+  EXPECT_LT(off, 1e-6);
+  const Piece ball(Sphere{0.1}), sharp(cube(0.1));
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Piece* other : {&ball, &sharp}) {
+      const auto at = [&](double depth) {
+        return Isometry3d(Eigen::Translation3d((0.4 - depth) * Vector3d::Unit(axis)));
+      };
+      EXPECT_FALSE(overlap(mesh, *other, at(-2.0 * off)));
+      EXPECT_TRUE(overlap(mesh, *other, at(off)));
+      EXPECT_FALSE(surelyOverlap(mesh, *other, at(off)));
+      EXPECT_FALSE(surelyOverlap(*other, mesh, at(off).inverse()));
+      EXPECT_TRUE(surelyOverlap(mesh, *other, at(3.0 * off)));
+    }
 }
 
 TEST(Oracle, CracksAndFoldsLeaveASolid) {

@@ -26,6 +26,7 @@ class Oracle {
     std::string bodyA, bodyB;  ///< empty: nothing overlaps
     explicit operator bool() const { return !bodyA.empty(); }
   };
+  /// Bodies that overlap wherever rounding has put the corners of meshes (surelyOverlap()).
   Hit hit(const std::vector<double>& q) const;
   /// Least distance over the checked pairs; at least `enough` in both values when it is larger.
   Gap clearance(const std::vector<double>& q, double enough) const;

@@ -94,6 +94,11 @@ bool holdsPartOf(const Mesh& a, const Mesh& b, const Isometry3d& a_from_b) {
                      [&](const Vector3d& p) { return a.encloses(a_from_b * p); });
 }
 
+/// m, by how much both pieces may be off.
+double rounding(const Piece& a, const Piece& b) {
+  return (a.mesh ? a.mesh->rounding() : 0.0) + (b.mesh ? b.mesh->rounding() : 0.0);
+}
+
 struct Least {
   Gap gap;
   void add(const Gap& other) {
@@ -132,14 +137,26 @@ bool overlap(const Piece& a, const Piece& b, const Isometry3d& a_from_b) {
          holdsPartOf(*b.mesh, *a.mesh, a_from_b.inverse());
 }
 
+/// Displacements that keep two convex solids overlapping are a convex set. It has the ball of
+/// radius `off` if it has this octahedron's corners. Solids that are not convex are nearly so, as
+/// that ball is tiny.
+bool surelyOverlap(const Piece& a, const Piece& b, const Isometry3d& a_from_b) {
+  if (!overlap(a, b, a_from_b)) return false;
+  const double off = rounding(a, b);
+  if (off == 0.0) return true;
+  const double corner = std::sqrt(3.0) * off;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-corner, corner})
+      if (!overlap(a, b, Eigen::Translation3d(side * Vector3d::Unit(axis)) * a_from_b))
+        return false;
+  return true;
+}
+
 Gap gap(const Piece& a, const Piece& b, const Isometry3d& a_from_b, double enough) {
   if (!a.mesh && b.mesh) return gap(b, a, a_from_b.inverse(), enough);
   if (!BoxFilter(a_from_b).near(a.boxCenter, a.boxHalf, b.boxCenter, b.boxHalf, enough))
     return {enough, enough};
-  const auto rounding = [](const Piece& piece) {
-    return piece.mesh ? piece.mesh->rounding() : 0.0;
-  };
-  const double off = rounding(a) + rounding(b);
+  const double off = rounding(a, b);
   if (overlap(a, b, a_from_b)) return {0.0, off};
   if (!a.mesh) return gap(a.primitive, b.primitive, a_from_b);
   Least least{{enough, enough}};

@@ -30,6 +30,9 @@ struct Body {
 
 /// Whether the solids share a point.
 bool overlap(const Piece& a, const Piece& b, const Isometry3d& a_from_b);
+/// Whether they share one wherever rounding has put the corners of meshes of files
+/// (Mesh::rounding).
+bool surelyOverlap(const Piece& a, const Piece& b, const Isometry3d& a_from_b);
 /// The distance, or two values of about `enough` (m) when it is larger; with what meshes of files
 /// are off (Mesh::rounding).
 Gap gap(const Piece& a, const Piece& b, const Isometry3d& a_from_b, double enough);
