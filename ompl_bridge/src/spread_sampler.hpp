@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/StateSampler.h>
+#include <ompl/base/StateSpace.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace swept::detail {
+
+/// Draws states that are spread evenly: a low-discrepancy sequence, uniform in the measure of the
+/// space. In the unit cube each step adds the square roots of the first primes, modulo 1 (R.
+/// Richtmyer, The evaluation of definite integrals, and a quasi-Monte-Carlo method based on the
+/// properties of algebraic numbers, 1951). Spaces may consist of real vectors, SO(2) and SO(3); of
+/// others, the space's own sampler draws.
+class SpreadSampler {
+ public:
+  SpreadSampler(const ompl::base::StateSpacePtr& space, std::uint32_t seed);
+
+  void sample(ompl::base::State* state);
+
+ private:
+  bool addDimensions(const ompl::base::StateSpace& space);
+  void place(const ompl::base::StateSpace& space, ompl::base::State* state, std::size_t& at) const;
+
+  ompl::base::StateSpacePtr space_;
+  ompl::base::StateSamplerPtr others_;  ///< null: the sequence draws
+  std::size_t dimensions_ = 0;
+  std::vector<double> steps_;
+  std::vector<double> place_;  ///< in the unit cube
+};
+
+}  // namespace swept::detail
