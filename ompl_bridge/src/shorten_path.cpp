@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ompl/base/SpaceInformation.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "swept/core/floating_point_environment.hpp"
+#include "swept/ompl_bridge/paths.hpp"
+
+namespace swept {
+
+namespace {
+
+namespace ob = ompl::base;
+
+class Shortening {
+ public:
+  explicit Shortening(ompl::geometric::PathGeometric& path)
+      : path_(path), states_(path.getStates()), si_(path.getSpaceInformation().get()) {
+    for (ob::State*& state : cut_) state = si_->allocState();
+    for (ob::State*& state : best_) state = si_->allocState();
+  }
+  ~Shortening() {
+    for (ob::State* state : cut_) si_->freeState(state);
+    for (ob::State* state : best_) si_->freeState(state);
+  }
+  Shortening(const Shortening&) = delete;
+  Shortening& operator=(const Shortening&) = delete;
+
+  void run(const ShorteningOptions& options) {
+    joinFarthest();
+    if (states_.size() < 3) return;
+    const ompl::geometric::PathGeometric joined(path_);
+    asked_.assign(states_.size() - 1, true);
+    double length = path_.length();
+    for (int round = 0; round < options.rounds; ++round) {
+      const double gain = cutCorners();
+      length -= gain;
+      if (gain < options.leastGain * length) break;
+    }
+    // Part of a motion that is proven need not be proven by itself, right beside a contact.
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+      if (asked_[i] || si_->checkMotion(states_[i], states_[i + 1])) continue;
+      path_ = joined;
+      return;
+    }
+  }
+
+ private:
+  /// The states between two that are joined are left out.
+  void joinFarthest() {
+    for (std::size_t i = 0; i + 2 < states_.size(); ++i) {
+      for (std::size_t j = states_.size() - 1; j > i + 1; --j) {
+        if (!si_->checkMotion(states_[i], states_[j])) continue;
+        const auto begin = states_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+        const auto end = states_.begin() + static_cast<std::ptrdiff_t>(j);
+        std::for_each(begin, end, [this](ob::State* state) { si_->freeState(state); });
+        states_.erase(begin, end);
+        break;
+      }
+    }
+  }
+
+  /// What the path is shorter by.
+  double cutCorners() {
+    double gain = 0.0;
+    for (std::size_t i = 1; i + 1 < states_.size(); ++i) {
+      const double own = cut(i);
+      gain += own;
+      if (own > 0.0) ++i;  // two corners
+    }
+    return gain;
+  }
+
+  double cut(std::size_t corner) {
+    constexpr int kTries = 2;
+    const double before = si_->distance(states_[corner - 1], states_[corner]);
+    const double after = si_->distance(states_[corner], states_[corner + 1]);
+    const double shorter = std::min(before, after);
+    if (!(shorter > 0.0)) return 0.0;
+    double free = 0.0, refused = 1.0;
+    for (int i = 0; i < kTries; ++i) {
+      const double share = 0.5 * (free + refused);
+      const ob::StateSpace& space = *si_->getStateSpace();
+      space.interpolate(states_[corner], states_[corner - 1], share * shorter / before, cut_[0]);
+      space.interpolate(states_[corner], states_[corner + 1], share * shorter / after, cut_[1]);
+      if (si_->checkMotion(cut_[0], cut_[1])) {
+        free = share;
+        std::swap(cut_, best_);
+      } else {
+        refused = share;
+      }
+    }
+    if (free == 0.0) return 0.0;
+    const double gain = 2.0 * free * shorter - si_->distance(best_[0], best_[1]);
+    if (!(gain > 0.0)) return 0.0;
+    const auto at = static_cast<std::ptrdiff_t>(corner);
+    si_->copyState(states_[corner], best_[0]);
+    states_.insert(states_.begin() + at + 1, si_->cloneState(best_[1]));
+    asked_[corner - 1] = asked_[corner] = false;
+    asked_.insert(asked_.begin() + at, true);
+    return gain;
+  }
+
+  ompl::geometric::PathGeometric& path_;
+  std::vector<ob::State*>& states_;
+  const ob::SpaceInformation* si_;
+  std::vector<bool> asked_;               ///< whether each motion of the path has been
+  std::array<ob::State*, 2> cut_, best_;  ///< the ends of a cut
+};
+
+}  // namespace
+
+void shortenPath(ompl::geometric::PathGeometric& path, const ShorteningOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { shortenPath(path, options); });
+  }
+  Shortening(path).run(options);
+}
+
+}  // namespace swept
