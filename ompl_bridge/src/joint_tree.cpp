@@ -22,8 +22,8 @@ const double* valuesOf(const ompl::base::State* state) {
   return state->as<JointSpace::StateType>()->values;
 }
 
-float squaredToBox(const std::vector<float>& box, const std::vector<float>& point) {
-  const std::size_t dimension = point.size();
+float squaredToBox(const std::vector<float>& box, const float* point) {
+  const std::size_t dimension = box.size() / 2;
   float sum = 0.0F;
   for (std::size_t d = 0; d < dimension; ++d) {
     const float below = box[d] - point[d], above = point[d] - box[dimension + d];
@@ -51,7 +51,7 @@ class JointTree::Cells::Walk {
  protected:
   ~Walk() = default;
 
-  void run() { visit(0, squaredToBox(tree_.cells_[0].box, point_)); }
+  void run() { visit(0, squaredToBox(tree_.cells_[0].box, point_.data())); }
 
   /// No point nearer than `distance` has a squared distance above this.
   float limitOf(double distance) const {
@@ -76,8 +76,8 @@ class JointTree::Cells::Walk {
     const Cell& cell = tree_.cells_[index];
     if (cell.children == 0) return lookInto(cell);
     const std::size_t first = cell.children, second = first + 1;
-    const float toFirst = squaredToBox(tree_.cells_[first].box, point_);
-    const float toSecond = squaredToBox(tree_.cells_[second].box, point_);
+    const float toFirst = squaredToBox(tree_.cells_[first].box, point_.data());
+    const float toSecond = squaredToBox(tree_.cells_[second].box, point_.data());
     const bool below =
         toFirst < toSecond ||
         (toFirst == toSecond && point_[static_cast<std::size_t>(cell.axis)] < cell.middle);
@@ -98,7 +98,7 @@ class JointTree::Cells::Walk {
   }
 
   const Cells& tree_;
-  std::vector<float> point_;
+  Point point_;
   std::array<float, kLeaf> squared_;
   double absolute_ = 0.0, relative_ = 1.0;
 };
@@ -128,7 +128,6 @@ class JointTree::Cells::NearestSearch final : Walk {
   NearestSearch(const Cells& tree, const double* values) : Walk(tree, values) {}
 
   void run(std::vector<std::uint32_t>& nearest) {
-    found_.reserve(kUsual);
     Walk::run();
     for (const auto& [squared, index] : found_) {
       if (squared <= limit_) nearest.push_back(index);
@@ -145,14 +144,14 @@ class JointTree::Cells::NearestSearch final : Walk {
     }
   }
 
-  std::vector<std::pair<float, std::uint32_t>> found_;
+  boost::container::small_vector<std::pair<float, std::uint32_t>, kUsual> found_;
 };
 
 JointTree::Cells::Cells(const JointSpace& space)
     : space_(&space), dimension_(space.getDimension()), cells_{leaf()} {}
 
-std::vector<float> JointTree::Cells::weighted(const double* values) const {
-  std::vector<float> point(dimension_);
+JointTree::Cells::Point JointTree::Cells::weighted(const double* values) const {
+  Point point(dimension_);
   for (std::size_t d = 0; d < dimension_; ++d) {
     const double value = space_->weights()[d] * values[d];
     const bool finite = std::isfinite(value);
@@ -185,7 +184,7 @@ void JointTree::Cells::put(Cell& leaf, const float* point, std::uint32_t index) 
 }
 
 void JointTree::Cells::add(const double* values, std::uint32_t index) {
-  const std::vector<float> point = weighted(values);
+  const Point point = weighted(values);
   for (const float x : point) largest_ = std::max(largest_, std::abs(x));
   std::size_t at = 0;
   while (cells_[at].children != 0) {
@@ -238,7 +237,7 @@ void JointTree::Cells::divide(std::size_t index) {
 }
 
 void JointTree::Cells::remove(const double* values, std::uint32_t index) {
-  const std::vector<float> point = weighted(values);
+  const Point point = weighted(values);
   std::size_t at = 0;
   while (cells_[at].children != 0) {
     const Cell& cell = cells_[at];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,11 +33,13 @@ class JointTree::Cells {
     float middle = 0.0F;         ///< the first child is below it, the second from it on
     std::uint32_t children = 0;  ///< the first of two; 0: a leaf
   };
+  /// Most robots' states need no memory of the heap.
+  using Point = boost::container::small_vector<float, 16>;
   class Walk;
   class Search;
   class NearestSearch;
 
-  std::vector<float> weighted(const double* values) const;
+  Point weighted(const double* values) const;
   Cell leaf() const;
   void put(Cell& leaf, const float* point, std::uint32_t index) const;
   float coordinate(const Cell& leaf, std::size_t i, std::size_t axis) const;
