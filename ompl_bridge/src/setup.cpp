@@ -26,7 +26,9 @@ class Setup final : public ompl::geometric::SimpleSetup {
     inDefaultEnvironment([this] { SimpleSetup::setup(); });
   }
   ompl::base::PlannerStatus solve(double time) override {
-    return inDefaultEnvironment([&] { return SimpleSetup::solve(time); });
+    // OMPL's own starts a thread to look at the clock, which takes as long as a quick plan.
+    return inDefaultEnvironment(
+        [&] { return SimpleSetup::solve(ompl::base::timedPlannerTerminationCondition(time)); });
   }
   ompl::base::PlannerStatus solve(
       const ompl::base::PlannerTerminationCondition& condition) override {
