@@ -29,7 +29,7 @@ constexpr double kFirstRadius = 4.0, kRadiusChange = 1e-4, kLeastRadius = 1.0;
 constexpr std::size_t kBalance = 2;
 
 /// Goals that are taken at once, if there are so many; later ones as their tree grows.
-constexpr unsigned kFirstGoals = 4;
+constexpr std::size_t kFirstGoals = 4;
 
 }  // namespace
 
@@ -108,12 +108,12 @@ bool CertifiedConnect::isAllowed(const Meeting& meeting) const {
   return pdef_->getGoal()->isStartGoalPairValid(rootOf(meeting.start), rootOf(meeting.goal));
 }
 
-/// Takes goals as long as there are more, and few were taken. Tries the motion from the nearest
-/// start to each; returns whether one is free.
-bool CertifiedConnect::takeGoals(const ob::PlannerTerminationCondition& ptc, Meeting& meeting) {
+/// Takes goals up to a number, if there are more. Tries the motion from the nearest start to each;
+/// returns whether one is free.
+bool CertifiedConnect::takeGoals(const ob::PlannerTerminationCondition& ptc, std::size_t wanted,
+                                 Meeting& meeting) {
   Tree& goals = trees_[kGoal];
-  while (pis_.getSampledGoalsCount() < kFirstGoals ||
-         pis_.getSampledGoalsCount() < goals.nodes.size() / 2) {
+  while (goals.nodes.size() == 0 || pis_.getSampledGoalsCount() < wanted) {
     const ob::State* state = goals.nodes.size() == 0 ? pis_.nextGoal(ptc) : pis_.nextGoal();
     if (state == nullptr) return false;
     Node* const goal = add(goals, state, nullptr);
@@ -229,17 +229,32 @@ ob::PlannerStatus CertifiedConnect::solve(const ob::PlannerTerminationCondition&
     OMPL_ERROR("%s: Insufficient states in sampleable goal region", getName().c_str());
     return ob::PlannerStatus::INVALID_GOAL;
   }
+  OMPL_INFORM("%s: Starting planning with %u states already in datastructure", getName().c_str(),
+              static_cast<unsigned>(nodes_.size()));
+  const ob::PlannerStatus status = search(ptc);
+  OMPL_INFORM("%s: Created %u states (%u start + %u goal)", getName().c_str(),
+              static_cast<unsigned>(nodes_.size()),
+              static_cast<unsigned>(trees_[kStart].nodes.size()),
+              static_cast<unsigned>(trees_[kGoal].nodes.size()));
+  return status;
+}
+
+ob::PlannerStatus CertifiedConnect::search(const ob::PlannerTerminationCondition& ptc) {
+  const Tree& goals = trees_[kGoal];
+  std::size_t wanted = kFirstGoals;
   while (!ptc) {
     Meeting meeting;
-    bool met = takeGoals(ptc, meeting);
-    if (trees_[kGoal].nodes.size() == 0) {
+    bool met = takeGoals(ptc, wanted, meeting);
+    if (goals.nodes.size() == 0) {
       OMPL_ERROR("%s: Unable to sample any valid states for goal tree", getName().c_str());
       return ptc ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
     }
     met = met || grow(meeting);
-    if (!met) continue;
-    addSolution(meeting);
-    return ob::PlannerStatus::EXACT_SOLUTION;
+    if (met) {
+      addSolution(meeting);
+      return ob::PlannerStatus::EXACT_SOLUTION;
+    }
+    wanted = goals.nodes.size() / 2;
   }
   return addApproximation() ? ob::PlannerStatus::APPROXIMATE_SOLUTION : ob::PlannerStatus::TIMEOUT;
 }

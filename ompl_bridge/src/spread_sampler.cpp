@@ -18,6 +18,9 @@ namespace ob = ompl::base;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
+/// The first numbers of neighbouring seeds are neighbours.
+constexpr unsigned long long kWarmUp = 16;
+
 /// The least prime above a number.
 int nextPrime(int number) {
   for (;;) {
@@ -40,32 +43,45 @@ void rotate(const double* u, ob::SO3StateSpace::StateType& state) {
 
 }  // namespace
 
-SpreadSampler::SpreadSampler(const ob::StateSpacePtr& space, std::uint32_t seed) : space_(space) {
-  if (!addDimensions(*space)) {
+SpreadSampler::SpreadSampler(const ob::StateSpacePtr& space, std::uint32_t seed) {
+  std::vector<unsigned> where;
+  if (!addParts(*space, where)) {
     others_ = space->allocStateSampler();
     return;
   }
-  std::mt19937 random(seed);
+  std::minstd_rand random(seed);
+  random.discard(kWarmUp);
   std::uniform_real_distribution<double> anywhere;
   int prime = 1;
-  for (std::size_t i = 0; i < dimensions_; ++i) {
+  for (std::size_t i = 0; i < place_.size(); ++i) {
     prime = nextPrime(prime);
     const double root = std::sqrt(static_cast<double>(prime));
     steps_.push_back(root - std::floor(root));
-    place_.push_back(anywhere(random));
+    place_[i] = anywhere(random);
   }
 }
 
-bool SpreadSampler::addDimensions(const ob::StateSpace& space) {
-  if (dynamic_cast<const ob::RealVectorStateSpace*>(&space) != nullptr) {
-    dimensions_ += space.getDimension();
+bool SpreadSampler::addParts(const ob::StateSpace& space, std::vector<unsigned>& where) {
+  const auto add = [&](Part::Kind kind, std::size_t dimensions) -> Part& {
+    place_.resize(place_.size() + dimensions);
+    return parts_.emplace_back(Part{kind, where, {}, {}});
+  };
+  if (const auto* vector = dynamic_cast<const ob::RealVectorStateSpace*>(&space)) {
+    Part& part = add(Part::Kind::Vector, space.getDimension());
+    part.low = vector->getBounds().low;
+    for (std::size_t i = 0; i < part.low.size(); ++i)
+      part.width.push_back(vector->getBounds().high[i] - part.low[i]);
   } else if (dynamic_cast<const ob::SO2StateSpace*>(&space) != nullptr) {
-    dimensions_ += 1;
+    add(Part::Kind::Turn, 1);
   } else if (dynamic_cast<const ob::SO3StateSpace*>(&space) != nullptr) {
-    dimensions_ += 3;
+    add(Part::Kind::Rotation, 3);
   } else if (const auto* compound = dynamic_cast<const ob::CompoundStateSpace*>(&space)) {
-    for (unsigned i = 0; i < compound->getSubspaceCount(); ++i)
-      if (!addDimensions(*compound->getSubspace(i))) return false;
+    for (unsigned i = 0; i < compound->getSubspaceCount(); ++i) {
+      where.push_back(i);
+      const bool known = addParts(*compound->getSubspace(i), where);
+      where.pop_back();
+      if (!known) return false;
+    }
   } else {
     return false;
   }
@@ -74,31 +90,35 @@ bool SpreadSampler::addDimensions(const ob::StateSpace& space) {
 
 void SpreadSampler::sample(ob::State* state) {
   if (others_) return others_->sampleUniform(state);
-  for (std::size_t i = 0; i < dimensions_; ++i) {
+  for (std::size_t i = 0; i < place_.size(); ++i) {
     place_[i] += steps_[i];
     if (place_[i] >= 1.0) place_[i] -= 1.0;
   }
-  std::size_t at = 0;
-  place(*space_, state, at);
+  const double* unit = place_.data();
+  for (const Part& part : parts_) {
+    ob::State* own = state;
+    for (const unsigned i : part.where) own = own->as<ob::CompoundState>()->components[i];
+    place(part, unit, own);
+    unit += part.kind == Part::Kind::Vector ? part.low.size()
+            : part.kind == Part::Kind::Turn ? 1U
+                                            : 3U;
+  }
 }
 
-void SpreadSampler::place(const ob::StateSpace& space, ob::State* state, std::size_t& at) const {
-  if (const auto* vector = dynamic_cast<const ob::RealVectorStateSpace*>(&space)) {
-    const ob::RealVectorBounds& bounds = vector->getBounds();
-    double* const values = state->as<ob::RealVectorStateSpace::StateType>()->values;
-    for (unsigned i = 0; i < space.getDimension(); ++i, ++at)
-      values[i] =
-          std::min(bounds.low[i] + place_[at] * (bounds.high[i] - bounds.low[i]), bounds.high[i]);
-  } else if (dynamic_cast<const ob::SO2StateSpace*>(&space) != nullptr) {
-    state->as<ob::SO2StateSpace::StateType>()->value = kTurn * place_[at] - std::numbers::pi;
-    at += 1;
-  } else if (dynamic_cast<const ob::SO3StateSpace*>(&space) != nullptr) {
-    rotate(place_.data() + at, *state->as<ob::SO3StateSpace::StateType>());
-    at += 3;
-  } else {
-    const auto& compound = static_cast<const ob::CompoundStateSpace&>(space);
-    for (unsigned i = 0; i < compound.getSubspaceCount(); ++i)
-      place(*compound.getSubspace(i), state->as<ob::CompoundState>()->components[i], at);
+void SpreadSampler::place(const Part& part, const double* unit, ob::State* state) const {
+  switch (part.kind) {
+    case Part::Kind::Vector: {
+      double* const values = state->as<ob::RealVectorStateSpace::StateType>()->values;
+      for (std::size_t i = 0; i < part.low.size(); ++i)
+        values[i] = part.low[i] + unit[i] * part.width[i];
+      break;
+    }
+    case Part::Kind::Turn:
+      state->as<ob::SO2StateSpace::StateType>()->value = kTurn * unit[0] - std::numbers::pi;
+      break;
+    case Part::Kind::Rotation:
+      rotate(unit, *state->as<ob::SO3StateSpace::StateType>());
+      break;
   }
 }
 

@@ -22,12 +22,18 @@ class SpreadSampler {
   void sample(ompl::base::State* state);
 
  private:
-  bool addDimensions(const ompl::base::StateSpace& space);
-  void place(const ompl::base::StateSpace& space, ompl::base::State* state, std::size_t& at) const;
+  /// A space that does not consist of others.
+  struct Part {
+    enum class Kind : std::uint8_t { Vector, Turn, Rotation } kind;
+    std::vector<unsigned> where;     ///< component of the space, of that component ...
+    std::vector<double> low, width;  ///< of a vector
+  };
 
-  ompl::base::StateSpacePtr space_;
+  bool addParts(const ompl::base::StateSpace& space, std::vector<unsigned>& where);
+  void place(const Part& part, const double* unit, ompl::base::State* state) const;
+
   ompl::base::StateSamplerPtr others_;  ///< null: the sequence draws
-  std::size_t dimensions_ = 0;
+  std::vector<Part> parts_;
   std::vector<double> steps_;
   std::vector<double> place_;  ///< in the unit cube
 };

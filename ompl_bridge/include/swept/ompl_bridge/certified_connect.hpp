@@ -79,11 +79,13 @@ class CertifiedConnect : public ompl::base::Planner {
   void restart();
   Node* add(Tree& tree, const ompl::base::State* state, const Node* parent);
   bool isFree(const Tree& tree, const ompl::base::State* from, const ompl::base::State* to) const;
-  bool takeGoals(const ompl::base::PlannerTerminationCondition& ptc, Meeting& meeting);
+  bool takeGoals(const ompl::base::PlannerTerminationCondition& ptc, std::size_t wanted,
+                 Meeting& meeting);
   Node* extend(Tree& tree);
   const Node* connect(Tree& tree, Node* to);
   bool isAllowed(const Meeting& meeting) const;
   bool grow(Meeting& meeting);
+  ompl::base::PlannerStatus search(const ompl::base::PlannerTerminationCondition& ptc);
   std::shared_ptr<ompl::geometric::PathGeometric> pathTo(const Node* last) const;
   void addSolution(const Meeting& meeting);
   bool addApproximation();
