@@ -2,8 +2,6 @@
 // Plans from one named state of a group to another, and proves every segment of the path:
 //   example_07_plan ROBOT.urdf ROBOT.srdf SCENE GROUP START GOAL
 // Exits 0 if all of them are proven free.
-#include <ompl/geometric/planners/rrt/RRTConnect.h>
-
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -20,12 +18,10 @@ int plan(char** argv) {
     return swept::namedConfiguration(*robot, checker->group(), name);
   };
   swept::setStartAndGoal(*setup, *checker, state(argv[5]), state(argv[6]));
-  const auto planner = std::make_shared<ompl::geometric::RRTConnect>(setup->getSpaceInformation());
-  swept::useNearestStates(*planner);  // several times as fast as the default
-  setup->setPlanner(planner);
+  setup->setPlanner(std::make_shared<swept::CertifiedConnect>(setup->getSpaceInformation()));
   if (setup->solve(10.0) != ompl::base::PlannerStatus::EXACT_SOLUTION) return 1;
 
-  setup->simplifySolution();
+  swept::shortenPath(setup->getSolutionPath());
   setup->getSolutionPath().printAsMatrix(std::cout);
   for (const auto& segment : swept::certifyPath(setup->getSolutionPath(), *checker)) {
     std::cout << "segment " << toString(segment.verdict) << '\n';

@@ -78,7 +78,7 @@ TEST_F(Page, TimedPlanPlaysItsTrajectory) {
   ASSERT_GE(states, 3u);
   EXPECT_EQ(data["motions"][0]["curve"]["polyline"].get<std::string>().size(),
             4 * ((states * 7 * 8 + 2) / 3));
-  EXPECT_THAT(data["facts"].dump(), testing::HasSubstr("RRTConnect"));
+  EXPECT_THAT(data["facts"].dump(), testing::HasSubstr("CertifiedConnect"));
 }
 
 TEST_F(Page, CheckShowsItsStatesAndContacts) {

@@ -32,7 +32,7 @@ TEST(Plan, PrintsATable) {
               testing::StartsWith(
                   "planner planning time simplification path length segments motions certified "
                   "refused\n"
-                  "RRTConnect N s N s N N N N\n"
+                  "CertifiedConnect N s N s N N N N\n"
                   "solved: N segments, all proven free\n"
                   "clearance N m, nearest cube - post (world); self: no pair to check\n"
                   "path of N states, m\n"));
@@ -254,7 +254,7 @@ TEST(Plan, MessagesOfOmplAreSilentUnlessAskedFor) {
   const Gantry gantry;
   EXPECT_EQ(gantry.run("plan", {"left", "right"}).err, "");
   const Outcome verbose = gantry.run("plan", {"left", "right", "--verbose", "--json"});
-  EXPECT_THAT(verbose.err, HasSubstr("ompl: RRTConnect"));
+  EXPECT_THAT(verbose.err, HasSubstr("ompl: CertifiedConnect"));
   EXPECT_EQ(jsonOf(verbose)["solved"], true);
 }
 

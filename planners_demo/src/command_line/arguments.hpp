@@ -83,13 +83,13 @@ struct Arguments {
 
   BatchArguments batch;
 
-  std::string planner = "RRTConnect";
+  std::string planner = "CertifiedConnect";
   double time = 5.0;            ///< s
   std::optional<double> range;  ///< of the planner's motions, in the metric of the state space
   std::uint32_t seed = 1;
   std::string output;
   bool noSimplify = false;
-  std::optional<double> simplifyTime;  ///< s; none: as much as the planner's
+  std::optional<double> simplifyTime;  ///< s, of OMPL's simplifier; none: shortenPath()
   int threads = 1;
   std::string request;                         ///< YAML file
   std::string goalPose;                        ///< model_from_link: x,y,z,qx,qy,qz,qw

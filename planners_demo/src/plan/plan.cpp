@@ -90,7 +90,7 @@ PlanRequest requestOf(const Arguments& args) {
           .range = args.range,
           .seed = args.seed,
           .simplify = !args.noSimplify,
-          .simplifyTime = args.simplifyTime.value_or(args.time),
+          .simplifyTime = args.simplifyTime,
           .threads = args.threads,
           .goalPose = {},
           .clearance = !plansSeveral(args)};

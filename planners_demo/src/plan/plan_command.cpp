@@ -17,15 +17,15 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
                  "start and goal, or several goals, one of which is to be reached")
       ->type_name("START GOAL...");
   addProblemOptions(app, args, "plans from start to goals; without --set or --index all of them");
-  app.add_option("--planner", args.planner, "OMPL planner (default RRTConnect); names below")
+  app.add_option("--planner", args.planner, "planner (default CertifiedConnect; the others are OMPL's); names below")
       ->type_name("NAME");
   app.add_option("--time", args.time, "s; limit of the planner, per problem (default 5)")
       ->type_name("S")
       ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
   app.add_option("--range", args.range,
                  "longest motion that the planner tries, in the metric of the state space (rad, m; "
-                 "default: a fifth of the extent of the space, with more than 7 joints of one of "
-                 "them)")
+                 "default: of CertifiedConnect 0.4 rad of each joint; of others a fifth of the "
+                 "extent of the space, with more than 7 joints of one of them)")
       ->type_name("R")
       ->check(within(1e-6, 1e6, "between 1e-6 and 1e6"));
   addSeedOption(app, args);
@@ -56,7 +56,8 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
       ->type_name("N")
       ->check(within(1, 256, "between 1 and 256"));
   app.add_option("--simplify", args.simplifyTime,
-                 "s; limit of the simplification (default: that of the planner)")
+                 "s; let OMPL's simplifier shorten the path for so long (default: shortenPath() of "
+                 "swept, which takes milliseconds)")
       ->type_name("S")
       ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
   app.add_flag("--no-simplify", args.noSimplify, "keep the path as the planner returned it");

@@ -46,6 +46,7 @@
 #include <cctype>
 
 #include "command_line/exit_code.hpp"
+#include "swept/ompl_bridge/certified_connect.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 #include "swept/robot_model/did_you_mean.hpp"
 
@@ -66,7 +67,7 @@ struct Entry {
   Maker maker;
 };
 
-// Every geometric planner that needs nothing but the space. TSRRT, VFRRT, XXL, QRRT, Lightning and
+// CertifiedConnect, and every geometric planner of OMPL that needs nothing but the space. TSRRT, VFRRT, XXL, QRRT, Lightning and
 // Thunder need a task space, a vector field, a decomposition, a sequence of spaces or a store of
 // earlier paths, which a command line has not got.
 constexpr std::array kPlanners = {
@@ -80,6 +81,7 @@ constexpr std::array kPlanners = {
     Entry{"BiRLRT", make<og::BiRLRT>},
     Entry{"BiTRRT", make<og::BiTRRT>},
     Entry{"CForest", make<og::CForest>},
+    Entry{"CertifiedConnect", make<CertifiedConnect>},
     Entry{"EST", make<og::EST>},
     Entry{"FMT", make<og::FMT>},
     Entry{"InformedRRTstar", make<og::InformedRRTstar>},

@@ -125,8 +125,8 @@ bool setThreads(ob::Planner& planner, int threads) {
   return false;
 }
 
-/// Longest motion of a planner, in the metric of the space, where OMPL's own default will not do;
-/// empty up to seven variables. OMPL's is a fifth of the extent of the space, which grows with
+/// Longest motion of a planner of OMPL, in the metric of the space, where its own default will not
+/// do; empty up to seven variables. OMPL's is a fifth of the extent of the space, which grows with
 /// their number: arms side by side hardly ever move free by so much at a time. This is a fifth of
 /// the root mean square of what the variables reach.
 std::optional<double> defaultRange(const ob::StateSpace& space) {
@@ -142,10 +142,14 @@ bool setRange(ob::Planner& planner, double range) {
          planner.params().setParam("range", exactNumber(range));
 }
 
-ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanRequest& request) {
+/// `copy`: of several that run side by side, which.
+ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanRequest& request, int copy = 0) {
   ob::PlannerPtr planner = makePlanner(request.planner, setup.getSpaceInformation());
-  const std::optional<double> range =
-      request.range ? request.range : defaultRange(*setup.getStateSpace());
+  std::optional<double> range = request.range;
+  if (auto* own = dynamic_cast<CertifiedConnect*>(planner.get()))
+    own->setSeed(request.seed + static_cast<std::uint32_t>(copy));
+  else if (!range)
+    range = defaultRange(*setup.getStateSpace());
   const bool isSet = range && setRange(*planner, *range);
   if (request.range && !isSet)
     throw UsageError("planner " + request.planner + " has no range; --range is for others");
@@ -155,7 +159,7 @@ ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanRequest& reques
 /// Of the others as many run side by side, and the first path ends it.
 ob::PlannerStatus solveInParallel(og::SimpleSetup& setup, const PlanRequest& request) {
   ompl::tools::ParallelPlan parallel(setup.getProblemDefinition());
-  for (int i = 0; i < request.threads; ++i) parallel.addPlanner(plannerOf(setup, request));
+  for (int i = 0; i < request.threads; ++i) parallel.addPlanner(plannerOf(setup, request, i));
   return parallel.solve(request.time, 1, 1, false);
 }
 
@@ -203,6 +207,18 @@ void certify(PlanOutcome& outcome, const Checker& checker, const og::PathGeometr
   }
 }
 
+/// Returns the s that it took.
+double simplify(og::SimpleSetup& setup, const PlanRequest& request) {
+  if (request.simplifyTime) {
+    setup.simplifySolution(*request.simplifyTime);
+    return setup.getLastSimplificationTime();
+  }
+  constexpr ShorteningOptions kThorough{.rounds = 20, .leastGain = 1e-3};
+  const auto begin = std::chrono::steady_clock::now();
+  shortenPath(setup.getSolutionPath(), kThorough);
+  return secondsSince(begin);
+}
+
 PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequest& request) {
   PlanOutcome outcome;
   const bool copies = request.threads > 1 && !setThreads(*setup.getPlanner(), request.threads);
@@ -214,10 +230,7 @@ PlanOutcome solve(og::SimpleSetup& setup, const Checker& checker, const PlanRequ
   outcome.status = status.asString();
   outcome.planningTime = secondsSince(begin);
   const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
-  if (exact && request.simplify) {
-    setup.simplifySolution(request.simplifyTime);
-    outcome.simplifyTime = setup.getLastSimplificationTime();
-  }
+  if (exact && request.simplify) outcome.simplifyTime = simplify(setup, request);
   const ob::MotionValidatorPtr& validator = setup.getSpaceInformation()->getMotionValidator();
   outcome.certified = validator->getValidMotionCount();
   outcome.refused = validator->getInvalidMotionCount();

@@ -32,7 +32,7 @@ struct PlanRequest {
   std::optional<double> range = {};  ///< of the planner's motions; none: of our own choice
   std::uint32_t seed = 1;
   bool simplify = true;
-  double simplifyTime = 5.0;                ///< s
+  std::optional<double> simplifyTime = {};  ///< s, of OMPL's simplifier; none: shortenPath()
   int threads = 1;                          ///< of the planner, or copies of it where it has none
   std::optional<PoseTarget> goalPose = {};  ///< instead of goal states
   bool clearance = true;                    ///< bound the least distance of every segment too
