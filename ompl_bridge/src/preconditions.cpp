@@ -15,7 +15,7 @@
 
 #include "group_space.hpp"
 #include "joint_space.hpp"
-#include "swept/ompl_bridge/state_space.hpp"
+#include "state_layout.hpp"
 
 namespace swept::detail {
 
@@ -69,7 +69,7 @@ void requireSpaceOf(const Checker& checker, const ompl::base::StateSpace& space)
   if (!interpolatesAsCertified(space)) {
     throw std::invalid_argument(refused + ": its motions are not those that are certified");
   }
-  makeStateSpace(checker.robot(), checker.group())->computeSignature(wanted);
+  unprojectedSpace(checker.robot(), checker.group())->computeSignature(wanted);
   space.computeSignature(given);
   if (given != wanted) throw std::invalid_argument(refused);
   // A left and a right arm have the same layout. Whoever built a space by hand must know whose it

@@ -18,6 +18,10 @@ struct JointRun {
 /// without variables.
 std::vector<JointRun> jointRuns(const Robot& robot, const Group& group);
 
+/// The space of makeStateSpace(robot, group) but for its projection, which takes far longer to make
+/// than all else. It cannot be set up.
+ompl::base::StateSpacePtr unprojectedSpace(const Robot& robot, const Group& group);
+
 /// Such a group's space is no compound.
 bool isSingleRealVector(const std::vector<JointRun>& runs);
 

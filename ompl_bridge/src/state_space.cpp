@@ -165,11 +165,33 @@ void requireOptions(const Robot& robot, const Group& group, const StateSpaceOpti
 
 template <typename Space>
 ob::StateSpacePtr finished(const std::shared_ptr<Space>& space, const Robot& robot,
-                           const Group& group) {
+                           const Group& group, bool isProjected) {
   space->setName(group.name);
   space->setVariables(detail::variablesOf(robot, group));
-  space->setProjection(detail::makeProjection(*space, robot, group));
+  if (isProjected) space->setProjection(detail::makeProjection(*space, robot, group));
   return space;
+}
+
+ob::StateSpacePtr layOut(const Robot& robot, const Group& group, const StateSpaceOptions& options,
+                         bool isProjected) {
+  const std::vector<JointRun> runs = detail::jointRuns(robot, group);
+  requireOptions(robot, group, options);
+  if (detail::isSingleRealVector(runs)) {
+    const auto space =
+        std::make_shared<GroupSpace<JointSpace>>(weightsOf(robot, runs.front(), options));
+    limitJoints(robot, runs.front(), options, *space);
+    return finished(space, robot, group, isProjected);
+  }
+  const auto compound = std::make_shared<GroupSpace<ob::CompoundStateSpace>>();
+  for (const JointRun& run : runs) {
+    ob::StateSpacePtr subspace = spaceOf(robot, run, options);
+    subspace->setName(nameOf(robot, run));
+    // Joints with limits have theirs in their common space.
+    const bool shared = run.kind == SubspaceKind::RealVector;
+    compound->addSubspace(subspace, shared ? 1.0 : weightOf(robot, run.joints.front(), options));
+  }
+  compound->lock();
+  return finished(compound, robot, group, isProjected);
 }
 
 }  // namespace
@@ -204,24 +226,11 @@ ob::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return makeStateSpace(robot, group, options); });
   }
-  const std::vector<JointRun> runs = detail::jointRuns(robot, group);
-  requireOptions(robot, group, options);
-  if (detail::isSingleRealVector(runs)) {
-    const auto space =
-        std::make_shared<GroupSpace<JointSpace>>(weightsOf(robot, runs.front(), options));
-    limitJoints(robot, runs.front(), options, *space);
-    return finished(space, robot, group);
-  }
-  const auto compound = std::make_shared<GroupSpace<ob::CompoundStateSpace>>();
-  for (const JointRun& run : runs) {
-    ob::StateSpacePtr subspace = spaceOf(robot, run, options);
-    subspace->setName(nameOf(robot, run));
-    // Joints with limits have theirs in their common space.
-    const bool shared = run.kind == SubspaceKind::RealVector;
-    compound->addSubspace(subspace, shared ? 1.0 : weightOf(robot, run.joints.front(), options));
-  }
-  compound->lock();
-  return finished(compound, robot, group);
+  return layOut(robot, group, options, true);
+}
+
+ob::StateSpacePtr detail::unprojectedSpace(const Robot& robot, const Group& group) {
+  return layOut(robot, group, {}, false);
 }
 
 }  // namespace swept
