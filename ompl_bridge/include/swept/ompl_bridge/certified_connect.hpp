@@ -39,6 +39,7 @@ class SpreadSampler;
 /// will do, too.
 class CertifiedConnect : public ompl::base::Planner {
  public:
+  /// For a space information of any space and validators.
   explicit CertifiedConnect(const ompl::base::SpaceInformationPtr& si);
   ~CertifiedConnect() override;
 
@@ -51,7 +52,9 @@ class CertifiedConnect : public ompl::base::Planner {
   void setSeed(std::uint32_t seed);
   std::uint32_t getSeed() const { return seed_; }  ///< 1 if never set
 
+  /// Chooses the range, if none is set. The validators of the space information must be in place.
   void setup() override;
+  /// Forgets the trees, and begins the sequence of samples anew.
   void clear() override;
   using Planner::solve;
   /// Without a solution, the path to the state nearest to the goal is an approximate one.
