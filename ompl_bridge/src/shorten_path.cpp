@@ -34,11 +34,8 @@ class Shortening {
     if (states_.size() < 3) return;
     const ompl::geometric::PathGeometric joined(path_);
     asked_.assign(states_.size() - 1, true);
-    double length = path_.length();
-    for (int round = 0; round < options.rounds; ++round) {
-      const double gain = cutCorners();
-      length -= gain;
-      if (gain < options.leastGain * length) break;
+    const double leastGain = options.leastGain * path_.length();
+    for (int round = 0; round < options.rounds && cutCorners(leastGain); ++round) {
     }
     // Part of a motion that is proven need not be proven by itself, right beside a contact.
     for (std::size_t i = 0; i < asked_.size(); ++i) {
@@ -63,45 +60,50 @@ class Shortening {
     }
   }
 
-  /// What the path is shorter by.
-  double cutCorners() {
-    double gain = 0.0;
+  /// False: none was.
+  bool cutCorners(double leastGain) {
+    bool any = false;
     for (std::size_t i = 1; i + 1 < states_.size(); ++i) {
-      const double own = cut(i);
-      gain += own;
-      if (own > 0.0) ++i;  // two corners
+      if (!cut(i, leastGain)) continue;
+      any = true;
+      ++i;  // two corners
     }
-    return gain;
+    return any;
   }
 
-  double cut(std::size_t corner) {
+  bool cut(std::size_t corner, double leastGain) {
     constexpr int kTries = 2;
+    constexpr double kMost = 1.0 - 1.0 / (1 << kTries);
     const double before = si_->distance(states_[corner - 1], states_[corner]);
     const double after = si_->distance(states_[corner], states_[corner + 1]);
     const double shorter = std::min(before, after);
-    if (!(shorter > 0.0)) return 0.0;
-    double free = 0.0, refused = 1.0;
-    for (int i = 0; i < kTries; ++i) {
-      const double share = 0.5 * (free + refused);
+    if (!(shorter > 0.0)) return false;
+    const auto gainOf = [&](double share) {
       const ob::StateSpace& space = *si_->getStateSpace();
       space.interpolate(states_[corner], states_[corner - 1], share * shorter / before, cut_[0]);
       space.interpolate(states_[corner], states_[corner + 1], share * shorter / after, cut_[1]);
+      return 2.0 * share * shorter - si_->distance(cut_[0], cut_[1]);
+    };
+    if (!(gainOf(kMost) > leastGain)) return false;
+    double free = 0.0, refused = 1.0, gain = 0.0;
+    for (int i = 0; i < kTries; ++i) {
+      const double share = 0.5 * (free + refused);
+      const double own = gainOf(share);
       if (si_->checkMotion(cut_[0], cut_[1])) {
+        gain = own;
         free = share;
         std::swap(cut_, best_);
       } else {
         refused = share;
       }
     }
-    if (free == 0.0) return 0.0;
-    const double gain = 2.0 * free * shorter - si_->distance(best_[0], best_[1]);
-    if (!(gain > 0.0)) return 0.0;
+    if (!(gain > leastGain)) return false;
     const auto at = static_cast<std::ptrdiff_t>(corner);
     si_->copyState(states_[corner], best_[0]);
     states_.insert(states_.begin() + at + 1, si_->cloneState(best_[1]));
     asked_[corner - 1] = asked_[corner] = false;
     asked_.insert(asked_.begin() + at, true);
-    return gain;
+    return true;
   }
 
   ompl::geometric::PathGeometric& path_;

@@ -33,8 +33,7 @@ void addRunOptions(CLI::App& app, Arguments& args) {
   app.add_option("--seed", args.seed, "of the first run, the next ones count up (default 1)")
       ->type_name("N")
       ->check(within(1, std::numeric_limits<std::uint32_t>::max(), "between 1 and 4294967295"));
-  app.add_option("--time", args.time,
-                 "s; limit of the planner, and again of simplification, per run (default 5)")
+  app.add_option("--time", args.time, "s; limit of the planner, per run (default 5)")
       ->type_name("S")
       ->check(within(1e-3, 1e6, "between 0.001 and 1e6 s"));
   app.add_option("--hard-limit", args.batch.hardLimit,

@@ -92,7 +92,6 @@ RunResult Worker::run(const RunKey& key) {
                             .time = args.time,
                             .seed = key.seed,
                             .simplify = !args.noSimplify,
-                            .simplifyTime = args.time,
                             .clearance = !args.batch.noClearance,
                             .setup = setupMaker(validator, statesChecked)};
   PlanOutcome outcome;

@@ -213,9 +213,8 @@ double simplify(og::SimpleSetup& setup, const PlanRequest& request) {
     setup.simplifySolution(*request.simplifyTime);
     return setup.getLastSimplificationTime();
   }
-  constexpr ShorteningOptions kThorough{.rounds = 20, .leastGain = 1e-3};
   const auto begin = std::chrono::steady_clock::now();
-  shortenPath(setup.getSolutionPath(), kThorough);
+  shortenPath(setup.getSolutionPath());
   return secondsSince(begin);
 }
 

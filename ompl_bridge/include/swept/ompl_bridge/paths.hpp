@@ -36,8 +36,8 @@ std::vector<MotionCertificate> simplifyPath(ompl::geometric::PathGeometric& path
 
 /// How shortenPath() works.
 struct ShorteningOptions {
-  int rounds = 2;           ///< of cutting all corners; fewer if one gains less than `leastGain`
-  double leastGain = 0.01;  ///< share of the length
+  int rounds = 3;            ///< of cutting all corners; fewer if one cuts none
+  double leastGain = 0.005;  ///< share of the length; a cut that gains less is not made
 };
 
 /// Shortens a path, using the motion validator of its space information. The result depends on
