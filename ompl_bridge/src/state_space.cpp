@@ -230,6 +230,9 @@ ob::StateSpacePtr makeStateSpace(const Robot& robot, const Group& group,
 }
 
 ob::StateSpacePtr detail::unprojectedSpace(const Robot& robot, const Group& group) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return unprojectedSpace(robot, group); });
+  }
   return layOut(robot, group, {}, false);
 }
 

@@ -24,7 +24,7 @@ class PathPage(BrowserTest):
         self.assertEqual(len(self.find("#list button")), segments)
         self.assertEqual(len(self.find(".piece")), 24 * segments)
         self.assertEqual(len(self.find(".piece.lanes, .piece.exact")), 24 * segments)
-        self.assertIn("RRTConnect", self.text("#facts"))
+        self.assertIn("CertifiedConnect", self.text("#facts"))
         self.assertIn("swept plan " + ROOK, self.text("#facts dd.command"))
         self.assertTrue(self.find("#legend")[0].is_displayed())
         # A path has no time: nothing is plotted over it.
