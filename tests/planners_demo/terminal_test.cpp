@@ -26,7 +26,7 @@ TEST(Terminal, LongWorkShowsProgressAndWipesIt) {
   const Gantry gantry;
   const Outcome run = runSwept(longWork(gantry), Stderr::Terminal);
   EXPECT_EQ(run.exitCode, 1);
-  EXPECT_THAT(run.err, HasSubstr("planning with RRTConnect, at most 1 s ("));
+  EXPECT_THAT(run.err, HasSubstr("planning with CertifiedConnect, at most 1 s ("));
   EXPECT_THAT(run.err, EndsWith("\r\033[K"));
   EXPECT_THAT(run.out, HasSubstr("\nnot solved: "));
 }
