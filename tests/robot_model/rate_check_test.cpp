@@ -66,7 +66,8 @@ TEST(RateCheck, LengthensStepsUntilRoundingBreaksNoLimit) {
     some.slack = kSlack;
     return some;
   }();
-  const WayPointPath path = straightParts(points, std::vector<char>(12), withSlack(limits), {"a", "b"});
+  const WayPointPath path =
+      straightParts(points, std::vector<char>(12), withSlack(limits), {"a", "b"});
   const auto shortestOf = [&](double leastStep) {
     CornerSpeeds speeds(path, leastStep);
     chooseBlends(path, 0.1, speeds);

@@ -136,8 +136,13 @@ TEST(TimingExtremes, StopWhereTheyAreToldTo) {
   const VectorXd step{{0.3, 0.2}}, side{{0.0, 0.4}};
   // 1 and 4 are on a line, 2 repeats, 5 is a corner.
   const VectorXd start = VectorXd::Zero(2);
-  const WayPoints path{start,          start + step,     start + 2.0 * step,       start + 2.0 * step,
-                       start + 3.0 * step, start + 4.0 * step, start + 4.0 * step + side};
+  const WayPoints path{start,
+                       start + step,
+                       start + 2.0 * step,
+                       start + 2.0 * step,
+                       start + 3.0 * step,
+                       start + 4.0 * step,
+                       start + 4.0 * step + side};
   for (const bool jerkLimited : {false, true}) {
     TimingOptions options;
     options.jerkLimited = jerkLimited;

@@ -17,7 +17,8 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
                  "start and goal, or several goals, one of which is to be reached")
       ->type_name("START GOAL...");
   addProblemOptions(app, args, "plans from start to goals; without --set or --index all of them");
-  app.add_option("--planner", args.planner, "planner (default CertifiedConnect; the others are OMPL's); names below")
+  app.add_option("--planner", args.planner,
+                 "planner (default CertifiedConnect; the others are OMPL's); names below")
       ->type_name("NAME");
   app.add_option("--time", args.time, "s; limit of the planner, per problem (default 5)")
       ->type_name("S")

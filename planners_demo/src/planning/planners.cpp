@@ -67,9 +67,9 @@ struct Entry {
   Maker maker;
 };
 
-// CertifiedConnect, and every geometric planner of OMPL that needs nothing but the space. TSRRT, VFRRT, XXL, QRRT, Lightning and
-// Thunder need a task space, a vector field, a decomposition, a sequence of spaces or a store of
-// earlier paths, which a command line has not got.
+// CertifiedConnect, and every geometric planner of OMPL that needs nothing but the space. TSRRT,
+// VFRRT, XXL, QRRT, Lightning and Thunder need a task space, a vector field, a decomposition, a
+// sequence of spaces or a store of earlier paths, which a command line has not got.
 constexpr std::array kPlanners = {
     Entry{"ABITstar", make<og::ABITstar>},
     Entry{"AITstar", make<og::AITstar>},

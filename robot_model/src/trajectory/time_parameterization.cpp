@@ -109,8 +109,8 @@ void requireWayPoints(const ConfigurationList& wayPoints, const GroupVariables& 
 std::vector<char> stopsOf(const TimingOptions& options, std::size_t wayPoints) {
   std::vector<char> result(wayPoints, 0);
   for (const std::size_t stop : options.stops) {
-    requireTiming(stop < wayPoints, "stop " + std::to_string(stop) + " is no way point, there are " +
-                                        std::to_string(wayPoints));
+    requireTiming(stop < wayPoints, "stop " + std::to_string(stop) +
+                                        " is no way point, there are " + std::to_string(wayPoints));
     result[stop] = 1;
   }
   return result;
@@ -162,10 +162,9 @@ TimedPath timeParameterize(const Robot& robot, const Group& group,
   const GroupVariables variables = variablesOf(robot, group);
   const detail::VariableLimits whole = limitsOf(limits, options, variables);
   requireWayPoints(wayPoints, variables);
-  const detail::WayPointPath path =
-      detail::straightParts(detail::continuousPoints(wayPoints, variables.cyclic),
-                            stopsOf(options, wayPoints.size()), detail::withSlack(whole),
-                            variables.names);
+  const detail::WayPointPath path = detail::straightParts(
+      detail::continuousPoints(wayPoints, variables.cyclic), stopsOf(options, wayPoints.size()),
+      detail::withSlack(whole), variables.names);
   if (path.parts() > 0)
     return timedMotion(path, variables.names, whole, proves, options.blendDeviation);
   JointTrajectory trajectory{variables.names, stayingPoints(wayPoints[0], whole.ramps)};

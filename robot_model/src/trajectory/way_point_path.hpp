@@ -28,7 +28,8 @@ inline constexpr double kSlack = 1e-6, kRampSlack = 1e-4;
 /// need one of these, and the rounding of positions, velocities and differences of times the rest.
 VariableLimits withSlack(const VariableLimits& limits);
 
-/// Straight parts between the way points at which a path turns or stops. Lengths are Euclidean (rad or m).
+/// Straight parts between the way points at which a path turns or stops. Lengths are Euclidean (rad
+/// or m).
 struct WayPointPath {
   Eigen::MatrixXd points;                ///< a column for each way point that is kept
   std::vector<std::size_t> indices;      ///< of these among all

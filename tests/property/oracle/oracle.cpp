@@ -90,8 +90,7 @@ Oracle::Hit Oracle::hit(const std::vector<double>& q) const {
       for (const Placed& b : pair.world ? placedWorld_[pair.b] : links[pair.b]) {
         const double reach = a.piece->radius + b.piece->radius;
         if ((a.center - b.center).squaredNorm() > reach * reach) continue;
-        if (surelyOverlap(*a.piece, *b.piece,
-                          a.model_from_piece.inverse() * b.model_from_piece))
+        if (surelyOverlap(*a.piece, *b.piece, a.model_from_piece.inverse() * b.model_from_piece))
           return {arm_.links()[pair.a].name,
                   pair.world ? world_[pair.b].name : arm_.links()[pair.b].name};
       }

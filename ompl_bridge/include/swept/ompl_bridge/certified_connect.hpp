@@ -12,7 +12,6 @@
 #include <deque>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include "swept/ompl_bridge/nearest_states.hpp"
 

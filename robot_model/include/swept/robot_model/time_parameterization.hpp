@@ -61,8 +61,8 @@ struct TimedPath {
 /// of velocity and acceleration at every instant, roundings of the trajectory's numbers included. A
 /// corner where the path turns back, and one where `proves` accepts no blend, is a stop. Way points
 /// that repeat or lie on the line between their neighbours (to within 1e-12 of the larger of 1 and
-/// the largest value) are left out, but for TimingOptions::stops. A path that does not move stays for a millisecond. All times
-/// are whole nanoseconds, as messages of ROS carry them.
+/// the largest value) are left out, but for TimingOptions::stops. A path that does not move stays
+/// for a millisecond. All times are whole nanoseconds, as messages of ROS carry them.
 ///
 /// Blends: at each corner the joint acceleration is constant, so the blend is a parabola that
 /// touches both straight motions. Its two ends may have different speeds and distances from the way
@@ -82,9 +82,9 @@ struct TimedPath {
 ///
 /// Throws std::invalid_argument, with the variable's name: for no way point; values or limits of
 /// the wrong number; values that are not finite; limits that are not above 0; an option that is not
-/// as above; a stop that is no way point; a variable that moves and has no limit of velocity or acceleration (or jerk, with
-/// `jerkLimited`); an orientation of a floating joint that changes, since a slerp is no polynomial;
-/// and a trajectory of 2^31 s or more, which no message carries.
+/// as above; a stop that is no way point; a variable that moves and has no limit of velocity or
+/// acceleration (or jerk, with `jerkLimited`); an orientation of a floating joint that changes,
+/// since a slerp is no polynomial; and a trajectory of 2^31 s or more, which no message carries.
 TimedPath timeParameterize(const Robot& robot, const Group& group,
                            const ConfigurationList& wayPoints, const RateLimits& limits,
                            const BlendProver& proves = {}, const TimingOptions& options = {});
