@@ -108,8 +108,8 @@ bool CertifiedConnect::isAllowed(const Meeting& meeting) const {
   return pdef_->getGoal()->isStartGoalPairValid(rootOf(meeting.start), rootOf(meeting.goal));
 }
 
-/// Takes goals up to a number, if there are more. Tries the motion from the nearest start to each;
-/// returns whether one is free.
+/// Takes goals up to a number, if there are more. Tries the motion from the nearest state of the
+/// starts' tree to each; returns whether one is free.
 bool CertifiedConnect::takeGoals(const ob::PlannerTerminationCondition& ptc, std::size_t wanted,
                                  Meeting& meeting) {
   Tree& goals = trees_[kGoal];
