@@ -11,6 +11,7 @@
 #include "geometry/point_text.hpp"
 #include "geometry/weld.hpp"
 #include "mesh/convex_parts.hpp"
+#include "mesh/enclosing_parts.hpp"
 #include "mesh/mesh_components.hpp"
 #include "mesh/mesh_cracks.hpp"
 #include "swept/core/distance.hpp"
@@ -196,6 +197,15 @@ TriangleMesh TriangleMesh::withSourceError(double error) const {
   }
   TriangleMesh mesh = *this;
   mesh.sourceError_ = error;
+  return mesh;
+}
+
+TriangleMesh TriangleMesh::withEnclosingParts() const {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return withEnclosingParts(); });
+  TriangleMesh mesh = *this;
+  auto parts = std::make_shared<const detail::EnclosingParts>(detail::enclosingParts(*this));
+  if (!parts->nodes.empty()) mesh.enclosingParts_ = std::move(parts);
   return mesh;
 }
 

@@ -63,12 +63,6 @@ OrientedBox coreBox(const Convex& convex) {
   return {};
 }
 
-/// m. Distance from a side's origin to its farthest point, in the 1-norm.
-double reachOf(const Side& side) {
-  if (!side.isConvex()) return side.bvh->reach();
-  return side.convex.isFlat() ? 0.0 : 2.0 * side.convex.extent;
-}
-
 /// The error of a hull that leaves out vertices becomes a ball around it, in which witnesses of its
 /// distance may lie. As an error, it would allow them anywhere.
 Convex grownAround(const ConvexHull& hull) {
@@ -92,7 +86,8 @@ Side Side::of(const Shape& shape) {
         if constexpr (std::is_same_v<decltype(body), const TriangleMesh&>) {
           const Convex shell = grownAround(body.coarseHull());
           const double reach = body.concavity() + shell.radius;
-          return {&body, nullptr, &body.bvh(), Convex::of(body.hull()), shell, reach};
+          return {&body, nullptr, &body.bvh(),          Convex::of(body.hull()),
+                  shell, reach,   body.enclosingParts()};
         } else if constexpr (std::is_same_v<decltype(body), const PointCloud&>) {
           Convex hull = Convex::of(body.hull());
           hull.radius = body.largestRadius();
@@ -122,6 +117,11 @@ PiecePair::PiecePair(const Side& a, const Side& b, const Isometry3d& a_from_b)
 Piece PiecePair::rootOf(const Side& side) {
   if (!side.isConvex()) return {0, -1, -1, side.bvh->rootBox()};
   return {-1, -1, -1, coreBox(side.convex)};
+}
+
+double PiecePair::reachOf(const Side& side) {
+  if (!side.isConvex()) return side.bvh->reach();
+  return side.convex.isFlat() ? 0.0 : 2.0 * side.convex.extent;
 }
 
 bool PiecePair::isLarger(const Piece& a, const Piece& b) {

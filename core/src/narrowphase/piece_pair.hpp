@@ -8,6 +8,7 @@
 #include "bvh/box_bounds.hpp"
 #include "bvh/box_frames.hpp"
 #include "bvh/wide_bvh.hpp"
+#include "mesh/enclosing_parts.hpp"
 #include "narrowphase/convex.hpp"
 #include "swept/core/point_cloud.hpp"
 #include "swept/core/shapes.hpp"
@@ -23,6 +24,7 @@ struct Side {
   Convex convex;                 ///< of a mesh or cloud: its hull
   Convex outer;                  ///< of a mesh or cloud: around its hull, of few points
   double concavity = 0.0;        ///< m, estimate of how far `outer` reaches beyond the body
+  const EnclosingParts* parts = nullptr;  ///< of a mesh; null: none are known
 
   bool isConvex() const { return bvh == nullptr; }
   /// A convex body around the side that is quick to test: itself if it is convex.
@@ -52,6 +54,8 @@ class PiecePair {
   Piece rootA() const { return rootOf(a_); }
   Piece rootB() const { return rootOf(b_); }
   static Piece rootOf(const Side& side);
+  /// m. Upper bound on the 1-norm of a side's points, in its frame.
+  static double reachOf(const Side& side);
 
   /// The node whose children are tested next: that of the larger piece, in the hierarchy or made in
   /// `room`. At most one of the two is a leaf.

@@ -3,6 +3,7 @@
 
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/enclosure.hpp"
+#include "narrowphase/part_pairs.hpp"
 #include "narrowphase/piece_descent.hpp"
 
 namespace swept::detail {
@@ -25,7 +26,7 @@ class Search {
 
   PieceResult run(const Vector3d& guess) {
     found_.result.hint = guess;
-    if (!hullsSuffice(guess) && !(a_.isConvex() && b_.isConvex())) {
+    if (!hullsSuffice(guess) && !partsSuffice()) {
       found_.result.lower = std::numeric_limits<double>::infinity();
       descendPieces(a_, b_, a_from_b_, motions_, found_);
       found_.result.normal.setZero();
@@ -68,6 +69,22 @@ class Search {
     result.pointA = hulls.pointA;
     result.pointB = hulls.pointB;
     found_.failed = !hulls.satisfied;
+    return true;
+  }
+
+  bool partsSuffice() {
+    if (a_.isConvex() && b_.isConvex()) return true;
+    if (goal_.approach == nullptr || (a_.parts == nullptr && b_.parts == nullptr)) return false;
+    switch (compareParts(a_, b_, a_from_b_, motions_, found_)) {
+      case PartsAnswer::Open:
+        return false;
+      case PartsAnswer::OutOfReach:
+        found_.failed = true;
+        break;
+      case PartsAnswer::Apart:
+        break;
+    }
+    hullsApart_ = true;
     return true;
   }
 

@@ -47,7 +47,8 @@ MadeMesh made(MeshFileContent content, const Eigen::Vector3d& scale, CoverCache*
                                      TriangleMesh::usualCrackWidth(content.vertices));
   result.mesh =
       TriangleMesh::build(content.vertices, content.triangles, MeshInterior::Solid, crackWidth)
-          .withSourceError(content.error * scale.cwiseAbs().maxCoeff());
+          .withSourceError(content.error * scale.cwiseAbs().maxCoeff())
+          .withEnclosingParts();
   result.rounding = rounding * scale.cwiseAbs().maxCoeff();
   result.opening = result.mesh->opening();
   if (covers != nullptr) addCover(result, *covers);

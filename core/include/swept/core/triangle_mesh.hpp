@@ -15,7 +15,8 @@ namespace swept {
 
 namespace detail {
 class WideBvh;
-}
+struct EnclosingParts;
+}  // namespace detail
 
 /// The meaning of the closed parts of a mesh.
 enum class MeshInterior : std::uint8_t {
@@ -115,6 +116,13 @@ class TriangleMesh {
   TriangleMesh withSourceError(double error) const;
   double sourceError() const { return sourceError_; }  ///< m; 0 unless set by withSourceError()
 
+  /// The same mesh with at most eight convex parts around it, which together contain it: proofs of
+  /// separate() ask them before they ask the triangles. A mesh that is nearly convex gets none.
+  /// Takes about as long as build(). moved() drops them.
+  TriangleMesh withEnclosingParts() const;
+  /// For the queries; null without parts.
+  const detail::EnclosingParts* enclosingParts() const { return enclosingParts_.get(); }
+
   /// Whether the solid contains `point` (m, mesh frame). Always false under `Surface`, for open
   /// components, and for a non-finite point. Proven unless `point` is within rounding (about 1e-14
   /// of the largest distance from it to the mesh) of a triangle; then the answer may be either.
@@ -168,6 +176,7 @@ class TriangleMesh {
   explicit TriangleMesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
   double sourceError_ = 0.0;
+  std::shared_ptr<const detail::EnclosingParts> enclosingParts_;
 };
 
 }  // namespace swept
