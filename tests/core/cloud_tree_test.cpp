@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "mesh_samples.hpp"
 #include "point_cloud/cloud_hull.hpp"
@@ -13,6 +14,7 @@
 #include "point_cloud/hilbert_curve.hpp"
 #include "swept/core/distance.hpp"
 #include "swept/core/point_cloud.hpp"
+#include "threads/crew.hpp"
 
 namespace swept::detail {
 namespace {
@@ -62,8 +64,13 @@ Points all(const std::vector<int>& order, const Points& points) {
   return result;
 }
 
+std::vector<int> orderOf(const Points& points, unsigned threads = 1) {
+  Crew crew(threads);
+  return curveOrder(points, Aabb::fit(points), crew);
+}
+
 Points ordered(const Points& points) {
-  return all(curveOrder(points, Aabb::fit(points)), points);
+  return all(orderOf(points), points);
 }
 
 /// m, of the boxes of runs of eight.
@@ -114,7 +121,7 @@ TEST(HilbertCurve, FinerCurvesRefineCoarserOnes) {
 TEST(CurveOrder, IsAPermutationWhoseRunsAreCompact) {
   std::mt19937 random(2);
   const Points points = uniformPoints(random, 40000);
-  std::vector<int> order = curveOrder(points, Aabb::fit(points));
+  std::vector<int> order = orderOf(points);
   // 5000 buckets share a volume of 8: the diagonal of a cube of that share is 0.2.
   EXPECT_LT(medianBucket(all(order, points)), 0.3);
   EXPECT_GT(medianBucket(points), 1.0);
@@ -137,7 +144,7 @@ TEST(CurveOrder, TakesAnyFiniteCoordinates) {
     for (Vector3d& p : points) p *= scale;
     points.front() = Vector3d::Constant(scale);
     points.back() = Vector3d::Constant(-scale);
-    std::vector<int> order = curveOrder(points, Aabb::fit(points));
+    std::vector<int> order = orderOf(points);
     std::ranges::sort(order);
     for (std::size_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], static_cast<int>(i));
   }
@@ -221,7 +228,8 @@ void check(Points points, double radius, std::mt19937* randomRadii = nullptr) {
     for (std::size_t i = 0; i < points.size(); ++i) radii.push_back(radius * share(*randomRadii));
   }
   const PointBuckets balls{points, radii, radius};
-  Check(CloudTree(balls).bvh(), balls).run();
+  Crew alone(1);
+  Check(CloudTree(balls, alone).bvh(), balls).run();
 }
 
 TEST(CloudTree, BoxesContainTheBalls) {
@@ -242,11 +250,50 @@ TEST(CloudTree, BoxesContainTheBalls) {
   check(tiny, 0.0);
 }
 
+/// Everything that queries read.
+std::string bytesOf(const WideBvh& bvh) {
+  std::string bytes;
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const WideNode& node : bvh.nodes()) {
+    add(node.center);
+    add(node.axes);
+    add(node.half);
+    add(node.child);
+    for (const double at : node.origin) add(at);
+    add(node.reach);
+    add(node.count);
+  }
+  return bytes;
+}
+
+/// Of more pieces than threads, with a last one that is short.
+TEST(CloudTree, IsTheSameForAnyNumberOfThreads) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> radius(0.001, 0.01);
+  const Points points = wallPoints(random, 70'003);
+  const std::vector<int> order = orderOf(points);
+  const Points sorted = all(order, points);
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < sorted.size(); ++i) radii.push_back(radius(random));
+  Crew alone(1);
+  const PointBuckets balls{sorted, radii, 0.01};
+  const std::string truth = bytesOf(CloudTree(balls, alone).bvh());
+  EXPECT_GT(truth.size(), 500'000U);
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    Crew crew(threads);
+    EXPECT_EQ(orderOf(points, threads), order);
+    EXPECT_EQ(bytesOf(CloudTree(balls, crew).bvh()), truth);
+  }
+}
+
 TEST(CloudTree, FindsTheFarthestPoint) {
   std::mt19937 random(6);
   for (const int count : {1, 100, 5000}) {
     const Points points = ordered(wallPoints(random, count));
-    const CloudTree tree({points, {}, 0.0});
+    Crew alone(1);
+    const CloudTree tree({points, {}, 0.0}, alone);
     for (int i = 0; i < 200; ++i) {
       const Vector3d d = test::uniformPoint(random, 1.0);
       double truth = -std::numeric_limits<double>::infinity();
@@ -259,7 +306,8 @@ TEST(CloudTree, FindsTheFarthestPoint) {
 /// Contains the points, and reaches at most `beyond` of their size farther.
 void checkHull(const Points& given, double beyond) {
   const Points points = ordered(given);
-  const CloudTree tree({points, {}, 0.0});
+  Crew alone(1);
+  const CloudTree tree({points, {}, 0.0}, alone);
   const ConvexHull hull = cloudHull(points, tree);
   EXPECT_LE(hull.vertices().size(), points.size() > ConvexHull::kFew ? 300U : ConvexHull::kFew);
   double farthest = 0.0;

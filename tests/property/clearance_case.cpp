@@ -128,8 +128,8 @@ std::vector<double> ClearanceCase::between(const std::vector<double>& from,
 void ClearanceCase::findListed() {
   const auto model = swept::detail::compileChecker(
       loaded_, checker_->group(), std::make_shared<const swept::World>(built_), options_);
-  for (const swept::detail::GeometryPair& pair : model->pairs) {
-    if (pair.self) continue;
+  for (std::size_t i = 0; i < model->worldPairs.size(); ++i) {
+    const swept::detail::GeometryPair pair = model->pair(i);
     const auto& geometry = model->robotGeometry[static_cast<std::size_t>(pair.a)];
     const auto& other = model->worldGeometry[static_cast<std::size_t>(pair.b)];
     listed_.emplace(model->nameOfA(pair), geometry.piece, model->nameOfB(pair), other.part);

@@ -35,7 +35,7 @@ std::shared_ptr<const detail::CheckerModel> slideBetweenBalls(const CheckerOptio
 /// In whatever order they are found.
 TEST(PairOracle, KeepsTheEarliestContact) {
   const auto model = slideBetweenBalls();
-  ASSERT_EQ(model->pairs.size(), 3U);
+  ASSERT_EQ(model->pairCount(), 3U);
   const std::vector<double> from{0.0};
   const std::vector<double> to{1.0};
   std::vector<double> times{0.2, 0.5, 0.8};
@@ -135,8 +135,8 @@ class ClaimsOfTwoLinks : public testing::Test {
 };
 
 TEST_F(ClaimsOfTwoLinks, HoldWhereBothLinksAre) {
-  ASSERT_EQ(model_->pairs.size(), 1U);
-  ASSERT_TRUE(model_->pairs[0].self);
+  ASSERT_EQ(model_->pairCount(), 1U);
+  ASSERT_TRUE(model_->pair(0).self);
   const std::optional<Witness> witness = confirmed(0.15, {0.075F, 0.01F, -0.01F});
   ASSERT_TRUE(witness);
   EXPECT_EQ(witness->t, 0.5);

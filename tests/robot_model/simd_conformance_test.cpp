@@ -120,15 +120,16 @@ class Geometry {
 
   /// Whether two bodies touch, or are for sure nearer than the margin.
   bool anyWithin(double margin) const {
-    for (const detail::GeometryPair& pair : model_.pairs)
-      if (within(pair, margin)) return true;
+    for (std::size_t i = 0; i < model_.pairCount(); ++i)
+      if (within(model_.pair(i), margin)) return true;
     return false;
   }
 
   /// Least distance of the geometry of two bodies, m.
   double distanceOf(const std::string& bodyA, const std::string& bodyB) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const detail::GeometryPair& pair : model_.pairs) {
+    for (std::size_t i = 0; i < model_.pairCount(); ++i) {
+      const detail::GeometryPair pair = model_.pair(i);
       if (model_.nameOfA(pair) != bodyA || model_.nameOfB(pair) != bodyB) continue;
       const auto& a = model_.robotGeometry[pair.a];
       least = std::min(least, distance(a.shape, shapeOfB(pair), between(pair)).upper);

@@ -98,7 +98,7 @@ class Stage {
     world->add("obstacle", Sphere{5.0}, Isometry3d::Identity());
     model_ = *detail::compileChecker(loaded, *loaded->findGroup(group), world, {});
     // What the links do to each other is not what this is about.
-    std::erase_if(model_.pairs, [](const detail::GeometryPair& pair) { return pair.self; });
+    model_.pairs.clear();
     model_.simd = simdModelOf(model_);
     joints_.resize(model_.kinematics.bodies.size());
     states_.resize(joints_.size());
@@ -123,7 +123,7 @@ class Stage {
   /// the side that it accelerates to or away from. False if there is no contact after all.
   bool placeObstacle(Random& random, double depth) {
     const double t = random.uniform(0.0, 1.0);
-    const auto& pair = model_.pairs[random.below(static_cast<int>(model_.pairs.size()))];
+    const auto pair = model_.pair(random.below(static_cast<int>(model_.pairCount())));
     const auto& link = model_.robotGeometry[pair.a];
     // The inner side of the turn too: there the way bends past the segments that stand for it.
     const Vector3d aside = random.chance(0.5) ? outwardAt(t, link) : Vector3d(-outwardAt(t, link));

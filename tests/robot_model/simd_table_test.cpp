@@ -56,8 +56,8 @@ TEST(SimdTable, HoldsForGeometryThatStandsWhereItDid) {
       const std::vector<bool> after =
           tablesAfter(model, [&](std::vector<Geometry>& all) { change(all[piece]); });
       std::vector<bool> expected = before;
-      for (std::size_t i = 0; i < model.pairs.size(); ++i) {
-        const detail::GeometryPair& pair = model.pairs[i];
+      for (std::size_t i = 0; i < model.pairCount(); ++i) {
+        const detail::GeometryPair pair = model.pair(i);
         const int own = static_cast<int>(piece);
         if (pair.self && (pair.a == own || pair.b == own))
           expected[static_cast<std::size_t>(model.simd.sources[i].bodyPair)] = false;

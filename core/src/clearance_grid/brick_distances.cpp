@@ -3,30 +3,57 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "clearance_grid/squared_gaps.hpp"
+#include "threads/crew.hpp"
 
-namespace swept::detail {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE \
+  "clearance_grid/brick_distances.cpp"  // compiled once for each instruction set
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+#include "swept/core/simd_dispatch.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace swept::detail::HWY_NAMESPACE {
 namespace {
 
 using Mask = Voxels::Mask;
 
-/// The minimum of either row's values, the other row's values grown by a gap. Everything is read
-/// before anything is written, so that the compiler vectorises without testing for overlap.
-template <std::size_t kCount>
-void lowerRow(SquaredGap* to, const SquaredGap* from, SquaredGap gap) {
-  std::array<SquaredGap, kCount> least;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const auto found = static_cast<SquaredGap>(from[i] + gap);
-    const SquaredGap known = to[i];
-    least[i] = found < known ? found : known;
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<SquaredGap, 16>;
+using Lanes = hn::Vec<Tag>;
+
+/// Lowers four rows of `count` values to those of twelve rows, the i-th of which is `gaps[k][i]`
+/// farther from the k-th of the four. Rows that are not in `wanted` have no values.
+template <std::size_t kCount, typename Gaps>
+HWY_INLINE void lowerRows(SquaredGap* to, const SquaredGap* from, unsigned wanted,
+                          const Gaps& gaps) {
+  const Tag tag;
+  for (std::size_t at = 0; at < kCount; at += hn::Lanes(tag)) {
+    Lanes least0 = hn::LoadU(tag, to + at);
+    Lanes least1 = hn::LoadU(tag, to + kCount + at);
+    Lanes least2 = hn::LoadU(tag, to + 2 * kCount + at);
+    Lanes least3 = hn::LoadU(tag, to + 3 * kCount + at);
+    for (unsigned left = wanted; left != 0; left &= left - 1) {
+      const auto row = static_cast<std::size_t>(std::countr_zero(left));
+      const Lanes values = hn::LoadU(tag, from + kCount * row + at);
+      least0 = hn::Min(least0, hn::Add(values, hn::Set(tag, gaps[0][row])));
+      least1 = hn::Min(least1, hn::Add(values, hn::Set(tag, gaps[1][row])));
+      least2 = hn::Min(least2, hn::Add(values, hn::Set(tag, gaps[2][row])));
+      least3 = hn::Min(least3, hn::Add(values, hn::Set(tag, gaps[3][row])));
+    }
+    hn::StoreU(least0, tag, to + at);
+    hn::StoreU(least1, tag, to + kCount + at);
+    hn::StoreU(least2, tag, to + 2 * kCount + at);
+    hn::StoreU(least3, tag, to + 3 * kCount + at);
   }
-  std::copy_n(least.data(), kCount, to);
 }
 
 /// Distances of the voxels of blocks from the marked voxels of the surrounding blocks. Space beyond
@@ -45,57 +72,72 @@ class BrickDistances {
         ofRow_[row][x] = least;
       }
     }
+    for (std::size_t x = 0; x < 4; ++x)
+      for (std::size_t k = 0; k < kWindow; ++k) gaps_[x][k] = gapTo(x, k);
   }
 
-  void store() {
+  /// Layers of blocks are numbered by the bricks in those before, so that threads do not matter.
+  void store(Crew& crew) {
     const auto [nx, ny, nz] = field_.blocks;
-    const std::vector<std::uint8_t> near = findNear();
-    field_.bricks.assign(near.size(), 0);
-    field_.voxels.assign(16, 0);
-    std::size_t i = 0;
-    for (int z = 0; z < nz; ++z) {
-      for (int y = 0; y < ny; ++y) {
-        for (int x = 0; x < nx; ++x, ++i) {
-          if (near[i] == 0 || voxels_.block(x, y, z) == Voxels::kFull) continue;
-          look(x, y, z);
-          field_.bricks[i] = static_cast<std::int32_t>(field_.voxels.size() / 16);
-          spread();
-        }
-      }
-    }
+    near_.assign(static_cast<std::size_t>(nx) * ny * nz, 0);
+    field_.bricks.assign(near_.size(), 0);
+    std::vector<std::int32_t> firstOf(static_cast<std::size_t>(nz) + 1, 0);
+    crew.forPieces(
+        nz, 1, [&](std::size_t z, std::size_t) { firstOf[z + 1] = findNear(static_cast<int>(z)); });
+    firstOf[0] = 1;  // brick 0 stands for none
+    for (std::size_t z = 1; z < firstOf.size(); ++z) firstOf[z] += firstOf[z - 1];
+    field_.voxels.assign(16 * static_cast<std::size_t>(firstOf.back()), 0);
+    crew.forPieces(
+        nz, 1, [&](std::size_t z, std::size_t) { storeLayer(static_cast<int>(z), firstOf[z]); });
   }
 
  private:
   static constexpr std::size_t kWindow = 12;  ///< voxels: three blocks
   static constexpr double kMost = 5.5;
 
-  /// Blocks that are not empty, the blocks around them, and those where the window cut the shape.
-  std::vector<std::uint8_t> findNear() const {
+  /// In a layer: blocks that are not empty, the blocks around such ones, and those where the window
+  /// cut the shape. Returns how many of them have bricks.
+  std::int32_t findNear(int z) {
     const auto [nx, ny, nz] = field_.blocks;
-    std::vector<std::uint8_t> near(static_cast<std::size_t>(nx) * ny * nz, 0);
     const auto isCut = [&](int axis, int at) {
       return (at == 0 && std::isinf(field_.lower[axis])) ||
              (at + 1 == field_.blocks[axis] && std::isinf(field_.upper[axis]));
     };
-    for (int z = 0; z < nz; ++z) {
+    for (int k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k) {
       for (int y = 0; y < ny; ++y) {
         for (int x = 0; x < nx; ++x) {
-          if (isCut(0, x) || isCut(1, y) || isCut(2, z)) near[voxels_.blockIndex(x, y, z)] = 1;
-          if (voxels_.empty(x, y, z)) continue;
-          for (int k = std::max(z - 1, 0); k <= std::min(z + 1, nz - 1); ++k)
-            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)
-              for (int i = std::max(x - 1, 0); i <= std::min(x + 1, nx - 1); ++i)
-                near[voxels_.blockIndex(i, j, k)] = 1;
+          if (voxels_.empty(x, y, k)) continue;
+          for (int j = std::max(y - 1, 0); j <= std::min(y + 1, ny - 1); ++j)
+            for (int i = std::max(x - 1, 0); i <= std::min(x + 1, nx - 1); ++i)
+              near_[voxels_.blockIndex(i, j, z)] = 1;
         }
       }
     }
-    return near;
+    std::int32_t count = 0;
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) {
+        std::uint8_t& near = near_[voxels_.blockIndex(x, y, z)];
+        if (isCut(0, x) || isCut(1, y) || isCut(2, z)) near = 1;
+        if (voxels_.block(x, y, z) == Voxels::kFull) near = 0;
+        count += near;
+      }
+    }
+    return count;
   }
 
-  /// At the blocks around.
-  void look(int x, int y, int z) {
-    for (int i = 0; i < 27; ++i)
-      around_[i] = maskAt(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
+  /// The bricks of a layer, from number `brick` on.
+  void storeLayer(int z, std::int32_t brick) const {
+    std::array<Mask, 27> around{};
+    for (int y = 0; y < field_.blocks[1]; ++y) {
+      for (int x = 0; x < field_.blocks[0]; ++x) {
+        const std::size_t block = voxels_.blockIndex(x, y, z);
+        if (near_[block] == 0) continue;
+        for (int i = 0; i < 27; ++i)
+          around[i] = maskAt(x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1);
+        spread(around, &field_.voxels[16 * static_cast<std::size_t>(brick)]);
+        field_.bricks[block] = brick++;
+      }
+    }
   }
 
   Mask maskAt(int x, int y, int z) const {
@@ -107,13 +149,14 @@ class BrickDistances {
     return voxels_.block(x, y, z);
   }
 
-  void spread() {
+  /// `words`: the sixteen of the brick.
+  void spread(const std::array<Mask, 27>& around, std::uint32_t* words) const {
     std::array<SquaredGap, kWindow * kWindow * 4> rows;
     rows.fill(kUnknownGap);
-    std::array<unsigned, kWindow> ofY{};  // bits of all rows at a y, and at a z: most are empty
-    std::array<unsigned, kWindow> ofZ{};
+    unsigned ofY = 0;  // those with a value in a row: most have none
+    unsigned ofZ = 0;
     for (std::size_t i = 0; i < 9; ++i) {
-      const Mask* blocks = &around_[3 * i];
+      const Mask* blocks = &around[3 * i];
       if ((blocks[0] | blocks[1] | blocks[2]) == 0) continue;
       for (std::size_t j = 0; j < 16; ++j) {
         const std::size_t shift = 4 * j;
@@ -122,32 +165,27 @@ class BrickDistances {
                                   (blocks[2] >> shift & 15U) << 8);
         const std::size_t y = 4 * (i % 3) + j % 4;
         const std::size_t z = 4 * (i / 3) + j / 4;
-        ofY[y] |= bits;
-        ofZ[z] |= bits;
+        if (bits == 0) continue;
+        ofY |= 1U << y;
+        ofZ |= 1U << z;
         std::copy_n(ofRow_[bits].data(), 4, &rows[4 * (kWindow * z + y)]);
       }
     }
     std::array<SquaredGap, kWindow * 16> columns;
     columns.fill(kUnknownGap);
-    for (std::size_t from = 0; from < kWindow; ++from) {
-      if (ofZ[from] == 0) continue;
-      for (std::size_t z = 0; z < 4; ++z)
-        lowerRow<4 * kWindow>(&columns[4 * kWindow * z], &rows[4 * kWindow * from], gapTo(z, from));
-    }
+    lowerRows<4 * kWindow>(columns.data(), rows.data(), ofZ, gaps_);
     // With z before y, so that the next step, too, goes through long rows.
     std::array<SquaredGap, kWindow * 16> turned;
     for (std::size_t y = 0; y < kWindow; ++y)
       for (std::size_t z = 0; z < 4; ++z)
         std::copy_n(&columns[4 * (kWindow * z + y)], 4, &turned[16 * y + 4 * z]);
     std::array<SquaredGap, 64> least = toBorder_;
-    for (std::size_t y = 0; y < 4; ++y)
-      for (std::size_t from = 0; from < kWindow; ++from)
-        if (ofY[from] != 0) lowerRow<16>(&least[16 * y], &turned[16 * from], gapTo(y, from));
+    lowerRows<16>(least.data(), turned.data(), ofY, gaps_);
     for (std::size_t z = 0; z < 4; ++z) {
       for (std::size_t y = 0; y < 4; ++y) {
         std::uint32_t word = 0;
         for (std::size_t x = 0; x < 4; ++x) word |= steps_(least[16 * y + 4 * z + x]) << (8 * x);
-        field_.voxels.push_back(word);
+        *words++ = word;
       }
     }
   }
@@ -168,14 +206,28 @@ class BrickDistances {
   ClearanceField& field_;
   GapSteps steps_;
   std::array<std::array<SquaredGap, 4>, 1 << kWindow> ofRow_;
+  /// gapTo().
+  std::array<std::array<SquaredGap, kWindow>, 4> gaps_;
   std::array<SquaredGap, 64> toBorder_;  ///< x, then z, then y
-  std::array<Mask, 27> around_{};
+  std::vector<std::uint8_t> near_;       ///< per block: whether it has a brick
 };
 
-}  // namespace
+void MeasureBricks(const Voxels& voxels, Crew& crew, ClearanceField& field) {
+  BrickDistances(voxels, field).store(crew);
+}
 
-void measureBricks(const Voxels& voxels, ClearanceField& field) {
-  BrickDistances(voxels, field).store();
+}  // namespace
+}  // namespace swept::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace swept::detail {
+
+SWEPT_DISPATCH_TABLE(MeasureBricks);
+
+void measureBricks(const Voxels& voxels, Crew& crew, ClearanceField& field) {
+  SWEPT_DISPATCH(MeasureBricks)(voxels, crew, field);
 }
 
 }  // namespace swept::detail
+#endif

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "clearance_grid/field_distances.hpp"
+#include "threads/crew.hpp"
 
 namespace swept::detail {
 
@@ -72,9 +73,18 @@ Voxels layOut(const Aabb& box, const Aabb& window, double least, std::size_t cel
   return {field.origin, side, field.blocks, reach};
 }
 
-std::shared_ptr<const ClearanceField> measured(const Voxels& voxels, ClearanceField& field) {
-  measureCells(voxels, field);
-  measureBricks(voxels, field);
+/// Enough cells to be worth a thread of their own: half a millisecond of work.
+constexpr std::size_t kCellsOfThread = std::size_t{1} << 16;
+
+std::size_t cellsOf(const ClearanceField& field) {
+  const auto [nx, ny, nz] = field.blocks;
+  return std::size_t{8} * nx * ny * nz;
+}
+
+std::shared_ptr<const ClearanceField> measured(const Voxels& voxels, Crew& crew,
+                                               ClearanceField& field) {
+  measureCells(voxels, crew, field);
+  measureBricks(voxels, crew, field);
   return std::make_shared<const ClearanceField>(std::move(field));
 }
 
@@ -96,16 +106,17 @@ std::shared_ptr<const ClearanceField> buildField(const TriangleMesh& mesh, const
     voxels.mark({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
   if (mesh.interior() == MeshInterior::Solid && mesh.report().closedComponents > 0)
     voxels.fill(mesh);
-  return measured(voxels, field);
+  Crew crew(threadsFor(cellsOf(field), kCellsOfThread));
+  return measured(voxels, crew, field);
 }
 
 std::shared_ptr<const ClearanceField> buildField(const PointCloud& cloud, const Aabb& window,
                                                  std::size_t cells) {
   ClearanceField field;
   Voxels voxels = layOut(fieldBox(cloud), window, sideFor(cloud), cells, field);
-  for (std::size_t i = 0; i < cloud.points().size(); ++i)
-    voxels.mark(cloud.points()[i], cloud.radius(i));
-  return measured(voxels, field);
+  Crew crew(threadsFor(cellsOf(field), kCellsOfThread));
+  voxels.mark(cloud, crew);
+  return measured(voxels, crew, field);
 }
 
 }  // namespace swept::detail

@@ -6,11 +6,14 @@
 
 namespace swept::detail {
 
-// In each function, `field` has its grid, and the voxels belong to that grid.
+class Crew;
+
+// In each function, `field` has its grid, and the voxels belong to that grid. The work is done by
+// layers of blocks, each on some thread of the crew.
 
 /// Fills in the values of the cells.
-void measureCells(const Voxels& voxels, ClearanceField& field);
+void measureCells(const Voxels& voxels, Crew& crew, ClearanceField& field);
 /// Fills in the bricks and the values of their voxels.
-void measureBricks(const Voxels& voxels, ClearanceField& field);
+void measureBricks(const Voxels& voxels, Crew& crew, ClearanceField& field);
 
 }  // namespace swept::detail

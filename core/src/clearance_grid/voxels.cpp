@@ -2,7 +2,11 @@
 #include "clearance_grid/voxels.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <span>
+
+#include "threads/crew.hpp"
 
 namespace swept::detail {
 
@@ -85,7 +89,7 @@ Voxels::Voxels(const Vector3d& origin, double side, const std::array<int, 3>& bl
       // More than all rounding of points computed between corners, and of encloses().
       slack_(1e-12 * (reach + origin.lpNorm<1>()) + 1e-9 * side),
       blocks_(blocks) {
-  known_.assign(static_cast<std::size_t>(blocks[0]) * blocks[1] * blocks[2], kEmpty);
+  masks_.assign(static_cast<std::size_t>(blocks[0]) * blocks[1] * blocks[2], 0);
 }
 
 /// The voxels that a box meets; false: none.
@@ -104,12 +108,8 @@ bool Voxels::voxelsOf(const Vector3d& lower, const Vector3d& upper, Eigen::Array
 
 void Voxels::set(int x, int y, int z) {
   const std::size_t block = blockIndex(x / 4, y / 4, z / 4);
-  if (known_[block] < 0) {
-    known_[block] = static_cast<std::int32_t>(masks_.size());
-    masks_.push_back(0);
-    blockOf_.push_back(block);
-  }
-  masks_[known_[block]] |= Mask{1} << (x % 4 + 4 * (y % 4) + 16 * (z % 4));
+  if (masks_[block] == 0) surface_.push_back(block);
+  masks_[block] |= Mask{1} << (x % 4 + 4 * (y % 4) + 16 * (z % 4));
 }
 
 /// Lemma: a voxel that meets the triangle is neither wholly on one side of its plane nor wholly
@@ -139,21 +139,87 @@ void Voxels::markVoxels(const Eigen::Array3i& first, const Eigen::Array3i& last,
   }
 }
 
-void Voxels::mark(const Vector3d& center, double radius) {
-  Eigen::Array3i first;
-  Eigen::Array3i last;
-  const Vector3d reach = Vector3d::Constant(radius);
-  if (!voxelsOf(center - reach, center + reach, first, last)) return;
-  const double most = (radius + slack_) * (radius + slack_);
-  for (int z = first[2]; z <= last[2]; ++z) {
-    for (int y = first[1]; y <= last[1]; ++y) {
-      for (int x = first[0]; x <= last[0]; ++x) {
-        const Vector3d off = (middle(x, y, z) - center).cwiseAbs();
-        const Vector3d gap = (off.array() - (0.5 * side_ + slack_)).max(0.0);
-        if (!(gap.squaredNorm() > most)) set(x, y, z);
-      }
+/// Marks balls, several threads at a time: a set of bits is the same in whatever order it is made.
+class Voxels::BallMarker {
+ public:
+  explicit BallMarker(Voxels& voxels)
+      : voxels_(voxels), half_(0.5 * voxels.side_ + voxels.slack_) {}
+
+  void mark(const Vector3d& center, double radius) {
+    Eigen::Array3i first;
+    Eigen::Array3i last;
+    const Vector3d reach = Vector3d::Constant(radius);
+    if (!voxels_.voxelsOf(center - reach, center + reach, first, last)) return;
+    most_ = (radius + voxels_.slack_) * (radius + voxels_.slack_);
+    for (int i = 0; i < 3; ++i) {
+      first_[i] = first[i];
+      last_[i] = last[i];
+      findGaps(center[i], i);
+    }
+    for (int z = first_[2] >> 2; z <= last_[2] >> 2; ++z)
+      for (int y = first_[1] >> 2; y <= last_[1] >> 2; ++y)
+        for (int x = first_[0] >> 2; x <= last_[0] >> 2; ++x)
+          add(voxels_.blockIndex(x, y, z), within(4 * x, 4 * y, 4 * z));
+  }
+
+ private:
+  /// Of the voxels that the ball may meet, along an axis.
+  void findGaps(double center, int axis) {
+    std::vector<double>& gaps = gaps_[axis];
+    const auto count = static_cast<std::size_t>(last_[axis] - first_[axis]) + 1;
+    if (gaps.size() < count) gaps.resize(count);
+    double* const to = gaps.data();
+    const double origin = voxels_.origin_[axis];
+    for (int i = first_[axis]; i <= last_[axis]; ++i) {
+      const double middle = origin + voxels_.side_ * (i + 0.5);
+      const double gap = std::max(std::abs(middle - center) - half_, 0.0);
+      to[i - first_[axis]] = gap * gap;
     }
   }
+
+  /// The voxels of the block from (x, y, z) on that the ball meets.
+  Mask within(int x, int y, int z) const {
+    const int fromX = std::max(first_[0], x), toX = std::min(last_[0], x + 3);
+    const int fromY = std::max(first_[1], y), toY = std::min(last_[1], y + 3);
+    const int fromZ = std::max(first_[2], z), toZ = std::min(last_[2], z + 3);
+    const double* const gapsX = gaps_[0].data();
+    const double* const gapsY = gaps_[1].data();
+    const double* const gapsZ = gaps_[2].data();
+    Mask mask = 0;
+    for (int k = fromZ; k <= toZ; ++k) {
+      const double gapZ = gapsZ[k - first_[2]];
+      for (int j = fromY; j <= toY; ++j) {
+        const double gapY = gapsY[j - first_[1]];
+        Mask row = 0;
+        for (int i = fromX; i <= toX; ++i)
+          row |= Mask{!(gapsX[i - first_[0]] + gapY + gapZ > most_)} << (i - x);
+        mask |= row << (4 * (j - y) + 16 * (k - z));
+      }
+    }
+    return mask;
+  }
+
+  /// Neighbours in a cloud mark the same voxels: mostly there is nothing to add.
+  void add(std::size_t block, Mask mask) {
+    const std::atomic_ref<Mask> known(voxels_.masks_[block]);
+    if ((mask & ~known.load(std::memory_order_relaxed)) != 0)
+      known.fetch_or(mask, std::memory_order_relaxed);
+  }
+
+  Voxels& voxels_;
+  double half_;                              ///< m, of a voxel's side, and the slack
+  std::array<std::vector<double>, 3> gaps_;  ///< m^2, from the centre, per axis
+  std::array<int, 3> first_{}, last_{};      ///< voxels that the ball may meet
+  double most_ = 0.0;                        ///< m^2
+};
+
+void Voxels::mark(const PointCloud& cloud, Crew& crew) {
+  constexpr std::size_t kEach = 4096;
+  const std::span<const Vector3d> points = cloud.points();
+  crew.forPieces(points.size(), kEach, [&](std::size_t first, std::size_t last) {
+    BallMarker marker(*this);
+    for (std::size_t i = first; i < last; ++i) marker.mark(points[i], cloud.radius(i));
+  });
 }
 
 /// Halves the triangle until a piece spans few voxels, or two along each axis if it has no plane to
@@ -206,8 +272,8 @@ void Voxels::fill(const TriangleMesh& mesh) {
   const CellGrid grid(blocks_);
   std::vector<std::uint8_t> cells(grid.size(), kUnseen);
   grid.markBorder(cells);
-  for (const std::size_t block : blockOf_) {
-    const Mask mask = maskAt(block);
+  for (const std::size_t block : surface_) {
+    const Mask mask = masks_[block];
     for (int i = 0; i < 8; ++i)
       if ((mask & cellMask(i & 1, i >> 1 & 1, i >> 2)) != 0) cells[grid.cellOf(block, i)] = kMarked;
   }
@@ -262,7 +328,7 @@ Mask Voxels::reached(std::size_t block, const std::vector<Mask>& outside) const 
     reached |= (outside[block + nx] & kFirstY) << 12;
   if (z > 0) reached |= outside[block - layer] >> 48;
   if (z + 1 < static_cast<std::size_t>(blocks_[2])) reached |= outside[block + layer] << 48;
-  const Mask free = ~masks_[known_[block]];
+  const Mask free = ~masks_[block];
   reached &= free;
   for (Mask next = grown(reached) & free; next != reached; next = grown(reached) & free)
     reached = next;
@@ -270,10 +336,10 @@ Mask Voxels::reached(std::size_t block, const std::vector<Mask>& outside) const 
 }
 
 void Voxels::fillBlocks(const CellGrid& grid, const std::vector<std::uint8_t>& cells) {
-  std::vector<Mask> outside(known_.size(), 0);
-  for (std::size_t block = 0; block < known_.size(); ++block) {
+  std::vector<Mask> outside(masks_.size(), 0);
+  for (std::size_t block = 0; block < masks_.size(); ++block) {
     // The cells of an empty block are on the same side.
-    if (known_[block] == kEmpty) {
+    if (masks_[block] == 0) {
       if (cells[grid.cellOf(block, 0)] == kOutside) outside[block] = kFull;
       continue;
     }
@@ -286,18 +352,13 @@ void Voxels::fillBlocks(const CellGrid& grid, const std::vector<std::uint8_t>& c
   bool changed = true;
   for (int round = 0; changed && round < kMostRounds; ++round) {
     changed = false;
-    for (const std::size_t block : blockOf_) {
+    for (const std::size_t block : surface_) {
       const Mask now = reached(block, outside);
       changed = changed || now != outside[block];
       outside[block] = now;
     }
   }
-  for (std::size_t block = 0; block < known_.size(); ++block) {
-    if (known_[block] >= 0)
-      masks_[known_[block]] = ~outside[block];
-    else if (outside[block] != kFull)
-      known_[block] = kSolid;
-  }
+  for (std::size_t block = 0; block < masks_.size(); ++block) masks_[block] = ~outside[block];
 }
 
 }  // namespace swept::detail

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "swept/core/bv/aabb.hpp"
+#include "swept/core/point_cloud.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace swept::detail {
 
 class CellGrid;
+class Crew;
 
 /// The voxels that triangles and points meet, in blocks of 4 x 4 x 4. A cell is an eighth of a
 /// block: 2 x 2 x 2 voxels.
@@ -29,7 +31,8 @@ class Voxels {
   /// Lemma: every point of the triangle within the grid is in a marked voxel, and so is every point
   /// within rounding of it.
   void mark(const std::array<Eigen::Vector3d, 3>& corners);
-  void mark(const Eigen::Vector3d& center, double radius);
+  /// The same for the balls of a cloud, on the crew's threads.
+  void mark(const PointCloud& cloud, Crew& crew);
 
   /// Marks the space that closed components enclose, and possibly small pockets between triangles.
   void fill(const TriangleMesh& mesh);
@@ -38,8 +41,8 @@ class Voxels {
   const Eigen::Vector3d& origin() const { return origin_; }  ///< m
   const std::array<int, 3>& blocks() const { return blocks_; }
   /// Whether the whole block is unmarked.
-  bool empty(int x, int y, int z) const { return known_[blockIndex(x, y, z)] == kEmpty; }
-  Mask block(int x, int y, int z) const { return maskAt(blockIndex(x, y, z)); }
+  bool empty(int x, int y, int z) const { return masks_[blockIndex(x, y, z)] == 0; }
+  Mask block(int x, int y, int z) const { return masks_[blockIndex(x, y, z)]; }
   /// Whether a voxel of the cell is marked.
   bool cell(int x, int y, int z) const {
     return (block(x / 2, y / 2, z / 2) & cellMask(x % 2, y % 2, z % 2)) != 0;
@@ -49,21 +52,15 @@ class Voxels {
   }
 
  private:
-  static constexpr std::int32_t kEmpty = -1;
-  static constexpr std::int32_t kSolid = -2;
-
   static constexpr Mask cellMask(int x, int y, int z) {
     return Mask{0x330033} << (2 * x + 8 * y + 32 * z);
-  }
-  Mask maskAt(std::size_t block) const {
-    const std::int32_t known = known_[block];
-    return known >= 0 ? masks_[known] : known == kSolid ? kFull : 0;
   }
   bool voxelsOf(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, Eigen::Array3i& first,
                 Eigen::Array3i& last) const;
   void markVoxels(const Eigen::Array3i& first, const Eigen::Array3i& last,
                   const Eigen::Vector3d& normal, const std::array<Eigen::Vector3d, 3>& corners);
   void set(int x, int y, int z);
+  class BallMarker;
   Eigen::Vector3d middle(int x, int y, int z) const {
     return origin_ + side_ * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
   }
@@ -76,9 +73,8 @@ class Voxels {
   double inverse_;  ///< 1/m
   double slack_;    ///< m
   std::array<int, 3> blocks_;
-  std::vector<std::int32_t> known_;  ///< per block: of masks_, or kEmpty, or kSolid
-  std::vector<Mask> masks_;
-  std::vector<std::size_t> blockOf_;  ///< per mask
+  std::vector<Mask> masks_;           ///< per block
+  std::vector<std::size_t> surface_;  ///< blocks that triangles meet
 };
 
 }  // namespace swept::detail

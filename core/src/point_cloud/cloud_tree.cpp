@@ -7,6 +7,7 @@
 
 #include "bv/principal_axes.hpp"
 #include "bvh/box_fit.hpp"
+#include "threads/crew.hpp"
 
 namespace swept::detail {
 
@@ -20,6 +21,9 @@ constexpr std::size_t kLanes = WideNode::kLanes;
 /// flat. Larger patches are curved, and not worth another pass over all points.
 constexpr std::size_t kLastOriented = 2;
 
+/// Pieces for one thread at a time: some 50 us of work.
+constexpr std::size_t kBucketsAtOnce = 1024, kPatchesAtOnce = 64;
+
 Aabb joined(const Aabb& a, const Aabb& b) {
   return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
 }
@@ -31,18 +35,28 @@ double supportOf(const Aabb& box, const Vector3d& d) {
 
 }  // namespace
 
-CloudTree::CloudTree(const PointBuckets& buckets) : buckets_(buckets) {
-  std::vector<Aabb> level;
-  level.reserve((buckets.points.size() + kLanes - 1) / kLanes);
-  for (std::size_t first = 0; first < buckets.points.size(); first += kLanes) {
-    const auto run = buckets.points.subspan(first, std::min(kLanes, buckets.points.size() - first));
-    Aabb box{run.front(), run.front()};
-    for (const Vector3d& p : run) box = {box.lower.cwiseMin(p), box.upper.cwiseMax(p)};
-    level.push_back(box);
-    if (buckets.radii.empty()) continue;
-    radii_.push_back(*std::ranges::max_element(buckets.radii.subspan(first, run.size())));
-  }
-  levels_.push_back(std::move(level));
+/// Of each bucket, the box of its points, and the largest radius if radii differ.
+void CloudTree::findBuckets(std::vector<Aabb>& boxes) {
+  const std::size_t count = (buckets_.points.size() + kLanes - 1) / kLanes;
+  boxes.resize(count);
+  if (!buckets_.radii.empty()) radii_.resize(count);
+  crew_.forPieces(count, kBucketsAtOnce, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const std::size_t first = i * kLanes;
+      const auto run =
+          buckets_.points.subspan(first, std::min(kLanes, buckets_.points.size() - first));
+      Aabb box{run.front(), run.front()};
+      for (const Vector3d& p : run) box = {box.lower.cwiseMin(p), box.upper.cwiseMax(p)};
+      boxes[i] = box;
+      if (buckets_.radii.empty()) continue;
+      radii_[i] = *std::ranges::max_element(buckets_.radii.subspan(first, run.size()));
+    }
+  });
+}
+
+CloudTree::CloudTree(const PointBuckets& buckets, Crew& crew) : buckets_(buckets), crew_(crew) {
+  levels_.emplace_back();
+  findBuckets(levels_.back());
   while (levels_.back().size() > 1) {
     const std::vector<Aabb>& below = levels_.back();
     std::vector<Aabb> above;
@@ -57,10 +71,11 @@ CloudTree::CloudTree(const PointBuckets& buckets) : buckets_(buckets) {
     levels_.push_back(std::move(above));
   }
   if (levels_.size() == 1) return;
-  patches_.reserve(levels_[1].size());
-  for (std::size_t i = 0; i < levels_[1].size(); ++i) {
-    patches_.push_back(principalAxes(scatterOf(pointsOf(1, i))));
-  }
+  patches_.resize(levels_[1].size());
+  crew_.forPieces(patches_.size(), kPatchesAtOnce, [this](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      patches_[i] = principalAxes(scatterOf(pointsOf(1, i)));
+  });
 }
 
 std::size_t CloudTree::childrenOf(std::size_t level, std::size_t index) const {
@@ -103,6 +118,20 @@ OrientedBox CloudTree::rootBox(const Aabb& grown) const {
   return fitOrientedBox({corners, radiusOf(top, 0), grown}, scatterOf(corners), grown.center());
 }
 
+/// `start`: per level, the first of its nodes.
+WideNode CloudTree::nodeOf(std::size_t level, std::size_t index,
+                           const std::vector<std::size_t>& start) const {
+  WideNode node{};
+  node.count = static_cast<std::int32_t>(childrenOf(level, index));
+  node.origin = levels_[level][index].center();
+  for (int lane = 0; lane < node.count; ++lane) {
+    const std::size_t child = kLanes * index + static_cast<std::size_t>(lane);
+    node.child[lane] = static_cast<std::int32_t>(start[level - 1] + child);
+    node.set(lane, boxFor(level - 1, child, node.origin));
+  }
+  return node;
+}
+
 WideBvh CloudTree::bvh() const {
   // Nodes of level k hold boxes of level k - 1. The root is the first; buckets follow the last.
   std::vector<std::size_t> start(levels_.size());
@@ -112,20 +141,13 @@ WideBvh CloudTree::bvh() const {
     count += levels_[level].size();
   }
   start[0] = count;
-  std::vector<WideNode> nodes;
-  nodes.reserve(count);
+  std::vector<WideNode> nodes(count);
   for (std::size_t level = levels_.size(); level-- > 1;) {
-    for (std::size_t index = 0; index < levels_[level].size(); ++index) {
-      WideNode node{};
-      node.count = static_cast<std::int32_t>(childrenOf(level, index));
-      node.origin = levels_[level][index].center();
-      for (int lane = 0; lane < node.count; ++lane) {
-        const std::size_t child = kLanes * index + static_cast<std::size_t>(lane);
-        node.child[lane] = static_cast<std::int32_t>(start[level - 1] + child);
-        node.set(lane, boxFor(level - 1, child, node.origin));
-      }
-      nodes.push_back(node);
-    }
+    crew_.forPieces(levels_[level].size(), kPatchesAtOnce,
+                    [&](std::size_t first, std::size_t last) {
+                      for (std::size_t i = first; i < last; ++i)
+                        nodes[start[level] + i] = nodeOf(level, i, start);
+                    });
   }
   const std::size_t top = levels_.size() - 1;
   const Aabb grown = withBalls(bounds(), radiusOf(top, 0));

@@ -10,6 +10,8 @@
 
 namespace swept::detail {
 
+class Crew;
+
 inline std::array<Eigen::Vector3d, 8> cornersOf(const Aabb& box) {
   std::array<Eigen::Vector3d, 8> corners;
   for (int i = 0; i < 8; ++i) {
@@ -21,10 +23,12 @@ inline std::array<Eigen::Vector3d, 8> cornersOf(const Aabb& box) {
 /// The hierarchy over points in an order in which runs are compact: eight points per bucket, eight
 /// buckets per node, eight nodes per node above. It consists of arrays only, so it is built level
 /// by level.
+///
+/// The threads of the crew share the work; the hierarchy does not depend on them.
 class CloudTree {
  public:
-  /// Refers to the points and radii.
-  explicit CloudTree(const PointBuckets& buckets);
+  /// Refers to the points and radii, and to the crew.
+  CloudTree(const PointBuckets& buckets, Crew& crew);
 
   WideBvh bvh() const;
 
@@ -47,7 +51,12 @@ class CloudTree {
   OrientedBox rootBox(const Aabb& grown) const;
   std::size_t childrenOf(std::size_t level, std::size_t index) const;
 
+  void findBuckets(std::vector<Aabb>& boxes);
+  WideNode nodeOf(std::size_t level, std::size_t index,
+                  const std::vector<std::size_t>& start) const;
+
   PointBuckets buckets_;
+  Crew& crew_;
   /// m; boxes of the points: of buckets, of eight buckets, and so on. The last level has one box.
   std::vector<std::vector<Aabb>> levels_;
   std::vector<Eigen::Matrix3d> patches_;  ///< principal axes of runs of eight buckets

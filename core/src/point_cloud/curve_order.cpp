@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "point_cloud/hilbert_curve.hpp"
+#include "threads/crew.hpp"
 
 namespace swept::detail {
 
@@ -28,7 +29,8 @@ constexpr std::size_t kFew = 8;
 
 class CurveOrder {
  public:
-  explicit CurveOrder(std::span<const Vector3d> points) : points_(points), order_(points.size()) {
+  CurveOrder(std::span<const Vector3d> points, Crew& crew)
+      : points_(points), crew_(crew), order_(points.size()) {
     std::iota(order_.begin(), order_.end(), 0);
   }
 
@@ -102,14 +104,17 @@ class CurveOrder {
       }
       return HilbertCurve::cell(cell[0], cell[1], cell[2]);
     };
+    constexpr std::size_t kEach = 8192;
     keys_.resize(run.count);
-    for (std::size_t i = 0; i < run.count; i += kAtOnce) {
-      const std::size_t count = std::min(kAtOnce, run.count - i);
-      std::array<std::uint64_t, kAtOnce> some{};
-      for (std::size_t j = 0; j < count; ++j) some[j] = cellOf(point(run.first + i + j));
-      const std::array<std::uint64_t, kAtOnce> indices = HilbertCurve::indices(some, bits);
-      for (std::size_t j = 0; j < count; ++j) keys_[i + j] = indices[j] << indexBits | (i + j);
-    }
+    crew_.forPieces(run.count, kEach, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; i += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, last - i);
+        std::array<std::uint64_t, kAtOnce> some{};
+        for (std::size_t j = 0; j < count; ++j) some[j] = cellOf(point(run.first + i + j));
+        const std::array<std::uint64_t, kAtOnce> indices = HilbertCurve::indices(some, bits);
+        for (std::size_t j = 0; j < count; ++j) keys_[i + j] = indices[j] << indexBits | (i + j);
+      }
+    });
   }
 
   /// Sorts by the bits from `lowest` on, one digit at a time from the lowest.
@@ -135,6 +140,7 @@ class CurveOrder {
   }
 
   std::span<const Vector3d> points_;
+  Crew& crew_;
   std::vector<int> order_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint64_t> sorted_;
@@ -143,8 +149,8 @@ class CurveOrder {
 
 }  // namespace
 
-std::vector<int> curveOrder(std::span<const Vector3d> points, const Aabb& bounds) {
-  return CurveOrder(points).run(bounds);
+std::vector<int> curveOrder(std::span<const Vector3d> points, const Aabb& bounds, Crew& crew) {
+  return CurveOrder(points, crew).run(bounds);
 }
 
 }  // namespace swept::detail

@@ -9,9 +9,13 @@
 
 namespace swept::detail {
 
+class Crew;
+
 /// Indices of the points along Hilbert's curve through `bounds` (m), which contains them: any run
 /// of them is a compact set. Linear in their number, at most 2^30. If many points are in one cell
-/// of the curve's grid, they are ordered along a curve through their own box.
-std::vector<int> curveOrder(std::span<const Eigen::Vector3d> points, const Aabb& bounds);
+/// of the curve's grid, they are ordered along a curve through their own box. The threads of the
+/// crew share the work; the order does not depend on them.
+std::vector<int> curveOrder(std::span<const Eigen::Vector3d> points, const Aabb& bounds,
+                            Crew& crew);
 
 }  // namespace swept::detail

@@ -13,6 +13,7 @@
 #include "point_cloud/cloud_tree.hpp"
 #include "point_cloud/curve_order.hpp"
 #include "swept/core/floating_point_environment.hpp"
+#include "threads/crew.hpp"
 
 namespace swept {
 
@@ -33,6 +34,9 @@ void requireUsable(std::span<const Eigen::Vector3d> points) {
     throw std::invalid_argument(message.str());
   }
 }
+
+/// Enough to be worth a thread of their own: a millisecond of work.
+constexpr std::size_t kPointsOfThread = 16384;
 
 bool isRadius(double radius) {
   return radius >= 0.0 && std::isfinite(radius);
@@ -77,16 +81,18 @@ PointCloud PointCloud::build(std::span<const Eigen::Vector3d> points,
 
 PointCloud PointCloud::ofUsable(std::span<const Eigen::Vector3d> points,
                                 std::span<const double> radii, double least, double largest) {
-  std::vector<int> order = detail::curveOrder(points, Aabb::fit(points));
-  std::vector<Eigen::Vector3d> ordered;
-  std::vector<double> orderedRadii;
-  ordered.reserve(points.size());
-  orderedRadii.reserve(radii.size());
-  for (const int source : order) {
-    ordered.push_back(points[static_cast<std::size_t>(source)]);
-    if (!radii.empty()) orderedRadii.push_back(radii[static_cast<std::size_t>(source)]);
-  }
-  const detail::CloudTree tree({ordered, orderedRadii, largest});
+  detail::Crew crew(detail::threadsFor(points.size(), kPointsOfThread));
+  std::vector<int> order = detail::curveOrder(points, Aabb::fit(points), crew);
+  std::vector<Eigen::Vector3d> ordered(points.size());
+  std::vector<double> orderedRadii(radii.size());
+  crew.forPieces(points.size(), kPointsOfThread / 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto source = static_cast<std::size_t>(order[i]);
+      ordered[i] = points[source];
+      if (!radii.empty()) orderedRadii[i] = radii[source];
+    }
+  });
+  const detail::CloudTree tree({ordered, orderedRadii, largest}, crew);
   const ConvexHull hull = detail::cloudHull(ordered, tree);
   auto bvh = std::make_shared<const detail::WideBvh>(tree.bvh());
   return PointCloud(

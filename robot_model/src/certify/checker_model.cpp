@@ -7,8 +7,16 @@
 
 #include "certify/near_pairs.hpp"
 #include "simd/tables/pair_separation_tables.hpp"
+#include "threads/for_each_index.hpp"
 
 namespace swept::detail {
+
+namespace {
+
+/// Of a world that is worth a thread.
+constexpr std::size_t kManyPieces = 4096;
+
+}  // namespace
 
 std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> robot,
                                                    const Group& group,
@@ -22,8 +30,14 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
   model->world = std::move(world);
   model->group = group;
   model->options = std::move(options);
-  compilePairModel(like, *model);
-  model->boxes = compileBoxes(*model, like);
+  compileGeometry(like, *model);
+  // Both only read the geometry. The first to fail is the pairs' exception.
+  forEachIndex(2, model->worldGeometry.size() < kManyPieces ? 1 : 2, [&](std::size_t i) {
+    if (i == 0)
+      compilePairsOf(like, *model);
+    else
+      model->boxes = compileBoxes(*model, like);
+  });
   const SimdModel* const likeSimd = like == nullptr ? nullptr : &like->simd;
   model->simd = compileSimdModel(*model, like, likeSimd);
   addTables(*model, likeSimd, model->simd);

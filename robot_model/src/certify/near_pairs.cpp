@@ -41,16 +41,16 @@ std::shared_ptr<const SweepAndPrune> compileBoxes(const CheckerModel& model,
 }
 
 std::optional<std::uint32_t> NearGeometries::pairOf(std::size_t geometry, BoxHandle other) const {
-  const std::span<const GeometryPair> pairs = worldPairs(geometry);
-  const auto found = std::ranges::lower_bound(pairs, static_cast<int>(other), {}, &GeometryPair::b);
+  const std::span<const WorldPair> pairs = worldPairs(geometry);
+  const auto found = std::ranges::lower_bound(pairs, static_cast<int>(other), {}, &WorldPair::b);
   if (found == pairs.end() || found->b != static_cast<int>(other)) return std::nullopt;
-  return static_cast<std::uint32_t>(&*found - model_.pairs.data());
+  return static_cast<std::uint32_t>(&*found - model_.worldPairs.data());
 }
 
 void NearGeometries::collect(double half, std::vector<std::uint32_t>& pairs) {
   pairs.clear();
   if (model_.boxes == nullptr) {
-    pairs.resize(model_.pairs.size());
+    pairs.resize(model_.pairCount());
     std::iota(pairs.begin(), pairs.end(), 0U);
     return;
   }
@@ -62,7 +62,7 @@ void NearGeometries::collect(double half, std::vector<std::uint32_t>& pairs) {
                             return false;
                           });
   }
-  for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
+  for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairCount(); ++pair)
     pairs.push_back(pair);
 }
 

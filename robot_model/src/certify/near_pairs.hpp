@@ -38,8 +38,8 @@ class NearGeometries {
   void forNearest(double half, const Visitor& visit,
                   double least = std::numeric_limits<double>::infinity()) {
     forNearestOfWorld(half, least, visit);
-    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
-      visitNear(model_.pairs[pair], half, least, visit);
+    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairCount(); ++pair)
+      visitNear(model_.pair(pair), half, least, visit);
   }
 
   /// The same for pairs with the world, moving obstacles included, and for all other pairs. The
@@ -49,9 +49,10 @@ class NearGeometries {
                         double world = std::numeric_limits<double>::infinity(),
                         double self = std::numeric_limits<double>::infinity()) {
     forNearestOfWorld(half, world, visit);
-    for (std::uint32_t pair = model_.firstSelfPair; pair < model_.pairs.size(); ++pair)
-      visitNear(model_.pairs[pair], half, model_.isSelfPair(model_.pairs[pair]) ? self : world,
-                visit);
+    for (std::uint32_t index = model_.firstSelfPair; index < model_.pairCount(); ++index) {
+      const GeometryPair pair = model_.pair(index);
+      visitNear(pair, half, model_.isSelfPair(pair) ? self : world, visit);
+    }
   }
 
  private:
@@ -84,9 +85,9 @@ class NearGeometries {
   }
 
   /// The pairs of a geometry with the world, ascending by the world's geometry.
-  std::span<const GeometryPair> worldPairs(std::size_t geometry) const {
+  std::span<const WorldPair> worldPairs(std::size_t geometry) const {
     const std::uint32_t first = model_.firstWorldPair[geometry];
-    return {model_.pairs.data() + first, model_.firstWorldPair[geometry + 1] - first};
+    return {model_.worldPairs.data() + first, model_.firstWorldPair[geometry + 1] - first};
   }
   std::optional<std::uint32_t> pairOf(std::size_t geometry, BoxHandle other) const;
 

@@ -27,7 +27,8 @@ void takeNearest(const CheckerModel& model, PairQuery& query, Witness& witness) 
   const int a = collisionBodyNamed(model, witness.bodyA);
   const int body = witness.selfPair ? -1 : bodyNamed(model, witness.bodyB);
   const int collisionBody = body < 0 ? collisionBodyNamed(model, witness.bodyB) : -1;
-  for (const GeometryPair& pair : model.pairs) {
+  for (std::size_t i = 0; i < model.pairCount(); ++i) {
+    const GeometryPair pair = model.pair(i);
     if (model.robotGeometry[pair.a].collisionBody != a) continue;
     const bool same = pair.self ? model.robotGeometry[pair.b].collisionBody == collisionBody
                                 : model.worldGeometry[pair.b].body == body;

@@ -19,7 +19,7 @@ bool PairOracle::keep(std::optional<Witness> witness) {
 }
 
 bool PairOracle::isContact(const SimdContact& contact, double t) {
-  if (model_.pairs[contact.pair].self) {
+  if (model_.pair(contact.pair).self) {
     if (!start()) return false;
     query_.moveTo(t, 0.0);
   }

@@ -166,7 +166,7 @@ double PairQuery::travel(const GeometryPair& pair, double half) {
 
 Aabb PairQuery::ballBox(int geometry, double half) {
   // The geometry has pairs with the world, whose motion bound is in the model frame.
-  const GeometryPair& pair = model_.pairs[model_.firstWorldPair[geometry]];
+  const GeometryPair& pair = model_.pair(model_.firstWorldPair[geometry]);
   const double tube = inTube_ ? pair.tube : 0.0;
   const double reach = model_.robotGeometry[geometry].radius + travel(pair, half) + tube +
                        model_.largestMargin + largestRounding();
@@ -284,7 +284,7 @@ ApproachBound PairQuery::approach(const GeometryPair& pair, double half, double 
 }
 
 PairAnswer PairQuery::prove(std::uint32_t index, double half) {
-  const GeometryPair& pair = model_.pairs[index];
+  const GeometryPair& pair = model_.pair(index);
   PairAnswer answer;
   ApproachBound bound = approach(pair, half, pair.margin);
   const Vector3d velocity = half * relativeVelocity(pair);
@@ -376,7 +376,7 @@ Vector3d PairQuery::velocity(const GeometryPair& pair, const Vector3d& pointA,
 }
 
 Witness PairQuery::witness(std::uint32_t index, double t, const PairAnswer& answer) const {
-  const GeometryPair& pair = model_.pairs[index];
+  const GeometryPair& pair = model_.pair(index);
   Witness witness;
   witness.t = t;
   witness.bodyA = model_.nameOfA(pair);

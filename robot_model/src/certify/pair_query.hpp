@@ -79,7 +79,7 @@ class PairQuery {
                            const Eigen::Vector3d& pointB);
   /// m, model frame: a point given in the frame of the first geometry's body.
   Eigen::Vector3d placed(std::uint32_t pair, const Eigen::Vector3d& point) {
-    return state(model_.robotGeometry[model_.pairs[pair].a].body).world_from_body * point;
+    return state(model_.robotGeometry[model_.pair(pair).a].body).world_from_body * point;
   }
   /// Pose of a geometry's shape in the model frame.
   const Eigen::Isometry3d& pose(int geometry);

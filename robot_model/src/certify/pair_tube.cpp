@@ -232,7 +232,7 @@ void pushAlong(const CheckerModel& model, std::span<const double> gradient, std:
 
 std::optional<Witness> PairQuery::tubeContact(std::uint32_t index, const PairAnswer& found) {
   if (!inTube_ || found.normal.isZero()) return std::nullopt;
-  const GeometryPair& pair = model_.pairs[index];
+  const GeometryPair& pair = model_.pair(index);
   const auto dimension = static_cast<std::size_t>(model_.kinematics.dimension);
   if (workspace_.besideMotion == nullptr || workspace_.besideMotion->version != workspace_.version)
     workspace_.besideMotion = std::make_unique<WorkspaceData>(model_);

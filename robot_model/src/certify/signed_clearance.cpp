@@ -67,7 +67,7 @@ NearestApart deepest(const CheckerModel& model, PairQuery& query, WorkspaceData&
   NearestApart nearest;
   NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
   for (const std::uint32_t index : workspace.pairs) {
-    const GeometryPair& pair = model.pairs[index];
+    const GeometryPair& pair = model.pair(index);
     if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
     nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));
   }

@@ -68,7 +68,7 @@ std::optional<ContactPoints> pointsOfLinks(const CheckerModel& model, PairQuery&
 
 std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery& query,
                                            const SimdContact& contact) {
-  const GeometryPair& pair = model.pairs[contact.pair];
+  const GeometryPair& pair = model.pair(contact.pair);
   const Vector3d point(contact.point[0], contact.point[1], contact.point[2]);
   if (pair.self) return pointsOfLinks(model, query, pair, point);
   // The link holds everything within `inside` of the point, whatever rounding there was.
@@ -85,7 +85,7 @@ std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery&
 
 std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t index,
                                     const Eigen::Vector3d& point, double t) {
-  const GeometryPair& pair = model.pairs[index];
+  const GeometryPair& pair = model.pair(index);
   const WorldGeometry& world = model.worldGeometry[pair.b];
   const Eigen::Isometry3d point_from_world(Eigen::Translation3d(-point));
   DistanceOptions options;
@@ -109,7 +109,7 @@ std::optional<Witness> simdWitness(const CheckerModel& model, PairQuery& query,
                                    const SimdContact& contact, double t) {
   const std::optional<ContactPoints> points = contactPoints(model, query, contact);
   if (!points) return std::nullopt;
-  const GeometryPair& pair = model.pairs[contact.pair];
+  const GeometryPair& pair = model.pair(contact.pair);
   Witness witness;
   witness.t = t;
   witness.bodyA = model.nameOfA(pair);

@@ -54,7 +54,7 @@ Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
 bool isContact(const CheckerModel& model, std::span<const double> q, const SimdContact& contact,
                WorkspaceData& workspace) {
   PairQuery query(model, workspace);
-  if (model.pairs[contact.pair].self && !query.startAt(q)) return false;
+  if (model.pair(contact.pair).self && !query.startAt(q)) return false;
   return contactPoints(model, query, contact).has_value();
 }
 

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kWorkPerInterval = 64;
 /// Most pair queries of one motion. Each pair is examined once whatever the cap.
 inline std::int64_t mostQueries(const CheckerModel& model) {
   return kWorkPerInterval * model.options.maxIntervals +
-         static_cast<std::int64_t>(model.pairs.size());
+         static_cast<std::int64_t>(model.pairCount());
 }
 
 /// The same for distances, in a query of clearance.

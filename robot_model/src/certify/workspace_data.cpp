@@ -13,8 +13,8 @@ WorkspaceData::WorkspaceData(const CheckerModel& model)
       placed(model.robotGeometry.size()),
       carried(model.kinematics.bodies.size()),
       arms(model.kinematics.bodies.size()),
-      hints(model.pairs.size(), Eigen::Vector3d::Zero()),
-      hintStamps(model.pairs.size(), -1),
+      hints(model.pairCount(), Eigen::Vector3d::Zero()),
+      hintStamps(model.pairCount(), -1),
       simd(model.simd),
       probe(model.kinematics.dimension) {
   // Bounds on travel relative to all ancestors together are a little larger than one by one.

@@ -204,6 +204,9 @@ class BodyCompiler {
 
   void addWorld() {
     const std::vector<WorldBody>& bodies = model_.world->bodies();
+    std::size_t parts = 0;
+    for (const WorldBody& body : bodies) parts += body.parts.size();
+    model_.worldGeometry.reserve(parts);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const double scale = model_.options.rules.scale(bodies[i].name);
       for (std::size_t k = 0; k < bodies[i].parts.size(); ++k)
@@ -220,7 +223,7 @@ class BodyCompiler {
 
   void addPart(int body, int index, double scale) {
     const WorldBody::Part& part = model_.world->bodies()[body].parts[index];
-    WorldGeometry geometry;
+    WorldGeometry& geometry = model_.worldGeometry.emplace_back();
     geometry.body = body;
     geometry.part = index;
     geometry.shape = scale == 1.0 ? part.shape : scaledAsBefore(part.shape, scale);
@@ -238,7 +241,6 @@ class BodyCompiler {
     const Vector3d farthest = box.upper.cwiseAbs().cwiseMax(box.lower.cwiseAbs());
     geometry.magnitude = part.world_from_shape.translation().norm() +
                          (bounded ? farthest.norm() : planeOffset(geometry.shape));
-    model_.worldGeometry.push_back(std::move(geometry));
   }
 
   /// A mesh that an earlier version has scaled is not built again.

@@ -7,7 +7,7 @@ struct GeometryPair;
 struct PairModel;
 
 /// The moving frames, and all geometry of the robot, of its attached bodies and of the world. Parts
-/// that are the same in `like` (may be null; see compilePairModel) are taken from there. Throws
+/// that are the same in `like` (may be null; see compileGeometry) are taken from there. Throws
 /// std::invalid_argument as the constructor of Checker does for attached bodies.
 void compileBodies(const PairModel* like, PairModel& model);
 
@@ -27,7 +27,7 @@ void compilePairs(PairModel& model);
 GeometryPair worldPair(const PairModel& model, const GeometryPair& like, int worldGeometry);
 
 /// Finds the pairs of links that never meet within the limits of the robot's joints, with a small
-/// budget for each: BodyPair::never. `like`: as for compilePairModel; then nothing is proven anew.
+/// budget for each: BodyPair::never. `like`: as for compileGeometry; then nothing is proven anew.
 void findNever(const PairModel* like, PairModel& model);
 
 }  // namespace swept::detail

@@ -13,6 +13,7 @@
 #include "model/pair_reasons.hpp"
 #include "rules/name_pattern.hpp"
 #include "swept/core/distance.hpp"
+#include "threads/for_each_index.hpp"
 
 namespace swept::detail {
 
@@ -61,11 +62,10 @@ class PairCompiler {
     for (const RobotGeometry& geometry : model_.robotGeometry)
       ++firstOf_[geometry.collisionBody + 1];
     std::partial_sum(firstOf_.begin(), firstOf_.end(), firstOf_.begin());
+    reserveBodyPairs();
     pairWithWorld();
-    indexWorldPairs();
     pairCarriers();
-    model_.measuredPairs +=
-        static_cast<std::int64_t>(model_.pairs.size()) - std::int64_t{model_.firstSelfPair};
+    model_.measuredPairs += static_cast<std::int64_t>(model_.pairs.size());
     for (const GeometryPair& pair : model_.pairs) {
       model_.largestMargin = std::max(model_.largestMargin, pair.margin);
       model_.largestRounding = std::max(model_.largestRounding, pair.rounding);
@@ -87,8 +87,8 @@ class PairCompiler {
   }
 
   template <typename Pair>
-  void add(const Pair& pair, std::vector<Pair>& pairs, const char* what) const {
-    if (pairs.size() == model_.options.maxPairs) {
+  void add(const Pair& pair, std::vector<Pair>& pairs, std::size_t others, const char* what) const {
+    if (others + pairs.size() == model_.options.maxPairs) {
       throw std::invalid_argument(
           "Checker: more than " + std::to_string(model_.options.maxPairs) + " pairs of " + what +
           " to check: the group has " + std::to_string(model_.robotGeometry.size()) +
@@ -120,76 +120,161 @@ class PairCompiler {
     return slots[first];
   }
 
-  /// The largest distance of any point of the geometry from its first moving joint, if it is
-  /// bounded.
-  bool outOfReach(const RobotGeometry& robot, const WorldGeometry& world, double margin) const {
-    for (const int i : robot.levers.path)
-      if (slidesFreely(model_.kinematics.bodies[i].type)) return false;
-    const MovingBody& base = model_.kinematics.bodies[robot.levers.path.front()];
-    const Vector3d center = world.box_from_world * base.parent_from_joint.translation();
-    const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
-    // Anywhere within the limits: compileMotion refuses values beyond them.
-    const double magnitude = std::max(robot.levers.span, robot.magnitude);
-    const double slack = poseRounding(magnitude + world.magnitude, robot.transforms);
-    return outside.stableNorm() >
-           robot.levers.reachFromBase + margin + slack + robot.sourceError + world.sourceError;
+  /// A piece of the world as seen from the first moving joint of a geometry.
+  struct Seen {
+    double away;         ///< m, of its box from the joint, at least
+    double magnitude;    ///< m
+    double sourceError;  ///< m
+    int body;            ///< index into World::bodies()
+  };
+
+  /// Of the whole world. Most geometry has the same joint first.
+  const std::vector<Seen>& seenFrom(int body) {
+    if (body == seenFrom_) return seen_;
+    seenFrom_ = body;
+    const Vector3d joint = model_.kinematics.bodies[body].parent_from_joint.translation();
+    seen_.resize(model_.worldGeometry.size());
+    forPieces(seen_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const WorldGeometry& world = model_.worldGeometry[i];
+        const Vector3d center = world.box_from_world * joint;
+        const Vector3d outside = (center.cwiseAbs() - world.halfExtents).cwiseMax(Vector3d::Zero());
+        seen_[i] = {outside.stableNorm(), world.magnitude, world.sourceError, world.body};
+      }
+    });
+    return seen_;
+  }
+
+  /// Calls `work(first, last)` for pieces of a range over the world; large ones on all processors.
+  template <typename Work>
+  static void forPieces(std::size_t count, const Work& work) {
+    constexpr std::size_t kEach = 8192;
+    const std::size_t pieces = (count + kEach - 1) / kEach;
+    forEachIndex(pieces, pieces < 3 ? 1 : 0,
+                 [&](std::size_t i) { work(i * kEach, std::min((i + 1) * kEach, count)); });
+  }
+
+  void reserveBodyPairs() {
+    std::size_t withGeometry = 0, withWorld = 0;
+    for (std::size_t c = 0; c < model_.collisionBodies.size(); ++c) {
+      if (firstOf_[c] == firstOf_[c + 1]) continue;
+      ++withGeometry;
+      withWorld += model_.collisionBodies[c].kind == CollisionBody::Kind::Obstacle ? 0 : 1;
+    }
+    const std::size_t all =
+        withWorld * model_.world->bodies().size() +
+        withGeometry * (withGeometry - std::min<std::size_t>(withGeometry, 1)) / 2;
+    model_.bodyPairs.reserve(std::min(all, model_.options.maxPairs));
   }
 
   void pairWithWorld() {
-    const std::vector<WorldBody>& bodies = model_.world->bodies();
-    std::vector<double> worldPaddings;
-    for (const WorldBody& body : bodies) worldPaddings.push_back(rules_.padding(body.name));
     model_.firstBodyPair.assign(model_.collisionBodies.size(), -1);
     model_.likeWorldPairs.resize(model_.robotGeometry.size());
-    for (std::size_t c = 0; c < model_.collisionBodies.size(); ++c) {
-      const CollisionBody& collisionBody = model_.collisionBodies[c];
-      if (collisionBody.kind == CollisionBody::Kind::Obstacle || firstOf_[c] == firstOf_[c + 1])
-        continue;
-      const std::size_t base = model_.bodyPairs.size();
-      for (std::size_t k = 0; k < bodies.size(); ++k) {
-        BodyPair pair{.a = static_cast<int>(c), .b = static_cast<int>(k)};
-        pair.margin =
-            marginOf(collisionBody.name, paddings_[c], bodies[k].name, worldPaddings[k], false);
-        if (allowed(collisionBody.name, bodies[k].name).value_or(false))
-          pair.reason = PairReason::Allowed;
-        else
-          pair.reason = collisionBody.body == 0 ? PairReason::Unmoved : PairReason::OutOfReach;
-        add(pair, model_.bodyPairs, "bodies");
-      }
-      for (int i = firstOf_[c]; i < firstOf_[c + 1]; ++i)
-        for (std::size_t j = 0; j < model_.worldGeometry.size(); ++j)
-          pairWithPart(i, static_cast<int>(j),
-                       model_.bodyPairs[base + model_.worldGeometry[j].body]);
-      measureAll(c, base);
-    }
-  }
-
-  void indexWorldPairs() {
     model_.firstWorldPair.assign(model_.robotGeometry.size() + 1, 0);
-    for (const GeometryPair& pair : model_.pairs) ++model_.firstWorldPair[pair.a + 1];
+    for (const WorldBody& body : model_.world->bodies())
+      worldPaddings_.push_back(rules_.padding(body.name));
+    for (std::size_t c = 0; c < model_.collisionBodies.size(); ++c)
+      if (model_.collisionBodies[c].kind != CollisionBody::Kind::Obstacle &&
+          firstOf_[c] < firstOf_[c + 1])
+        pairWithWorld(c);
+    for (const WorldPair& pair : model_.worldPairs) ++model_.firstWorldPair[pair.a + 1];
     std::partial_sum(model_.firstWorldPair.begin(), model_.firstWorldPair.end(),
                      model_.firstWorldPair.begin());
-    model_.firstSelfPair = static_cast<std::uint32_t>(model_.pairs.size());
+    model_.firstSelfPair = static_cast<std::uint32_t>(model_.worldPairs.size());
   }
 
-  void pairWithPart(int a, int b, BodyPair& bodies) {
-    const RobotGeometry& robot = model_.robotGeometry[a];
-    const WorldGeometry& world = model_.worldGeometry[b];
-    if (bodies.reason == PairReason::Allowed) return;
-    if (bodies.reason == PairReason::Unmoved) {
-      bodies.touching =
-          bodies.touching ||
-          touch(robot.shape, world.shape, robot.body_from_shape.inverse() * world.world_from_shape,
-                robot.sourceError + world.sourceError);
-      return;
+  void pairWithWorld(std::size_t c) {
+    const std::vector<WorldBody>& bodies = model_.world->bodies();
+    const CollisionBody& collisionBody = model_.collisionBodies[c];
+    const std::size_t base = model_.bodyPairs.size();
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      BodyPair pair{.a = static_cast<int>(c), .b = static_cast<int>(k)};
+      pair.margin =
+          marginOf(collisionBody.name, paddings_[c], bodies[k].name, worldPaddings_[k], false);
+      if (allowed(collisionBody.name, bodies[k].name).value_or(false))
+        pair.reason = PairReason::Allowed;
+      else
+        pair.reason = collisionBody.body == 0 ? PairReason::Unmoved : PairReason::OutOfReach;
+      add(pair, model_.bodyPairs, 0, "bodies");
     }
-    if (outOfReach(robot, world, bodies.margin)) return;
-    bodies.reason = PairReason::Checked;
-    GeometryPair pair;
-    pair.a = a;
-    pair.motionBoundA = motionBoundSlot(a, 0);
-    pair.margin = bodies.margin;
-    add(worldPair(model_, pair, b), model_.pairs, "shapes");
+    for (int i = firstOf_[c]; i < firstOf_[c + 1]; ++i) {
+      if (collisionBody.body == 0)
+        findStandingContacts(i, base);
+      else
+        pairGeometryWithWorld(i, base);
+    }
+    if (collisionBody.body != 0) measureAll(c, base);
+  }
+
+  /// With a geometry that does not move.
+  void findStandingContacts(int a, std::size_t base) {
+    const RobotGeometry& robot = model_.robotGeometry[a];
+    const Isometry3d shape_from_body = robot.body_from_shape.inverse();
+    std::vector<char> touching(model_.worldGeometry.size(), 0);
+    forPieces(touching.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const WorldGeometry& world = model_.worldGeometry[i];
+        const BodyPair& bodies = model_.bodyPairs[base + world.body];
+        if (bodies.reason != PairReason::Unmoved || bodies.touching) continue;
+        touching[i] = touch(robot.shape, world.shape, shape_from_body * world.world_from_shape,
+                            robot.sourceError + world.sourceError)
+                          ? 1
+                          : 0;
+      }
+    });
+    for (std::size_t i = 0; i < touching.size(); ++i)
+      if (touching[i] != 0) model_.bodyPairs[base + model_.worldGeometry[i].body].touching = true;
+  }
+
+  void pairGeometryWithWorld(int a, std::size_t base) {
+    if (model_.worldGeometry.empty()) return;
+    const RobotGeometry& robot = model_.robotGeometry[a];
+    const std::vector<Seen>& seen = seenFrom(robot.levers.path.front());
+    const bool isAnywhere = std::ranges::any_of(robot.levers.path, [this](int i) {
+      return slidesFreely(model_.kinematics.bodies[i].type);
+    });
+    // Anywhere within the limits: compileMotion refuses values beyond them.
+    const double magnitude = std::max(robot.levers.span, robot.magnitude);
+    std::vector<char> isPaired(seen.size(), 0);
+    forPieces(seen.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const BodyPair& bodies = model_.bodyPairs[base + seen[i].body];
+        if (bodies.reason == PairReason::Allowed) continue;
+        const double slack = poseRounding(magnitude + seen[i].magnitude, robot.transforms);
+        // No point of the geometry is farther from its first moving joint than it reaches.
+        const bool isOut = seen[i].away > robot.levers.reachFromBase + bodies.margin + slack +
+                                              robot.sourceError + seen[i].sourceError;
+        isPaired[i] = isAnywhere || !isOut ? 1 : 0;
+      }
+    });
+    const auto count = static_cast<std::size_t>(std::ranges::count(isPaired, 1));
+    if (count == 0) return;
+    motionBoundSlot(a, 0);
+    makeRoomFor(count);
+    const double ownMagnitude = magnitudeOf(robot);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (isPaired[i] == 0) continue;
+      add(WorldPair{a, static_cast<int>(i)}, model_.worldPairs, 0, "shapes");
+      BodyPair& bodies = model_.bodyPairs[base + seen[i].body];
+      bodies.reason = PairReason::Checked;
+      model_.largestMargin = std::max(model_.largestMargin, bodies.margin);
+      const double rounding = poseRounding(ownMagnitude + seen[i].magnitude, robot.transforms) +
+                              (robot.sourceError + seen[i].sourceError);
+      model_.largestRounding = std::max(model_.largestRounding, rounding);
+    }
+    model_.largestSpan = std::max(model_.largestSpan, robot.levers.spanAtRest);
+    model_.largestTransforms = std::max(model_.largestTransforms, robot.transforms);
+  }
+
+  /// For pairs of one geometry. The geometry behind it has about as many.
+  void makeRoomFor(std::size_t count) {
+    const std::size_t wanted = model_.worldPairs.size() + count;
+    if (wanted <= model_.worldPairs.capacity()) return;
+    std::size_t left = 0;
+    for (const RobotGeometry& geometry : model_.robotGeometry) left += geometry.body != 0 ? 1 : 0;
+    const bool isFirst = model_.worldPairs.empty();
+    model_.worldPairs.reserve(std::min(isFirst ? count * left : wanted + wanted / 2,
+                                       std::max(model_.options.maxPairs, wanted)));
   }
 
   /// Verdicts leave out a piece that is out of reach, since they ask whether some piece comes near.
@@ -198,7 +283,7 @@ class PairCompiler {
   void measureAll(std::size_t collisionBody, std::size_t firstBodyPair) {
     double farthest = 0.0, sourceError = 0.0;
     std::int64_t parts = 0;
-    for (const WorldGeometry& world : model_.worldGeometry) {
+    for (const Seen& world : seen_) {
       if (model_.bodyPairs[firstBodyPair + world.body].reason != PairReason::Checked) continue;
       farthest = std::max(farthest, world.magnitude);
       sourceError = std::max(sourceError, world.sourceError);
@@ -235,7 +320,7 @@ class PairCompiler {
       const std::size_t base = model_.bodyPairs.size();
       for (std::size_t b = a + 1; b < count && firstOf_[a] < firstOf_[a + 1]; ++b)
         if (firstOf_[b] < firstOf_[b + 1])
-          add(carrierPair(static_cast<int>(a), static_cast<int>(b), disabled), model_.bodyPairs,
+          add(carrierPair(static_cast<int>(a), static_cast<int>(b), disabled), model_.bodyPairs, 0,
               "bodies");
       ancestors_.setFirst(model_.collisionBodies[a].body);
       for (int i = firstOf_[a]; i < firstOf_[a + 1]; ++i)
@@ -289,7 +374,7 @@ class PairCompiler {
     pair.rounding = poseRounding(magnitudeOf(a) + magnitudeOf(b), a.transforms + b.transforms) +
                     pair.sourceError;
     pair.margin = bodies.margin;
-    add(pair, model_.pairs, "shapes");
+    add(pair, model_.pairs, model_.worldPairs.size(), "shapes");
   }
 
   PairModel& model_;
@@ -300,6 +385,9 @@ class PairCompiler {
   /// Per geometry and number of joints before the first that counts: index into motionBounds; -1:
   /// none yet.
   std::vector<std::vector<int>> slots_;
+  std::vector<double> worldPaddings_;  ///< m, per body of the world
+  std::vector<Seen> seen_;
+  int seenFrom_ = -1;  ///< body whose joint that is from
 };
 
 }  // namespace

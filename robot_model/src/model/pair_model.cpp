@@ -15,6 +15,16 @@ BodyName PairModel::nameOfB(const GeometryPair& pair) const {
   return BodyName(std::shared_ptr<const std::string>(world, &name));
 }
 
+GeometryPair PairModel::pair(std::size_t index) const {
+  if (index >= worldPairs.size()) return pairs[index - worldPairs.size()];
+  const WorldPair& of = worldPairs[index];
+  GeometryPair pair = worldPair(*this, likeWorldPairs[of.a], of.b);
+  const int first = firstBodyPair[robotGeometry[of.a].collisionBody];
+  pair.margin = bodyPairs[first + worldGeometry[of.b].body].margin;
+  if (!worldTubes.empty()) pair.tube = worldTubes[of.a];
+  return pair;
+}
+
 bool PairModel::isSelfPair(const GeometryPair& pair) const {
   return pair.self &&
          collisionBodies[robotGeometry[pair.b].collisionBody].kind != CollisionBody::Kind::Obstacle;
@@ -25,10 +35,13 @@ bool PairModel::checksWorld(int ofRobot, int ofWorld) const {
   return first >= 0 && bodyPairs[first + worldGeometry[ofWorld].body].reason == PairReason::Checked;
 }
 
-void compilePairModel(const PairModel* like, PairModel& model) {
+void compileGeometry(const PairModel* like, PairModel& model) {
   if (!model.options.reference) model.options.reference = model.robot->defaultState();
   compileBodies(like, model);
   compileTube(model);
+}
+
+void compilePairsOf(const PairModel* like, PairModel& model) {
   compilePairs(model);
   boundTube(model);
   findNever(like, model);

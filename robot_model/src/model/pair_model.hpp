@@ -88,6 +88,12 @@ struct GeometryPair {
   double kept() const { return margin + sourceError; }
 };
 
+/// A checked pair with the world. The rest of its GeometryPair follows: see PairModel::pair.
+struct WorldPair {
+  int a = 0;  ///< index into PairModel::robotGeometry
+  int b = 0;  ///< index into PairModel::worldGeometry
+};
+
 /// Whether a pair of bodies is checked, or why not.
 enum class PairReason : std::uint8_t {
   Checked,
@@ -142,7 +148,14 @@ struct PairModel {
   SharedArray<RobotGeometry> robotGeometry;
   std::vector<WorldGeometry> worldGeometry;
   std::vector<MotionBoundSlot> motionBounds;
-  std::vector<GeometryPair> pairs;  ///< with the world first, by robot geometry, ascending
+  ///@{
+  /// The checked pairs. A pair's index counts those with the world first: a map of many boxes has a
+  /// million, too many to write down more than which they are.
+  std::vector<WorldPair> worldPairs;  ///< by robot geometry, ascending
+  std::vector<GeometryPair> pairs;    ///< all others
+  std::size_t pairCount() const { return worldPairs.size() + pairs.size(); }
+  GeometryPair pair(std::size_t index) const;
+  ///@}
   /// Per robot geometry, and one more: of its pairs with the world, the first.
   std::vector<std::uint32_t> firstWorldPair;
   std::uint32_t firstSelfPair = 0;
@@ -156,6 +169,7 @@ struct PairModel {
   /// Per robot geometry of the other collision bodies: the common part of its pairs with the world,
   /// with the largest rounding among them.
   std::vector<GeometryPair> likeWorldPairs;
+  std::vector<double> worldTubes;  ///< m, per robot geometry: GeometryPair::tube; empty: no tube
   std::int64_t measuredPairs =
       0;  ///< how many pairs of pieces that is, two collision bodies' among them
   ///@}
@@ -187,9 +201,12 @@ inline double transformsOf(const PairModel& model, const GeometryPair& pair) {
   return pair.self ? transforms + model.robotGeometry[pair.b].transforms : transforms;
 }
 
-/// `model` has the robot, the world, the group and the options. `like`: null, or an earlier version
-/// for the same robot, group and reference, from which unchanged parts are taken. Throws
-/// std::invalid_argument for attached bodies and rules as the constructor of Checker does.
-void compilePairModel(const PairModel* like, PairModel& model);
+/// Frames and geometry. `model` has the robot, the world, the group and the options. `like`: null,
+/// or an earlier version for the same robot, group and reference, from which unchanged parts are
+/// taken. Throws std::invalid_argument for attached bodies and rules as the constructor of Checker
+/// does.
+void compileGeometry(const PairModel* like, PairModel& model);
+/// The pairs of that geometry; the geometry may be read meanwhile.
+void compilePairsOf(const PairModel* like, PairModel& model);
 
 }  // namespace swept::detail

@@ -108,6 +108,13 @@ void compileTube(PairModel& model) {
 
 void boundTube(PairModel& model) {
   if (model.tube.empty()) return;
+  model.worldTubes.assign(model.robotGeometry.size(), 0.0);
+  for (std::size_t i = 0; i < model.worldTubes.size(); ++i) {
+    const bool isPaired = model.firstWorldPair[i] < model.firstWorldPair[i + 1];
+    if (!isPaired) continue;
+    const auto slot = static_cast<std::size_t>(model.likeWorldPairs[i].motionBoundA);
+    model.worldTubes[i] = reachOf(model, model.motionBounds[slot]);
+  }
   for (GeometryPair& pair : model.pairs) {
     pair.tube = reachOf(model, model.motionBounds[static_cast<std::size_t>(pair.motionBoundA)]);
     if (pair.motionBoundB >= 0)

@@ -8,6 +8,7 @@
 #include "model/pair_model.hpp"
 #include "rounding/error_model.hpp"
 #include "simd/compile/single.hpp"
+#include "threads/for_each_index.hpp"
 
 namespace swept::detail {
 
@@ -15,11 +16,15 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Enough to be worth several threads.
+constexpr std::size_t kManyEntries = 8192;
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Eight-wide tree of boxes along the model frame's axes.
 class BoxTree {
  public:
+  BoxTree() = default;
   BoxTree(const std::vector<WorldGeometry>& world, double reach, std::span<const float> extras) {
     std::vector<Entry> bounded;
     std::vector<Entry> unbounded;
@@ -119,14 +124,39 @@ class BoxTree {
     }
     std::vector<std::span<Entry>> groups;
     split(entries, 3, groups);
-    std::vector<Entry> children;
-    for (const std::span<Entry> group : groups)
-      children.push_back(group.size() == 1 ? group.front() : pack(group));
-    fill(node, children);
+    fill(node, isPart_ || entries.size() < kManyEntries ? packed(groups) : packedAtOnce(groups));
     return result;
   }
 
+  std::vector<Entry> packed(const std::vector<std::span<Entry>>& groups) {
+    std::vector<Entry> children;
+    for (const std::span<Entry> group : groups)
+      children.push_back(group.size() == 1 ? group.front() : pack(group));
+    return children;
+  }
+
+  /// The same, on several threads, with the nodes in the same order.
+  std::vector<Entry> packedAtOnce(const std::vector<std::span<Entry>>& groups) {
+    std::vector<BoxTree> trees(groups.size());
+    std::vector<Entry> children(groups.size());
+    forEachIndex(groups.size(), 0, [&](std::size_t i) {
+      trees[i].isPart_ = true;
+      children[i] = trees[i].pack(groups[i]);
+    });
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const auto first = static_cast<std::int32_t>(nodes_.size());
+      children[i].child += first;
+      for (SimdWorldNode& node : trees[i].nodes_) {
+        for (std::int32_t& child : node.child)
+          if (child > 0) child += first;  // 0: the lane is empty
+        nodes_.push_back(node);
+      }
+    }
+    return children;
+  }
+
   std::vector<SimdWorldNode> nodes_;
+  bool isPart_ = false;  ///< of a tree that several threads build
 };
 
 }  // namespace

@@ -38,6 +38,15 @@ class ObstacleCompiler {
 
   SimdObstacles take() { return std::move(result_); }
 
+  /// A map has many boxes.
+  void reserve(const std::vector<WorldGeometry>& world) {
+    result_.obstacles.reserve(world.size());
+    result_.boxes.reserve(
+        static_cast<std::size_t>(std::ranges::count_if(world, [](const WorldGeometry& geometry) {
+          return std::holds_alternative<Box>(geometry.shape);
+        })));
+  }
+
  private:
   template <typename S>
   void addShape(const S& shape) {
@@ -235,6 +244,7 @@ SimdObstacles compileObstacles(const std::vector<WorldGeometry>& world, double r
       bounded ? 1.3 * (reach + farther) + 0.1 : std::numeric_limits<double>::infinity();
   ObstacleCompiler compiler(
       world, reach, room, like != nullptr ? std::span(like->fields) : std::span<const SimdField>());
+  compiler.reserve(world);
   for (const WorldGeometry& geometry : world) compiler.add(geometry);
   SimdObstacles result = compiler.take();
   result.nodes = buildObstacleTree(world, reach, extras);

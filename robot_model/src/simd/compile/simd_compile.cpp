@@ -55,19 +55,23 @@ class SimdCompiler {
     const std::size_t geometries = model_.robotGeometry.size();
     simd_.pairOf.assign(geometries * obstacles, -1);
     simd_.pairOfGeometries.assign(geometries * geometries, -1);
-    simd_.sources.resize(model_.pairs.size());
+    simd_.sources.reserve(model_.pairCount());
     references_.assign(simd_.bodies.size(), -1);
     references_[0] = 0;
     std::vector<char> meetsWorld(simd_.bodies.size(), 0);
     // For a first body and each second one, the index into bodyPairs; -1: none yet.
     std::vector<std::vector<std::int32_t>> known(simd_.bodies.size());
-    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
-      const GeometryPair& pair = model_.pairs[i];
+    const auto addWithWorld = [&](int a, int b) {
+      simd_.pairOf[a * obstacles + b] = static_cast<std::int32_t>(simd_.sources.size());
+      simd_.sources.push_back({a, b, 0, 0});
+      meetsWorld[model_.robotGeometry[a].body] = 1;
+    };
+    for (const WorldPair& pair : model_.worldPairs) addWithWorld(pair.a, pair.b);
+    for (const GeometryPair& pair : model_.pairs) {
+      const std::size_t i = simd_.sources.size();
       const int bodyA = model_.robotGeometry[pair.a].body;
       if (!pair.self) {
-        simd_.pairOf[pair.a * obstacles + pair.b] = static_cast<std::int32_t>(i);
-        simd_.sources[i] = {pair.a, pair.b, 0, 0};
-        meetsWorld[bodyA] = 1;
+        addWithWorld(pair.a, pair.b);
         continue;
       }
       simd_.pairOfGeometries[pair.a * geometries + pair.b] = static_cast<std::int32_t>(i);
@@ -81,7 +85,7 @@ class SimdCompiler {
                                    .reference = referenceOf(pair.reference),
                                    .table = {}});
       }
-      simd_.sources[i] = {pair.a, -1, pair.b, at};
+      simd_.sources.push_back({pair.a, -1, pair.b, at});
     }
     for (std::size_t body = simd_.bodies.size(); body-- > 1;)
       if (meetsWorld[body]) simd_.worldBodies.push_back(static_cast<int>(body));
@@ -110,18 +114,19 @@ class SimdCompiler {
 
   /// All rounded up, so that no margin is lost.
   void addMargins() {
-    double least = model_.pairs.empty() ? model_.options.margin : model_.pairs.front().kept();
+    double least = model_.pairCount() == 0 ? model_.options.margin : model_.pair(0).kept();
     double most = least;
-    for (const GeometryPair& pair : model_.pairs) {
-      least = std::min(least, pair.kept());
-      most = std::max(most, pair.kept());
+    for (std::size_t i = 0; i < model_.pairCount(); ++i) {
+      const double kept = model_.pair(i).kept();
+      least = std::min(least, kept);
+      most = std::max(most, kept);
     }
     simd_.margin = std::nextafter(static_cast<float>(least), 1e30F);
     if (!(most > least)) return;
-    simd_.extras.resize(model_.pairs.size());
+    simd_.extras.resize(model_.pairCount());
     simd_.obstacleExtras.assign(model_.worldGeometry.size(), 0.0F);
-    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
-      const GeometryPair& pair = model_.pairs[i];
+    for (std::size_t i = 0; i < model_.pairCount(); ++i) {
+      const GeometryPair pair = model_.pair(i);
       const float extra = std::nextafter(singleAbove(pair.kept() - least), 1e30F);
       simd_.extras[i] = extra;
       float& all = pair.self ? simd_.bodyPairs[simd_.sources[i].bodyPair].extra
@@ -132,10 +137,10 @@ class SimdCompiler {
 
   void addTube() {
     if (model_.tube.empty()) return;
-    simd_.tubes.resize(model_.pairs.size());
+    simd_.tubes.resize(model_.pairCount());
     simd_.worldTube.assign(simd_.bodies.size(), 0.0F);
-    for (std::size_t i = 0; i < model_.pairs.size(); ++i) {
-      const GeometryPair& pair = model_.pairs[i];
+    for (std::size_t i = 0; i < model_.pairCount(); ++i) {
+      const GeometryPair pair = model_.pair(i);
       // Without a bound on it, only exact geometry may have one.
       if (!std::isfinite(pair.tube)) simd_.usable = false;
       const float tube = simd_.tubes[i] = singleAbove(pair.tube);

@@ -44,7 +44,7 @@ FieldCompiler::FieldCompiler(const std::vector<WorldGeometry>& world, double rea
     known_.push_back({dataOf(lane.shape), lane.window, lane.field});
 }
 
-std::shared_ptr<const ClearanceField> FieldCompiler::fieldFor(const Shape& shape,
+std::shared_ptr<const ClearanceField> FieldCompiler::fieldFor(const Shape& shape, const Aabb& box,
                                                               const Aabb& window) {
   const void* data = dataOf(shape);
   for (const KnownField& known : known_) {
@@ -52,7 +52,7 @@ std::shared_ptr<const ClearanceField> FieldCompiler::fieldFor(const Shape& shape
         known.window.upper == window.upper)
       return known.field;
   }
-  const bool isWanted = boundingBox(shape).overlaps(window);
+  const bool isWanted = box.overlaps(window);
   known_.push_back(
       {data, window, isWanted ? ClearanceGrid::build(shape, {window, cells_}).field() : nullptr});
   return known_.back().field;
@@ -69,7 +69,7 @@ bool FieldCompiler::compile(const WorldGeometry& geometry, double slack, SimdFie
     if (origin[i] - room_ > box.lower[i]) window.lower[i] = origin[i] - room_;
     if (origin[i] + room_ < box.upper[i]) window.upper[i] = origin[i] + room_;
   }
-  const std::shared_ptr<const ClearanceField> field = fieldFor(geometry.shape, window);
+  const std::shared_ptr<const ClearanceField> field = fieldFor(geometry.shape, box, window);
   if (!field) return false;
   Eigen::Isometry3d grid_from_world = shape_from_world;
   grid_from_world.translation() -= field->origin;

@@ -50,7 +50,9 @@ class FieldCompiler {
   bool compile(const WorldGeometry& geometry, double slack, SimdField& lane);
 
  private:
-  std::shared_ptr<const ClearanceField> fieldFor(const Shape& shape, const Aabb& window);
+  /// `box`: m, the shape's.
+  std::shared_ptr<const ClearanceField> fieldFor(const Shape& shape, const Aabb& box,
+                                                 const Aabb& window);
 
   struct KnownField {
     const void* data;  ///< of the mesh or cloud

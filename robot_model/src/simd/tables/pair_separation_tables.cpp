@@ -73,7 +73,7 @@ std::vector<PairSeparationTable::Pairs> geometriesOf(const PairModel& model, con
     const SimdPairSource& source = simd.sources[i];
     if (source.obstacle >= 0 || indexOf[source.bodyPair] < 0) continue;
     pairs[indexOf[source.bodyPair]].push_back(
-        {source.geometry, source.other, model.pairs[i].kept()});
+        {source.geometry, source.other, model.pair(i).kept()});
   }
   return pairs;
 }
@@ -163,7 +163,7 @@ void chooseTables(const PairModel& model, const PairSeparationTables& tables, Si
     const SimdPairSource& source = simd.sources[i];
     if (source.obstacle >= 0) continue;
     std::shared_ptr<const PairSeparationTable>& table = simd.bodyPairs[source.bodyPair].table;
-    if (table != nullptr && !holdsFor(model, tables, *table, model.pairs[i])) table = nullptr;
+    if (table != nullptr && !holdsFor(model, tables, *table, model.pair(i))) table = nullptr;
   }
 }
 
