@@ -85,6 +85,23 @@ inline PointCloud cameraCloud(int count) {
   return PointCloud::build(points, 0.003);
 }
 
+/// Like cloudOf(), but for any number of points: no ball is larger than the thinnest board.
+inline PointCloud surfaceCloud(int count) {
+  const std::vector<PlacedBox> boxes = twelveBoxes();
+  const double side = squareSide(boxes, count), radius = std::min(0.75 * side, 0.01);
+  std::vector<Eigen::Vector3d> points;
+  for (const PlacedBox& box : boxes) {
+    const Eigen::Vector3d inner = box.size.array() - 2.0 * radius;
+    eachFace(inner, partsOf(inner, side), [&](const auto& point, int m, int n) {
+      for (int i = 0; i <= m; ++i)
+        for (int j = 0; j <= n; ++j)
+          points.push_back(box.world_from_box *
+                           point(static_cast<double>(i) / m, static_cast<double>(j) / n));
+    });
+  }
+  return PointCloud::build(points, radius);
+}
+
 /// Points spread evenly in the twelve boxes, with balls of 2 mm.
 inline PointCloud uniformCloud(int count) {
   const std::vector<PlacedBox> boxes = twelveBoxes();
@@ -184,7 +201,7 @@ inline std::vector<SensedKind> sensedKinds() {
     return world;
   };
   return {
-      {"surfaces", "points", points, [=](int n) { return one(cloudOf(twelveBoxes(), n)); }},
+      {"surfaces", "points", points, [=](int n) { return one(surfaceCloud(n)); }},
       {"cameras", "points", points, [=](int n) { return one(cameraCloud(n)); }},
       {"uniform", "points", points, [=](int n) { return one(uniformCloud(n)); }},
       {"uneven", "points", points, [=](int n) { return one(unevenCloud(n)); }},
