@@ -138,8 +138,8 @@ class SensedBenchmark {
     list(*checker, drawn.free, costs);
   }
 
-  /// The least of some passes over all motions: no motion finds the caches as its own last pass left
-  /// them.
+  /// The least of some passes over all motions: no motion finds the caches as its own last pass
+  /// left them.
   MotionCosts measure(const Checker& checker, const std::vector<BenchMotion>& motions) const {
     MotionCosts costs;
     costs.nanoseconds.resize(motions.size(), std::numeric_limits<double>::infinity());
@@ -176,9 +176,8 @@ class SensedBenchmark {
       std::printf("  motion %zu: %.1f us, %d intervals, %" PRId64 " distances, %" PRId64
                   " culled, %" PRId64 " lanes; from the world %.2f mm, itself %.2f mm\n",
                   order[i], 1e-3 * costs.nanoseconds[order[i]], certificate.effort.intervals,
-                  certificate.effort.distances, certificate.effort.culled,
-                  certificate.effort.lanes, 1e3 * clearance.world.lower,
-                  1e3 * clearance.self.lower);
+                  certificate.effort.distances, certificate.effort.culled, certificate.effort.lanes,
+                  1e3 * clearance.world.lower, 1e3 * clearance.self.lower);
     }
   }
 

@@ -69,10 +69,9 @@ inline PointCloud cameraCloud(int count) {
     const Eigen::Vector3d& from = cameras[points.size() % cameras.size()];
     const Eigen::Vector3d forward = (Eigen::Vector3d(0.2, 0.0, 0.2) - from).normalized();
     const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-    const Eigen::Vector3d direction =
-        (forward + uniform(random, -0.8, 0.8) * right +
-         uniform(random, -0.6, 0.6) * right.cross(forward))
-            .normalized();
+    const Eigen::Vector3d direction = (forward + uniform(random, -0.8, 0.8) * right +
+                                       uniform(random, -0.6, 0.6) * right.cross(forward))
+                                          .normalized();
     double depth = 1e30;
     for (const PlacedBox& box : boxes)
       if (const auto hit = hitOf(box, from, direction)) depth = std::min(depth, *hit);
@@ -169,14 +168,12 @@ inline std::vector<PlacedBox> rubble(int count) {
   for (const PlacedBox& box : boxes) {
     eachFace(box.size, partsOf(box.size, side), [&](const auto& point, int m, int n) {
       for (int i = 0; i < m * n; ++i) {
-        const Eigen::Vector3d at =
-            box.world_from_box * point((i % m + 0.5) / m, (i / m + 0.5) / n);
+        const Eigen::Vector3d at = box.world_from_box * point((i % m + 0.5) / m, (i / m + 0.5) / n);
         const double size = std::min(0.05, side);
         PlacedBox one({uniform(random, 0.3, 1.0) * size, uniform(random, 0.3, 1.0) * size,
                        uniform(random, 0.3, 1.0) * size},
                       at, 0.0);
-        one.world_from_box.rotate(
-            Eigen::AngleAxisd(uniform(random, 0.0, 3.0), direction(random)));
+        one.world_from_box.rotate(Eigen::AngleAxisd(uniform(random, 0.0, 3.0), direction(random)));
         small.push_back(one);
       }
     });
