@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include "bvh/any_near.hpp"
 #include "geometry/error_model.hpp"
+#include "narrowphase/convex_pair.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/triangle_pair.hpp"
 
@@ -124,6 +127,39 @@ bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radiu
     const double most = grown + kSegmentRounding * (size + point.lpNorm<1>() + radius);
     return !((y + along * segment.half).squaredNorm() > most * most);
   });
+}
+
+namespace {
+
+/// About the segment's middle, so that its ends round little.
+bool isConvexFarther(const detail::Convex& body, const LineSegment& segment, double radius) {
+  const std::array<Vector3d, 2> ends{-segment.half, segment.half};
+  Eigen::Isometry3d body_from_segment = Eigen::Isometry3d::Identity();
+  body_from_segment.translation() = segment.center;
+  const detail::GjkResult found = detail::convexPair(
+      body, detail::Convex::ofPoints(ends), body_from_segment, Vector3d::Zero(),
+      detail::Goal(radius), 0.0, tolerance::kDistance, detail::GjkMode::BoundOnly);
+  return found.satisfied && found.lower > radius;
+}
+
+}  // namespace
+
+bool isBodyFarther(const Shape& body, const LineSegment& segment, double radius) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&, radius] { return isBodyFarther(body, segment, radius); });
+  }
+  if (!isFinite(segment, radius)) return false;
+  return std::visit(
+      [&](const auto& own) {
+        using Body = std::decay_t<decltype(own)>;
+        if constexpr (std::is_same_v<Body, TriangleMesh>)
+          return isFarther(own, segment, radius) && !own.encloses(segment.center);
+        else if constexpr (std::is_same_v<Body, PointCloud>)
+          return isFarther(own, segment, radius);
+        else
+          return isConvexFarther(detail::Convex::of(own), segment, radius);
+      },
+      body);
 }
 
 std::optional<Vector3d> pointWithin(const TriangleMesh& mesh, const Vector3d& point,

@@ -54,4 +54,14 @@ ExactAnswer PairOracle::look(std::uint32_t pair, double t, double half) {
   return look;
 }
 
+bool PairOracle::staysApart(std::uint32_t pair, double t, double half, const MovingPoint& point,
+                            double radius) {
+  if (effort_.intervals >= model_.options.maxIntervals || !start()) return false;
+  ++effort_.intervals;
+  ++effort_.distances;
+  return query_.staysApartFrom(
+      {pair, {{point.x[0], point.x[1], point.x[2]}, {point.g[0], point.g[1], point.g[2]}}, radius},
+      t, half);
+}
+
 }  // namespace swept::detail

@@ -23,6 +23,8 @@ class PairOracle final : public ExactOracle {
   bool isContact(const SimdContact& contact, double t) override;
   bool isInside(std::uint32_t pair, std::int32_t point, double t) override;
   ExactAnswer look(std::uint32_t pair, double t, double half) override;
+  bool staysApart(std::uint32_t pair, double t, double half, const MovingPoint& point,
+                  double radius) override;
 
  private:
   bool keep(std::optional<Witness> witness);

@@ -8,6 +8,7 @@
 
 #include "certify/workspace_data.hpp"
 #include "kinematics/joint_path.hpp"
+#include "swept/core/segment_query.hpp"
 
 namespace swept::detail {
 
@@ -35,6 +36,13 @@ struct PairDistance {
 enum class Tube : std::uint8_t {
   Whole,  ///< all configurations that PairModel::tube allows
   None,   ///< only the motion itself
+};
+
+/// Part of a cloud: what is within `radius` (m) of the path (the model frame).
+struct CloudPatch {
+  std::uint32_t pair = 0;  ///< of a link and the cloud
+  LineSegment path;
+  double radius = 0.0;
 };
 
 /// The pairs of a model at one t of the motion held by a workspace.
@@ -65,6 +73,11 @@ class PairQuery {
   /// margin. Climbs a few steps from where the tube lets the two come nearest along the direction
   /// between them; finds nothing without a tube.
   std::optional<Witness> tubeContact(std::uint32_t pair, const PairAnswer& answer);
+  /// Whether the link keeps the pair's margin from that part of the cloud on [t - half, t + half].
+  /// False: not proven. Divides the interval where a ball of the cloud passes near the link, and
+  /// the cloud's hierarchy where its nodes are larger than what the motion is curved. Moves to
+  /// another t.
+  bool staysApartFrom(const CloudPatch& patch, double t, double half);
   /// Distance at t. Stops early when it is proven to exceed `enough` (m).
   PairDistance measure(const GeometryPair& pair, double enough, double accuracy);
   /// The same, negative where they overlap; see signedDistance().
@@ -132,6 +145,8 @@ class PairQuery {
   void addGradient(int geometry, int motionBound, const Eigen::Vector3d& push,
                    std::span<double> gradient);
   ///@}
+  bool passes(const GeometryPair& pair, const PointCloud& cloud, const LineSegment& near,
+              double radius, double t, double half, std::size_t first, int halvings, int& tests);
   const Shape& shapeOfB(const GeometryPair& pair) const;
   Eigen::Isometry3d poseOfB(const GeometryPair& pair);
 

@@ -12,6 +12,7 @@
 #include "proof/open_work.hpp"
 #include "simd/kernels/simd_scratch.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
+#include "swept/core/cloud_parts.hpp"
 #include "swept/core/separation.hpp"
 
 namespace swept::detail {
@@ -65,6 +66,7 @@ struct WorkspaceData {
   SimdScratch simd;
   std::vector<MeasuredPair> measured;
   BroadphaseScratch boxes;
+  std::vector<CloudPart> cloudParts, waitingParts;  ///< of a cloud, as it passes a link
   /// Full configurations: see KinematicModel. Empty without moving obstacles.
   std::vector<double> from, to;
   std::vector<double> probe;                ///< a configuration

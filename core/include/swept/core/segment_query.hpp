@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "swept/core/point_cloud.hpp"
+#include "swept/core/shapes.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace swept {
@@ -24,6 +25,11 @@ struct LineSegment {
 bool isFarther(const TriangleMesh& mesh, const LineSegment& segment, double radius);
 bool isFarther(const PointCloud& cloud, const LineSegment& segment, double radius);
 ///@}
+
+/// Whether all of a body, what its mesh encloses included, is proven to be farther than `radius`
+/// (m, not negative) from the whole segment (in its frame). As for isFarther(), a proof may be
+/// missed if the distance is near that radius.
+bool isBodyFarther(const Shape& body, const LineSegment& segment, double radius);
 
 /// m. Proven lower bound of the distance from `point` (m, the cloud's frame) to the nearest ball;
 /// it is too small only by some roundings of the coordinates. Within balls it is minus the depth in

@@ -13,6 +13,7 @@
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/obstacle_kernels.hpp"
 #include "simd/kernels/placed_ball.hpp"
+#include "simd/search/simd_search.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
@@ -40,45 +41,91 @@ class FieldWalk {
     hit.lanes &= ~block_.contactLanes;
     if (hit.lanes == 0) return false;
     if (divides) {
-      scratch_.hits.push_back(hit);
+      // A query that succeeds spares all balls below the node.
+      const Lanes worth = hit.lanes & answer.worthQuery;
+      if (node.geometry >= 0 && worth != 0 && scratch_.queries.size() < kMostQueries) {
+        postpone(node, segment, radius, {hit.index, worth}, pair, true, final, answer, set(0.0F));
+        hit.lanes &= ~worth;
+      }
+      if (hit.lanes != 0) scratch_.hits.push_back(hit);
       return false;
     }
     // A field's value may be up to about a cell less than the distance.
     const F8 depths = set(node.radius - 0.5F * node.beyond - field.cell) - answer.middle;
     if (scratch_.queries.size() < kMostQueries && (hit.lanes & ~answer.worthQuery) != hit.lanes) {
-      SimdQuery& query = scratch_.queries.emplace_back();
-      query.field = index;
-      query.pair = pair;
-      query.lanes = hit.lanes & answer.worthQuery;
-      query.outside = above(answer.middle, set(0.0F));
-      query.final = final;
-      store3(segment.x, query.x);
-      store3(segment.g, query.g);
-      store(radius, query.radius);
-      store(depths, query.depth);
-      hit.lanes &= ~query.lanes;
+      const Lanes worth = hit.lanes & answer.worthQuery;
+      postpone(node, segment, radius, {hit.index, worth}, pair, false, final, answer, depths);
+      hit.lanes &= ~worth;
     }
     if (hit.lanes != 0) markUnresolved(block_, pair, hit.lanes, final, depths);
     return false;
   }
 
-  void settle() {
-    for (const SimdQuery& query : scratch_.queries) {
+  /// Answers the postponed queries. `divide(node, hit)` visits the balls below a node whose query
+  /// failed, and may postpone more. True: the walk is over.
+  template <typename Divide>
+  bool settle(const Divide& divide) {
+    for (std::size_t i = 0; i < scratch_.queries.size(); ++i) {
+      const SimdQuery& query = scratch_.queries[i];
       Lanes left = query.lanes & ~block_.contactLanes;
       left &= ~static_cast<Lanes>(block_.openLanes[query.pair]);
-      const SimdField& field = model_.obstacles.fields[query.field];
-      // If one stays open, the pair stays open: the others are not worth the time.
-      for (; left != 0; left &= left - 1) {
-        const int lane = std::countr_zero(left);
-        const bool outside = (query.outside >> lane & 1U) != 0;
-        if (!isApart(field, pointOf(query.x, query.g, lane), query.radius.lane[lane], outside))
-          break;
+      if (left == 0) continue;
+      const SimdNode& node = model_.nodes[query.node];
+      if (query.divides) {
+        Lanes open = 0;
+        for (; left != 0; left &= left - 1)
+          if (!settled(query, std::countr_zero(left))) open |= left & -left;
+        if (open != 0 && divide(node, SimdHit{query.obstacle, open})) return true;
+        continue;
       }
+      // If one stays open, the pair stays open: the others are not worth the time.
+      while (left != 0 && settledOrProven(query, std::countr_zero(left))) left &= left - 1;
       if (left != 0) markUnresolved(block_, query.pair, left, query.final, load(query.depth));
     }
+    return false;
   }
 
  private:
+  void postpone(const SimdNode& node, const Segment& segment, const F8& radius, const SimdHit& hit,
+                std::uint32_t pair, bool divides, bool final, const FieldAnswer& answer,
+                const F8& depths) {
+    SimdQuery& query = scratch_.queries.emplace_back();
+    query.node = static_cast<std::int32_t>(&node - &model_.nodes[0]);
+    query.obstacle = hit.index;
+    query.pair = pair;
+    query.lanes = hit.lanes;
+    query.outside = above(answer.middle, set(0.0F));
+    query.final = final;
+    query.divides = divides;
+    store3(segment.x, query.x);
+    store3(segment.g, query.g);
+    store(radius, query.radius);
+    store(depths, query.depth);
+  }
+
+  /// What the ball cannot prove, the link itself may.
+  bool settledOrProven(const SimdQuery& query, int lane) const {
+    if (settled(query, lane)) return true;
+    return query.final && scratch_.oracle != nullptr &&
+           scratch_.oracle->staysApart(query.pair, static_cast<double>(block_.time.lane[lane]),
+                                       static_cast<double>(block_.half.lane[lane]),
+                                       pointOf(query.x, query.g, lane), reachOf(query, lane));
+  }
+
+  /// m, around the segment: what is farther is apart from the ball.
+  double reachOf(const SimdQuery& query, int lane) const {
+    const SimdField& field =
+        model_.obstacles.fields[model_.obstacles.obstacles[query.obstacle].first];
+    return static_cast<double>(query.radius.lane[lane]) + static_cast<double>(field.slack);
+  }
+
+  bool settled(const SimdQuery& query, int lane) const {
+    const SimdField& field =
+        model_.obstacles.fields[model_.obstacles.obstacles[query.obstacle].first];
+    const bool outside = (query.outside >> lane & 1U) != 0;
+    return isApart(field, pointOf(query.x, query.g, lane), query.radius.lane[lane], outside);
+  }
+
   /// Tests a ball inside the link against the field's shape: in the first lane, a query confirms
   /// contact. `bounds`: m, on the distance.
   bool touches(const SimdNode& node, const Segment& segment, const SimdField& field,

@@ -11,6 +11,7 @@
 namespace swept::detail {
 
 struct SimdModel;
+class ExactOracle;
 
 /// One joint's share of a motion, t in [0, 1]. Its size is a power of two, since it is looked up
 /// all the time.
@@ -99,18 +100,20 @@ struct SimdBounds {
   std::vector<Row> acceleration;  ///< m per unit t squared; lanes: bodies
 };
 
-/// A leaf for which an obstacle's field is too coarse. The exact question: is the obstacle farther
-/// than the radius from the segments x +- g?
+/// A ball of a cover for which an obstacle's field is too coarse. The exact question: is the
+/// obstacle farther than the radius from the segments x +- g?
 struct SimdQuery {
   Row x[3];    ///< m
   Row g[3];    ///< m
   Row radius;  ///< m
   Row depth;   ///< m; as for markUnresolved
-  std::int32_t field;
+  std::int32_t node;
+  std::int32_t obstacle;
   std::uint32_t pair;
   std::uint32_t lanes;
   std::uint32_t outside;  ///< lanes in which the obstacle does not contain x
   bool final;             ///< shorter intervals would not help
+  bool divides;           ///< the balls below the node may answer what it cannot
 };
 
 struct SimdScratch {
@@ -171,9 +174,10 @@ struct SimdScratch {
   };
   std::vector<Roots> rootsOfEight;
   std::vector<SimdQuery> queries;
-  float rounding = 0.0F;      ///< m, of this motion
-  bool curved = false;        ///< its rates change
-  bool withinLimits = false;  ///< the whole motion; else nothing that rests on the limits holds
+  ExactOracle* oracle = nullptr;  ///< of the motion that is searched; null: none is
+  float rounding = 0.0F;          ///< m, of this motion
+  bool curved = false;            ///< its rates change
+  bool withinLimits = false;      ///< the whole motion; else nothing that rests on the limits holds
   std::vector<std::uint32_t> wanted;      ///< pairs of the block
   std::vector<std::uint8_t> wantedLanes;  ///< per pair of the model
   std::vector<SimdHit> asked;

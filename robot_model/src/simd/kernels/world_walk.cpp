@@ -47,8 +47,7 @@ class WorldWalk {
       start(visit.body);
       if (descend(model_.nodes[visit.node], visit.first, visit.last)) return true;
     }
-    fields_.settle();
-    return false;
+    return settleFields();
   }
 
   bool pairs(int geometry, std::span<const SimdHit> obstacles) {
@@ -57,11 +56,18 @@ class WorldWalk {
     const SimdNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
     scratch_.hits.assign(obstacles.begin(), obstacles.end());
     if (visit(root, placed(root), 0, scratch_.hits.size())) return true;
-    fields_.settle();
-    return false;
+    return settleFields();
   }
 
  private:
+  bool settleFields() {
+    return fields_.settle([this](const SimdNode& node, const SimdHit& hit) {
+      start(model_.geometryBody[node.geometry]);
+      scratch_.hits.assign(1, hit);
+      return descend(node, 0, 1);
+    });
+  }
+
   bool first(int body) {
     start(body);
     const std::int32_t index = model_.rootOfBody[body];

@@ -266,7 +266,9 @@ void SimdTier::prove(ProofWork& work) {
                     .mostIntervals = mostIntervals_};
   for (const Row& row : scratch_.bounds[0].acceleration)
     for (const float value : row.lane) search.acceleration = std::max(search.acceleration, value);
+  scratch_.oracle = &oracle_;
   MotionSearch(search).run();
+  scratch_.oracle = nullptr;
   effort_.lanes += search.examined;
 }
 

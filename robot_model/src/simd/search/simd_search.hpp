@@ -6,6 +6,7 @@
 
 #include "proof/confirmed_contacts.hpp"
 #include "proof/proof_tier.hpp"
+#include "simd/compile/simd_field.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd/kernels/simd_scratch.hpp"
@@ -33,6 +34,10 @@ class ExactOracle {
   /// Whether a point of SimdHulls::inBody lies in the obstacle of the pair.
   virtual bool isInside(std::uint32_t pair, std::int32_t point, double t) = 0;
   virtual ExactAnswer look(std::uint32_t pair, double t, double half) = 0;
+  /// Whether the pair's link stays apart, by the pair's margin, on [t - half, t + half] from all of
+  /// the obstacle, a cloud, that is within `radius` (m) of the points x +- g. False: not proven.
+  virtual bool staysApart(std::uint32_t pair, double t, double half, const MovingPoint& point,
+                          double radius) = 0;
 
  protected:
   ~ExactOracle() = default;
