@@ -164,16 +164,17 @@ TEST(CloudSweep, IsNotProvenWhereABallComesNear) {
       }
       const detail::StraightPath path(model->kinematics, from, to);
       ASSERT_TRUE(query.start(path));
-      for (std::uint32_t index = 0; index < model->pairs.size(); ++index) {
-        const detail::GeometryPair& pair = model->pairs[index];
-        if (pair.self) continue;
+      for (std::uint32_t index = 0; index < model->worldPairs.size(); ++index) {
+        const detail::GeometryPair pair = model->pair(index);
         const double half = std::pow(0.5, uniform(random, 1.0, 5.0));
         const double t = uniform(random, half, 1.0 - half);
         query.moveTo(t, half);
         const detail::RobotGeometry& link = model->robotGeometry[static_cast<std::size_t>(pair.a)];
-        // A patch around some ball that the link passes nearby, or all.
-        const Vector3d& at = cloud.points()[random() % cloud.points().size()];
-        const LineSegment patch{i % 2 == 0 ? at : query.pose(pair.a).translation(),
+        // Around the ball nearest to the middle of the link, or around the link's origin.
+        const Vector3d middle = query.pose(pair.a) * boundingSphere(link.shape).center;
+        const Vector3d& at = *std::ranges::min_element(
+            cloud.points(), {}, [&](const Vector3d& p) { return (p - middle).norm(); });
+        const LineSegment patch{i % 3 != 0 ? at : query.pose(pair.a).translation(),
                                 test::uniformPoint(random, 0.05)};
         const double radius = uniform(random, 0.02, 0.3);
         const bool found = query.staysApartFrom({index, patch, radius}, t, half);

@@ -23,6 +23,9 @@ class Silent final : public detail::ExactOracle {
   bool isContact(const detail::SimdContact&, double) override { return false; }
   bool isInside(std::uint32_t, std::int32_t, double) override { return false; }
   detail::ExactAnswer look(std::uint32_t, double, double) override { return {}; }
+  bool staysApart(std::uint32_t, double, double, const detail::MovingPoint&, double) override {
+    return false;
+  }
 };
 
 /// A random robot, a motion, and two balls of which the nearest approach is known: of two bodies,

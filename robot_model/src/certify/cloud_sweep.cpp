@@ -56,7 +56,7 @@ struct PassingBalls {
 }  // namespace
 
 bool PairQuery::staysApartFrom(const CloudPatch& patch, double t, double half) {
-  const GeometryPair& pair = model_.pairs[patch.pair];
+  const GeometryPair& pair = model_.pair(patch.pair);
   const auto* cloud = std::get_if<PointCloud>(&shapeOfB(pair));
   if (cloud == nullptr || pair.self || inTube_) return false;
   const Isometry3d cloud_from_world = poseOfB(pair).inverse();

@@ -10,10 +10,10 @@
 #include <bit>
 #include <cstdint>
 
+#include "simd/kernels/exact_oracle.hpp"
 #include "simd/kernels/f8.hpp"
 #include "simd/kernels/obstacle_kernels.hpp"
 #include "simd/kernels/placed_ball.hpp"
-#include "simd/search/simd_search.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace swept::detail::HWY_NAMESPACE {
