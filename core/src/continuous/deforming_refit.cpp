@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
-#include <latch>
 #include <limits>
 #include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include "continuous/deforming_data.hpp"
+#include "threads/crew.hpp"
 
 namespace swept::detail {
 
@@ -19,21 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Pieces of a stage of work; each free thread takes the next one.
-class Pieces {
- public:
-  Pieces(std::size_t count, std::size_t each) : count_(count), each_(each) {}
-
-  template <typename Work>
-  void take(const Work& work) {
-    for (std::size_t first = next_.fetch_add(each_); first < count_; first = next_.fetch_add(each_))
-      work(first, std::min(first + each_, count_));
-  }
-
- private:
-  std::atomic<std::size_t> next_{0};
-  std::size_t count_, each_;
-};
+/// Points that one thread takes at a time: some 50 us of work.
+constexpr std::size_t kPoints = 8192;
 
 /// Three stages, each of which needs all of the one before. The result of a piece depends only on
 /// the piece. Sums are formed afterwards, in the order of the pieces. The second stage is the first
@@ -43,54 +28,27 @@ class Pieces {
 /// wait per level.
 class Refit {
  public:
-  Refit(DeformingMesh::Data& data, std::span<const Vector3d> vertices, unsigned threads)
-      : data_(data),
-        vertices_(vertices),
-        threads_(threads),
-        toCheck_(vertices.size(), kPoints),
-        toCopy_(data.order.vertexOf.size(), kPoints),
-        toFollow_(data.areas.size(), 1),
-        checked_(threads),
-        copied_(threads) {}
+  Refit(DeformingMesh::Data& data, std::span<const Vector3d> vertices)
+      : data_(data), vertices_(vertices) {}
 
-  double run() {
-    std::vector<std::jthread> others;
-    try {
-      others.reserve(threads_ - 1);
-      while (others.size() + 1 < threads_) others.emplace_back([this] { work(); });
-    } catch (const std::exception&) {
-      // No more threads are available: the existing ones do all the work.
-      const auto missing = static_cast<std::ptrdiff_t>(threads_ - 1 - others.size());
-      checked_.count_down(missing);
-      copied_.count_down(missing);
-    }
-    work();
-    others.clear();
+  double run(Crew& crew) {
+    crew.forPieces(vertices_.size(), kPoints, [this](std::size_t first, std::size_t last) {
+      reachTo(largestCoordinate(vertices_.subspan(first, last - first)));
+    });
     if (!std::isfinite(reach_))
       throw std::invalid_argument("DeformingMesh: a vertex is not finite");
+    crew.forPieces(data_.order.vertexOf.size(), kPoints,
+                   [this](std::size_t first, std::size_t last) {
+                     data_.copyVertices(vertices_, first, last, data_.start);
+                   });
+    crew.forPieces(data_.areas.size(), 1, [this](std::size_t subtree, std::size_t) {
+      data_.areas[subtree] = followSubtree(data_.order, data_.points, subtree, data_.start);
+    });
     data_.start.reach = reach_;
     return data_.finish(data_.start);
   }
 
  private:
-  /// Points that one thread takes at a time: some 50 us of work.
-  static constexpr std::size_t kPoints = 8192;
-
-  void work() {
-    toCheck_.take([this](std::size_t first, std::size_t last) {
-      reachTo(largestCoordinate(vertices_.subspan(first, last - first)));
-    });
-    checked_.arrive_and_wait();
-    if (!std::isfinite(reach_)) return;
-    toCopy_.take([this](std::size_t first, std::size_t last) {
-      data_.copyVertices(vertices_, first, last, data_.start);
-    });
-    copied_.arrive_and_wait();
-    toFollow_.take([this](std::size_t subtree, std::size_t) {
-      data_.areas[subtree] = followSubtree(data_.order, data_.points, subtree, data_.start);
-    });
-  }
-
   void reachTo(double reach) {
     if (!std::isfinite(reach)) reach = std::numeric_limits<double>::infinity();
     double known = reach_;
@@ -100,10 +58,7 @@ class Refit {
 
   DeformingMesh::Data& data_;
   std::span<const Vector3d> vertices_;
-  std::size_t threads_;
   std::atomic<double> reach_{0.0};
-  Pieces toCheck_, toCopy_, toFollow_;
-  std::latch checked_, copied_;
 };
 
 /// For each thread. Measured on two cores shared with other programs: with a second thread a step
@@ -115,8 +70,8 @@ constexpr std::size_t kLeastTriangles = 30000;
 }  // namespace
 
 double refit(DeformingMesh::Data& data, std::span<const Vector3d> vertices, unsigned threads) {
-  const std::size_t useful = std::clamp<std::size_t>(threads, 1, data.areas.size());
-  return Refit(data, vertices, static_cast<unsigned>(useful)).run();
+  Crew crew(static_cast<unsigned>(std::clamp<std::size_t>(threads, 1, data.areas.size())));
+  return Refit(data, vertices).run(crew);
 }
 
 unsigned usefulThreads(unsigned threads, std::size_t triangles) {

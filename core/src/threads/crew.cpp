@@ -2,7 +2,7 @@
 #include "threads/crew.hpp"
 
 #include <algorithm>
-#include <system_error>
+#include <exception>
 #include <utility>
 
 namespace swept::detail {
@@ -17,8 +17,8 @@ Crew::Crew(unsigned threads) {
   const unsigned wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
   try {
     for (unsigned i = 1; i < wanted; ++i) others_.emplace_back([this] { serve(); });
-  } catch (const std::system_error&) {
-    // No more threads are available.
+  } catch (const std::exception&) {
+    // No more threads, or memory for them, are available.
   }
 }
 
