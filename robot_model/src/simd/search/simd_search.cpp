@@ -275,6 +275,7 @@ void SimdTier::prove(ProofWork& work) {
 void searchStates(const SimdModel& model, SimdMode mode, SimdContacts contacts,
                   SimdScratch& scratch) {
   SimdBlock& block = scratch.block;
+  scratch.oracle = nullptr;  // a search that was left by an exception has not done so
   forgetOpen(block);
   block.mode = mode;
   block.given = mode == SimdMode::States;
