@@ -18,7 +18,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "data_folder.hpp"
+#include "exit_code.hpp"
 #include "number_argument.hpp"
 #include "planning_problems.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
@@ -230,22 +230,12 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: connect_benchmark [panda] [ur5] [--sets N] [--seed N] [--turns N] "
-                 "[--peer FILE.csv, with one robot]\n";
-    return 2;
-  }
-  const auto data = dataFolder();
-  if (!data) {
-    std::cout << "skipped: SWEPT_DATA names no folder\n";
-    return EXIT_SUCCESS;
-  }
-  ompl::msg::noOutputHandler();
-  try {
-    return swept::benchmark::run(*options, *data) ? EXIT_SUCCESS : EXIT_FAILURE;
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  return swept::benchmark::exitCodeWithData(
+      swept::benchmark::optionsOf(argc, argv),
+      "connect_benchmark [panda] [ur5] [--sets N] [--seed N] [--turns N] [--peer FILE.csv, with "
+      "one robot]",
+      [](const auto& options, const auto& data) {
+        ompl::msg::noOutputHandler();
+        return swept::benchmark::run(options, data);
+      });
 }

@@ -10,6 +10,7 @@
 #include "bench/clock.hpp"
 #include "curve_samples.hpp"
 #include "data_folder.hpp"
+#include "exit_code.hpp"
 #include "report/plot.hpp"
 #include "robot_worlds.hpp"
 #include "timing.hpp"
@@ -272,16 +273,10 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: curve_benchmark [--seed N] [--curves N] [--csv FILE] [--svg FILE]\n";
-    return 2;
-  }
-  try {
-    swept::benchmark::CurveBenchmark(*options).run();
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return swept::benchmark::exitCodeOf(
+      swept::benchmark::optionsOf(argc, argv),
+      "curve_benchmark [--seed N] [--curves N] [--csv FILE] [--svg FILE]", [](const auto& options) {
+        swept::benchmark::CurveBenchmark(options).run();
+        return true;
+      });
 }

@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "arc_path.hpp"
-#include "data_folder.hpp"
 #include "executed_samples.hpp"
+#include "exit_code.hpp"
 #include "number_argument.hpp"
 #include "planning_problems.hpp"
 #include "report/executed_curves.hpp"
@@ -342,22 +342,12 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: executed_benchmark [panda] [ur5] [--sets N] [--seed N] [--tube E]\n";
-    return 2;
-  }
-  const auto data = dataFolder();
-  if (!data) {
-    std::cout << "skipped: SWEPT_DATA names no folder\n";
-    return EXIT_SUCCESS;
-  }
-  ompl::msg::noOutputHandler();
-  ompl::RNG::setSeed(options->seed);
-  try {
-    return swept::benchmark::run(*options, *data) ? EXIT_SUCCESS : EXIT_FAILURE;
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  return swept::benchmark::exitCodeWithData(
+      swept::benchmark::optionsOf(argc, argv),
+      "executed_benchmark [panda] [ur5] [--sets N] [--seed N] [--tube E]",
+      [](const auto& options, const auto& data) {
+        ompl::msg::noOutputHandler();
+        ompl::RNG::setSeed(options.seed);
+        return swept::benchmark::run(options, data);
+      });
 }

@@ -9,6 +9,7 @@
 #include "../robot_model/input_files.hpp"
 #include "box_worlds.hpp"
 #include "data_folder.hpp"
+#include "exit_code.hpp"
 #include "made_arms.hpp"
 #include "robot_costs.hpp"
 #include "robot_worlds.hpp"
@@ -284,16 +285,10 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: motion_benchmark [--seed N] [--only dof|mesh|world|robots]\n";
-    return 2;
-  }
-  try {
-    swept::benchmark::MotionBenchmark(*options).run();
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return swept::benchmark::exitCodeOf(swept::benchmark::optionsOf(argc, argv),
+                                      "motion_benchmark [--seed N] [--only dof|mesh|world|robots]",
+                                      [](const auto& options) {
+                                        swept::benchmark::MotionBenchmark(options).run();
+                                        return true;
+                                      });
 }

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <optional>
 
-#include "data_folder.hpp"
+#include "exit_code.hpp"
 #include "number_argument.hpp"
 #include "planning_neighbours.hpp"
 #include "planning_overhead.hpp"
@@ -167,22 +167,12 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: planning_benchmark [panda] [ur5] [--sets N|all] [--time S] [--seed N] "
-                 "[--overhead|--neighbours]\n";
-    return 2;
-  }
-  const auto data = dataFolder();
-  if (!data) {
-    std::cout << "skipped: SWEPT_DATA names no folder\n";
-    return EXIT_SUCCESS;
-  }
-  ompl::msg::noOutputHandler();
-  try {
-    return swept::benchmark::PlanningBenchmark(*options, *data).run() ? EXIT_SUCCESS : EXIT_FAILURE;
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  return swept::benchmark::exitCodeWithData(
+      swept::benchmark::optionsOf(argc, argv),
+      "planning_benchmark [panda] [ur5] [--sets N|all] [--time S] [--seed N] "
+      "[--overhead|--neighbours]",
+      [](const auto& options, const auto& data) {
+        ompl::msg::noOutputHandler();
+        return swept::benchmark::PlanningBenchmark(options, data).run();
+      });
 }

@@ -9,6 +9,7 @@
 
 #include "bench/clock.hpp"
 #include "data_folder.hpp"
+#include "exit_code.hpp"
 #include "self_collision_judge.hpp"
 #include "self_collision_robots.hpp"
 #include "timing.hpp"
@@ -231,15 +232,8 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: self_collision_benchmark [--states N] [--only ROBOT]\n";
-    return 2;
-  }
-  try {
-    return swept::benchmark::SelfBenchmark(*options).run() ? EXIT_SUCCESS : EXIT_FAILURE;
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  return swept::benchmark::exitCodeOf(
+      swept::benchmark::optionsOf(argc, argv),
+      "self_collision_benchmark [--states N] [--only ROBOT]",
+      [](const auto& options) { return swept::benchmark::SelfBenchmark(options).run(); });
 }

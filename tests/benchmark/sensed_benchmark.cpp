@@ -10,6 +10,7 @@
 #include <string>
 
 #include "data_folder.hpp"
+#include "exit_code.hpp"
 #include "made_arms.hpp"
 #include "motion_samples.hpp"
 #include "number_argument.hpp"
@@ -222,17 +223,12 @@ std::optional<Options> optionsOf(int argc, char** argv) {
 }  // namespace swept::benchmark
 
 int main(int argc, char** argv) {
-  const auto options = swept::benchmark::optionsOf(argc, argv);
-  if (!options) {
-    std::cerr << "usage: sensed_benchmark [--only points|meshes|boxes] [--kind NAME] [--size N] "
-                 "[--robot NAME] [--motions N] [--passes N] [--slowest N]\n";
-    return 2;
-  }
-  try {
-    swept::benchmark::SensedBenchmark(*options).run();
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return swept::benchmark::exitCodeOf(
+      swept::benchmark::optionsOf(argc, argv),
+      "sensed_benchmark [--only points|meshes|boxes] [--kind NAME] [--size N] [--robot NAME] "
+      "[--motions N] [--passes N] [--slowest N]",
+      [](const auto& options) {
+        swept::benchmark::SensedBenchmark(options).run();
+        return true;
+      });
 }
