@@ -116,9 +116,9 @@ class TriangleMesh {
   TriangleMesh withSourceError(double error) const;
   double sourceError() const { return sourceError_; }  ///< m; 0 unless set by withSourceError()
 
-  /// The same mesh with at most eight convex parts around it, which together contain it: proofs of
-  /// separate() ask them before they ask the triangles. A mesh that is nearly convex gets none.
-  /// Takes about as long as build(). moved() drops them.
+  /// The same mesh with at most eight convex parts that together contain it, and as many in each:
+  /// separate() asks them before the triangles. A mesh that is nearly convex gets none. Takes some
+  /// 20 ms for a thousand triangles, 0.15 s for forty thousand. moved() drops them.
   TriangleMesh withEnclosingParts() const;
   /// For the queries; null without parts.
   const detail::EnclosingParts* enclosingParts() const { return enclosingParts_.get(); }
