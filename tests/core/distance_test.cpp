@@ -192,6 +192,81 @@ TEST(Distance, BoxAndMeshMatchBruteForceInBothOrders) {
   }
 }
 
+/// A cube of 0.4 m with a pit of 0.1 m in the middle of one side, and that many squares along an
+/// edge.
+swept::TriangleMesh pittedCube(int squares) {
+  swept::test::Soup soup;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
+    const double side = face % 2 == 0 ? 0.2 : -0.2;
+    swept::test::Soup part;
+    for (int i = 0; i <= squares; ++i) {
+      for (int k = 0; k <= squares; ++k) {
+        Vector3d p;
+        p[axis] = side;
+        p[first] = 0.4 * i / squares - 0.2;
+        p[second] = 0.4 * k / squares - 0.2;
+        const bool inside = 0 < i && i < squares && 0 < k && k < squares;
+        if (face == 0 && inside) p[axis] -= 0.1;
+        part.vertices.push_back(p);
+      }
+    }
+    const int row = squares + 1;
+    for (int i = 0; i < squares; ++i) {
+      for (int k = 0; k < squares; ++k) {
+        const int at = i * row + k;
+        part.triangles.emplace_back(at, at + row, at + row + 1);
+        part.triangles.emplace_back(at, at + row + 1, at + 1);
+      }
+    }
+    soup.append(side > 0.0 ? part : part.inverted());
+  }
+  return swept::TriangleMesh::build(soup.vertices, soup.triangles);
+}
+
+TEST(Distance, OfBodiesWithAPitIsThatOfTheirHullsWhereThePitDoesNotMatter) {
+  Random random(8);
+  const swept::TriangleMesh large = pittedCube(3), small = pittedCube(2);
+  ASSERT_TRUE(large.isClosed());
+  const reference::Triangles own = trianglesOf(large, Isometry3d::Identity());
+  int ofHulls = 0, overPit = 0, touching = 0;
+  for (int i = 0; i < 300; ++i) {
+    Isometry3d pose = random.pose(0.6);
+    // Every other body stands before the pit.
+    if (i % 2 == 0) pose.translation() = Vector3d(0.45, 0.0, 0.0) + 0.2 * random.vector(1.0);
+    const bool mesh = i % 4 < 2;
+    const Vector3d half(0.05, 0.04, 0.2);
+    const double truth = reference::surfaces(
+        own, mesh ? trianglesOf(small, pose) : reference::boxTriangles(half, pose));
+    const Shape other = mesh ? Shape(small) : Shape(Box{half});
+    const DistanceResult result = swept::distance(large, other, pose);
+    const DistanceResult turned = swept::distance(other, large, pose.inverse());
+    EXPECT_EQ(result.upper == 0.0, turned.upper == 0.0);
+    if (result.upper == 0.0) {  // the reference knows no inside
+      ++touching;
+      continue;
+    }
+    expectInterval(result, truth);
+    expectInterval(turned, truth);
+    for (const double cut : {0.5, 0.999, 1.001}) {
+      swept::DistanceOptions options;
+      options.enough = cut * truth;
+      const DistanceResult quick = swept::distance(large, other, pose, options);
+      EXPECT_LE(quick.lower, truth + 1e-12);
+      EXPECT_GE(quick.upper, truth - 1e-12);
+      EXPECT_EQ(quick.lower > options.enough, cut < 1.0) << cut;
+    }
+    const double hulls =
+        swept::distance(large.hull(), mesh ? Shape(small.hull()) : other, pose).upper;
+    const bool same = hulls > truth - 1e-9;
+    EXPECT_EQ(same, !result.normal.isZero()) << truth - hulls;
+    ++(same ? ofHulls : overPit);
+  }
+  EXPECT_GT(ofHulls, 60);
+  EXPECT_GT(overPit, 30);
+  EXPECT_GT(touching, 30);
+}
+
 TEST(Distance, ABoxInsideTheTubeOfARingTouchesTheSolidAndNotTheSurface) {
   const swept::TriangleMesh ring = ringMesh(0.3, 0.08, 48, 20);
   Isometry3d inTube = Isometry3d::Identity();

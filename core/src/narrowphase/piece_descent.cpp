@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
+#include "cover/nearest.hpp"
 #include "narrowphase/convex_pair.hpp"
 
 namespace swept::detail {
@@ -51,7 +53,8 @@ class PieceDescent {
         pieces_(a, b, a_from_b),
         found_(found) {}
 
-  void run() {
+  void run(const std::optional<LikelyNearest>& first) {
+    if (first && isNearest(*first)) return;
     begin(pieces_.rootA(), pieces_.rootB());
     while (!waiting_.isEmpty() && !found_.inContact()) {
       const WaitingPairs::Pair next = waiting_.pop();
@@ -68,6 +71,23 @@ class PieceDescent {
     Piece piece;
     PartMotion motion;
   };
+  static Piece leaf(const Side& side, int primitive) {
+    return primitive < 0 ? PiecePair::rootOf(side) : Piece{-1, primitive, -1, {}};
+  }
+
+  /// Measures the pair, and whether no other is nearer.
+  bool isNearest(const LikelyNearest& pair) {
+    testLeaves(leaf(a_, pair.primitiveA), leaf(b_, pair.primitiveB), std::nullopt,
+               found_.result.hint);
+    if (found_.inContact()) {
+      found_.settle(0.0);
+      return true;
+    }
+    if (!(pair.lower > 0.0) || found_.result.upper - pair.lower > goal_.tolerance) return false;
+    found_.settle(pair.lower);
+    found_.result.normal = pair.normal;
+    return true;
+  }
   Part part(bool ofA, const Piece& piece) const { return {piece, motionOf(ofA, piece)}; }
   PartMotion motionOf(bool ofA, const Piece& piece) const {
     if (found_.failed) return {};
@@ -226,9 +246,20 @@ class PieceDescent {
 
 }  // namespace
 
+std::optional<int> nearestPrimitive(const Side& side, const Vector3d& point) {
+  if (side.isConvex()) return -1;
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  const Nearest near = side.mesh != nullptr
+                           ? Nearest(side.mesh->vertices(), side.mesh->triangles(), *side.bvh)
+                           : Nearest(side.cloud->points(), *side.bvh);
+  const int primitive = near.find(point, kAnywhere).primitive;
+  return primitive < 0 ? std::nullopt : std::optional(primitive);
+}
+
 void descendPieces(const Side& a, const Side& b, const Isometry3d& a_from_b,
-                   const PieceMotions& motions, PieceFindings& found) {
-  PieceDescent(a, b, a_from_b, motions, found).run();
+                   const PieceMotions& motions, const std::optional<LikelyNearest>& first,
+                   PieceFindings& found) {
+  PieceDescent(a, b, a_from_b, motions, found).run(first);
 }
 
 }  // namespace swept::detail

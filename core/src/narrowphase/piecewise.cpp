@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "narrowphase/piecewise.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "narrowphase/convex_pair.hpp"
 #include "narrowphase/enclosure.hpp"
 #include "narrowphase/part_pairs.hpp"
@@ -26,10 +29,11 @@ class Search {
 
   PieceResult run(const Vector3d& guess) {
     found_.result.hint = guess;
-    if (!hullsSuffice(guess) && !partsSuffice()) {
+    std::optional<LikelyNearest> first;
+    if (!hullsSuffice(guess) && !partsSuffice() && !nearestOfHulls(first)) {
       found_.result.lower = std::numeric_limits<double>::infinity();
-      descendPieces(a_, b_, a_from_b_, motions_, found_);
       found_.result.normal.setZero();
+      descendPieces(a_, b_, a_from_b_, motions_, first, found_);
     }
     // Surfaces that do not meet can still be one inside the other.
     const bool meet = found_.inContact() && !(found_.result.lower > 0.0);
@@ -72,6 +76,7 @@ class Search {
     return true;
   }
 
+  /// The parts around meshes, for motions. Two convex bodies have none, and need none.
   bool partsSuffice() {
     if (a_.isConvex() && b_.isConvex()) return true;
     if (goal_.approach == nullptr || (a_.parts == nullptr && b_.parts == nullptr)) return false;
@@ -86,6 +91,34 @@ class Search {
     }
     hullsApart_ = true;
     return true;
+  }
+
+  /// A distance query ends at once if the hulls are far enough apart. Otherwise `first` receives
+  /// the pieces at the nearest points of the hulls. They are the nearest pieces where the bodies
+  /// reach these points, as bodies that are convex but for a few dents mostly do.
+  bool nearestOfHulls(std::optional<LikelyNearest>& first) {
+    if (goal_.approach != nullptr) return false;
+    // Points whose distance is right up to e can be off by much more, the root of e, across the
+    // normal, and so on another piece. Hulls of corners lose nothing by this: their search ends
+    // with the right corners.
+    constexpr double kShare = 1e-3;
+    const GjkResult hulls =
+        convexPair(a_.convex, b_.convex, a_from_b_, found_.result.hint, Goal(goal_.enough),
+                   goal_.contact, kShare * goal_.tolerance, GjkMode::Exact);
+    PieceResult& result = found_.result;
+    result.iterations += hulls.iterations;
+    hullsApart_ = hullsApart_ || hulls.lower > 0.0;
+    if (hulls.satisfied) {
+      result.lower = hulls.lower;
+      result.normal = hulls.normal;
+      return true;
+    }
+    // Hulls that overlap, or numbers that are not finite, have no such points.
+    if (!(hulls.upper < std::numeric_limits<double>::infinity())) return false;
+    const std::optional<int> nearA = nearestPrimitive(a_, hulls.pointA);
+    const std::optional<int> nearB = nearestPrimitive(b_, a_from_b_.inverse() * hulls.pointB);
+    if (nearA && nearB) first = {*nearA, *nearB, hulls.lower, hulls.normal};
+    return false;
   }
 
   /// Hulls that are apart, but by less than the motion needs even if the meshes lie deep inside
