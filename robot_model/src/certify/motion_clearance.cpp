@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "certify/motion_check.hpp"
@@ -24,11 +23,12 @@ struct KindClearance {
   std::optional<GeometryPair> nearest;
 };
 
-/// Branch and bound over intervals and pairs. Distances at the middles are upper bounds. Distances
-/// less the possible approach within the interval are lower bounds. A pair that cannot be below the
-/// best upper bound by more than the accuracy is dropped. The approach along the direction in which
-/// a pair is nearest is the better bound if the pair moves across that direction, as sliding bodies
-/// do. If clearances are wanted by kind, pairs of different kinds do not limit each other.
+/// Branch and bound over intervals and pairs, those first that may come nearest. Distances at the
+/// middles are upper bounds. A pair is settled on an interval once it is proven to keep the best
+/// upper bound less the accuracy: by the balls and boxes around the two, or along the direction in
+/// which they are nearest. The latter is the better bound if the pair moves across that direction,
+/// as sliding bodies do. If clearances are wanted by kind, pairs of different kinds do not limit
+/// each other.
 class ClearanceSearch {
  public:
   /// `budget`: most intervals to examine, at least 1. `queries`: most pairs to examine after the
@@ -37,8 +37,7 @@ class ClearanceSearch {
                   std::int64_t queries, const OtherClearances& others, WorkspaceData& workspace)
       : model_(model),
         workspace_(workspace),
-        now_(workspace.work.now),
-        next_(workspace.work.next),
+        work_(workspace.clearance),
         query_(model, workspace),
         accuracy_(accuracy),
         byKind_(byKind),
@@ -53,11 +52,13 @@ class ClearanceSearch {
       for (KindClearance& kind : kinds_) kind.lower = 0.0;
       return;
     }
-    lookAtAll();
-    while (!now_.intervals.empty()) {
-      next_.clear();
-      for (const OpenInterval& interval : now_.intervals) split(interval);
-      std::swap(now_, next_);
+    work_.clear();
+    beginWithAll();
+    while (!work_.parts.empty()) {
+      std::ranges::pop_heap(work_.parts, isLater);
+      const ClearancePart part = work_.parts.back();
+      work_.parts.pop_back();
+      divide(part);
     }
     for (KindClearance& kind : kinds_) kind.lower = std::clamp(kind.lower, 0.0, kind.upper);
   }
@@ -69,85 +70,120 @@ class ClearanceSearch {
   std::int64_t queriesLeft() const { return queriesLeft_; }
 
  private:
-  /// Examines the whole motion. Puts the open pairs into `measured` and into the first level.
-  void lookAtAll() {
-    auto& open = workspace_.measured;
-    open.clear();
-    beginAt(0.5, 0.5);
-    const auto look = [&](const GeometryPair& pair) {
+  static bool isLater(const ClearancePart& a, const ClearancePart& b) {
+    return a.excess > b.excess;
+  }
+
+  /// Examines the middle of the motion, for upper bounds, and all pairs over the whole motion.
+  void beginWithAll() {
+    constexpr double kMiddle = 0.5, kHalf = 0.5;
+    query_.moveTo(kMiddle, kHalf);
+    ++intervals_;
+    NearGeometries near(model_, query_, workspace_);
+    const auto measure = [&](const GeometryPair& pair) {
       KindClearance& kind = kindOf(pair);
-      --queriesLeft_;
-      const double bound = boundPair(pair, 0.5, 0.5, kind);
-      if (isOpen(bound, kind))
-        open.push_back({pair, bound});
-      else
-        settle(bound, kind);
+      measureAt(kMiddle, pair, kind.upper, kind);
       return kind.upper;
     };
-    NearGeometries near(model_, query_, workspace_);
-    byKind_ ? near.forNearestByKind(0.5, look, kinds_[0].upper, kinds_[1].upper)
-            : near.forNearest(0.5, look, kinds_[0].upper);
-    now_.clear();
-    if (isLast(0, open.size())) {
-      for (const MeasuredPair& pair : open) settle(pair.bound, kindOf(pair.pair));
+    byKind_ ? near.forNearestByKind(0.0, measure, kinds_[0].upper, kinds_[1].upper)
+            : near.forNearest(0.0, measure, kinds_[0].upper);
+    near.collectNearer(kHalf, kinds_[0].upper, kinds_[byKind_ ? 1 : 0].upper);
+    for (const PairBound& bound : workspace_.bounds) {
+      const auto index = static_cast<std::uint32_t>(work_.measured.size());
+      work_.measured.push_back({.pair = near.pairOf(bound)});
+      keep({index, bound.lower});
+    }
+    workspace_.bounds.clear();
+    examine(0.0, 1.0, 0, 0);
+  }
+
+  /// Both halves of an interval, if one of its pairs still matters.
+  void divide(const ClearancePart& part) {
+    const std::size_t first = work_.pairs.size();
+    for (std::size_t i = part.first; i < part.first + part.count; ++i) keep(work_.pairs[i]);
+    const std::size_t count = work_.pairs.size() - first;
+    if (count == 0) return;
+    if (!mayDivide(count)) {
+      for (std::size_t i = first; i < first + count; ++i) settle(work_.pairs[i]);
+      work_.pairs.resize(first);
       return;
     }
-    now_.pairs.resize(open.size());
-    std::iota(now_.pairs.begin(), now_.pairs.end(), 0U);
-    pushHalves(0.0, 1.0, 0, now_);
-  }
-
-  void split(const OpenInterval& interval) {
-    beginAt(interval.middle(), interval.half());
-    const std::size_t first = next_.pairs.size();
-    const bool last = isLast(first, interval.count);
-    for (const std::uint32_t index : now_.pairsOf(interval)) {
-      const GeometryPair& pair = workspace_.measured[index].pair;
-      KindClearance& kind = kindOf(pair);
-      const double bound = boundPair(pair, interval.middle(), interval.half(), kind);
-      if (!last && isOpen(bound, kind)) {
-        next_.pairs.push_back(index);
-      } else {
-        settle(bound, kind);
-      }
+    for (const bool later : {false, true}) {
+      const double begin = later ? part.middle() : part.begin;
+      const double end = later ? part.end : part.middle();
+      query_.moveTo(0.5 * (begin + end), 0.5 * (end - begin));
+      ++intervals_;
+      examine(begin, end, first, count);
     }
-    pushHalves(interval.begin, interval.end, first, next_);
   }
 
-  void beginAt(double middle, double half) {
-    query_.moveTo(middle, half);
-    ++intervals_;
-    --waiting_;
+  /// The pairs of a range, or, of the whole motion, all that are there. What stays open becomes a
+  /// part.
+  void examine(double begin, double end, std::size_t from, std::size_t count) {
+    ClearancePart part{.begin = begin, .end = end};
+    part.excess = std::numeric_limits<double>::infinity();
+    const bool whole = count == 0;
+    if (whole) count = work_.pairs.size();
+    part.first = whole ? 0 : work_.pairs.size();
+    queriesLeft_ -= static_cast<std::int64_t>(count);
+    std::size_t open = 0;
+    for (std::size_t i = from; i < from + count; ++i) {
+      ClearanceWork::Pair pair = work_.pairs[i];
+      MeasuredPair& measured = work_.measured[pair.index];
+      KindClearance& kind = kindOf(measured.pair);
+      if (isOpen(pair.lower, kind)) {
+        const double lower = boundPair(measured, part.middle(), part.half(), kind);
+        // NaN stays.
+        if (!(lower <= pair.lower)) pair.lower = lower;
+      }
+      if (!isOpen(pair.lower, kind)) {
+        settle(pair);
+        continue;
+      }
+      part.excess = std::min(part.excess, pair.lower - kind.upper);
+      if (whole)
+        work_.pairs[open] = pair;
+      else
+        work_.pairs.push_back(pair);
+      ++open;
+    }
+    if (whole) work_.pairs.resize(open);
+    part.count = open;
+    if (open == 0) return;
+    work_.parts.push_back(part);
+    std::ranges::push_heap(work_.parts, isLater);
   }
 
-  /// Whether the budget forbids to examine the halves of the current interval, with `count` pairs
-  /// behind `first` others. Every waiting interval must be examined, since the motion has no bound
-  /// without one for each.
-  bool isLast(std::size_t first, std::size_t count) const {
-    return waiting_ > budget_ - intervals_ - 2 ||
-           2 * static_cast<std::int64_t>(count) > queriesLeft_ || first + count > kMostWaiting;
-  }
-
-  /// Adds both halves of an interval, with the pairs behind `first`.
-  void pushHalves(double begin, double end, std::size_t first, OpenWork& level) {
-    const std::size_t count = level.pairs.size() - first;
-    if (count == 0) return;
-    level.pushHalves(begin, end, first);
-    waiting_ += 2;
-    queriesLeft_ -= 2 * static_cast<std::int64_t>(count);
+  /// Whether the caps allow to examine both halves of an interval with so many pairs.
+  bool mayDivide(std::size_t count) const {
+    return intervals_ + 2 <= budget_ && 2 * static_cast<std::int64_t>(count) <= queriesLeft_ &&
+           work_.pairs.size() + 2 * count <= kMostWaiting;
   }
 
   KindClearance& kindOf(const GeometryPair& pair) {
     return kinds_[byKind_ && model_.isSelfPair(pair) ? 1 : 0];
   }
 
+  /// m. What settles a pair.
+  double wanted(const KindClearance& kind) const { return kind.upper - slack(kind); }
+
   /// Whether shorter intervals can improve the bound. They cannot for NaN.
   bool isOpen(double bound, const KindClearance& kind) const {
-    return kind.upper > 0.0 && bound < kind.upper - slack(kind);
+    return kind.upper > 0.0 && bound < wanted(kind);
+  }
+
+  /// Keeps an open pair.
+  void keep(const ClearanceWork::Pair& pair) {
+    if (isOpen(pair.lower, kindOf(work_.measured[pair.index].pair)))
+      work_.pairs.push_back(pair);
+    else
+      settle(pair);
   }
 
   /// NaN gives no bound.
-  static void settle(double bound, KindClearance& kind) {
+  void settle(const ClearanceWork::Pair& pair) {
+    KindClearance& kind = kindOf(work_.measured[pair.index].pair);
+    const double bound = pair.lower;
     kind.lower = bound > 0.0 ? std::min(kind.lower, bound) : 0.0;
   }
 
@@ -157,38 +193,83 @@ class ClearanceSearch {
     return std::min(accuracy_, std::max(0.5 * kind.upper, 0.01 * accuracy_));
   }
 
-  /// m. Lower bound of the pair's distance over the interval. NaN: there is none, however short the
-  /// interval is.
-  double boundPair(const GeometryPair& pair, double middle, double half, KindClearance& kind) {
-    if (!(kind.upper > 0.0)) return 0.0;  // the least is known already
-    const double travel = query_.travel(pair, half);
-    if (!std::isfinite(travel)) return std::numeric_limits<double>::quiet_NaN();
-    const double coarse = query_.coarseDistance(pair) - travel;
-    if (coarse >= kind.upper) return coarse;
-    const PairDistance distance = query_.measure(pair, kind.upper + travel, 0.25 * slack(kind));
+  /// An upper bound, if the pair is nearer than the others at the current t. `enough` (m): a larger
+  /// distance need not be exact.
+  PairDistance measureAt(double t, const GeometryPair& pair, double enough, KindClearance& kind) {
+    const PairDistance distance = query_.measure(pair, enough, kShare * slack(kind));
     if (distance.upper < kind.upper) {
       kind.upper = distance.upper;
-      kind.t = middle;
+      kind.t = t;
       kind.nearest = pair;
     }
-    const double lower = distance.lower - travel;
-    const double wanted = kind.upper - slack(kind);
-    if (lower >= wanted || !(wanted > 0.0)) return lower;
-    const bool stays = query_.staysBeyond(pair, half, wanted, distance, 0.25 * slack(kind));
-    return stays ? wanted : lower;
+    return distance;
   }
+
+  /// m. Lower bound of the pair's distance over the interval. NaN: there is none, however short the
+  /// interval is.
+  double boundPair(MeasuredPair& measured, double middle, double half, KindClearance& kind) {
+    const GeometryPair& pair = measured.pair;
+    const double travel = query_.travel(pair, half);
+    if (!std::isfinite(travel)) return std::numeric_limits<double>::quiet_NaN();
+    double lower = query_.coarseBound(pair, half);
+    if (lower >= wanted(kind)) return lower;
+    HullSeparation hulls = query_.hullBound(pair, half, measured.normal);
+    lower = std::max(lower, hulls.least);
+    if (lower >= wanted(kind) || isTooLong(measured, travel, half, hulls, kind)) return lower;
+    const PairDistance distance = measureAt(middle, pair, wanted(kind) + travel, kind);
+    lower = std::max(lower, distance.lower - travel);
+    if (lower >= wanted(kind) || !(distance.upper > 0.0)) return lower;
+    // The direction between the points is off by much more than their distance, which large bodies
+    // do not forgive.
+    const Eigen::Vector3d across =
+        distance.normal.isZero(0.0) ? distance.pointB - distance.pointA : distance.normal;
+    if (across.isZero(0.0)) return lower;
+    measured.normal = across.normalized();
+    measured.distance = distance.upper;
+    measured.half = half;
+    hulls = query_.hullBound(pair, half, measured.normal);
+    lower = std::max(lower, hulls.least);
+    measured.hollow = hulls.atMiddle < distance.lower - slack(kind);
+    if (lower >= wanted(kind) || !measured.hollow) return lower;
+    // What is between the hull and the body itself counts: each part by itself.
+    const double accuracy = kShare * slack(kind);
+    const PairAnswer answer =
+        query_.keeps(pair, half, wanted(kind), 0.0, measured.normal, accuracy);
+    return answer.status == Separation::Separated ? wanted(kind) : lower;
+  }
+
+  /// Whether only a shorter interval promises more. `hulls`: along the direction that was the best
+  /// when the pair was measured last.
+  bool isTooLong(const MeasuredPair& measured, double travel, double half,
+                 const HullSeparation& hulls, const KindClearance& kind) const {
+    // What was measured long ago says little.
+    if (measured.hollow)
+      return travel > kHopeless * (measured.distance - wanted(kind)) &&
+             half > kStale * measured.half;
+    const double beyond = hulls.atMiddle - wanted(kind);
+    const bool hopeless = hulls.atMiddle - hulls.least > kHopeless * beyond;
+    // Along the direction between the bounding volumes the hulls may be much nearer than they are.
+    if (measured.normal.isZero(0.0))
+      return !(beyond > 0.0) && travel > model_.robotGeometry[measured.pair.a].radius;
+    return hopeless && hulls.atMiddle > kind.upper;
+  }
+
+  /// Of the slack: accuracy of distances.
+  static constexpr double kShare = 0.25;
+  /// A pair that approaches by so many times what it may is not proven by a better direction.
+  static constexpr double kHopeless = 2.0;
+  /// Of the interval in which a pair was measured: one so much shorter is measured anew.
+  static constexpr double kStale = 0.25;
 
   const CheckerModel& model_;
   WorkspaceData& workspace_;
-  OpenWork& now_;   ///< of `measured`, by index: a level of the bisection
-  OpenWork& next_;  ///< the next one
+  ClearanceWork& work_;
   PairQuery query_;
   double accuracy_;
   bool byKind_;
   int budget_;
-  int waiting_ = 1;  ///< intervals that are to be examined yet
   int intervals_ = 0;
-  std::int64_t queriesLeft_;  ///< less those of the intervals that are to be examined
+  std::int64_t queriesLeft_;
   std::array<KindClearance, 2> kinds_;
 };
 

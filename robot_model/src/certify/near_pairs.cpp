@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "model/compile.hpp"
 #include "rounding/error_model.hpp"
 
 namespace swept::detail {
@@ -45,6 +46,47 @@ std::optional<std::uint32_t> NearGeometries::pairOf(std::size_t geometry, BoxHan
   const auto found = std::ranges::lower_bound(pairs, static_cast<int>(other), {}, &WorldPair::b);
   if (found == pairs.end() || found->b != static_cast<int>(other)) return std::nullopt;
   return static_cast<std::uint32_t>(&*found - model_.worldPairs.data());
+}
+
+GeometryPair NearGeometries::pairOf(const PairBound& bound) const {
+  if (bound.geometry < 0) return model_.pair(static_cast<std::size_t>(bound.other));
+  const auto geometry = static_cast<std::size_t>(bound.geometry);
+  return worldPair(model_, model_.likeWorldPairs[geometry], bound.other);
+}
+
+void NearGeometries::collectWorld(double half, double least) {
+  for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i)
+    if (isMeasured(i)) collectWorld(i, half, least);
+}
+
+void NearGeometries::collectWorld(std::size_t geometry, double half, double least) {
+  const GeometryPair& like = model_.likeWorldPairs[geometry];
+  const auto addOne = [&](std::size_t other) {
+    const auto b = static_cast<std::int32_t>(other);
+    if (model_.checksWorld(like.a, b))
+      add(lowerBound(worldPair(model_, like, b), half), least, like.a, b);
+    return least;
+  };
+  if (model_.boxes == nullptr) {
+    for (std::size_t k = 0; k < model_.worldGeometry.size(); ++k) addOne(k);
+  } else {
+    model_.boxes->distance(query_.ballBox(like, half), workspace_.boxes,
+                           [&](BoxHandle other, double) { return addOne(other); });
+  }
+}
+
+void NearGeometries::collectNearestBoxes(double half, double least) {
+  for (std::size_t i = 0; i < model_.robotGeometry.size(); ++i) {
+    if (!isMeasured(i)) continue;
+    const GeometryPair& like = model_.likeWorldPairs[i];
+    model_.boxes->distance(query_.ballBox(like, half), workspace_.boxes,
+                           [&](BoxHandle other, double away) {
+                             const auto b = static_cast<std::int32_t>(other);
+                             if (!model_.checksWorld(like.a, b)) return least;
+                             add(lowerBound(worldPair(model_, like, b), half), least, like.a, b);
+                             return away;
+                           });
+  }
 }
 
 void NearGeometries::collect(double half, std::vector<std::uint32_t>& pairs) {

@@ -221,13 +221,7 @@ double PairQuery::coarseDistance(const GeometryPair& pair) {
   return outside.norm() - radius - rounding(pair);
 }
 
-/// Compares the containing balls (and the world geometry's box) along the direction between them. A
-/// ball's own spin does not bring it closer. `alone`: the bound of the motion without the tube,
-/// whose errors are in the model frame here.
-PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const ApproachBound& bound,
-                                           const ApproachBound& alone, const Vector3d& velocity,
-                                           Vector3d& towards) {
-  Vector3d direction;
+double PairQuery::gapOfBounds(const GeometryPair& pair, Vector3d& direction) {
   double gap = -model_.robotGeometry[pair.a].radius;
   if (pair.self) {
     direction = center(pair.b) - center(pair.a);
@@ -241,8 +235,31 @@ PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const Appro
           Vector3d(std::copysign(outside.x(), local.x()), std::copysign(outside.y(), local.y()),
                    std::copysign(outside.z(), local.z())));
   }
+  return gap + direction.norm();
+}
+
+double PairQuery::coarseBound(const GeometryPair& pair, double half) {
+  const double travelled = travel(pair, half);
+  Vector3d direction;
+  const double gap = gapOfBounds(pair, direction);
+  const double lower =
+      gap - rounding(pair) - velocityRounding(transformsOf(model_, pair)) * travelled;
+  if (!(gap > 0.0)) return lower - travelled;
+  const double directed =
+      half * std::abs(direction.dot(relativeVelocity(pair))) / direction.norm() +
+      approach(pair, half, 0.0).curvature;
+  return lower - std::min(travelled, directed);
+}
+
+/// Compares the containing balls (and the world geometry's box) along the direction between them. A
+/// ball's own spin does not bring it closer. `alone`: the bound of the motion without the tube,
+/// whose errors are in the model frame here.
+PairQuery::Coarse PairQuery::compareBounds(const GeometryPair& pair, const ApproachBound& bound,
+                                           const ApproachBound& alone, const Vector3d& velocity,
+                                           Vector3d& towards) {
+  Vector3d direction;
+  const double gap = gapOfBounds(pair, direction);
   const double norm = direction.norm();
-  gap += norm;
   if (!(norm > 0.0) || !(gap > bound.required)) return Coarse::Open;
   towards = direction / norm;
   const double moved = std::abs(direction.dot(velocity)) / norm;
@@ -331,25 +348,42 @@ PairDistance PairQuery::measure(const GeometryPair& pair, double enough, double 
   result.upper = found.upper;
   result.pointA = world_from_a * found.pointA;
   result.pointB = world_from_a * found.pointB;
+  result.normal = world_from_a.linear() * found.normal;
   return result;
 }
 
-bool PairQuery::staysBeyond(const GeometryPair& pair, double half, double distance,
-                            const PairDistance& now, double accuracy) {
+HullSeparation PairQuery::hullBound(const GeometryPair& pair, double half,
+                                    const Vector3d& towards) {
   const Isometry3d& world_from_a = pose(pair.a);
-  const Vector3d across = world_from_a.linear().transpose() * (now.pointB - now.pointA);
-  const double length = across.norm();
-  if (!(length > 0.0)) return false;
+  ApproachBound motion = approach(pair, half, 0.0);
+  relativeMotion(pair, half, world_from_a, half * relativeVelocity(pair), motion);
+  Vector3d direction = towards;
+  if (direction.isZero(0.0)) gapOfBounds(pair, direction);
+  HullSeparation found = hullSeparation(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
+                                        world_from_a.inverse() * poseOfB(pair), motion,
+                                        world_from_a.linear().transpose() * direction);
+  found.atMiddle -= rounding(pair);
+  found.least -= motion.required;
+  return found;
+}
+
+PairAnswer PairQuery::keeps(const GeometryPair& pair, double half, double distance, double contact,
+                            const Vector3d& guess, double accuracy) {
+  const Isometry3d& world_from_a = pose(pair.a);
   SeparationQuery query;
   query.approach = approach(pair, half, distance);
   relativeMotion(pair, half, world_from_a, half * relativeVelocity(pair), query.approach);
-  query.guess = across / length;
+  query.contact = contact;
+  query.guess = world_from_a.linear().transpose() * guess;
   query.tolerance = accuracy;
-  // Between convex shapes no direction is better than the one in which they are nearest.
-  if (!(now.lower + accuracy > query.approach.along(query.guess))) return false;
+  PairAnswer answer;
+  answer.travel = query.approach.most() - query.approach.required;
+  query.thorough = answer.travel <= accuracy;
   const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
                                            world_from_a.inverse() * poseOfB(pair), query);
-  return result.status == Separation::Separated;
+  answer.status = result.status;
+  answer.normal = world_from_a.linear() * result.normal;
+  return answer;
 }
 
 SignedClearance PairQuery::measureSigned(const GeometryPair& pair, double accuracy) {

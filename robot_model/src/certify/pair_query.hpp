@@ -8,6 +8,7 @@
 
 #include "certify/workspace_data.hpp"
 #include "kinematics/joint_path.hpp"
+#include "swept/core/hull_separation.hpp"
 #include "swept/core/segment_query.hpp"
 
 namespace swept::detail {
@@ -30,6 +31,8 @@ struct PairDistance {
   double upper = std::numeric_limits<double>::infinity();  ///< m
   Eigen::Vector3d pointA = Eigen::Vector3d::Zero();        ///< m, model frame
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();        ///< m, model frame
+  /// Model frame, from a to b: the direction along which `lower` is proven, zero if there is none.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
 /// What prove() is about.
@@ -82,10 +85,11 @@ class PairQuery {
   PairDistance measure(const GeometryPair& pair, double enough, double accuracy);
   /// The same, negative where they overlap; see signedDistance().
   SignedClearance measureSigned(const GeometryPair& pair, double accuracy);
-  /// Whether the pair stays farther apart than `distance` (m) on [t - half, t + half], `now` being
-  /// its distance at t. False: not proven.
-  bool staysBeyond(const GeometryPair& pair, double half, double distance, const PairDistance& now,
-                   double accuracy);
+  /// Whether the pair stays farther apart than `distance` (m) on [t - half, t + half], or has two
+  /// points at most `contact` (m) apart at t. `guess`: a direction to try first, model frame, from
+  /// a to b; zero: none is known.
+  PairAnswer keeps(const GeometryPair& pair, double half, double distance, double contact,
+                   const Eigen::Vector3d& guess, double accuracy);
   /// m per unit of t, model frame: velocity of a point of b relative to a point of a. Both points
   /// in m, model frame, at t.
   Eigen::Vector3d velocity(const GeometryPair& pair, const Eigen::Vector3d& pointA,
@@ -100,6 +104,13 @@ class PairQuery {
   double travel(const GeometryPair& pair, double half);
   /// m. Lower bound from bounding volumes alone, kinematic rounding included.
   double coarseDistance(const GeometryPair& pair);
+  /// m. The same over [t - half, t + half], along the direction between the bounding volumes. NaN
+  /// without a bound on the motion.
+  double coarseBound(const GeometryPair& pair, double half);
+  /// m. Lower bounds on the pair's distance at t, and on [t - half, t + half]: between the hulls,
+  /// along `towards` (model frame, from a to b), or, if that is zero, along the direction between
+  /// the bounding volumes.
+  HullSeparation hullBound(const GeometryPair& pair, double half, const Eigen::Vector3d& towards);
 
   /// m, model frame: holds the geometry, grown by the largest margin and rounding of all pairs, on
   /// [t - half, t + half].
@@ -128,6 +139,9 @@ class PairQuery {
   Coarse compareBounds(const GeometryPair& pair, const ApproachBound& bound,
                        const ApproachBound& alone, const Eigen::Vector3d& relativeVelocity,
                        Eigen::Vector3d& towards);
+  /// m. Gap of the containing balls (and the world geometry's box), without rounding; negative: by
+  /// how much they overlap. `direction` from the first to the second, of any length.
+  double gapOfBounds(const GeometryPair& pair, Eigen::Vector3d& direction);
   Eigen::Vector3d relativeVelocity(const GeometryPair& pair);
   /// Without directions, which relativeMotion() adds. `separation` in m.
   ApproachBound approach(const GeometryPair& pair, double half, double separation);

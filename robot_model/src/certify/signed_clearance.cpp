@@ -68,7 +68,7 @@ NearestApart deepest(const CheckerModel& model, PairQuery& query, WorkspaceData&
   NearGeometries(model, query, workspace).collect(0.0, workspace.pairs);
   for (const std::uint32_t index : workspace.pairs) {
     const GeometryPair& pair = model.pair(index);
-    if (query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
+    if (query.coarseDistance(pair) > 0.0 || query.measure(pair, 0.0, 0.0).lower > 0.0) continue;
     nearest.add(pair, query.measureSigned(pair, tolerance::kDistance));
   }
   // Pairs that are apart need no more.

@@ -165,8 +165,12 @@ double stateClearance(const CheckerModel& model, std::span<const double> configu
   const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   PairQuery query(model, workspace);
   if (!query.startAt(q)) return 0.0;
-  const NearestOfKinds nearest = nearestPairs(model, query, workspace);
-  return std::min(nearest.world.lower, nearest.self.lower);
+  double least = std::numeric_limits<double>::infinity();
+  NearGeometries(model, query, workspace).forNearest(0.0, [&](const GeometryPair& pair) {
+    least = std::min(least, query.measure(pair, least, tolerance::kDistance).lower);
+    return least;
+  });
+  return least;
 }
 
 StateReport reportState(const CheckerModel& model, std::span<const double> configuration,

@@ -20,7 +20,50 @@ namespace swept::detail {
 /// A pair that may have the least clearance of a motion.
 struct MeasuredPair {
   GeometryPair pair;
-  double bound = 0.0;  ///< m, lower bound of its distance over the whole motion
+  /// Model frame, from a to b: where the two were nearest when they were measured last. Zero: they
+  /// were not.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double distance = 0.0;  ///< m, that they had
+  double half = 0.0;      ///< of the interval in whose middle that was
+  /// Their hulls were clearly nearer than that, as far as is known.
+  bool hollow = false;
+};
+
+/// A part of a motion that may have its least clearance, and the pairs that may: a range of
+/// ClearanceWork::pairs.
+struct ClearancePart {
+  double begin = 0.0;
+  double end = 1.0;
+  std::size_t first = 0;
+  std::size_t count = 0;
+  double excess = 0.0;  ///< m, the least of the pairs' bounds less the least distances then known
+
+  double middle() const { return 0.5 * (begin + end); }
+  double half() const { return 0.5 * (end - begin); }
+};
+
+/// The parts of a motion that are to be examined yet.
+struct ClearanceWork {
+  struct Pair {
+    std::uint32_t index = 0;  ///< into `measured`
+    double lower = 0.0;       ///< m, of its distance over the part
+  };
+  std::vector<MeasuredPair> measured;
+  std::vector<ClearancePart> parts;  ///< a heap: the least excess first
+  std::vector<Pair> pairs;
+
+  void clear() {
+    measured.clear();
+    parts.clear();
+    pairs.clear();
+  }
+};
+
+/// A pair that may be the nearest.
+struct PairBound {
+  double lower = 0.0;          ///< m
+  std::int32_t geometry = -1;  ///< of the robot, with the world; -1: `other` is an index into pairs
+  std::int32_t other = 0;      ///< of the world
 };
 
 /// An obstacle passes a waypoint.
@@ -64,7 +107,8 @@ struct WorkspaceData {
   ProofWork work;                    ///< of the current motion
   std::vector<std::uint32_t> pairs;  ///< to look at, of a state
   SimdScratch simd;
-  std::vector<MeasuredPair> measured;
+  ClearanceWork clearance;
+  std::vector<PairBound> bounds;
   BroadphaseScratch boxes;
   std::vector<CloudPart> cloudParts, waitingParts;  ///< of a cloud, as it passes a link
   /// Full configurations: see KinematicModel. Empty without moving obstacles.
