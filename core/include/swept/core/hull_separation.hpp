@@ -22,7 +22,8 @@ struct HullSeparation {
 /// Unlike ApproachBound::along(), which takes the largest velocity in a ball, this takes each point
 /// with its own velocity: what is lost by a long interval is second order where the nearest points
 /// move across `n`. Minus infinity: no bound, for a plane or half-space as `a` or with a spin, for
-/// errors in `approach`, and for a pose far from rigid (as in distance()). NaN for input that is not finite.
+/// errors in `approach`, and for a pose far from rigid (see distance()). NaN for input that is not
+/// finite.
 HullSeparation hullSeparation(const Shape& a, const Shape& b, const Eigen::Isometry3d& a_from_b,
                               const ApproachBound& approach, const Eigen::Vector3d& n);
 
