@@ -144,7 +144,11 @@ class StraightSimdMotion {
         joints_(kinematics.bodies.size()),
         motion_(model, kinematics, path_, joints_, scratch) {}
 
-  bool compile() { return motion_.compile(); }
+  bool compile() {
+    if (!motion_.compile()) return false;
+    motion_.boundLinks();
+    return true;
+  }
   detail::SimdMotion& get() { return motion_; }
 
  private:

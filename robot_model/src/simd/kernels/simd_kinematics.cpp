@@ -167,8 +167,8 @@ void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<cons
               : placeAll<false>(model, motion, bodies, block);
 }
 
-template <bool kCurved>
-HWY_INLINE void boundAll(const SimdModel& model, SimdScratch& scratch) {
+/// Of each body and its parent, where both only turn about axes at a constant angle.
+HWY_INLINE void boundTogether(const SimdModel& model, SimdScratch& scratch) {
   for (const int body : model.allBodies) {
     const SimdBody& joint = model.bodies[body];
     if (joint.cosine < 0.0F) continue;
@@ -177,36 +177,46 @@ HWY_INLINE void boundAll(const SimdModel& model, SimdScratch& scratch) {
     scratch.together[body] = kBoundOutward * std::sqrt(previous * previous + spin * spin +
                                                        2.0F * previous * spin * joint.cosine);
   }
-  if (!model.carried.empty()) return boundCarried(model, scratch);
-  for (std::size_t k = 0; k < model.references.size(); ++k) {
-    const SimdReference& reference = model.references[k];
-    boundSteps(reference, scratch);
-    if constexpr (kCurved) addAccelerations(reference, scratch);
-    const std::size_t steps = reference.steps.size();
-    const auto rows = static_cast<std::size_t>(reference.rows);
-    for (std::size_t r = 0; r < rows; ++r) {
-      F8 sum = set(0.0F);
+}
+
+template <bool kCurved>
+HWY_INLINE void boundReference(const SimdModel& model, std::size_t k, SimdScratch& scratch) {
+  const SimdReference& reference = model.references[k];
+  boundSteps(reference, scratch);
+  if constexpr (kCurved) addAccelerations(reference, scratch);
+  const std::size_t steps = reference.steps.size();
+  const auto rows = static_cast<std::size_t>(reference.rows);
+  for (std::size_t r = 0; r < rows; ++r) {
+    F8 sum = set(0.0F);
+    for (std::size_t i = 0; i < steps; ++i)
+      sum = multiplyAdd(set(scratch.turned[i]), load(reference.arms[i * rows + r]), sum);
+    if (model.slides)
       for (std::size_t i = 0; i < steps; ++i)
-        sum = multiplyAdd(set(scratch.turned[i]), load(reference.arms[i * rows + r]), sum);
-      if (model.slides)
-        for (std::size_t i = 0; i < steps; ++i)
-          sum = multiplyAdd(set(scratch.slid[i]), load(reference.carried[i * rows + r]), sum);
-      for (const SimdReference::Growth& growth : reference.growths) {
-        const F8 slid = set(scratch.motion[growth.slide].slid);
-        for (std::size_t i = 0; i < steps; ++i)
-          sum = multiplyAdd(set(scratch.turned[i]) * slid, load(growth.shares[i * rows + r]), sum);
-      }
-      // One rounding for each term, plus that of the last products.
-      const float outward =
-          kBoundOutward +
-          kBoundPerTerm * static_cast<float>(steps * (1 + reference.growths.size()));
-      store(sum * set(outward), scratch.bounds[k].acceleration[r]);
+        sum = multiplyAdd(set(scratch.slid[i]), load(reference.carried[i * rows + r]), sum);
+    for (const SimdReference::Growth& growth : reference.growths) {
+      const F8 slid = set(scratch.motion[growth.slide].slid);
+      for (std::size_t i = 0; i < steps; ++i)
+        sum = multiplyAdd(set(scratch.turned[i]) * slid, load(growth.shares[i * rows + r]), sum);
     }
+    // One rounding for each term, plus that of the last products.
+    const float outward =
+        kBoundOutward + kBoundPerTerm * static_cast<float>(steps * (1 + reference.growths.size()));
+    store(sum * set(outward), scratch.bounds[k].acceleration[r]);
   }
 }
 
 void Bound(const SimdModel& model, SimdScratch& scratch) {
-  scratch.curved ? boundAll<true>(model, scratch) : boundAll<false>(model, scratch);
+  boundTogether(model, scratch);
+  if (!model.carried.empty()) return boundCarried(model, scratch);
+  scratch.curved ? boundReference<true>(model, 0, scratch)
+                 : boundReference<false>(model, 0, scratch);
+}
+
+void BoundLinks(const SimdModel& model, SimdScratch& scratch) {
+  if (!model.carried.empty()) return;
+  for (std::size_t k = 1; k < model.references.size(); ++k)
+    scratch.curved ? boundReference<true>(model, k, scratch)
+                   : boundReference<false>(model, k, scratch);
 }
 
 }  // namespace
@@ -218,6 +228,7 @@ namespace swept::detail {
 
 SWEPT_DISPATCH_TABLE(Place);
 SWEPT_DISPATCH_TABLE(Bound);
+SWEPT_DISPATCH_TABLE(BoundLinks);
 
 void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
                  std::span<const int> bodies, SimdBlock& block) {
@@ -226,6 +237,10 @@ void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& mot
 
 void boundMotion(const SimdModel& model, SimdScratch& scratch) {
   SWEPT_DISPATCH(Bound)(model, scratch);
+}
+
+void boundMotionOfLinks(const SimdModel& model, SimdScratch& scratch) {
+  SWEPT_DISPATCH(BoundLinks)(model, scratch);
 }
 
 }  // namespace swept::detail

@@ -14,8 +14,12 @@ namespace swept::detail {
 void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
                  std::span<const int> bodies, SimdBlock& block);
 
-/// Bounds on the acceleration of every ball centre relative to each of the model's references, by
-/// L3 of ERROR_MODEL.md.
+/// Bounds on the acceleration of every ball centre relative to the model frame, the first of the
+/// model's references, by L3 of ERROR_MODEL.md.
 void boundMotion(const SimdModel& model, SimdScratch& scratch);
+
+/// The same relative to all other references, which only pairs of links need. boundMotion() comes
+/// first.
+void boundMotionOfLinks(const SimdModel& model, SimdScratch& scratch);
 
 }  // namespace swept::detail

@@ -225,6 +225,7 @@ void SimdMotion::linearizeLanes() {
     }
   }
   boundMotion(model_, scratch_);
+  boundMotionOfLinks(model_, scratch_);
 }
 
 /// For a joint whose rate changes, in the interval of `joints`.

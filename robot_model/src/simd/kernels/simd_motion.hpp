@@ -20,9 +20,16 @@ class SimdMotion {
              std::span<JointMotion> joints, SimdScratch& scratch)
       : model_(model), kinematics_(kinematics), path_(path), joints_(joints), scratch_(scratch) {}
 
-  /// The whole motion, with the bounds on its error and on its accelerations. False: the path gives
-  /// no bounds (see JointPath::linearize), or it turns so far that single precision is not enough.
+  /// The whole motion, with the bounds on its error and on its accelerations relative to the model
+  /// frame. False: the path gives no bounds (see JointPath::linearize), or it turns so far that
+  /// single precision is not enough.
   bool compile();
+
+  /// The bounds relative to links, which a motion that hits the world does without.
+  void boundLinks() {
+    // Those of a curve are renewed with each placement.
+    if (!scratch_.curved) boundMotionOfLinks(model_, scratch_);
+  }
 
   /// Places bodies at the sub-intervals of the scratch's block. Their ancestors must be among them.
   void place(std::span<const int> bodies) {

@@ -133,7 +133,11 @@ class MotionSearch {
     }
     search_.examined += kLanes;
     search_.motion.place(model_.allBodies);
-    return walk([&] { return walkWorld(model_, scratch_) || walkSelf(model_, scratch_); });
+    return walk([&] {
+      if (walkWorld(model_, scratch_)) return true;
+      search_.motion.boundLinks();
+      return walkSelf(model_, scratch_);
+    });
   }
 
   /// Divides the block's open intervals. Leaves those that dividing does not help to the next step.
