@@ -39,4 +39,10 @@ class CMakeBuild(build_ext):
         self.copy_file(str(folder / "ompl_bridge/python/swept" / target.name), str(target))
 
 
-setup(ext_modules=[Extension("swept._swept", sources=[])], cmdclass={"build_ext": CMakeBuild})
+# All that it makes is below build/, which git ignores.
+(ROOT / "build").mkdir(exist_ok=True)
+setup(
+    options={"egg_info": {"egg_base": "build"}},
+    ext_modules=[Extension("swept._swept", sources=[])],
+    cmdclass={"build_ext": CMakeBuild},
+)

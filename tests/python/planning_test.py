@@ -76,7 +76,8 @@ def test_cancelled_from_another_thread(slot):
     begin = time.monotonic()
     threading.Timer(0.3, token.cancel).start()
     with pytest.raises(swept.Cancelled, match="^cancelled by its token$"):
-        swept.plan(slot, slot.named_state("home"), slot.named_state("ready"), planner="RRTstar", seconds=60.0, cancel=token)
+        home, ready = slot.named_state("home"), slot.named_state("ready")
+        swept.plan(slot, home, ready, planner="RRTstar", seconds=60.0, cancel=token)
     assert time.monotonic() - begin < 30.0 and token.cancelled
     with pytest.raises(swept.Cancelled):
         slot.check_states(np.zeros((4, 7)), cancel=token)
@@ -170,7 +171,8 @@ def test_plan_trajectory(slot):
     limits = swept.RateLimits(slot, acceleration=3.0)
     planned = swept.plan_trajectory(slot, slot.named_state("home"), slot.named_state("ready"), limits, tracking=tube)
     assert planned and planned.checker.tracking.rotation == 0.005 and planned.proven.trajectory
-    assert not swept.plan_trajectory(slot, slot.named_state("home"), np.array([0.2, 0.4, 0, 1.2, 0, 0.8, 0]), limits, seconds=0.1)
+    blocked = np.array([0.2, 0.4, 0, 1.2, 0, 0.8, 0])
+    assert not swept.plan_trajectory(slot, slot.named_state("home"), blocked, limits, seconds=0.1)
 
 
 def test_curves():

@@ -27,7 +27,8 @@ def test_eight_threads_ask_one_checker(checker, states):
             wrong += checker.certify_motion(states[i], states[i + 1]).free_until != motions[i]
             if i % 40 == 0:
                 wrong += (checker.check_states(states[:50]) != expected[:50]).sum()
-                wrong += checker.signed_clearance(states[i], gradient=True)[0].upper != checker.signed_clearance(states[i]).upper
+                found, _ = checker.signed_clearance(states[i], gradient=True)
+                wrong += found.upper != checker.signed_clearance(states[i]).upper
         return wrong
 
     with ThreadPoolExecutor(8) as pool:

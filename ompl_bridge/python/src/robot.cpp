@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "arrays.hpp"
@@ -93,6 +94,29 @@ py::dict namedStates(const RobotHandle& self, const std::string& group) {
     if (state.group == group)
       states[py::str(state.name)] = makeArray(namedConfiguration(*self.robot, found, state.name));
   return states;
+}
+
+/// Centres and radii of balls that contain a link's geometry, in the link's frame.
+py::object sphereCover(const RobotHandle& self, const std::string& name, std::optional<int> level) {
+  const std::optional<int> index = self.robot->findLink(name);
+  if (!index) throw std::invalid_argument("the robot has no link '" + name + "'");
+  if (level && *level < 0) throw std::invalid_argument("level: expected a number of at least 0");
+  // The roundings of a pose are less than these shares of what they are about.
+  constexpr double kRounding = 1e-12;
+  std::vector<std::vector<double>> balls;
+  for (const CollisionGeometry& piece :
+       self.robot->links()[static_cast<std::size_t>(*index)].collision) {
+    if (!piece.cover) throw std::invalid_argument("link '" + name + "' has a piece without end");
+    const int finest = static_cast<int>(piece.cover->levels.size()) - 1;
+    for (const int node : piece.cover->cut(std::min(level.value_or(finest), finest))) {
+      const CoverBall& ball = piece.cover->nodes[static_cast<std::size_t>(node)].ball;
+      const Eigen::Vector3d center = piece.link_from_shape * ball.center.cast<double>();
+      const double reach = piece.link_from_shape.translation().norm() + ball.center.norm();
+      balls.push_back(
+          {center.x(), center.y(), center.z(), ball.radius + kRounding * (reach + ball.radius)});
+    }
+  }
+  return makeArray(balls, 4);
 }
 
 py::tuple stateOf(const RobotHandle& self) {
@@ -250,6 +274,12 @@ void bindRobot(py::module_& module) {
           },
           py::arg("group"), py::arg("link"), py::arg("q"),
           "(4, 4) pose of a link in the model frame, at a configuration (n,) of a group.")
+      .def("sphere_cover", &sphereCover, py::arg("link"), py::arg("level") = py::none(),
+           "(k, 4): x, y, z (m, link's frame) and radius (m) of balls that together contain the "
+           "link's "
+           "geometry, proven; for planners and\noptimisers that take spheres. `level`: from 0, one "
+           "ball "
+           "for each piece, to the finest, the default.")
       .def_property_readonly(
           "links_without_geometry",
           [](const RobotHandle& self) {
