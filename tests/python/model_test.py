@@ -39,7 +39,7 @@ def test_sphere_covers(robot, checker, home):
     hand = robot.link_pose("arm", "hand", home)
     coarse, fine = robot.sphere_cover("hand", 0), robot.sphere_cover("hand")
     assert coarse.shape[1] == fine.shape[1] == 4 and 1 <= len(coarse) < len(fine)
-    probe = hand[:3, 3] + [0.4, 0.1, 0.2]
+    probe = np.array([0.5, 0.1, 0.9])
     world = swept.Checker(robot, "arm").with_body("probe", Shape.sphere(0.0), at(*probe))
     alone = world.with_rules(swept.CollisionRules().allow("*", "probe").check("hand", "probe"))
     true = alone.report_state(home).world.clearance
@@ -137,18 +137,19 @@ FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 
     Shape.mesh(CUBE, FACES.astype(np.uint16)), Shape.mesh(CUBE.tolist(), FACES.tolist()),
     Shape.box([0.1, 0.1, 0.1]).scaled(2.0), Shape.mesh(2 * CUBE, FACES).moved(CUBE)])
 def test_shapes_of_arrays(robot, shape):
-    """A cube above the robot, whatever it is made of: the same distance."""
-    checker = swept.Checker(robot, "arm", world_margin=0.0).with_body("cube", shape, at(0, 0, 3))
-    expected = swept.Checker(robot, "arm").with_body("cube", Shape.box([0.2, 0.2, 0.2]), at(0, 0, 3))
+    """A cube before the robot, whatever it is made of: the same distance."""
+    checker = swept.Checker(robot, "arm", world_margin=0.0).with_body("cube", shape, at(0.6, 0, 0.7))
+    expected = swept.Checker(robot, "arm").with_body("cube", Shape.box([0.2, 0.2, 0.2]), at(0.6, 0, 0.7))
     q = checker.named_state("home")
+    assert 0.05 < expected.report_state(q).world.clearance < 0.6
     assert checker.report_state(q).world.clearance == pytest.approx(expected.report_state(q).world.clearance, abs=1e-6)
 
 
 def test_clouds_of_arrays(robot, home):
-    points = np.random.default_rng(1).uniform(-0.1, 0.1, (500, 3)) + [0, 0, 3]
+    points = np.random.default_rng(1).uniform(-0.1, 0.1, (500, 3)) + [0.6, 0, 0.7]
     near = lambda shape: swept.Checker(robot, "arm").with_body("cloud", shape).report_state(home).world.clearance
     one = near(Shape.cloud(points, 0.01))
-    assert near(Shape.cloud(points, np.full(500, 0.01))) == pytest.approx(one) and one > 1.0
+    assert near(Shape.cloud(points, np.full(500, 0.01))) == pytest.approx(one) and 0.05 < one < 0.6
     with pytest.raises(ValueError, match=r"^radius: expected finite float64 values of shape \(500,\)"):
         Shape.cloud(points, np.ones(3))
 
