@@ -118,6 +118,7 @@ def test_results_outlive_what_they_came_from():
 
 
 def test_verdicts():
+    assert str(Verdict.UNDECIDED) == f"{Verdict.UNDECIDED}" == "undecided" and repr(Verdict.FREE) == "<Verdict.FREE: 1>"
     assert bool(Verdict.FREE) and not Verdict.UNDECIDED and not Verdict.COLLISION
     assert pickle.loads(pickle.dumps(Verdict.FREE)) is Verdict.FREE
 

@@ -175,7 +175,7 @@ PathCertificate certifyTable(const Checker& checker, const Table& states, bool c
   PathCertificate certificate;
   if (states.rows() == 0) throw std::invalid_argument("path: expected one state at least");
   // In parts, between which the caller may end it.
-  Pace pace{.seconds = 1e-3};
+  Pace pace{.seconds = 1e-2};
   const std::size_t segments = std::max<std::size_t>(states.rows(), 2) - 1;
   const std::vector<ConfigurationView> all = states.list();
   runInRanges(segments, watch, pace, [&](std::size_t begin, std::size_t end) {

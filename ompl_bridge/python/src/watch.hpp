@@ -43,16 +43,16 @@ class Watch {
   std::shared_ptr<const CancellationToken> token_;
 };
 
-/// How long one of many equal pieces of work took, the last time.
+/// How long one of many pieces of work took, the last time; before that, too long a time.
 struct Pace {
-  double seconds = 1e-4;  ///< s each
+  double seconds = 1e-3;  ///< s each
 };
 
 /// Calls work(begin, end) for consecutive ranges of 0 ... count, without the GIL, and asks `watch`
-/// between them, about every 30 ms.
+/// between them, about every 20 ms. Ranges grow at most fourfold, as some pieces take longer.
 template <typename Work>
 void runInRanges(std::size_t count, const Watch& watch, Pace& pace, Work&& work) {
-  constexpr double kSeconds = 0.03;
+  constexpr double kSeconds = 0.02, kGrowth = 4.0;
   for (std::size_t begin = 0; begin < count;) {
     watch.check();
     const double most = std::max(1.0, kSeconds / pace.seconds);
@@ -65,7 +65,7 @@ void runInRanges(std::size_t count, const Watch& watch, Pace& pace, Work&& work)
       work(begin, begin + size);
     }
     const std::chrono::duration<double> spent = Watch::Clock::now() - start;
-    pace.seconds = std::max(spent.count() / static_cast<double>(size), 1e-9);
+    pace.seconds = std::max(spent.count() / static_cast<double>(size), pace.seconds / kGrowth);
     begin += size;
   }
 }

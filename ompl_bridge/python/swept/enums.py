@@ -3,7 +3,17 @@
 import enum
 
 
-class Verdict(enum.IntEnum):
+class _Named(enum.IntEnum):
+    """Printed by name: `free`, as the program `swept` prints it."""
+
+    def __str__(self) -> str:
+        return self.name.lower().replace("_", " ")
+
+    def __format__(self, specification: str) -> str:
+        return format(str(self), specification)
+
+
+class Verdict(_Named):
     """What is known about a state or a motion. Only `FREE` is true: `if checker.check_state(q)`."""
 
     UNDECIDED = 0  #: closer to the margin than the tolerance; planners treat it as invalid
@@ -14,14 +24,14 @@ class Verdict(enum.IntEnum):
         return self is Verdict.FREE
 
 
-class MotionQuery(enum.IntEnum):
+class MotionQuery(_Named):
     """How much of a motion's certificate to compute."""
 
     VERDICT_ONLY = 0  #: stop at any contact; `free_until` is 0 unless the motion is free
     FIRST_CONTACT = 1  #: `free_until` and the first contact, to within the tolerance
 
 
-class ClearanceQuery(enum.IntEnum):
+class ClearanceQuery(_Named):
     """Which clearances of a motion to compute."""
 
     LEAST = 0  #: of all checked pairs together
@@ -30,7 +40,7 @@ class ClearanceQuery(enum.IntEnum):
     SELF = 3  #: only of pairs of two links or attached bodies
 
 
-class LimitKind(enum.IntEnum):
+class LimitKind(_Named):
     """What a limit is about."""
 
     POSITION = 0  #: rad or m

@@ -18,5 +18,5 @@ if not plan.solved:
     sys.exit(1)
 print(plan.path)
 for segment in plan.certificate.segments:
-    print("segment", segment.verdict.name)
+    print("segment", segment.verdict)
 sys.exit(0 if plan else 2)

@@ -17,7 +17,7 @@ checker = swept.Checker(robot, "arm", swept.World.load(f"{models}/scenes/narrow_
 
 home = checker.named_state("home")
 report = checker.report_state(home)
-print(f"home: {report.verdict.name}, {report.clearance:.4f} m, nearest {report.nearest_a} - {report.nearest_b}")
+print(f"home: {report.verdict}, {report.clearance:.4f} m, nearest {report.nearest_a} - {report.nearest_b}")
 
 low = checker.configuration({"joint1": 0.2, "joint2": 0.4, "joint4": 1.2, "joint6": 0.8}, others=np.zeros(7))
 contacts = checker.report_state(low).contacts

@@ -22,8 +22,8 @@ y, z = np.meshgrid(np.linspace(-0.5, 0.5, 100), hand[2] + np.linspace(-0.5, 0.5,
 wall = np.column_stack([np.full(y.size, hand[0]), y.ravel(), z.ravel()])
 seen = checker.with_body("wall", swept.Shape.cloud(wall, radius=0.005))
 report = seen.report_state(home)
-print("first cloud:", report.verdict.name, [contact.body_a for contact in report.contacts])
+print("first cloud:", report.verdict, [contact.body_a for contact in report.contacts])
 
 later = seen.with_replaced("wall", swept.Shape.cloud(wall + [0.6, 0.0, 0.0], radius=0.005))
-print("next cloud:", later.check_state(home).name, f"clearance {later.clearance(home):.3f} m")
+print("next cloud:", later.check_state(home), f"clearance {later.clearance(home):.3f} m")
 sys.exit(0 if not report and later.check_state(home) else 1)

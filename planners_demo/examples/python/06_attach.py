@@ -19,7 +19,7 @@ home, ready = empty.named_state("home"), empty.named_state("ready")
 pose = np.eye(4)
 pose[2, 3] = 0.12  # m, along z of the hand
 gripping = empty.with_attached("bar", "hand", swept.Shape.box((0.3, 0.04, 0.04)), pose, ["finger_*"])
-print("ready, empty hand:", empty.check_state(ready).name, " with the bar:", gripping.check_state(ready).name)
+print("ready, empty hand:", empty.check_state(ready), " with the bar:", gripping.check_state(ready))
 
 released = gripping.with_detached("bar", home)
 print("bodies of the world:", ", ".join(released.world.names))
