@@ -88,6 +88,11 @@ if(TARGET swept_ompl_bridge)
   swept_library_packages(ompl_bridge "OMPL classes over proven motions"
     "libompl-dev, libboost-serialization-dev, libboost-filesystem-dev, libboost-system-dev" robot_model)
 endif()
+if(TARGET swept_python)
+  get_target_property(python_packages swept_python SWEPT_DEBIAN_DEPENDS)
+  swept_package(python NAME python3-swept SECTION python SUMMARY "proven motions of robots in Python"
+    OF ompl_bridge proofs ${pages} DEPENDS "${python_packages}")
+endif()
 if(TARGET swept)
   swept_package(program NAME swept SECTION science SUMMARY "plans, checks and proves robot motions"
     OF ompl_bridge proofs ${pages})

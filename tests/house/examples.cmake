@@ -2,7 +2,8 @@
 # cmake -DFOLDER=planners_demo/examples "-DEXAMPLES=LIST" -P examples.cmake
 #
 # Fails unless each example in the folder has less than 60 lines and is in LIST, the one of its CMakeLists.txt; unless these are
-# numbered from 01 on; and unless each has a row in README.md with its target and the command that is its test.
+# numbered from 01 on; and unless each has a row in README.md with its target and the command that is its test. The same of
+# those in python/, but for target and command.
 cmake_minimum_required(VERSION 3.22)
 
 function(complain text)
@@ -11,7 +12,7 @@ endfunction()
 
 file(READ ${FOLDER}/README.md readme)
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*)
-list(REMOVE_ITEM files CMakeLists.txt README.md)
+list(REMOVE_ITEM files CMakeLists.txt README.md python)
 
 set(number 0)
 foreach(example IN LISTS EXAMPLES)
@@ -57,4 +58,26 @@ endforeach()
 
 foreach(file IN LISTS files)
   complain("${file} is not in the list of CMakeLists.txt")
+endforeach()
+
+# Those of Python are the tests by being there.
+file(READ ${FOLDER}/python/README.md readme)
+file(GLOB files RELATIVE ${FOLDER}/python ${FOLDER}/python/*.py)
+list(SORT files)
+set(number 0)
+foreach(file IN LISTS files)
+  math(EXPR number "${number} + 1")
+  string(REGEX REPLACE "\\.py$" "" name "${file}")
+  if(NOT name MATCHES "^0?${number}_")
+    complain("python/${file} is number ${number}")
+  endif()
+  file(STRINGS ${FOLDER}/python/${file} lines)
+  list(LENGTH lines count)
+  if(count GREATER_EQUAL 60)
+    complain("python/${file} has ${count} lines; less than 60 are allowed")
+  endif()
+  string(FIND "${readme}" "| [${name}](${file}) |" at)
+  if(at EQUAL -1)
+    complain("python/README.md has no row of ${name}")
+  endif()
 endforeach()

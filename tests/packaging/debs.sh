@@ -54,6 +54,12 @@ expect_depends libswept-pages-dev 'libswept-robot-model-dev' ompl
 expect_depends libswept-ompl-bridge0.1 'libompl16'
 expect_depends libswept-ompl-bridge-dev 'libompl-dev'
 expect_depends swept 'libswept-ompl-bridge0.1' 'dev'
+if compgen -G "$debs/python3-swept_*.deb" >/dev/null; then
+  expect_depends python3-swept 'python3-numpy'
+  expect_depends python3-swept 'libswept-ompl-bridge0.1' 'dev'
+  expect_file python3-swept 'lib/python3/dist-packages/swept/_swept\.cpython.*\.so'
+  expect_file python3-swept 'lib/python3/dist-packages/swept/py\.typed'
+fi
 expect_file libswept-core0.1 'libswept_core\.so\.0\.1 -> libswept_core\.so\.0\.1\.'
 expect_file libswept-core-dev 'libswept_core\.so -> libswept_core\.so\.0\.1'
 expect_file libswept-core-dev 'cmake/swept/sweptConfig\.cmake'

@@ -29,8 +29,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "planning/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "batch/validator.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/problem_choice.hpp"
-#include "planning/planners.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/text_file.hpp"
 

@@ -9,7 +9,7 @@
 #include "command_line/shell_word.hpp"
 #include "completion/robot_names.hpp"
 #include "completion/typed_line.hpp"
-#include "planning/planners.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 #include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/problems.hpp"
 

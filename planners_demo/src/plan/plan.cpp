@@ -15,8 +15,8 @@
 #include "plan/plan_options.hpp"
 #include "plan/plan_report.hpp"
 #include "plan/plan_sets.hpp"
-#include "planning/planners.hpp"
 #include "planning/planning.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 #include "trajectory/timed_trajectory.hpp"
 #include "trajectory/timing.hpp"
 

@@ -2,8 +2,8 @@
 #include "command_line/commands.hpp"
 #include "command_line/options.hpp"
 #include "page/pages.hpp"
-#include "planning/planners.hpp"
 #include "replay/query_dump.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 
 namespace swept {
 namespace {

@@ -20,8 +20,8 @@
 #include "output/seconds_since.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
-#include "planning/planners.hpp"
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 #include "swept/robot_model/did_you_mean.hpp"
 #include "swept/robot_model/foreign_text.hpp"
 

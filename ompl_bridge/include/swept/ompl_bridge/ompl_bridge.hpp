@@ -7,6 +7,7 @@
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 #include "swept/ompl_bridge/paths.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 #include "swept/ompl_bridge/pose_goal.hpp"
 #include "swept/ompl_bridge/setup.hpp"
 #include "swept/ompl_bridge/state_space.hpp"

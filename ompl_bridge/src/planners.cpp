@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planning/planners.hpp"
+#include "swept/ompl_bridge/planners.hpp"
 
 #include <ompl/geometric/planners/AnytimePathShortening.h>
 #include <ompl/geometric/planners/cforest/CForest.h>
@@ -45,10 +45,10 @@
 #include <array>
 #include <cctype>
 
-#include "command_line/exit_code.hpp"
 #include "swept/ompl_bridge/certified_connect.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 #include "swept/robot_model/did_you_mean.hpp"
+#include "swept/robot_model/usage_error.hpp"
 
 namespace swept {
 namespace {
@@ -69,7 +69,7 @@ struct Entry {
 
 // CertifiedConnect, and every geometric planner of OMPL that needs nothing but the space. TSRRT,
 // VFRRT, XXL, QRRT, Lightning and Thunder need a task space, a vector field, a decomposition, a
-// sequence of spaces or a store of earlier paths, which a command line has not got.
+// sequence of spaces or a store of earlier paths, which a name does not give.
 constexpr std::array kPlanners = {
     Entry{"ABITstar", make<og::ABITstar>},
     Entry{"AITstar", make<og::AITstar>},

@@ -9,13 +9,15 @@
 
 namespace swept {
 
-/// Names of the planners makePlanner knows, in alphabetic order.
+/// The names that makePlanner() knows, in alphabetic order: CertifiedConnect, and every geometric
+/// planner of OMPL that needs nothing but the space.
 std::vector<std::string> plannerNames();
 
-/// Full name of a planner given in any case; throws UsageError, listing all, when there is none.
+/// The full name of a planner given in any case. Throws UsageError, listing all, if there is none.
 std::string plannerName(std::string_view anyCase);
 
-/// A planner with OMPL's default parameters. `name` as plannerName() returns it.
+/// A planner with OMPL's default parameters, and NearestStates where it takes them. `name` is as
+/// plannerName() returns it; throws UsageError for another one.
 ompl::base::PlannerPtr makePlanner(std::string_view name,
                                    const ompl::base::SpaceInformationPtr& si);
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "swept/core/verdict.hpp"
+#include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
+
+/// The enumerations of swept/enums.py, which have the values of C++.
+namespace swept::python {
+
+///@{
+/// The member, without making an object.
+pybind11::object toPython(Verdict verdict);
+pybind11::object toPython(LimitKind kind);
+///@}
+///@{
+/// The value of a member; throws ArgumentTypeError, naming the argument, for all else.
+MotionQuery motionQueryOf(pybind11::handle value, const char* argument);
+ClearanceQuery clearanceQueryOf(pybind11::handle value, const char* argument);
+///@}
+
+}  // namespace swept::python

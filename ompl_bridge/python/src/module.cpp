@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pybind11/pybind11.h>
+
+#include "arrays.hpp"
+#include "binding.hpp"
+#include "errors.hpp"
+#include "watch.hpp"
+
+PYBIND11_MODULE(_swept, module) {
+  using namespace swept::python;
+  module.doc() = "The part of swept that is C++; import swept.";
+  importNumpy();
+  registerErrors();
+  bindWatch(module);
+  bindResults(module);
+  bindCertificates(module);
+  bindShapes(module);
+  bindRobot(module);
+  bindWorld(module);
+  bindRules(module);
+  bindChecker(module);
+  bindKinematics(module);
+  bindTrajectories(module);
+  bindPaths(module);
+  bindPlanning(module);
+  bindPages(module);
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+
+#include "swept/robot_model/joint_trajectory.hpp"
+#include "swept/robot_model/piecewise_polynomial.hpp"
+#include "swept/robot_model/rate_limits.hpp"
+
+namespace swept::python {
+
+/// The curve of a swept.Trajectory or a swept.Curve. Throws ArgumentTypeError for all else.
+PiecewisePolynomial curveOf(const pybind11::object& trajectory, const char* argument);
+
+/// Limits of a group from the arguments of Python: each a number for all values, an array (n,), or
+/// None, which leaves those of `limits`.
+RateLimits limitsOf(RateLimits limits, const pybind11::object& velocity,
+                    const pybind11::object& acceleration, const pybind11::object& jerk);
+
+}  // namespace swept::python

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Enumerations. Values are those of C++; arrays of verdicts hold them."""
+import enum
+
+
+class _Named(enum.IntEnum):
+    """Printed by name: `free`, as the program `swept` prints it."""
+
+    def __str__(self) -> str:
+        return self.name.lower().replace("_", " ")
+
+    def __format__(self, specification: str) -> str:
+        return format(str(self), specification)
+
+
+class Verdict(_Named):
+    """What is known about a state or a motion. Only `FREE` is true: `if checker.check_state(q)`."""
+
+    UNDECIDED = 0  #: closer to the margin than the tolerance; planners treat it as invalid
+    FREE = 1  #: proven: every checked pair keeps more than the margin, rounding included
+    COLLISION = 2  #: witnessed: two points of the exact geometry are within the margin
+
+    def __bool__(self) -> bool:
+        return self is Verdict.FREE
+
+
+class MotionQuery(_Named):
+    """How much of a motion's certificate to compute."""
+
+    VERDICT_ONLY = 0  #: stop at any contact; `free_until` is 0 unless the motion is free
+    FIRST_CONTACT = 1  #: `free_until` and the first contact, to within the tolerance
+
+
+class ClearanceQuery(_Named):
+    """Which clearances of a motion to compute."""
+
+    LEAST = 0  #: of all checked pairs together
+    BY_KIND = 1  #: that, and separately of pairs with the world and of the others
+    WORLD = 2  #: only of pairs with the world
+    SELF = 3  #: only of pairs of two links or attached bodies
+
+
+class LimitKind(_Named):
+    """What a limit is about."""
+
+    POSITION = 0  #: rad or m
+    VELOCITY = 1  #: rad/s or m/s
+    ACCELERATION = 2  #: rad/s^2 or m/s^2
+    JERK = 3  #: rad/s^3 or m/s^3

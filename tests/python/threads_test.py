@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Threads of Python share a checker; signals end long work; nothing leaks."""
+import gc
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import swept
+
+
+def test_eight_threads_ask_one_checker(checker, states):
+    expected = checker.check_states(states, threads=1)
+    motions = checker.certify_motions(states[:-1], states[1:], threads=1).free_until
+
+    def ask(seed):
+        wrong = 0
+        for i in np.random.default_rng(seed).integers(0, len(states) - 1, 400):
+            wrong += checker.check_state(states[i]) != expected[i]
+            wrong += checker.certify_motion(states[i], states[i + 1]).free_until != motions[i]
+            if i % 40 == 0:
+                wrong += (checker.check_states(states[:50]) != expected[:50]).sum()
+                found, _ = checker.signed_clearance(states[i], gradient=True)
+                wrong += found.upper != checker.signed_clearance(states[i]).upper
+        return wrong
+
+    with ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(ask, range(8))) == [0] * 8
+
+
+def test_others_run_while_a_query_runs(checker, states):
+    """A batch that takes long: this thread counts meanwhile."""
+    many = np.tile(states, (600, 1))
+    done = threading.Event()
+
+    def work():
+        checker.certify_motions(many[:-1], many[1:], threads=1)
+        done.set()
+
+    worker = threading.Thread(target=work)
+    worker.start()
+    steps = 0
+    while not done.wait(0.001):
+        steps += 1
+    worker.join()
+    assert steps > 20
+
+
+INTERRUPTED = """
+import signal, sys, threading, time, numpy as np, swept
+robot = swept.Robot.load("models/robots/rook7/rook7.urdf")
+checker = swept.Checker(robot, "arm", swept.World.load("models/scenes/narrow_slot.yaml"))
+home, ready = checker.named_state("home"), checker.named_state("ready")
+many = np.random.default_rng(1).uniform(-2, 2, (3_000_000, 7))
+work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seconds=120),
+        "states": lambda: checker.check_states(many, threads=1),
+        "motions": lambda: checker.certify_motions(many[:-1], many[1:], threads=1),
+        "path": lambda: swept.certify_path(checker, many, threads=1)}[sys.argv[1]]
+sent = []
+def send():
+    sent.append(time.monotonic())
+    signal.raise_signal(signal.SIGINT)
+threading.Timer(0.5, send).start()
+try:
+    work()
+except KeyboardInterrupt:
+    print("ended", time.monotonic() - sent[0])
+"""
+
+
+@pytest.mark.parametrize("work", ["plan", "states", "motions", "path"])
+def test_ctrl_c_ends_work(work):
+    result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
+    assert result.stdout.startswith("ended"), result.stdout + result.stderr
+
+
+def resident():
+    """kB that the process holds now."""
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+
+
+def grown(call, times):
+    """kB that so many calls add, once memory that stays is there."""
+    for _ in range(times // 10 + 1):
+        call()
+    gc.collect()
+    before = resident()
+    for _ in range(times):
+        call()
+    gc.collect()
+    return resident() - before
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_a_million_calls_leak_nothing(checker, home, states):
+    near = home + 1e-3
+    wall = checker.with_body("wall", swept.Shape.box([3, 3, 3]))
+    wrong = home.astype(np.float32)
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            checker.check_state(wrong)
+
+    def contact():
+        return wall.certify_motion(home, near).witness.point_a
+
+    # A leak of one object of 16 bytes for each call of the first kind would be 16000 kB.
+    assert grown(lambda: checker.check_state(home), 1_000_000) < 4000
+    assert grown(lambda: checker.certify_motion(home, near).effort, 200_000) < 4000
+    assert grown(contact, 20_000) < 4000
+    assert grown(refused, 20_000) < 4000
+    assert grown(lambda: checker.check_states(states), 300) < 8000
+    assert grown(lambda: checker.certify_motions(states[:-1], states[1:])[3], 100) < 8000
+    assert grown(lambda: checker.report_state(home).contacts, 300) < 4000
+    assert grown(lambda: checker.signed_clearance(home, gradient=True), 300) < 4000
+    assert grown(lambda: checker.with_body("globe", swept.Shape.sphere(0.1), None), 300) < 16000
+    assert grown(lambda: swept.plan(checker, home, near), 50) < 16000
+
+
+def test_references_are_given_back(checker, home):
+    before = sys.getrefcount(home), sys.getrefcount(swept.Verdict.FREE), sys.getrefcount(checker)
+    for _ in range(100):
+        checker.check_state(home)
+        checker.certify_motion(home, home, swept.MotionQuery.VERDICT_ONLY).verdict
+        checker.check_states(home[None])
+        with pytest.raises(TypeError):
+            checker.check_state(home, home)
+    after = sys.getrefcount(home), sys.getrefcount(swept.Verdict.FREE), sys.getrefcount(checker)
+    assert before == after
