@@ -218,9 +218,8 @@ void addMeasures(py::class_<CheckerHandle>& type) {
             });
           },
           py::arg("q"),
-          "StateReport of q (n,): all violating pairs and the clearance. Takes hundreds of times "
-          "as "
-          "long as check_state.")
+          "StateReport of q (n,): all violating pairs and the clearance. Takes tens to hundreds of "
+          "times as\nlong as check_state.")
       .def(
           "clearance",
           [](Handle& self, const py::object& q) {
@@ -231,8 +230,7 @@ void addMeasures(py::class_<CheckerHandle>& type) {
           },
           py::arg("q"),
           "m, proven lower bound of the least distance over all checked pairs at q (n,); 0 in "
-          "contact. "
-          "As slow as report_state.")
+          "contact. Takes\nten to twenty times as long as check_state.")
       .def("signed_clearance", &signedClearance, py::arg("q"), py::kw_only(),
            py::arg("gradient") = false,
            "SignedClearance at q (n,), negative in contact. With `gradient` a pair of it and an "
