@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`pip install .`: CMake builds the package `swept` for the Python that runs this. Needs the packages of
+"""`pip install ./ompl_bridge/python`: CMake builds the package `swept` for the Python that runs this. Needs the packages of
 .ci/apt-packages.txt, and no network.
 
 SWEPT_CMAKE_ARGUMENTS: more arguments of CMake, as a shell has them.
@@ -13,7 +13,9 @@ from pathlib import Path
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
-ROOT = Path(__file__).resolve().parent
+ROOT = Path(__file__).resolve().parents[2]
+# All that it makes is there, where git ignores it.
+BUILD = ROOT / "build" / "pip"
 
 
 class CMakeBuild(build_ext):
@@ -39,10 +41,9 @@ class CMakeBuild(build_ext):
         self.copy_file(str(folder / "ompl_bridge/python/swept" / target.name), str(target))
 
 
-# All that it makes is below build/, which git ignores.
-(ROOT / "build").mkdir(exist_ok=True)
+BUILD.mkdir(parents=True, exist_ok=True)
 setup(
-    options={"egg_info": {"egg_base": "build"}},
+    options={"build": {"build_base": str(BUILD)}, "egg_info": {"egg_base": str(BUILD)}},
     ext_modules=[Extension("swept._swept", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
 )
