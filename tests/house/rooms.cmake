@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The folders at the top are the components, models and tests: cmake -DROOT=TREE -P rooms.cmake. Those that begin with
-# `build`, and hidden ones, are not looked at.
+# The folders at the top are the components, models and tests, and the files are those that have to be there:
+# cmake -DROOT=TREE -P rooms.cmake. What begins with `build`, and what is hidden, is not looked at.
 cmake_minimum_required(VERSION 3.22)
 set(rooms core robot_model ompl_bridge planners_demo models tests)
+set(papers CMakeLists.txt CMakePresets.json CMakeUserPresets.json LICENSE README.md)
 file(GLOB entries RELATIVE ${ROOT} ${ROOT}/*)
 foreach(entry IN LISTS entries)
-  if(IS_DIRECTORY ${ROOT}/${entry} AND NOT entry MATCHES "^(build|[.])" AND NOT entry IN_LIST rooms)
+  if(NOT entry MATCHES "^(build|[.])" AND NOT entry IN_LIST rooms AND NOT entry IN_LIST papers)
     list(APPEND others ${entry})
   endif()
 endforeach()
@@ -16,5 +17,6 @@ foreach(room IN LISTS rooms)
 endforeach()
 if(others OR missing)
   list(JOIN rooms ", " rooms)
-  message(FATAL_ERROR "the tree has the folders ${rooms}; beyond these: ${others}; missing: ${missing}")
+  list(JOIN papers ", " papers)
+  message(FATAL_ERROR "the tree has the folders ${rooms} and the files ${papers}; beyond these: ${others}; missing: ${missing}")
 endif()
