@@ -88,6 +88,7 @@ class PieceDescent {
     found_.result.normal = pair.normal;
     return true;
   }
+
   Part part(bool ofA, const Piece& piece) const { return {piece, motionOf(ofA, piece)}; }
   PartMotion motionOf(bool ofA, const Piece& piece) const {
     if (found_.failed) return {};
