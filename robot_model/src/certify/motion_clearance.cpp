@@ -233,9 +233,8 @@ class ClearanceSearch {
     if (lower >= wanted(kind) || !measured.hollow) return lower;
     // What is between the hull and the body itself counts: each part by itself.
     const double accuracy = kShare * slack(kind);
-    const PairAnswer answer =
-        query_.keeps(pair, half, wanted(kind), 0.0, measured.normal, accuracy);
-    return answer.status == Separation::Separated ? wanted(kind) : lower;
+    const bool stays = query_.staysBeyond(pair, half, wanted(kind), measured.normal, accuracy);
+    return stays ? wanted(kind) : lower;
   }
 
   /// Whether only a shorter interval promises more. `hulls`: along the direction that was the best

@@ -367,23 +367,18 @@ HullSeparation PairQuery::hullBound(const GeometryPair& pair, double half,
   return found;
 }
 
-PairAnswer PairQuery::keeps(const GeometryPair& pair, double half, double distance, double contact,
+bool PairQuery::staysBeyond(const GeometryPair& pair, double half, double distance,
                             const Vector3d& guess, double accuracy) {
   const Isometry3d& world_from_a = pose(pair.a);
   SeparationQuery query;
   query.approach = approach(pair, half, distance);
   relativeMotion(pair, half, world_from_a, half * relativeVelocity(pair), query.approach);
-  query.contact = contact;
   query.guess = world_from_a.linear().transpose() * guess;
   query.tolerance = accuracy;
-  PairAnswer answer;
-  answer.travel = query.approach.most() - query.approach.required;
-  query.thorough = answer.travel <= accuracy;
+  query.thorough = query.approach.most() - query.approach.required <= accuracy;
   const SeparationResult result = separate(model_.robotGeometry[pair.a].shape, shapeOfB(pair),
                                            world_from_a.inverse() * poseOfB(pair), query);
-  answer.status = result.status;
-  answer.normal = world_from_a.linear() * result.normal;
-  return answer;
+  return result.status == Separation::Separated;
 }
 
 SignedClearance PairQuery::measureSigned(const GeometryPair& pair, double accuracy) {

@@ -85,10 +85,9 @@ class PairQuery {
   PairDistance measure(const GeometryPair& pair, double enough, double accuracy);
   /// The same, negative where they overlap; see signedDistance().
   SignedClearance measureSigned(const GeometryPair& pair, double accuracy);
-  /// Whether the pair stays farther apart than `distance` (m) on [t - half, t + half], or has two
-  /// points at most `contact` (m) apart at t. `guess`: a direction to try first, model frame, from
-  /// a to b; zero: none is known.
-  PairAnswer keeps(const GeometryPair& pair, double half, double distance, double contact,
+  /// Whether the pair stays farther apart than `distance` (m) on [t - half, t + half]. False: not
+  /// proven. `guess`: a direction to try first, model frame, from a to b.
+  bool staysBeyond(const GeometryPair& pair, double half, double distance,
                    const Eigen::Vector3d& guess, double accuracy);
   /// m per unit of t, model frame: velocity of a point of b relative to a point of a. Both points
   /// in m, model frame, at t.
