@@ -159,6 +159,7 @@ inline std::string complaint(const ImpactQuery& q, const Impact& impact) {
   const double before = q.options.before;
   switch (impact.verdict) {
     case Verdict::Undecided:
+    case Verdict::Violation:
       return "undecided";
     case Verdict::Free:
       return impact.freeUntil == before && impact.contactBy == 1.0 ? "" : "free, but until when?";

@@ -37,6 +37,9 @@ void Judge::motion(const State& from, const State& to, const MotionCertificate& 
     case Verdict::Collision:
       ++report_.collision;
       break;
+    case Verdict::Violation:
+      fail("a violation without constraints");
+      break;
     case Verdict::Undecided:
       ++report_.undecided;
       break;

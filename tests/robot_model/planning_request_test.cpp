@@ -187,11 +187,10 @@ TEST(PlanningRequest, NothingIsLeftOutInSilence) {
   const std::string goal =
       "goal_constraints: [{joint_constraints: [{joint_name: a, position: 1}]}]\n";
   EXPECT_EQ(message(kStart + goal + "path_constraints:\n  orientation_constraints: [{}]\n"),
-            ":8: error: path_constraints.orientation_constraints[0] cannot be kept: a path's ends "
-            "alone are constrained");
+            ":8: error: path_constraints is read with a robot alone; PlanningRequest::load takes one");
   EXPECT_EQ(message(kStart + goal + "trajectory_constraints: {constraints: [{}]}\n"),
-            ":7: error: trajectory_constraints.constraints[0] cannot be kept: a path's ends alone "
-            "are constrained");
+            ":7: error: trajectory_constraints.constraints[0] cannot be kept: a path is "
+            "constrained as a whole, by path_constraints");
   EXPECT_EQ(message(kStart + "goal_constraints:\n  - visibility_constraints: [{}]\n"),
             ":7: error: goal_constraints[0].visibility_constraints[0] is not supported");
   EXPECT_EQ(message(kStart + "  attached_collision_objects: [{link_name: hand}]\n" + goal),

@@ -43,7 +43,25 @@ goal_constraints:
         absolute_z_axis_tolerance: 0.3
         parameterization: 0
         weight: 1
-path_constraints: {name: '', joint_constraints: []}
+path_constraints:
+  name: way
+  joint_constraints: [{joint_name: jr, position: 0.75, tolerance_above: 0.3, tolerance_below: 0.4, weight: 5}]
+  position_constraints:
+    - header: {frame_id: r}
+      link_name: base
+      target_point_offset: [0, 0, 0.25]
+      constraint_region: {primitives: [{type: cylinder, dimensions: [0.5, 0.75]}], primitive_poses: [{position: [4, 5, 6]}], meshes: [], mesh_poses: []}
+      weight: 6
+  orientation_constraints:
+    - header: {frame_id: base}
+      link_name: plate
+      orientation: [0, 0, 0.8, 0.6]
+      absolute_x_axis_tolerance: 0.4
+      absolute_y_axis_tolerance: 0.5
+      absolute_z_axis_tolerance: 4
+      parameterization: 1
+      weight: 7
+  visibility_constraints: []
 trajectory_constraints: {constraints: []}
 reference_trajectories: []
 pipeline_id: a
@@ -81,6 +99,30 @@ void addValues(const PlanningRequest::JointValues& values, std::ostream& text) {
   text << '\n';
 }
 
+void addFrame(const ConstraintFrame& frame, std::ostream& text) {
+  text << ' ' << frame.body;
+  test::addPose(frame.body_from_frame, text);
+}
+
+void addConstraints(const TaskConstraint& task, std::ostream& text) {
+  for (const JointConstraint& own : task.joints)
+    text << own.joint << ' ' << own.position << ' ' << own.above << ' ' << own.below << '\n';
+  for (const PositionConstraint& own : task.positions) {
+    addFrame(own.frame, text);
+    addFrame(own.reference, text);
+    for (const ConstraintRegion& region : own.regions) {
+      text << static_cast<int>(region.type) << ' ' << region.size.transpose();
+      test::addPose(region.reference_from_region, text);
+    }
+  }
+  for (const OrientationConstraint& own : task.orientations) {
+    addFrame(own.frame, text);
+    addFrame(own.reference, text);
+    text << own.orientation.coeffs().transpose() << ' ' << own.tolerance.transpose() << ' '
+         << static_cast<int>(own.parameterization) << '\n';
+  }
+}
+
 std::string summaryOf(const PlanningRequest& request) {
   std::ostringstream text;
   text << request.group << '\n';
@@ -100,6 +142,7 @@ std::string summaryOf(const PlanningRequest& request) {
   text << '\n';
   test::addAttached(request.attached, text);
   test::addRules(request.rules, text);
+  addConstraints(request.pathConstraints, text);
   return text.str();
 }
 
@@ -182,7 +225,38 @@ const std::vector<Change> kChanges = {
     {"goal_constraints/orientation_constraints/weight", "weight: 1\npath", "weight: 2\npath"},
     {"goal_constraints/visibility_constraints", "visibility_constraints: []",
      "visibility_constraints: [{}]"},
-    {"path_constraints", "{name: '', joint_constraints: []}", "{joint_constraints: [{}]}"},
+    {"path_constraints/name", "name: way", "name: path"},
+    {"path_constraints/joint_constraints/joint_name", "joint_name: jr, position: 0.75",
+     "joint_name: jl, position: 0.75"},
+    {"path_constraints/joint_constraints/position", "position: 0.75", "position: 0.5"},
+    {"path_constraints/joint_constraints/tolerance_above", "above: 0.3", "above: 0.2"},
+    {"path_constraints/joint_constraints/tolerance_below", "below: 0.4", "below: 0.2"},
+    {"path_constraints/joint_constraints/weight", "weight: 5", "weight: 2"},
+    {"path_constraints/position_constraints/header/frame_id", "{frame_id: r}\n", "{frame_id: l}\n"},
+    {"path_constraints/position_constraints/link_name", "link_name: base", "link_name: l"},
+    {"path_constraints/position_constraints/target_point_offset", "[0, 0, 0.25]", "[0, 0, 0]"},
+    {"path_constraints/position_constraints/constraint_region/primitives",
+     "[{type: cylinder, dimensions: [0.5, 0.75]}]", "[{type: 2, dimensions: [0.5]}]"},
+    {"path_constraints/position_constraints/constraint_region/primitive_poses", "[4, 5, 6]",
+     "[4, 5, 7]"},
+    {"path_constraints/position_constraints/constraint_region/meshes",
+     "[{position: [4, 5, 6]}], meshes: []", "[{position: [4, 5, 6]}], meshes: [{}]"},
+    {"path_constraints/position_constraints/weight", "weight: 6", "weight: 2"},
+    {"path_constraints/orientation_constraints/header/frame_id", "{frame_id: base}\n",
+     "{frame_id: l}\n"},
+    {"path_constraints/orientation_constraints/link_name", "link_name: plate", "link_name: l"},
+    {"path_constraints/orientation_constraints/orientation", "[0, 0, 0.8, 0.6]", "[0, 0, 0, 1]"},
+    {"path_constraints/orientation_constraints/absolute_x_axis_tolerance", "tolerance: 0.4",
+     "tolerance: 0.1"},
+    {"path_constraints/orientation_constraints/absolute_y_axis_tolerance", "tolerance: 0.5",
+     "tolerance: 0.1"},
+    {"path_constraints/orientation_constraints/absolute_z_axis_tolerance", "tolerance: 4",
+     "tolerance: 1"},
+    {"path_constraints/orientation_constraints/parameterization", "parameterization: 1",
+     "parameterization: 0"},
+    {"path_constraints/orientation_constraints/weight", "weight: 7", "weight: 2"},
+    {"path_constraints/visibility_constraints", "  visibility_constraints: []\ntraj",
+     "  visibility_constraints: [{}]\ntraj"},
     {"trajectory_constraints/constraints", "{constraints: []}", "{constraints: [{}]}"},
     {"reference_trajectories", "reference_trajectories: []", "reference_trajectories: [{}]"},
     {"pipeline_id", "pipeline_id: a", "pipeline_id: c"},
@@ -220,10 +294,10 @@ TEST(RequestKeys, EachIsAppliedRefusedOrWithoutMeaning) {
 }
 
 TEST(RequestKeys, TheTableHasTheReadersKeys) {
-  test::expectKeysOf(
-      "Request (.yaml)",
-      {"planning_request.cpp", "attached_objects.cpp", "robot_state_yaml.cpp", "scene_frames.cpp"},
-      {"child_frame_id", "transform"});
+  test::expectKeysOf("Request (.yaml)",
+                     {"planning_request.cpp", "request_constraints.cpp", "attached_objects.cpp",
+                      "robot_state_yaml.cpp", "scene_frames.cpp"},
+                     {"child_frame_id", "transform"});
 }
 
 }  // namespace

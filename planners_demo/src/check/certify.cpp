@@ -8,6 +8,7 @@
 #include "check/many_states.hpp"
 #include "check/segment_report.hpp"
 #include "command_line/commands.hpp"
+#include "input/constraints.hpp"
 #include "input/groups.hpp"
 #include "input/inputs.hpp"
 #include "input/state_lists.hpp"
@@ -43,7 +44,8 @@ Task pathTask(const Arguments& args, const Model& model, Warnings& warnings) {
         {.label = "state " + std::to_string(task.states.size() + 1), .q = std::move(q)});
   // What is proven of a single state is the motion that stays there.
   if (task.states.size() == 1) task.states.push_back(task.states.front());
-  task.checker = makeChecker(args, model, group, model.world, warnings);
+  task.checker = withConstraintsOf(args, makeChecker(args, model, group, model.world, warnings),
+                                   task.states.front().q);
   warnOfNothing(*task.checker, warnings);
   return task;
 }
@@ -117,7 +119,8 @@ Report reportOf(const Task& task, const PathCertificate& path, QueryDump& dump) 
     const SegmentReport own{.from = from.label,
                             .to = to.label,
                             .certificate = segment.certificate,
-                            .clearance = segment.clearance};
+                            .clearance = segment.clearance,
+                            .constraints = &task.checker->options().constraints};
     report.text += segmentText(own);
     report.told.push_back(segmentJson(own));
   }

@@ -17,6 +17,7 @@ void addCertifyOptions(CLI::App& app, Arguments& args) {
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
+  addConstraintOptions(app, args);
   app.add_option("-o,--output", args.output,
                  "the path with a proof for 'swept verify', if every segment is free")
       ->type_name("FILE.json");

@@ -30,8 +30,8 @@ ExitCode runCheck(const Arguments& args) {
     Progress progress("checking states", args.quiet);
     for (const LabelledState& state : task.states) {
       const StateReport report = task.checker->reportState(state.q, workspace);
-      text += reportText(state.label, report);
-      states.push_back(reportJson(state, report));
+      text += reportText(state.label, report, task.checker->options().constraints);
+      states.push_back(reportJson(state, report, task.checker->options().constraints));
       dump.state(*task.checker, state.label, state.q, report.verdict);
       code = worse(code, exitCodeOf(report.verdict));
     }

@@ -12,6 +12,7 @@ void addCheckOptions(CLI::App& app, Arguments& args) {
   addRuleOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
+  addConstraintOptions(app, args);
   addStateListOption(app, args, "states to check");
   addProblemOptions(app, args, "checks start and goals in its world");
   addDumpOption(app, args);

@@ -65,11 +65,14 @@ void print(const Arguments& args, const Model& model, const Task& task, const Wa
 }  // namespace
 
 void VerdictCounts::add(Verdict verdict) {
-  ++(verdict == Verdict::Free ? free_ : verdict == Verdict::Collision ? collision_ : undecided_);
+  ++(verdict == Verdict::Free        ? free_
+     : verdict == Verdict::Collision ? collision_
+     : verdict == Verdict::Violation ? violation_
+                                     : undecided_);
 }
 
 ExitCode VerdictCounts::code() const {
-  if (collision_ > 0) return ExitCode::Collision;
+  if (collision_ + violation_ > 0) return ExitCode::Collision;
   return undecided_ > 0 ? ExitCode::Undecided : ExitCode::Free;
 }
 
@@ -77,6 +80,7 @@ std::string VerdictCounts::text(const std::string& what) const {
   std::vector<std::string> parts;
   if (free_ > 0) parts.push_back(std::to_string(free_) + " free");
   if (collision_ > 0) parts.push_back(std::to_string(collision_) + " in collision");
+  if (violation_ > 0) parts.push_back(std::to_string(violation_) + " off a constraint");
   if (undecided_ > 0) parts.push_back(std::to_string(undecided_) + " undecided");
   return countedText(all(), what) + ": " + joined(parts);
 }
@@ -93,6 +97,7 @@ void VerdictCounts::addTo(Json& json) const {
   json["free"] = free_;
   json["collision"] = collision_;
   json["undecided"] = undecided_;
+  if (violation_ > 0) json["violation"] = violation_;
 }
 
 bool areMany(const Task& task) {
@@ -120,8 +125,8 @@ ExitCode checkMany(const Arguments& args, const Model& model, const Task& task, 
         dump.state(checker, task.states[i].label, task.states[i].q, verdict);
         if (answers.told.size() == kMostTold) continue;
         const StateReport report = checker.reportState(task.states[i].q, workspace);
-        answers.text += reportText(task.states[i].label, report);
-        answers.told.push_back(reportJson(task.states[i], report));
+        answers.text += reportText(task.states[i].label, report, checker.options().constraints);
+        answers.told.push_back(reportJson(task.states[i], report, checker.options().constraints));
       }
       progress.draw(end);
     }
@@ -154,8 +159,11 @@ ExitCode moveThroughMany(const Arguments& args, const Model& model, const Task& 
         const LabelledState &a = task.states[i], &b = task.states[i + 1];
         dump.motion(checker, a.label + " to " + b.label, a.q, b.q, certificate);
         if (answers.told.size() == kMostTold) continue;
-        const SegmentReport report{
-            .from = a.label, .to = b.label, .certificate = certificate, .clearance = {}};
+        const SegmentReport report{.from = a.label,
+                                   .to = b.label,
+                                   .certificate = certificate,
+                                   .clearance = {},
+                                   .constraints = &checker.options().constraints};
         answers.text += segmentText(report);
         answers.told.push_back(segmentJson(report));
       }

@@ -23,18 +23,18 @@ inline constexpr std::size_t kMostTold = 20;
 class VerdictCounts {
  public:
   void add(Verdict verdict);
-  std::size_t all() const { return free_ + collision_ + undecided_; }
-  std::size_t notFree() const { return collision_ + undecided_; }
+  std::size_t all() const { return free_ + notFree(); }
+  std::size_t notFree() const { return collision_ + violation_ + undecided_; }
   ExitCode code() const;
   /// `200000 states: 150000 free, 49990 in collision, 10 undecided`, of `what` = `state`.
   std::string text(const std::string& what) const;
   /// `and 49980 further states that are not free`, if more than `told` are; else empty.
   std::string furtherText(const std::string& what, std::size_t told) const;
-  /// `count`, `free`, `collision`, `undecided`.
+  /// `count`, `free`, `collision`, `undecided`; `violation`, if there is one.
   void addTo(Json& json) const;
 
  private:
-  std::size_t free_ = 0, collision_ = 0, undecided_ = 0;
+  std::size_t free_ = 0, collision_ = 0, violation_ = 0, undecided_ = 0;
 };
 
 /// Whether each state is more than should be printed.

@@ -17,7 +17,11 @@ namespace {
 
 SegmentReport examine(const LabelledState& from, const LabelledState& to, const Checker& checker,
                       Workspace& workspace) {
-  SegmentReport segment{.from = from.label, .to = to.label, .certificate = {}, .clearance = {}};
+  SegmentReport segment{.from = from.label,
+                        .to = to.label,
+                        .certificate = {},
+                        .clearance = {},
+                        .constraints = &checker.options().constraints};
   segment.certificate = checker.certifyMotion(from.q, to.q, workspace);
   if (segment.certificate.verdict != Verdict::Collision)
     segment.clearance =

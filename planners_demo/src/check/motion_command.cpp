@@ -12,6 +12,7 @@ void addMotionOptions(CLI::App& app, Arguments& args) {
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
+  addConstraintOptions(app, args);
   addStateListOption(app, args, "two states or more");
   addProblemOptions(app, args, "the motion from start to goal in its world");
   addDumpOption(app, args);

@@ -5,6 +5,7 @@
 
 #include "output/clearance_text.hpp"
 #include "output/terminal_text.hpp"
+#include "output/violation_json.hpp"
 
 namespace swept {
 namespace {
@@ -34,6 +35,9 @@ std::string segmentText(const SegmentReport& segment) {
   if (certificate.witness)
     text += "  contact     t = " + shortNumber(certificate.witness->t) + ", " +
             witnessText(*certificate.witness) + "\n";
+  if (certificate.violation)
+    text += "  constraint  t = " + shortNumber(certificate.violation->t) + ", " +
+            escapedLine(describe(*certificate.violation, *segment.constraints)) + "\n";
   if (certificate.verdict == Verdict::Undecided)
     text += "  undecided   t = " + shortNumber(certificate.undecidedAt) + "\n";
   if (segment.clearance) text += clearanceLines(*segment.clearance);
@@ -52,6 +56,8 @@ Json segmentJson(const SegmentReport& segment) {
   json["witness"] = certificate.witness ? toJson(*certificate.witness) : Json(nullptr);
   json["undecided_at"] =
       certificate.verdict == Verdict::Undecided ? Json(certificate.undecidedAt) : Json(nullptr);
+  if (certificate.violation)
+    json["violation"] = violationJson(*certificate.violation, *segment.constraints);
   const std::optional<MotionClearance>& clearance = segment.clearance;
   json["clearance"] = clearance ? boundsJson(*clearance) : Json(nullptr);
   json["clearance_world"] = clearance ? boundsJson(clearance->world) : Json(nullptr);

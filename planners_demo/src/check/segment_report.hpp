@@ -13,7 +13,8 @@ namespace swept {
 struct SegmentReport {
   std::string from, to;  ///< labels of its ends
   MotionCertificate certificate;
-  std::optional<MotionClearance> clearance;  ///< not asked for where there is a collision
+  std::optional<MotionClearance> clearance;     ///< not asked for where there is a collision
+  const TaskConstraint* constraints = nullptr;  ///< which a violation is of
 };
 
 /// Several lines, with what is known beyond the verdict.

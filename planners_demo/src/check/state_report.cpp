@@ -5,20 +5,25 @@
 
 #include "output/clearance_text.hpp"
 #include "output/terminal_text.hpp"
+#include "output/violation_json.hpp"
 
 namespace swept {
 
-std::string reportText(const std::string& label, const StateReport& report) {
+std::string reportText(const std::string& label, const StateReport& report,
+                       const TaskConstraint& constraints) {
   std::string text = escapedLine(label) + ": " + painted(report.verdict);
   if (keepApart(report.contacts)) text += " (closer than the margin)";
   if (report.verdict != Verdict::Collision)
     text.append(", ").append(clearanceText(clearancesOf(report)));
   text += "\n";
   for (const Witness& contact : report.contacts) text += "  " + witnessText(contact) + "\n";
+  for (const ConstraintViolation& violation : report.violations)
+    text += "  " + escapedLine(describe(violation, constraints)) + "\n";
   return text;
 }
 
-Json reportJson(const LabelledState& state, const StateReport& report) {
+Json reportJson(const LabelledState& state, const StateReport& report,
+                const TaskConstraint& constraints) {
   Json contacts = Json::array();
   for (const Witness& contact : report.contacts) {
     contacts.push_back(toJson(contact));
@@ -31,6 +36,10 @@ Json reportJson(const LabelledState& state, const StateReport& report) {
   json["nearest"] = nearestJson(report.nearestA, report.nearestB);
   addClearances(clearancesOf(report), json);
   json["contacts"] = std::move(contacts);
+  for (const ConstraintViolation& violation : report.violations) {
+    json["violations"].push_back(violationJson(violation, constraints));
+    json["violations"].back().erase("t");
+  }
   return json;
 }
 

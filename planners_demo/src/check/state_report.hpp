@@ -10,8 +10,10 @@
 /// How `check` prints what it knows about a state.
 namespace swept {
 
-/// A line for the state and one for each contact.
-std::string reportText(const std::string& label, const StateReport& report);
-Json reportJson(const LabelledState& state, const StateReport& report);
+/// A line for the state and one for each contact and each of the constraints that does not hold.
+std::string reportText(const std::string& label, const StateReport& report,
+                       const TaskConstraint& constraints);
+Json reportJson(const LabelledState& state, const StateReport& report,
+                const TaskConstraint& constraints);
 
 }  // namespace swept

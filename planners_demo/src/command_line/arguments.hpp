@@ -110,6 +110,11 @@ struct Arguments {
   std::string tracking;     ///< E or JOINT=E,...; empty: no joint is off
   std::string controllers;  ///< parameters of ros2_control; empty: none
 
+  std::vector<std::string> keepUpright;  ///< LINK[:DEG[:AXIS]]
+  std::vector<std::string> keepLevel;    ///< LINK[:DEG]
+  std::vector<std::string> stayIn;       ///< LINK:SHAPE[@POSE]
+  std::vector<std::string> stayOn;       ///< LINK:line|plane:X,Y,Z,DX,DY,DZ[:M]
+
   std::string limits;  ///< joint_limits.yaml; empty: the URDF's velocities
 
   /// How a path becomes a trajectory.

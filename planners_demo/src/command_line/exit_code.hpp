@@ -9,7 +9,7 @@ namespace swept {
 /// What the program returns, for every subcommand.
 enum class ExitCode : int {
   Free = 0,       ///< free, solved, all cases passed, or nothing to judge
-  Collision = 1,  ///< collision, not solved, or a case failed
+  Collision = 1,  ///< collision, a constraint that does not hold, not solved, or a case failed
   Undecided = 2,
   BadInput = 3,
   Interrupted = 130,  ///< a batch that a signal ended before it was done
@@ -20,6 +20,7 @@ constexpr ExitCode exitCodeOf(Verdict verdict) {
     case Verdict::Free:
       return ExitCode::Free;
     case Verdict::Collision:
+    case Verdict::Violation:
       return ExitCode::Collision;
     case Verdict::Undecided:
       break;

@@ -32,6 +32,8 @@ void addProblemOptions(CLI::App& app, Arguments& args, const std::string& what);
 void addAgainstOption(CLI::App& app, Arguments& args, const std::string& what);
 /// --tracking and --controllers.
 void addTrackingOptions(CLI::App& app, Arguments& args);
+/// --keep-upright, --keep-level, --stay-in and --stay-on.
+void addConstraintOptions(CLI::App& app, Arguments& args);
 /// --limits.
 CLI::Option* addLimitsOption(CLI::App& app, Arguments& args);
 /// How a path is timed, for `user`: the option without which nothing is.

@@ -164,6 +164,10 @@ void visit(Visitor& visitor, Args& args) {
   visitor.attached("attach", args.attached);
   visitor.text("tracking", args.tracking);
   visitor.file("controllers", args.controllers);
+  visitor.texts("keep_upright", args.keepUpright);
+  visitor.texts("keep_level", args.keepLevel);
+  visitor.texts("stay_in", args.stayIn);
+  visitor.texts("stay_on", args.stayOn);
 }
 
 }  // namespace

@@ -162,6 +162,7 @@ Task requestTask(const Arguments& args, const Model& given, Warnings& warnings) 
     requireReachable(robot, group, reference, request.goals[i], args.request + ", " + goal);
     task.states.push_back({.label = goal, .q = stateOf(request.goals[i], goal)});
   }
+  task.constraints = request.pathConstraints;
   if (!request.poseGoals.empty()) task.poseGoal = request.poseGoals.front();
   return task;
 }

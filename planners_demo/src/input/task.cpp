@@ -10,6 +10,7 @@
 #include "command_line/commands.hpp"
 #include "input/attach.hpp"
 #include "input/clouds.hpp"
+#include "input/constraints.hpp"
 #include "input/problem_choice.hpp"
 #include "input/request_task.hpp"
 #include "input/robot_loading.hpp"
@@ -315,6 +316,7 @@ Task anyTask(const Arguments& args, const Model& model, Warnings& warnings) {
 Task loadTask(const Arguments& args, const Model& model, Warnings& warnings) {
   checkStateSource(args);
   Task task = anyTask(args, model, warnings);
+  task.checker = withConstraintsOf(args, task.checker, task.states.front().q, task.constraints);
   warnOfNothing(*task.checker, warnings);
   return task;
 }

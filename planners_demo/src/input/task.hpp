@@ -116,6 +116,7 @@ struct Task {
   std::shared_ptr<const Checker> checker;
   std::vector<LabelledState> states;
   std::optional<PlanningRequest::PoseGoal> poseGoal = {};  ///< of a request
+  TaskConstraint constraints = {};                         ///< likewise, of the whole path
   bool alternatives = false;  ///< states but the first are goals, any of which will do
 
   /// The start of the motion to `states[i]`, i > 0: the state before, or the first state.

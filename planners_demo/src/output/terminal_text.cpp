@@ -71,8 +71,8 @@ std::string painted(Hue hue, std::string_view word) {
 
 std::string painted(Verdict verdict) {
   const Hue hue = verdict == Verdict::Free        ? Hue::Good
-                  : verdict == Verdict::Collision ? Hue::Bad
-                                                  : Hue::Doubtful;
+                  : verdict == Verdict::Undecided ? Hue::Doubtful
+                                                  : Hue::Bad;
   return painted(hue, toString(verdict));
 }
 

@@ -68,6 +68,7 @@ void addPlanOptions(CLI::App& app, Arguments& args) {
       ->type_name("N")
       ->check(within(1, 1024, "between 1 and 1024"));
   addTrackingOptions(app, args);
+  addConstraintOptions(app, args);
   CLI::Option* timed =
       app.add_flag("--timed", args.timing.timed,
                    "times the path, with blended corners, and proves the curve that ros2_control "

@@ -2,6 +2,8 @@
 #include "plan/plan_options.hpp"
 
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "command_line/exit_code.hpp"
 #include "input/problem_choice.hpp"
@@ -35,6 +37,12 @@ void requireOneProblemOrSeveral(const Arguments& args) {
     throw UsageError("-o writes one path; choose one problem with --set and --index");
   if (!args.page.file.empty())
     throw UsageError("--html shows one problem: it needs --set and --index");
+  for (const auto& [option, texts] :
+       {std::pair{"--keep-upright", &args.keepUpright}, std::pair{"--keep-level", &args.keepLevel},
+        std::pair{"--stay-in", &args.stayIn}, std::pair{"--stay-on", &args.stayOn}})
+    if (!texts->empty())
+      throw UsageError(std::string(option) +
+                       " is for one problem; choose one with --set and --index");
   if (args.timing.timed)
     throw UsageError("--timed makes one trajectory; choose one problem with --set and --index");
 }

@@ -61,6 +61,8 @@ std::string contactText(const EndContact& contact) {
 EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspace& workspace) {
   const StateReport found = checker.reportState(state.q, workspace);
   EndReport report{.label = state.label, .q = state.q, .verdict = found.verdict};
+  for (const ConstraintViolation& violation : found.violations)
+    report.violations.push_back(describe(violation, checker.options().constraints));
   if (found.contacts.empty()) return report;
   const std::vector<CertifiedBody> bodies = certifiedBodies(checker);
   for (const Witness& contact : found.contacts) {
@@ -83,6 +85,7 @@ EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspac
 std::string_view whatIs(const EndReport& report) {
   if (report.verdict == Verdict::Free) return "free";
   if (report.verdict == Verdict::Undecided) return "undecided";
+  if (report.verdict == Verdict::Violation) return "off a constraint";
   const bool apart =
       std::ranges::all_of(report.contacts, [](const EndContact& c) { return c.depth < 0.0; });
   return apart ? "closer than the margin" : "in collision";
@@ -91,7 +94,7 @@ std::string_view whatIs(const EndReport& report) {
 std::string endText(const EndReport& report) {
   if (report.verdict == Verdict::Free) return {};
   const std::string text = report.label + " is " + std::string(whatIs(report));
-  std::vector<std::string> contacts;
+  std::vector<std::string> contacts = report.violations;
   for (const EndContact& contact : report.contacts) contacts.push_back(contactText(contact));
   return contacts.empty() ? text : text + ": " + joined(contacts);
 }
@@ -106,6 +109,7 @@ Json endJson(const EndReport& report) {
                                 {"margin", contact.margin},
                                 {"in_tube", contact.inTube},
                                 {"point", toJson(contact.point)}});
+  if (!report.violations.empty()) json["violations"] = report.violations;
   return json;
 }
 

@@ -27,11 +27,13 @@ struct EndReport {
   std::vector<double> q;
   Verdict verdict = Verdict::Undecided;
   std::vector<EndContact> contacts = {};
+  std::vector<std::string> violations = {};  ///< of constraints, in words
 };
 
 EndReport reportEnd(const Checker& checker, const LabelledState& state, Workspace& workspace);
 
-/// `in collision`, `closer than the margin` where no two bodies touch, `undecided` or `free`.
+/// `off a constraint`, `in collision`, `closer than the margin` where no two bodies touch,
+/// `undecided` or `free`.
 std::string_view whatIs(const EndReport& report);
 
 /// `start is in collision: hand - shelf (0.01 m deep, at [0.1 0 0.5]), ...`, or `start is closer

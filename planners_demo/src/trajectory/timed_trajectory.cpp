@@ -30,7 +30,8 @@ TimedTrajectory timedTrajectory(const Checker& checker, ProvenTrajectory proven,
       .end = path.curve.end(),
       .certificate = checker.certifyTrajectory(path.curve, workspace, query),
       .timing =
-          TimingReport{.blended = path.corners.size() - stops, .stops = stops, .seconds = seconds}};
+          TimingReport{.blended = path.corners.size() - stops, .stops = stops, .seconds = seconds},
+      .constraints = &checker.options().constraints};
   ShownTrajectory shown{label, std::move(path.curve), query, report.certificate, std::move(states)};
   return {std::move(path.trajectory), std::move(report), std::move(shown)};
 }

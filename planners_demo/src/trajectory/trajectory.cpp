@@ -11,6 +11,7 @@
 #include "certificate/path_files.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "command_line/commands.hpp"
+#include "input/constraints.hpp"
 #include "input/groups.hpp"
 #include "input/inputs.hpp"
 #include "input/states.hpp"
@@ -72,6 +73,8 @@ class TrajectoryRun {
     std::optional<std::vector<double>> start = startOf(args_, model_, group, warnings_);
     const std::vector<JointTrajectory> trajectories = readTrajectories(
         args_.trajectory.file, *model_.robot, group, model_.reference, model_.options);
+    checker_ = withConstraintsOf(args_, checker_,
+                                 start ? *start : trajectories.front().points.front().positions);
     if (file_ && trajectories.size() > 1)
       throw UsageError("-o writes one trajectory; '" + args_.trajectory.file + "' has " +
                        std::to_string(trajectories.size()));
@@ -102,7 +105,9 @@ class TrajectoryRun {
         .points = trajectory.points.size(),
         .begin = curve.begin(),
         .end = curve.end(),
-        .certificate = checker_->certifyTrajectory(curve, workspace, query_)};
+        .certificate = checker_->certifyTrajectory(curve, workspace, query_),
+        .timing = {},
+        .constraints = &checker_->options().constraints};
     tell(report);
     std::vector<std::vector<double>> points;
     for (const TrajectoryPoint& point : trajectory.points) points.push_back(point.positions);

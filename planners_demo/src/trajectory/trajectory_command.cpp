@@ -17,6 +17,7 @@ void addTrajectoryOptions(CLI::App& app, Arguments& args) {
   addCheckerOptions(app, args);
   addSceneOptions(app, args);
   addTrackingOptions(app, args);
+  addConstraintOptions(app, args);
   app.add_option("--start", args.trajectory.start,
                  "state that the robot starts from at time 0, at rest: a name or values between "
                  "commas")

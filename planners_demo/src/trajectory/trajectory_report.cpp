@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "output/terminal_text.hpp"
+#include "output/violation_json.hpp"
 
 namespace swept {
 namespace {
@@ -81,6 +82,9 @@ std::string trajectoryText(const TrajectoryReport& report) {
     if (!found.contact->witness.configuration.empty())
       text += "              in the tube, beside the curve\n";
   }
+  if (found.violation)
+    text += "  constraint  " + placeText(*found.violation) + ": " +
+            escapedLine(describe(found.violation->violation, *report.constraints)) + "\n";
   if (found.undecided) text += "  undecided   " + placeText(*found.undecided) + "\n";
   for (const LimitViolation& violation : found.violations)
     text += "  limit       " + violationText(violation) + "\n";
@@ -114,6 +118,10 @@ Json trajectoryJson(const TrajectoryReport& report) {
         std::span<const double>(found.contact->configuration.data(),
                                 static_cast<std::size_t>(found.contact->configuration.size())));
     json["contact"]["witness"] = toJson(found.contact->witness);
+  }
+  if (found.violation) {
+    json["violation"] = violationJson(found.violation->violation, *report.constraints);
+    json["violation"].update(placeJson(*found.violation));
   }
   json["undecided"] = found.undecided ? placeJson(*found.undecided) : Json(nullptr);
   json["violations"] = Json::array();

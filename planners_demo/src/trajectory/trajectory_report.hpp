@@ -26,6 +26,7 @@ struct TrajectoryReport {
   double begin = 0.0, end = 0.0;  ///< s, of the curve
   TrajectoryCertificate certificate;
   std::optional<TimingReport> timing = {};
+  const TaskConstraint* constraints = nullptr;  ///< which a violation is of
 };
 
 /// Free, and within its limits.

@@ -31,6 +31,7 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
   model->group = group;
   model->options = std::move(options);
   compileGeometry(like, *model);
+  model->constraints = compileConstraints(*model);
   // Both only read the geometry. The first to fail is the pairs' exception.
   forEachIndex(2, model->worldGeometry.size() < kManyPieces ? 1 : 2, [&](std::size_t i) {
     if (i == 0)

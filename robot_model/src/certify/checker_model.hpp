@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "constraints/constraint_model.hpp"
 #include "model/pair_model.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
@@ -15,6 +16,7 @@ struct CheckerModel : PairModel {
   /// worldGeometry.
   std::shared_ptr<const SweepAndPrune> boxes;
   SimdModel simd;
+  ConstraintModel constraints;
 };
 
 /// `like`: null, or an earlier version for the same robot, group and reference.

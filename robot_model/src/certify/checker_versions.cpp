@@ -159,6 +159,15 @@ Checker Checker::withTracking(TrackingTolerance tracking) const {
       detail::compileChecker(model_->robot, model_->group, model_->world, std::move(changed)));
 }
 
+Checker Checker::withConstraints(TaskConstraint constraints) const {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return withConstraints(std::move(constraints)); });
+  }
+  CheckerOptions changed = options();
+  changed.constraints = std::move(constraints);
+  return version(model_->world, std::move(changed));
+}
+
 WorldBody Checker::detachedBody(std::string_view attached, ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, attached, q] { return detachedBody(attached, q); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/motion_check.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "certify/pair_oracle.hpp"
 #include "certify/waypoint_segments.hpp"
 #include "certify/work_limits.hpp"
+#include "constraints/constraint_proof.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd/search/simd_search.hpp"
 
@@ -70,10 +72,8 @@ void addPart(const WaypointSegment& part, MotionCertificate&& own, MotionCertifi
   }
 }
 
-}  // namespace
-
-MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
-                                MotionQuery wanted, WorkspaceData& workspace) {
+MotionCertificate certifyPairs(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
+                               WorkspaceData& workspace) {
   if (model.world->obstacles().empty()) return provePart(model, path, wanted, {}, workspace);
   MotionCertificate certificate;
   certificate.verdict = Verdict::Free;
@@ -86,6 +86,42 @@ MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path
   if (wanted == MotionQuery::VerdictOnly && certificate.verdict != Verdict::Free)
     certificate.freeUntil = 0.0;
   return certificate;
+}
+
+/// Adds what is known about the constraints to what is known about the pairs.
+MotionCertificate together(const ConstraintProof& task, MotionQuery wanted,
+                           MotionCertificate&& pairs) {
+  MotionCertificate certificate = std::move(pairs);
+  certificate.effort.constrained = task.intervals;
+  if (task.verdict == Verdict::Free) return certificate;
+  if (wanted == MotionQuery::VerdictOnly)
+    certificate.freeUntil = 0.0;
+  else
+    certificate.freeUntil = std::min(certificate.freeUntil, task.holdsUntil);
+  if (task.verdict == Verdict::Violation) {
+    certificate.verdict = Verdict::Violation;
+    certificate.violation = task.violation;
+    certificate.witness.reset();
+    certificate.undecidedAt = 0.0;
+  } else if (certificate.verdict != Verdict::Collision) {
+    certificate.undecidedAt = certificate.verdict == Verdict::Free
+                                  ? task.undecidedAt
+                                  : std::min(certificate.undecidedAt, task.undecidedAt);
+    certificate.verdict = Verdict::Undecided;
+  }
+  return certificate;
+}
+
+}  // namespace
+
+MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
+                                MotionQuery wanted, WorkspaceData& workspace) {
+  if (model.constraints.empty()) return certifyPairs(model, path, wanted, workspace);
+  // First, for they take less time than pairs do.
+  const ConstraintProof task = proveConstraints(model, path, wanted, workspace);
+  if (task.verdict == Verdict::Violation && wanted == MotionQuery::VerdictOnly)
+    return together(task, wanted, {});
+  return together(task, wanted, certifyPairs(model, path, wanted, workspace));
 }
 
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,

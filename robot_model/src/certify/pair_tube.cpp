@@ -13,6 +13,7 @@
 
 #include "certify/pair_query.hpp"
 #include "certify/waypoint_segments.hpp"
+#include "kinematics/tube_motion.hpp"
 #include "robot/joint_types.hpp"
 #include "rounding/error_model.hpp"
 
@@ -28,42 +29,15 @@ constexpr int kMostPushes = 4;
 
 }  // namespace
 
-/// Ranges of values, on which lever arms and roundings depend: those of Q, which may pass the
-/// limits of a sliding joint on its way between two values within them.
 void PairQuery::widenRanges() {
-  for (std::size_t i = 1; i < workspace_.motion.size(); ++i) {
-    const JointTolerance& tolerance = model_.tube[i];
-    JointMotion& joint = workspace_.motion[i];
-    joint.largestAngle += tolerance.rotation;
-    joint.lowAngle -= tolerance.rotation;
-    joint.highAngle += tolerance.rotation;
-    if (slidesWithinLimits(model_.kinematics.bodies[i].type)) {
-      joint.low -= tolerance.translation;
-      joint.high += tolerance.translation;
-    } else {
-      joint.maxTranslation += tolerance.translation;
-    }
-  }
+  detail::widenRanges(model_.kinematics, model_.tube, workspace_.motion);
 }
 
 /// The bounds of Q, over u.
 void PairQuery::boundTubeMotion(double half) {
   workspace_.tubeMotion.resize(workspace_.motion.size());
-  for (std::size_t i = 1; i < workspace_.motion.size(); ++i) {
-    const JointTolerance& tolerance = model_.tube[i];
-    const JointMotion& joint = workspace_.motion[i];
-    JointMotion& own = workspace_.tubeMotion[i];
-    own.speed = half * joint.speed + tolerance.translation;
-    own.spinSpeed = half * joint.spinSpeed + tolerance.rotation;
-    own.acceleration = half * half * joint.acceleration;
-    own.spinAcceleration = half * half * joint.spinAcceleration;
-    // The axis of an error of a floating joint's orientation turns with the joint.
-    if (model_.kinematics.bodies[i].type == JointType::Floating)
-      own.spinAcceleration += half * joint.spinSpeed * tolerance.rotation;
-    own.maxTranslation = joint.maxTranslation;
-    own.low = joint.low;
-    own.high = joint.high;
-  }
+  detail::boundTubeMotion(model_.kinematics, model_.tube, half, workspace_.motion,
+                          workspace_.tubeMotion);
 }
 
 PointMotionBound PairQuery::tubeBound(int travel) {

@@ -34,6 +34,7 @@ CertifiedSegment certified(const Checker& checker, ConfigurationView from, Confi
 }  // namespace
 
 Verdict PathCertificate::verdict() const {
+  if (count(Verdict::Violation) > 0) return Verdict::Violation;
   if (count(Verdict::Collision) > 0) return Verdict::Collision;
   return count(Verdict::Free) == segments.size() ? Verdict::Free : Verdict::Undecided;
 }

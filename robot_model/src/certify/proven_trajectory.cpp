@@ -59,7 +59,9 @@ class Timing {
   /// are proven one by one. False: nothing is left to do.
   bool addStops(const ProvenTrajectory& proven) {
     const TrajectoryCertificate& found = proven.certificate;
-    const double time = found.contact ? found.contact->time : found.undecided->time;
+    const double time = found.contact     ? found.contact->time
+                        : found.violation ? found.violation->time
+                                          : found.undecided->time;
     const std::vector<TimedCorner>& corners = proven.timed.corners;
     // The corners of the straight part, or the blend, that the place is in.
     const auto after = std::ranges::find_if(
@@ -182,6 +184,8 @@ RepairedTrajectory repairTrajectory(const Checker& checker, const PiecewisePolyn
   } else if (found.contact) {
     repaired.place = *found.contact;
     repaired.contact = found.contact->witness;
+  } else if (found.violation) {
+    repaired.place = *found.violation;
   } else {
     repaired.place = *found.undecided;
   }

@@ -16,6 +16,7 @@
 #include "certify/nearest_points.hpp"
 #include "certify/simd_witness.hpp"
 #include "certify/waypoint_segments.hpp"
+#include "constraints/constraint_proof.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd/search/simd_search.hpp"
 #include "swept/robot_model/limits.hpp"
@@ -87,6 +88,13 @@ Verdict checkAlone(const CheckerModel& model, std::span<const double> configurat
   return verdictOf(model, q, contacts == 0 ? 0 : std::countr_zero(contacts), workspace);
 }
 
+/// Of the constraints alone.
+Verdict taskVerdict(const CheckerModel& model, std::span<const double> configuration,
+                    WorkspaceData& workspace) {
+  if (model.constraints.empty()) return Verdict::Free;
+  return proveConstraints(model, configuration, workspace).verdict;
+}
+
 /// In a tube, planes between hulls may prove of a motion that stays where it is what exact geometry
 /// leaves open: they take the largest error at each vertex, not in a box around all of them.
 Verdict settled(const CheckerModel& model, std::span<const double> configuration, Verdict verdict,
@@ -101,7 +109,11 @@ Verdict settled(const CheckerModel& model, std::span<const double> configuration
 
 Verdict checkState(const CheckerModel& model, std::span<const double> configuration,
                    WorkspaceData& workspace) {
-  return settled(model, configuration, checkAlone(model, configuration, workspace), workspace);
+  const Verdict task = taskVerdict(model, configuration, workspace);
+  if (task == Verdict::Violation) return task;
+  const Verdict pairs =
+      settled(model, configuration, checkAlone(model, configuration, workspace), workspace);
+  return pairs == Verdict::Free ? task : pairs;
 }
 
 void checkStates(const CheckerModel& model, std::span<const double> states,
@@ -119,9 +131,13 @@ void checkStates(const CheckerModel& model, std::span<const double> states,
                                     : checkAlone(model, q, workspace);
     }
     // Only now: it needs the workspace.
-    for (std::size_t lane = 0; lane < count; ++lane)
-      verdicts[first + lane] = settled(model, some.subspan(lane * dimension, dimension),
-                                       verdicts[first + lane], workspace);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::span<const double> q = some.subspan(lane * dimension, dimension);
+      Verdict& verdict = verdicts[first + lane];
+      verdict = settled(model, q, verdict, workspace);
+      const Verdict task = taskVerdict(model, q, workspace);
+      if (verdict == Verdict::Free || task == Verdict::Violation) verdict = task;
+    }
   }
 }
 
@@ -177,6 +193,7 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
                         WorkspaceData& workspace) {
   const std::span<const double> q = fullConfiguration(model, configuration, workspace.from);
   StateReport report;
+  report.constraintsHold = model.constraints.empty();
   report.finite = std::all_of(q.begin(), q.end(), [](double v) { return std::isfinite(v); });
   for (std::size_t i = 0; i < model.group.variables.size(); ++i) {
     if (!isWithin(q[i], model.kinematics.lower[i], model.kinematics.upper[i])) {
@@ -218,6 +235,10 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
                         checkState(model, configuration, workspace) == Verdict::Free)) {
     report.verdict = Verdict::Free;
   }
+  if (model.constraints.empty()) return report;
+  const Verdict task = proveConstraints(model, q, workspace, &report.violations).verdict;
+  report.constraintsHold = task == Verdict::Free;
+  if (report.verdict == Verdict::Free || task == Verdict::Violation) report.verdict = task;
   return report;
 }
 

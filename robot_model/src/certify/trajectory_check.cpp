@@ -102,6 +102,7 @@ void addEffort(const Effort& own, Effort& all) {
   all.distances += own.distances;
   all.culled += own.culled;
   all.lanes += own.lanes;
+  all.constrained += own.constrained;
 }
 
 class TrajectoryCheck {
@@ -119,7 +120,7 @@ class TrajectoryCheck {
     found_.freeUntil = curve_.begin();
     parts_.forEach([this](const Part& part, const JointPath& path) {
       add(part, path, certifyMotion(model_, path, query_.contact, workspace_));
-      return found_.verdict != Verdict::Collision;
+      return !found_.contact && !found_.violation;
     });
     if (query_.contact == MotionQuery::VerdictOnly && found_.verdict != Verdict::Free)
       found_.freeUntil = curve_.begin();
@@ -139,6 +140,10 @@ class TrajectoryCheck {
       found_.verdict = own.verdict;
       found_.undecided.reset();
       addContact(part, path, *std::move(own.witness));
+    } else if (own.verdict == Verdict::Violation) {
+      found_.verdict = own.verdict;
+      found_.undecided.reset();
+      addViolation(part, *own.violation);
     } else if (!open) {
       found_.verdict = own.verdict;
       found_.undecided = parts_.placeOf(part, own.undecidedAt);
@@ -164,6 +169,13 @@ class TrajectoryCheck {
     contact.configuration = Eigen::Map<const Eigen::VectorXd>(q.data(), curve_.dimension());
     contact.witness = std::move(witness);
     contact.witness.t = (contact.time - curve_.begin()) / curve_.duration();
+  }
+
+  void addViolation(const Part& part, const ConstraintViolation& own) {
+    TrajectoryViolation& violation = found_.violation.emplace();
+    static_cast<TrajectoryPlace&>(violation) = parts_.placeOf(part, own.t);
+    violation.violation = own;
+    violation.violation.t = (violation.time - curve_.begin()) / curve_.duration();
   }
 
   /// Cyclic values in the turns of the curve.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "certify/checker_model.hpp"
+#include "constraints/constraint_proof.hpp"
 #include "kinematics/curve_path.hpp"
 #include "proof/open_work.hpp"
 #include "simd/kernels/simd_scratch.hpp"
@@ -126,6 +127,7 @@ struct WorkspaceData {
   std::unique_ptr<WorkspaceData> besideMotion;
   ///@}
   std::vector<double> curveBegin, curveEnd;  ///< configurations of a straight run
+  ConstraintScratch constraints;
 };
 
 }  // namespace swept::detail

@@ -2,11 +2,11 @@
 #include "swept/robot_model/planning_request.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "io/attached_objects.hpp"
 #include "io/input_source.hpp"
+#include "io/request_constraints.hpp"
 #include "io/robot_state_yaml.hpp"
 #include "io/scene_frames.hpp"
 #include "io/yaml.hpp"
@@ -180,17 +180,9 @@ PlanningRequest::PoseGoal readPoseGoal(const YamlPlace& position, const YamlPlac
   return pose;
 }
 
-/// Reads moveit_msgs/Constraints.
-constexpr std::array<const char*, 4> kKinds{"joint_constraints", "position_constraints",
-                                            "orientation_constraints", "visibility_constraints"};
-
-void allowConstraints(const YamlPlace& place) {
-  place.allowOnly({"name", kKinds[0], kKinds[1], kKinds[2], kKinds[3]});
-}
-
 void readGoal(const YamlPlace& goal, const Context& context, PlanningRequest& request) {
-  allowConstraints(goal);
-  if (const auto views = goal.at(kKinds[3]).elements(); !views.empty())
+  detail::allowConstraints(goal);
+  if (const auto views = goal.at("visibility_constraints").elements(); !views.empty())
     views[0].fail("is not supported");
   const std::vector<YamlPlace> joints = goal.at("joint_constraints").elements();
   const std::vector<YamlPlace> positions = goal.at("position_constraints").elements();
@@ -205,17 +197,20 @@ void readGoal(const YamlPlace& goal, const Context& context, PlanningRequest& re
         "orientation_constraints");
 }
 
-void refuseAlongPath(const YamlPlace& root) {
-  const char* const kReason = "cannot be kept: a path's ends alone are constrained";
+/// What the whole path has to keep. The attached objects are known.
+void readAlongPath(const YamlPlace& root, const Context& context, PlanningRequest& request) {
   if (const YamlPlace path = root.at("path_constraints"); path.present()) {
-    allowConstraints(path);
-    for (const char* kind : kKinds)
-      if (const auto given = path.at(kind).elements(); !given.empty()) given[0].fail(kReason);
+    detail::allowConstraints(path);
+    if (context.robot != nullptr)
+      request.pathConstraints =
+          detail::readConstraints(path, *context.robot, context.frames, request.attached);
+    else if (detail::constrainsAnything(path))
+      path.fail("is read with a robot alone; PlanningRequest::load takes one");
   }
   if (const YamlPlace trajectory = root.at("trajectory_constraints"); trajectory.present()) {
     trajectory.allowOnly({"constraints"});
     if (const auto given = trajectory.at("constraints").elements(); !given.empty())
-      given[0].fail(kReason);
+      given[0].fail("cannot be kept: a path is constrained as a whole, by path_constraints");
   }
 }
 
@@ -253,8 +248,8 @@ PlanningRequest readRequest(const YamlPlace& root, const Context& context) {
   allowRequest(root);
   if (const YamlPlace group = root.at("group_name"); group.present()) request.group = group.text();
   readWorkspace(root.at("workspace_parameters"), context, request);
-  refuseAlongPath(root);
   readStart(root.at("start_state"), context, request);
+  readAlongPath(root, context, request);
   const YamlPlace goals = root.at("goal_constraints");
   for (const YamlPlace& goal : goals.elements()) readGoal(goal, context, request);
   if (request.goals.empty() && request.poseGoals.empty()) goals.fail("there is no goal");

@@ -225,30 +225,17 @@ PointMotionBound pointMotionBound(const KinematicModel& model, std::span<const i
 
   PointMotionBound bound;
   double maxTranslation = 0.0;
-  double turning = 0.0;        // W_k
-  double turningBefore = 0.0;  // W_{k-1}
-  double previousRate = 0.0;
-  bool previousTurns = false;
+  TurningBound turning;
   for (std::size_t i = first; i < path.size(); ++i) {
     const MovingBody& body = model.bodies[path[i]];
     const JointMotion& joint = motion[path[i]];
     if (i == first || joint.maxTranslation != 0.0) maxTranslation = slidBeyond(i);
     const double arm = arms[i] + maxTranslation * kArithmeticOutward;
     bound.speed += joint.speed + joint.spinSpeed * arm;
-    bound.acceleration += 2.0 * joint.speed * turning + joint.acceleration;
-    bound.acceleration +=
-        joint.spinSpeed * arm * (2.0 * turning + joint.spinSpeed) + joint.spinAcceleration * arm;
-
-    double next = turning + joint.spinSpeed;
-    const bool turnsToo = turns(body.type);
-    if (turnsToo && previousTurns) {
-      const double together = boundTogether(model, body, previousRate, joint.spinSpeed);
-      next = std::min(next, turningBefore + together);
-    }
-    turningBefore = turning;
-    turning = next;
-    previousRate = joint.spinSpeed;
-    previousTurns = turnsToo;
+    bound.acceleration += 2.0 * joint.speed * turning.now() + joint.acceleration;
+    bound.acceleration += joint.spinSpeed * arm * (2.0 * turning.now() + joint.spinSpeed) +
+                          joint.spinAcceleration * arm;
+    turning.pass(model, body, joint.spinSpeed);
   }
   bound.speed *= kArithmeticOutward;
   bound.acceleration *= kArithmeticOutward;

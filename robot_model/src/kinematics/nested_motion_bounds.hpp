@@ -24,6 +24,30 @@ inline double boundTogether(const KinematicModel& model, const MovingBody& body,
          kArithmeticOutward;
 }
 
+/// rad per unit t: W of L3 in ERROR_MODEL.md, which bounds the angular velocity of one body after
+/// the other on a path, relative to where the path begins.
+class TurningBound {
+ public:
+  double now() const { return now_; }
+  /// Goes on to the next body, whose joint turns by no more than `rate`.
+  void pass(const KinematicModel& model, const MovingBody& body, double rate) {
+    double next = now_ + rate;
+    const bool turnsToo = turns(body.type);
+    if (turnsToo && lastTurns_)
+      next = std::min(next, before_ + boundTogether(model, body, lastRate_, rate));
+    before_ = now_;
+    now_ = next;
+    lastRate_ = rate;
+    lastTurns_ = turnsToo;
+  }
+
+ private:
+  double now_ = 0.0;
+  double before_ = 0.0;  ///< of the parent
+  double lastRate_ = 0.0;
+  bool lastTurns_ = false;
+};
+
 /// The bounds of pointMotionBound, relative to all of a ball's ancestors together: bounds[first],
 /// with `first` up to the number of joints of the path. One by one they take a time proportional to
 /// the square of that, and a motion of a chain of n bodies a time proportional to n^3. `path` and

@@ -19,6 +19,7 @@
 #include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/piecewise_polynomial.hpp"
 #include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/task_constraint.hpp"
 #include "swept/robot_model/tracking_tolerance.hpp"
 #include "swept/robot_model/trajectory_certificate.hpp"
 #include "swept/robot_model/world.hpp"
@@ -66,6 +67,12 @@ struct CheckerOptions {
   /// is the sum over joints of their tolerance times the lever arm of the nearest point, along the
   /// direction to the other body. robot_model/README.md ("Tubes") says what a proof needs besides.
   TrackingTolerance tracking = {};
+  /// Free, of a state, a motion or a curve, is proven to keep all of these at every instant, in all
+  /// of the tube. Distances, clearances and reports of pairs do not ask about them.
+  ///
+  /// A motion that stays farther within each of them than `tolerance` (of an angle: 1e-3 rad), and
+  /// than the tube's reach, is Free, but for angles about axes near the singular ones.
+  TaskConstraint constraints = {};
 
   /// m. Margin of pairs without a rule. `selfPair`: see Witness::selfPair.
   double marginOf(bool selfPair) const {
@@ -117,7 +124,7 @@ class Checker {
   /// rule that names an unknown body; a tracking tolerance that is negative or not finite, or of a
   /// joint that the group does not move by values of its own; an attached body whose link or touch
   /// link is unknown, whose name is taken, or with a shape or pose that AttachedBody does not
-  /// allow; and more pairs than CheckerOptions::maxPairs.
+  /// allow; constraints as in withConstraints(); and more pairs than CheckerOptions::maxPairs.
   Checker(std::shared_ptr<const Robot> robot, std::string_view group,
           std::shared_ptr<const World> world, const CheckerOptions& options = {});
 
@@ -160,6 +167,14 @@ class Checker {
   /// takes as long as the constructor. Throws as the constructor does.
   Checker withTracking(TrackingTolerance tracking) const;
 
+  /// The same checks under these constraints, in place of those before. Throws
+  /// std::invalid_argument for more than 64; for a link, an attached body, a joint or a variable
+  /// that is unknown, a joint of several values and a component of a quaternion; for a joint's
+  /// values of which none is within its limits; for a constraint without regions, a pose that is
+  /// not rigid, a quaternion or an axis without direction; and for tolerances and sizes that are
+  /// negative or no numbers.
+  Checker withConstraints(TaskConstraint constraints) const;
+
   /// An attached body at its pose in a configuration, as a body of the world: the object that a
   /// gripper releases. Throws std::invalid_argument for an unknown name, and for a configuration in
   /// which no pose is known (see checkState).
@@ -176,8 +191,8 @@ class Checker {
 
   /// Verdict on a state. Free: proven. Collision: witnessed. Undecided: within rounding of the
   /// margin, not finite, or with a prismatic value more than tolerance::kLimit outside its limits
-  /// (pairs out of reach within that range are not tested). The answer is about `q` as given,
-  /// without moving it to its limits.
+  /// (pairs out of reach within that range are not tested). Violation: of a constraint, whether in
+  /// contact or not. The answer is about `q` as given, without moving it to its limits.
   Verdict checkState(ConfigurationView q, Workspace& workspace) const;
   /// The same verdicts for many states, which are consecutive in `states` or the columns of a
   /// matrix; faster than one by one. Throws std::invalid_argument unless there is one verdict for

@@ -11,6 +11,7 @@
 
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/body_name.hpp"
+#include "swept/robot_model/task_constraint.hpp"
 
 /// Results of a Checker.
 namespace swept {
@@ -53,6 +54,10 @@ struct StateReport {
   /// planner refuses both.
   std::vector<std::string> outsideLimits;
   std::vector<Witness> contacts;  ///< one per violating pair, in the checker's pair order
+  /// Of CheckerOptions::constraints, each that does not hold.
+  std::vector<ConstraintViolation> violations;
+  /// Whether all of them are proven to hold.
+  bool constraintsHold = true;
   /// m. Proven lower bound of the least distance over all checked pairs, with all of their pieces,
   /// without subtracting margins and paddings. Infinity: no pairs.
   double clearance = 0.0;
@@ -71,6 +76,7 @@ struct Effort {
   std::int64_t distances = 0;  ///< exact pair queries
   std::int64_t culled = 0;     ///< pairs settled by bounding volumes alone
   std::int64_t lanes = 0;      ///< sub-intervals examined in single precision, by the SIMD tier
+  int constrained = 0;         ///< sub-intervals (or states) examined for constraints
 };
 
 /// What is known about a whole motion q(t), t in [0, 1].
@@ -83,6 +89,10 @@ struct MotionCertificate {
   /// Present exactly if the verdict is Collision. Under MotionQuery::FirstContact it is the first
   /// contact (see there), otherwise any contact.
   std::optional<Witness> witness;
+  /// Present exactly if the verdict is Violation, which a motion may be that is in contact, too.
+  /// Under MotionQuery::FirstContact the earliest that was found from freeUntil on, unless a contact
+  /// ends that before; otherwise any.
+  std::optional<ConstraintViolation> violation;
   /// Start of the first interval that could not be proven, if the verdict is Undecided.
   double undecidedAt = 0.0;
   Effort effort;  ///< spent, whatever the verdict

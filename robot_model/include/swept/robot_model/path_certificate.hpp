@@ -25,7 +25,7 @@ struct PathCertificate {
   /// The i-th leads from state i to state i + 1.
   std::vector<CertifiedSegment> segments;
 
-  /// Free if all segments are; Collision if one is; else Undecided.
+  /// Violation if one segment is, else Collision if one is; Free if all are; else Undecided.
   Verdict verdict() const;
   std::size_t count(Verdict verdict) const;  ///< number of segments with this verdict
 };

@@ -11,6 +11,7 @@
 #include "swept/robot_model/attached_body.hpp"
 #include "swept/robot_model/collision_rules.hpp"
 #include "swept/robot_model/input.hpp"
+#include "swept/robot_model/task_constraint.hpp"
 
 namespace swept {
 
@@ -41,17 +42,19 @@ struct PlanningRequest {
   std::optional<Eigen::AlignedBox3d> workspace = {};
   std::vector<AttachedBody> attached = {};  ///< of the start state, in their links' frames
   CollisionRules rules = {};                ///< allow attached bodies that may touch each other
+  TaskConstraint pathConstraints = {};      ///< what the whole path has to keep
 
   /// Reads a YAML file. Tolerances of joint goals are ignored: the path reaches their values.
   /// Throws InputError for a missing start or goal, for a goal that is neither joint values nor a
   /// link's position and orientation, for keys that are unknown or given twice, for frames that are
-  /// not the model frame, and for content that it cannot keep: constraints of the path, attached
-  /// objects.
+  /// not the model frame, and for content that it cannot keep: without a robot constraints of the
+  /// path and attached objects.
   static PlanningRequest load(const std::filesystem::path& yaml, const LoadOptions& options = {});
   /// The same for a robot. It also reads attached objects, whose poses are in the frame of their
-  /// link, and goals in frames of links that no joint moves. Throws InputError, too, for joints and
-  /// links that the robot lacks, and for a mimicking joint with a value that does not follow its
-  /// master.
+  /// link, goals in frames of links that no joint moves, and `path_constraints` in frames of any
+  /// link or attached object. Throws InputError, too, for joints and links that the robot lacks,
+  /// for constraints that cannot be kept, and for a mimicking joint with a value that does not
+  /// follow its master.
   static PlanningRequest load(const std::filesystem::path& yaml, const Robot& robot,
                               const LoadOptions& options = {});
 

@@ -32,6 +32,11 @@ struct TrajectoryContact : TrajectoryPlace {
   Eigen::VectorXd configuration;
 };
 
+/// A constraint does not hold at a time of a curve.
+struct TrajectoryViolation : TrajectoryPlace {
+  ConstraintViolation violation;  ///< its `t` is the share of the curve's duration
+};
+
 /// What a limit is about.
 enum class LimitKind : std::uint8_t { Position, Velocity, Acceleration, Jerk };
 
@@ -77,6 +82,8 @@ struct TrajectoryCertificate {
   /// Present exactly if the verdict is Collision: the first contact under
   /// MotionQuery::FirstContact (see there), otherwise any.
   std::optional<TrajectoryContact> contact;
+  /// Present exactly if the verdict is Violation: see MotionCertificate::violation.
+  std::optional<TrajectoryViolation> violation;
   /// Present exactly if the verdict is Undecided: where the first interval begins that could not be
   /// proven.
   std::optional<TrajectoryPlace> undecided;

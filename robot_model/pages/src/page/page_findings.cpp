@@ -12,6 +12,7 @@ PageContent::Tone toneOf(Verdict verdict) {
     case Verdict::Free:
       return PageContent::Tone::Good;
     case Verdict::Collision:
+    case Verdict::Violation:
       return PageContent::Tone::Bad;
     case Verdict::Undecided:
       break;
@@ -31,10 +32,11 @@ Finding findingOf(const TrajectoryCertificate& certificate) {
 
 std::string countsText(const std::string& what, const std::vector<Finding>& findings,
                        const std::string& several) {
-  static constexpr std::array<std::pair<Finding, const char*>, 4> kWords{
+  static constexpr std::array<std::pair<Finding, const char*>, 5> kWords{
       {{{Verdict::Free, false}, "free"},
        {{Verdict::Collision, false}, "in collision"},
        {{Verdict::Collision, true}, "closer than the margin"},
+       {{Verdict::Violation, false}, "off a constraint"},
        {{Verdict::Undecided, false}, "undecided"}}};
   std::vector<std::string> counts;
   for (const auto& [kind, word] : kWords) {
@@ -54,6 +56,7 @@ std::string countsText(const std::string& what, const std::vector<Finding>& find
 Finding worst(const std::vector<Finding>& findings) {
   const auto badness = [](const Finding& finding) {
     if (finding.verdict == Verdict::Collision) return finding.apart ? 2 : 3;
+    if (finding.verdict == Verdict::Violation) return 2;
     return finding.verdict == Verdict::Undecided ? 1 : 0;
   };
   const auto found = std::ranges::max_element(findings, {}, badness);

@@ -46,6 +46,7 @@ std::string_view tierOf(const PagePiece& piece) {
       return piece.effort.intervals == 0 ? "lanes" : "exact";
     case Verdict::Collision:
       return "collision";
+    case Verdict::Violation:
     case Verdict::Undecided:
       break;
   }

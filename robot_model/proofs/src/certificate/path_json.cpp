@@ -130,7 +130,12 @@ std::string pathJsonText(const Checker& checker, const PathRecord& record,
         {{"verdict", toString(segment.verdict)}, {"clearance", finiteOrNull(segment.clearance)}});
     addClearances(segment.clearances, json["segments"].back());
   }
-  addUnchecked(json, checker, record.warnings);
+  std::vector<std::string> warnings = record.warnings;
+  if (!checker.options().constraints.empty())
+    warnings.emplace_back(
+        "swept: warning: the proof in this file is about contacts alone: that the path keeps the "
+        "constraints of its task was proven before, and cannot be verified from the file");
+  addUnchecked(json, checker, warnings);
   if (!record.inputs.is_null()) json["inputs"] = record.inputs;
   requireUtf8(json, where);
   if (embed) json["model"] = certificate.model;
