@@ -60,7 +60,10 @@ class OutsideSearch {
   void run(const OutsideSpheresOptions& options) {
     std::vector<BodyPiece> halves;
     for (int splits = 0; splits < options.mostSplits && !open_.empty(); ++splits) {
-      if (!(open_.front().upper > lower_ + options.tolerance)) return;
+      // Whether anything is outside is not left open for the tolerance's sake.
+      const double upper = open_.front().upper;
+      const bool isDecided = lower_ > 0.0 || !(upper > 0.0);
+      if (isDecided && !(upper > lower_ + options.tolerance)) return;
       if (!body_.canSplit(open_.front().piece)) return;
       std::pop_heap(open_.begin(), open_.end(), less);
       const Open top = std::move(open_.back());
