@@ -99,7 +99,7 @@ TEST(SphereRefuter, SeesAGapInside) {
   std::filesystem::remove_all(folder);
   EXPECT_TRUE(surfaceIsContained(link, 1e-9));
   EXPECT_FALSE(insideIsContained(link, 1e-9));
-  link.balls.push_back({{0, 0, 0}, 0.3});
+  link.balls.push_back({{0, 0, 0}, 0.6});  // the gap reaches 0.5 along the axes
   EXPECT_TRUE(insideIsContained(link, 1e-9));
 }
 

@@ -12,6 +12,7 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace swept::test {
 namespace {
@@ -114,6 +115,7 @@ std::vector<Corners> boxTriangles(const Vector3d& size) {
         p[(axis + 2) % 3] = i >= 2 ? 0.5 : -0.5;
         square[static_cast<std::size_t>(i)] = p.cwiseProduct(size);
       }
+      if (side < 0.0) std::swap(square[1], square[3]);  // seen from outside, all turn alike
       triangles.push_back({square[0], square[1], square[2]});
       triangles.push_back({square[0], square[2], square[3]});
     }
