@@ -89,14 +89,14 @@ const Case kOptions[] = {
      {},
      kError +
          "a subcommand is required; there are info, check, motion, certify, plan, verify, "
-         "trajectory, acm, "
+         "trajectory, acm, cover, "
          "replay, " +
          (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
      kError +
          "no subcommand 'verfy'; there are info, check, motion, certify, plan, verify, trajectory, "
-         "acm, "
+         "acm, cover, "
          "replay, " +
          (programHasPages() ? "view, " : "") +
          "bench, report, completion; did you mean 'verify'? (try --help)"},

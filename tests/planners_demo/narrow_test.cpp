@@ -148,8 +148,8 @@ TEST_F(Narrow, EveryTextFitsAndNothingIsLost) {
 
 TEST_F(Narrow, HelpFits) {
   for (const std::string command :
-       {"", "info", "check", "motion", "plan", "verify", "acm", "replay", "report", "completion",
-        "bench", "bench edges", "bench planners", "bench summary"})
+       {"", "info", "check", "motion", "plan", "verify", "acm", "cover", "replay", "report",
+        "completion", "bench", "bench edges", "bench planners", "bench summary"})
     expectNarrow(runOnTerminal(words(command + " --help"), kColumns).out, command + " --help");
 }
 

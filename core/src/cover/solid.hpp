@@ -83,6 +83,8 @@ class Solid {
   double overhang(const Candidate& candidate, double radius) const;
 
   double inflation() const { return inflation_; }  ///< m, radius of what is around the points
+  /// m. The points or triangles, grown by inflation(), lie in the shape grown by this.
+  double slack() const { return slack_; }
   /// m. Rounding of clipped points, and the error of a hull: must be added to radii.
   double pad() const { return pad_; }
   double scale() const { return scale_; }  ///< m, no coordinate is larger

@@ -135,6 +135,13 @@ struct Arguments {
   int samples = 1000;                ///< per pair of links
   std::optional<double> acmTime;     ///< s; none: see acm
 
+  struct Cover {
+    std::optional<int> spheres;    ///< of all links
+    std::optional<double> excess;  ///< m
+    std::string check;             ///< file of spheres to judge; empty: some are searched for
+    bool visual = false;
+  } cover;
+
   struct Report {
     int motions = 1000;                                                     ///< over all worlds
     std::vector<double> resolutions = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005};  ///< share of the extent

@@ -32,6 +32,9 @@ ExitCode runVerify(const Arguments& args);
 extern const Command kAcmCommand;
 ExitCode runAcm(const Arguments& args);
 
+extern const Command kCoverCommand;
+ExitCode runCover(const Arguments& args);
+
 extern const Command kReplayCommand;
 ExitCode runReplay(const Arguments& args);
 

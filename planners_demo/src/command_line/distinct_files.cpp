@@ -35,7 +35,8 @@ std::vector<NamedFile> read(const Arguments& args) {
   std::vector<NamedFile> files{{"robot", args.robot},         {"--scene", args.scene},
                                {"--problems", args.problems}, {"--request", args.request},
                                {"path", args.path},           {"trajectory", args.trajectory.file},
-                               {"--limits", args.limits},     {"--controllers", args.controllers}};
+                               {"--limits", args.limits},     {"--controllers", args.controllers},
+                               {"--check", args.cover.check}};
   for (const std::string& state : args.states)
     if (const std::string file = state.substr(state.starts_with('@') ? 1 : 0); file != "-")
       files.push_back({"states", file});

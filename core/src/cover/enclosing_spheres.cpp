@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/core/enclosing_spheres.hpp"
+
+#include <stdexcept>
+
+#include "cover/sphere_checks.hpp"
+#include "cover/sphere_fit.hpp"
+#include "swept/core/floating_point_environment.hpp"
+
+namespace swept {
+
+struct EnclosingSpheresSearch::Data {
+  detail::SphereFit fit;
+};
+
+EnclosingSpheresSearch::EnclosingSpheresSearch(std::span<const PosedShape> body,
+                                               const EnclosingSpheresOptions& options) {
+  detail::requireSphereOption("pieces", options.pieces, 1.0);
+  detail::requireSphereOption("restarts", options.restarts, 1.0);
+  detail::requireSphereOption("rounds", options.rounds, 0.0);
+  if (body.empty()) throw std::invalid_argument("a body without shapes needs no spheres");
+  data_ = inDefaultEnvironment(
+      [&] { return std::make_unique<Data>(detail::SphereFit(body, options)); });
+}
+
+EnclosingSpheresSearch::~EnclosingSpheresSearch() = default;
+EnclosingSpheresSearch::EnclosingSpheresSearch(EnclosingSpheresSearch&&) noexcept = default;
+EnclosingSpheresSearch& EnclosingSpheresSearch::operator=(EnclosingSpheresSearch&&) noexcept =
+    default;
+
+int EnclosingSpheresSearch::countFor(double reach) const {
+  return inDefaultEnvironment([&] { return data_->fit.countFor(reach); });
+}
+
+EnclosingSpheres EnclosingSpheresSearch::atMost(int count) {
+  detail::requireSphereOption("count", count, 1.0);
+  return inDefaultEnvironment([&] { return data_->fit.atMost(count); });
+}
+
+EnclosingSpheres EnclosingSpheresSearch::within(double reach) {
+  detail::requireSphereOption("reach", reach, 0.0, true);
+  return inDefaultEnvironment([&] { return data_->fit.within(reach); });
+}
+
+}  // namespace swept

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+
+namespace swept {
+namespace {
+
+void addCoverOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args, " whose groups and pairs a written SRDF keeps");
+  CLI::Option* spheres =
+      app.add_option("--spheres", args.cover.spheres,
+                     "of all links together, divided so that the largest excess is small")
+          ->type_name("N")
+          ->check(within(1, 100000, "between 1 and 100000"));
+  CLI::Option* excess =
+      app.add_option(
+             "--excess", args.cover.excess,
+             "m; as many spheres as are needed so that none reaches farther beyond its link")
+          ->type_name("M")
+          ->check(within(1e-4, 10.0, "between 0.0001 and 10 m"))
+          ->excludes(spheres);
+  CLI::Option* check =
+      app.add_option("--check", args.cover.check,
+                     "judges the spheres of this file instead: .json of this command, .yaml of "
+                     "cuRobo, .srdf of MoveIt, or a .urdf of spheres")
+          ->type_name("FILE")
+          ->excludes(spheres)
+          ->excludes(excess);
+  app.add_option("-o,--output", args.output,
+                 "file to write: .urdf with spheres for <collision> (VAMP takes it), .yaml of "
+                 "cuRobo, .srdf of MoveIt, or .json with the figures")
+      ->type_name("FILE")
+      ->excludes(check);
+  app.add_flag("--visual", args.cover.visual, "around the <visual> geometry, not <collision>");
+  addSeedOption(app, args);
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+}  // namespace
+
+const Command kCoverCommand{
+    .name = "cover",
+    .summary = "Spheres that contain a robot's links, with proof, or what others leave outside",
+    .example = "swept cover models/robots/rook7/rook7.urdf --spheres 40 -o rook7_spheres.urdf",
+    .exitCodes =
+        "Exit codes: 0 the spheres contain all links, 1 with --check: some link is partly "
+        "outside,\n2 with --check: that is not known, 3 bad input or usage.",
+    .addOptions = addCoverOptions,
+    .run = runCover,
+    .notes = [] {
+      return std::string(
+          "ROBOT may also be a mesh (.stl, .obj, .ply, .dae, .off, .gltf, .glb), in "
+          "metres: the only link of a robot.\n");
+    }};
+
+}  // namespace swept

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "io/json_value.hpp"
+#include "io/xml.hpp"
+#include "io/yaml.hpp"
+#include "swept/core/floating_point_environment.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
+#include "swept/robot_model/sphere_model.hpp"
+#include "swept/robot_model/text_file.hpp"
+
+namespace swept {
+namespace {
+
+using detail::YamlPlace;
+
+/// What messages say about a link that the robot lacks; empty: it has it.
+std::string unknownLink(const Robot& robot, const std::string& name) {
+  if (robot.findLink(name)) return {};
+  std::vector<std::string> known;
+  for (const Link& link : robot.links()) known.push_back(link.name);
+  return "'" + name + "', which is no link of robot '" + robot.name() + "'" +
+         didYouMean(name, known);
+}
+
+/// The entry of the link, which may have come before.
+std::vector<EnclosingSphere>& spheresOf(SphereModel& model, const std::string& link) {
+  const auto found = std::ranges::find(model.links, link, &LinkSpheres::link);
+  if (found != model.links.end()) return found->spheres;
+  model.links.push_back({link, {}});
+  return model.links.back().spheres;
+}
+
+SphereModel fromJson(const std::string& file, const Robot& robot) {
+  const nlohmann::json json = JsonValue::parseFile(file);
+  SphereModel model;
+  for (const JsonValue& entry : JsonValue(json, "the file", file).at("links").elements()) {
+    const JsonValue name = entry.at("link");
+    const std::string link = name.text();
+    if (const std::string unknown = unknownLink(robot, link); !unknown.empty())
+      name.fail("is " + unknown);
+    std::vector<EnclosingSphere>& spheres = spheresOf(model, link);
+    for (const JsonValue& sphere : entry.at("spheres").elements()) {
+      const std::vector<JsonValue> numbers = sphere.elements(4);
+      spheres.push_back({{numbers[0].number(), numbers[1].number(), numbers[2].number()},
+                         numbers[3].notNegative()});
+    }
+  }
+  return model;
+}
+
+SphereModel fromCurobo(const std::string& file, const Robot& robot, const LoadOptions& options) {
+  const detail::InputSource source(file, options);
+  const YamlPlace root = YamlPlace::parse(readTextFile(file), source);
+  if (!root.isMap()) root.fail("a cuRobo file must be a mapping with 'collision_spheres'");
+  const bool nested = root.at("robot_cfg").present();
+  const YamlPlace links = nested ? root.at("robot_cfg").at("kinematics").at("collision_spheres")
+                                 : root.at("collision_spheres");
+  if (!links.present()) links.fail("is missing");
+  if (!links.isMap())
+    links.fail("must be a mapping from links to their spheres; if it names a file, give that file");
+  SphereModel model;
+  for (const auto& [name, list] : links.entries()) {
+    const std::string link = name.text();
+    if (const std::string unknown = unknownLink(robot, link); !unknown.empty())
+      name.fail("has " + unknown);
+    std::vector<EnclosingSphere>& spheres = spheresOf(model, link);
+    for (const YamlPlace& sphere : list.elements()) {
+      const Eigen::Vector3d center = sphere.at("center").vector();
+      const double radius = sphere.at("radius").number();
+      if (radius >= 0.0) spheres.push_back({center, radius});
+    }
+  }
+  return model;
+}
+
+SphereModel fromSrdf(const std::string& file, const Robot& robot, const LoadOptions& options) {
+  const detail::InputSource source(file, options);
+  detail::XmlFile xml(readTextFile(file), source);
+  SphereModel model;
+  bool any = false;
+  for (auto* links = xml.robot().FirstChildElement("link_sphere_approximation"); links != nullptr;
+       links = links->NextSiblingElement("link_sphere_approximation")) {
+    any = true;
+    const std::string link = xml.text(*links, "link", "the robot");
+    if (const std::string unknown = unknownLink(robot, link); !unknown.empty())
+      xml.fail(*links, "<link_sphere_approximation> is of " + unknown);
+    const std::string owner = "the approximation of link '" + link + "'";
+    std::vector<EnclosingSphere>& spheres = spheresOf(model, link);
+    for (auto* sphere = links->FirstChildElement("sphere"); sphere != nullptr;
+         sphere = sphere->NextSiblingElement("sphere"))
+      spheres.push_back(
+          {xml.vector(*sphere, "center", owner), xml.notNegative(*sphere, "radius", owner)});
+  }
+  if (!any) source.fail(0, "has no <link_sphere_approximation>");
+  return model;
+}
+
+SphereModel fromUrdf(const std::string& file, const Robot& robot, const LoadOptions& options) {
+  const auto spherized = Robot::load(file, {}, options);
+  SphereModel model;
+  for (const Link& link : spherized->links()) {
+    if (link.collision.empty()) continue;
+    if (const std::string unknown = unknownLink(robot, link.name); !unknown.empty())
+      throw InputError(file, 0, "it has link " + unknown);
+    std::vector<EnclosingSphere>& spheres = spheresOf(model, link.name);
+    for (const CollisionGeometry& geometry : link.collision) {
+      const auto* sphere = std::get_if<Sphere>(&geometry.shape);
+      if (sphere == nullptr)
+        throw InputError(file, 0,
+                         "the <collision> of link '" + link.name + "' has '" + geometry.source +
+                             "'; allowed in a model of spheres: sphere");
+      spheres.push_back({geometry.link_from_shape.translation(), sphere->radius});
+    }
+  }
+  return model;
+}
+
+}  // namespace
+
+SphereModel readSphereModel(const std::filesystem::path& file, const Robot& robot,
+                            const LoadOptions& options) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return readSphereModel(file, robot, options); });
+  const std::string ending = file.extension().string();
+  if (ending == ".json") return fromJson(file.string(), robot);
+  if (ending == ".yaml" || ending == ".yml") return fromCurobo(file.string(), robot, options);
+  if (ending == ".srdf") return fromSrdf(file.string(), robot, options);
+  if (ending == ".urdf") return fromUrdf(file.string(), robot, options);
+  throw InputError(file.string(), 0,
+                   "spheres cannot be in a file that ends in '" + ending +
+                       "'; allowed: .json, .yaml, .yml (cuRobo), .srdf, .urdf");
+}
+
+}  // namespace swept
