@@ -6,8 +6,10 @@
 #include <exception>
 #include <iostream>
 #include <numbers>
+#include <vector>
 
 #include "swept/ompl_bridge/ompl_bridge.hpp"
+#include "swept/robot_model/link_motion.hpp"
 
 int plan(const std::string& models) {
   const std::string rook = models + "/robots/rook7/rook7";
@@ -20,7 +22,7 @@ int plan(const std::string& models) {
   const Eigen::Isometry3d level = poseAt(start);
 
   // The same posture, turned about the vertical by the joint at the base.
-  Eigen::VectorXd goal = start;
+  std::vector<double> goal = start;
   goal[0] += 1.5;
   const double most = 30.0 * std::numbers::pi / 180.0;
   const auto checker = std::make_shared<const swept::Checker>(

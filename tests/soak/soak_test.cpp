@@ -101,7 +101,8 @@ TEST_F(Judged, AWrongVerdictOfAStateIsRefutedAndCanBeAskedAgain) {
 TEST_F(Judged, AWrongVerdictOfAMotionIsRefuted) {
   Sample sample = sampleOf(Verdict::Collision, true);
   const MotionCertificate right = sample.answer;
-  sample.answer = {.verdict = Verdict::Free, .freeUntil = 1.0, .witness = {}, .effort = {}};
+  sample.answer = {
+      .verdict = Verdict::Free, .freeUntil = 1.0, .witness = {}, .violation = {}, .effort = {}};
   EXPECT_THAT(complaints(sample), HasSubstr("REFUTED: said to be free"));
 
   sample.answer = right;
