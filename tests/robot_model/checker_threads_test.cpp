@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <barrier>
+#include <stop_token>
 #include <thread>
 
 #include "version_arms.hpp"
@@ -173,6 +174,63 @@ TEST(CheckerThreads, BatchesLeaveTheProgramItsThreads) {
     asking.join();
     EXPECT_EQ(least, before) << threads << " threads";
     EXPECT_EQ(most, before) << threads << " threads";
+  }
+}
+
+/// What is asked after the stop is Undecided, what was asked before is answered.
+TEST(CheckerThreads, BatchesStop) {
+  const Checker checker(parseArm(armUrdf({})), "all", shared(test::clutter(42)));
+  const Motions motions(checker);
+  std::vector<Verdict> alone(kMotions);
+  checker.checkStates(motions.to, alone);
+  for (const unsigned threads : {1U, 2U}) {
+    std::stop_source source;
+    std::vector<Verdict> verdicts(kMotions, Verdict::Collision);
+    EXPECT_TRUE(checker.checkStates(motions.to, verdicts, threads, source.get_token()));
+    EXPECT_EQ(verdicts, alone);
+    std::vector<MotionCertificate> certificates(kMotions);
+    const auto certify = [&] {
+      return checker.certifyMotions(motions.from, motions.to, certificates,
+                                    MotionQuery::FirstContact, threads, source.get_token());
+    };
+    EXPECT_TRUE(certify());
+    EXPECT_GT(std::ranges::count(certificates, Verdict::Free, &MotionCertificate::verdict), 0);
+    source.request_stop();
+    EXPECT_FALSE(checker.checkStates(motions.to, verdicts, threads, source.get_token()));
+    EXPECT_EQ(std::ranges::count(verdicts, Verdict::Undecided), kMotions);
+    EXPECT_FALSE(certify());
+    for (const MotionCertificate& certificate : certificates) {
+      EXPECT_EQ(certificate.verdict, Verdict::Undecided);
+      EXPECT_FALSE(certificate.witness);
+    }
+  }
+}
+
+/// Another thread ends a batch of many more states than are checked before it gets to that. Each
+/// verdict is that of a whole batch, or Undecided.
+TEST(CheckerThreads, BatchesStopWhileTheyRun) {
+  const Checker checker(parseArm(armUrdf({})), "all", shared(test::clutter(42)));
+  const Motions motions(checker);
+  constexpr std::size_t kTimes = 20'000;
+  std::vector<double> many;
+  many.reserve(kTimes * motions.to.size());
+  for (std::size_t i = 0; i < kTimes; ++i)
+    many.insert(many.end(), motions.to.begin(), motions.to.end());
+  std::vector<Verdict> alone(kMotions);
+  checker.checkStates(motions.to, alone);
+  for (const unsigned threads : {1U, 2U}) {
+    std::stop_source source;
+    std::vector<Verdict> verdicts(kTimes * kMotions, Verdict::Collision);
+    std::jthread stopping([&source] { source.request_stop(); });
+    EXPECT_FALSE(checker.checkStates(many, verdicts, threads, source.get_token()));
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      const Verdict whole = alone[i % kMotions];
+      if (verdicts[i] == whole) continue;
+      ASSERT_EQ(verdicts[i], Verdict::Undecided) << i;
+      ++left;
+    }
+    EXPECT_GT(left, 0U);
   }
 }
 

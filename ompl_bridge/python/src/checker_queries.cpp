@@ -142,9 +142,8 @@ py::object checkStates(CheckerHandle& self, const py::object& states, unsigned t
   py::object result = makeBytes(table.rows(), memory);
   static_assert(sizeof(Verdict) == 1);
   const std::span<Verdict> verdicts(reinterpret_cast<Verdict*>(memory), table.rows());
-  runInRanges(table.rows(), watch, self.paceOfStates(), [&](std::size_t begin, std::size_t end) {
-    self.checker().checkStates(table.numbers().subspan(begin * each, (end - begin) * each),
-                               verdicts.subspan(begin, end - begin), threads);
+  runBatch(table.rows(), watch, self.paceOfStates(), [&](const std::stop_token& stop) {
+    self.checker().checkStates(table.numbers(), verdicts, threads, stop);
   });
   return result;
 }
@@ -161,12 +160,9 @@ CertificateList certifyMotions(CheckerHandle& self, const py::object& starts,
   const MotionQuery how =
       query.is_none() ? MotionQuery::FirstContact : motionQueryOf(query, "query");
   CertificateList result{std::vector<MotionCertificate>(from.rows())};
-  const std::span<MotionCertificate> all(result.certificates);
-  runInRanges(from.rows(), watch, self.paceOfMotions(), [&](std::size_t begin, std::size_t end) {
-    const std::size_t first = begin * each, size = (end - begin) * each;
-    self.checker().certifyMotions(from.numbers().subspan(first, size),
-                                  to.numbers().subspan(first, size),
-                                  all.subspan(begin, end - begin), how, threads);
+  runBatch(from.rows(), watch, self.paceOfMotions(), [&](const std::stop_token& stop) {
+    self.checker().certifyMotions(from.numbers(), to.numbers(), result.certificates, how, threads,
+                                  stop);
   });
   return result;
 }

@@ -110,7 +110,7 @@ void setGoals(og::SimpleSetup& setup, const StateConversion& conversion, const S
 /// With all its samples, so that the same seed gives the same path. False: there is none.
 bool setPoseGoal(og::SimpleSetup& setup, const std::shared_ptr<const Checker>& checker,
                  const PoseTarget& target, std::uint32_t seedOfSamples,
-                 const std::atomic<bool>& stopped) {
+                 const std::stop_token& stop) {
   PoseGoalOptions options;
   options.positionTolerance = target.positionTolerance;
   options.orientationTolerance = target.orientationTolerance;
@@ -120,7 +120,8 @@ bool setPoseGoal(og::SimpleSetup& setup, const std::shared_ptr<const Checker>& c
   const auto goal = std::make_shared<PoseGoal>(setup.getSpaceInformation(), checker, target.link,
                                                target.model_from_tool, options);
   goal->startSampling();
-  while (goal->isSampling() && !stopped) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (goal->isSampling() && !stop.stop_requested())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   goal->stopSampling();
   setup.setGoal(goal);
   return goal->hasStates();
@@ -144,7 +145,7 @@ void shorten(og::SimpleSetup& setup, const Checker& checker, const PlanOptions& 
 
 Plan solve(const std::shared_ptr<const Checker>& checker, const std::vector<double>& start,
            const States& goals, const std::optional<PoseTarget>& pose, const PlanOptions& options,
-           const std::atomic<bool>& stopped) {
+           const std::stop_token& stop) {
   Plan plan{.planner = options.planner,
             .status = {},
             .dimension = static_cast<std::size_t>(checker->dimension())};
@@ -159,19 +160,19 @@ Plan solve(const std::shared_ptr<const Checker>& checker, const std::vector<doub
   setup->setStartState(state);
   if (!pose) {
     setGoals(*setup, conversion, goals);
-  } else if (!setPoseGoal(*setup, checker, *pose, options.seed, stopped)) {
+  } else if (!setPoseGoal(*setup, checker, *pose, options.seed, stop)) {
     plan.status = "no free state reaches the goal pose";
     plan.seconds = secondsSince(begin);
     return plan;
   }
   setup->setPlanner(plannerOf(*setup, options));
-  const ob::PlannerTerminationCondition stop([&stopped] { return stopped.load(); });
+  const ob::PlannerTerminationCondition stopped([&stop] { return stop.stop_requested(); });
   const ob::PlannerStatus status = setup->solve(ob::plannerOrTerminationCondition(
-      ob::timedPlannerTerminationCondition(options.seconds), stop));
+      ob::timedPlannerTerminationCondition(options.seconds), stopped));
   plan.status = status.asString();
   plan.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
   const ob::MotionValidatorPtr& validator = setup->getSpaceInformation()->getMotionValidator();
-  if (plan.solved && !stopped) {
+  if (plan.solved && !stop.stop_requested()) {
     shorten(*setup, *checker, options);
     plan.states = configurationsOf(setup->getSolutionPath(), *checker);
     // Some planners make a path of one state of a start that is the goal.
@@ -218,9 +219,9 @@ Plan plan(const CheckerHandle& checker, const py::object& start, const py::objec
   else
     goals = readGoals(goal, dimension);
   Plan found;
-  runWatched(Watch(std::nullopt, cancel), [&](const std::atomic<bool>& stopped) {
+  runWatched(Watch(std::nullopt, cancel), [&](const std::stop_token& stop) {
     found = inDefaultEnvironment([&] {
-      return solve(checker.shared(), statesOf(first).front(), goals, pose, options, stopped);
+      return solve(checker.shared(), statesOf(first).front(), goals, pose, options, stop);
     });
   });
   return found;
@@ -232,7 +233,7 @@ py::object changed(const CheckerHandle& checker, const py::object& path, const C
   const States states = statesOf(readTable(path, "path", checker.dimension()));
   if (states.empty()) throw std::invalid_argument("path: expected one state at least");
   States result;
-  runWatched(Watch(std::nullopt, nullptr), [&](const std::atomic<bool>&) {
+  runWatched(Watch(std::nullopt, nullptr), [&](const std::stop_token&) {
     inDefaultEnvironment([&] {
       const og::SimpleSetupPtr setup = setupFor(checker.shared(), states);
       setup->getSpaceInformation()->setup();

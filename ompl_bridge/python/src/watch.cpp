@@ -29,9 +29,9 @@ void Watch::check() const {
   if (end_ && Clock::now() >= *end_) throw Cancelled("the time was up before the work was done");
 }
 
-void runWatched(const Watch& watch, const std::function<void(const std::atomic<bool>&)>& work) {
+void runWatched(const Watch& watch, const std::function<void(const std::stop_token&)>& work) {
   constexpr std::chrono::milliseconds kBetween(20);
-  std::atomic<bool> stopped = false;
+  std::stop_source stop;
   std::mutex mutex;
   std::condition_variable ended;
   bool done = false;
@@ -41,7 +41,7 @@ void runWatched(const Watch& watch, const std::function<void(const std::atomic<b
     const py::gil_scoped_release others;
     std::thread worker([&] {
       try {
-        work(stopped);
+        work(stop.get_token());
       } catch (...) {
         failure = std::current_exception();
       }
@@ -59,7 +59,7 @@ void runWatched(const Watch& watch, const std::function<void(const std::atomic<b
           watch.check();
         } catch (...) {
           interruption = std::current_exception();
-          stopped = true;
+          stop.request_stop();
         }
       }
       lock.lock();

@@ -6,6 +6,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -102,38 +103,53 @@ void forRanges(const Checker& checker, std::size_t count, std::size_t grain, uns
 
 }  // namespace
 
-void Checker::checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
-                          unsigned threads) const {
+bool Checker::checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
+                          unsigned threads, const std::stop_token& stop) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
-        [&, states, verdicts, threads] { return checkStates(states, verdicts, threads); });
+        [&, states, verdicts, threads] { return checkStates(states, verdicts, threads, stop); });
   }
   requireSizes(states, verdicts.size());
   const auto each = static_cast<std::size_t>(dimension());
+  std::atomic<bool> all = true;
   forRanges(*this, verdicts.size(), kTogether * kBlocksPerTask, threads,
             [&](std::size_t begin, std::size_t end, Workspace& workspace) {
-              checkStates(states.subspan(begin * each, (end - begin) * each),
-                          verdicts.subspan(begin, end - begin), workspace);
+              const std::span<Verdict> own = verdicts.subspan(begin, end - begin);
+              if (stop.stop_requested()) {
+                std::ranges::fill(own, Verdict::Undecided);
+                all = false;
+                return;
+              }
+              checkStates(states.subspan(begin * each, (end - begin) * each), own, workspace);
             });
+  return all;
 }
 
-void Checker::certifyMotions(PackedConfigurations from, PackedConfigurations to,
+bool Checker::certifyMotions(PackedConfigurations from, PackedConfigurations to,
                              std::span<MotionCertificate> certificates, MotionQuery query,
-                             unsigned threads) const {
+                             unsigned threads, const std::stop_token& stop) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, from, to, certificates, query, threads] {
-      return certifyMotions(from, to, certificates, query, threads);
+      return certifyMotions(from, to, certificates, query, threads, stop);
     });
   }
   requireSizes(from, certificates.size());
   requireSizes(to, certificates.size());
   const auto each = static_cast<std::size_t>(dimension());
+  std::atomic<bool> all = true;
   forRanges(*this, certificates.size(), kMotionsPerTask, threads,
             [&](std::size_t begin, std::size_t end, Workspace& workspace) {
-              for (std::size_t i = begin; i < end; ++i)
+              for (std::size_t i = begin; i < end; ++i) {
+                if (stop.stop_requested()) {
+                  certificates[i] = {};
+                  all = false;
+                  continue;
+                }
                 certificates[i] = certifyMotion(from.subspan(i * each, each),
                                                 to.subspan(i * each, each), workspace, query);
+              }
             });
+  return all;
 }
 
 }  // namespace swept

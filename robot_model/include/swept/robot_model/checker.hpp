@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -201,9 +202,10 @@ class Checker {
                    Workspace& workspace) const;
   /// The same on up to `threads` threads of oneTBB (0: as many as processors), with the same result
   /// for any number. It uses no more threads than the program lets oneTBB have, and does not change
-  /// that limit.
-  void checkStates(PackedConfigurations states, std::span<Verdict> verdicts,
-                   unsigned threads = 0) const;
+  /// that limit. Returns whether all states were checked: once `stop` is requested, by any thread,
+  /// it begins with none of the 128 at a time that are left, and they are Undecided.
+  bool checkStates(PackedConfigurations states, std::span<Verdict> verdicts, unsigned threads = 0,
+                   const std::stop_token& stop = {}) const;
   /// All violating pairs and the clearance. It measures distances where checkState only proves them
   /// large enough: tens of microseconds for an arm among a dozen bodies, more among meshes with
   /// hollows, tens to hundreds of times the time of checkState.
@@ -228,11 +230,14 @@ class Checker {
                                   Workspace& workspace,
                                   MotionQuery query = MotionQuery::FirstContact) const;
   /// Certificates of many motions, which are consecutive in `from` and `to`, on up to `threads`
-  /// threads, as in checkStates. They do not depend on the number of threads. Throws
-  /// std::invalid_argument unless there is one certificate for each motion.
-  void certifyMotions(PackedConfigurations from, PackedConfigurations to,
+  /// threads, as in checkStates. They do not depend on the number of threads. Returns whether all
+  /// motions were asked about: once `stop` is requested, none is begun, and the certificates that
+  /// are left are new ones, Undecided. Throws std::invalid_argument unless there is one certificate
+  /// for each motion.
+  bool certifyMotions(PackedConfigurations from, PackedConfigurations to,
                       std::span<MotionCertificate> certificates,
-                      MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0) const;
+                      MotionQuery query = MotionQuery::FirstContact, unsigned threads = 0,
+                      const std::stop_token& stop = {}) const;
   /// What is proven about a whole curve in time, such as a controller executes: controllerCurve().
   /// It is proven as it is, pieces, corners and all, with the time of moving obstacles beside it.
   /// Values of cyclic variables go the way that their polynomials say. Where a joint has a degree
