@@ -253,7 +253,7 @@ page_says_what_the_program_says() {
 # Without the names of arguments and options, which take 30 columns or a line.
 texts_of_help() {
   # shellcheck disable=SC2086
-  "$prefix/bin/swept" $1 --help | sed -e 's/^Usage: //' -e 's/ REQUIRED$/ (required)/' -e 's/ Needs: [^ ]*$//' -e 's/ Excludes: .*$//' -e '/^Positionals:$/,/^$/s/^.\{30\}//' \
+  "$prefix/bin/swept" $1 --help | sed -e 's/^Usage: //' -e 's/ REQUIRED$/ (required)/' -e 's/ Needs: [^ ]*$//' -e 's/ Excludes: .*$//' -e 's/^ *\(-[a-z]\),\(--[^ ]* [A-Z]*\)$/\1, \2/' -e '/^Positionals:$/,/^$/s/^.\{30\}//' \
     -e '/^Options:$/,/^$/s/^.\{30\}//' -e '/^\(Positionals\|Options\):$/d' -e '/^$/d'
 }
 

@@ -121,7 +121,8 @@ TEST(RequestConstraints, BrokenOnesAreRefused) {
       Broken{"joint_name: a, ", "",
              ":5: error: path_constraints.joint_constraints[0].joint_name is missing"},
       Broken{"position: 0.5,", "position: high,",
-             ":5: error: path_constraints.joint_constraints[0].position is 'high', not a number"},
+             ":5: error: path_constraints.joint_constraints[0].position is 'high'; it must be a "
+             "finite number"},
       Broken{"position: 0.5,", "position: 2.5,",
              ":5: error: path_constraints.joint_constraints[0].position is 2.5 with tolerances "
              "0.125 below and 0.25 above, of which nothing is within the joint's limits -2 to 2"},
@@ -133,7 +134,8 @@ TEST(RequestConstraints, BrokenOnesAreRefused) {
              ":5: error: path_constraints.joint_constraints[0].tolerance_below is -1; allowed is "
              "from 0"},
       Broken{"weight: 2", "weight: much",
-             ":5: error: path_constraints.joint_constraints[0].weight is 'much', not a number"},
+             ":5: error: path_constraints.joint_constraints[0].weight is 'much'; it must be a "
+             "finite number"},
       Broken{"frame_id: post", "frame_id: table",
              ":7: error: path_constraints.position_constraints[0].header.frame_id"},
       Broken{"post}\n      link_name: hand", "post}\n      link_name: palm",
@@ -174,7 +176,7 @@ TEST(RequestConstraints, BrokenOnesAreRefused) {
              "-0.1; allowed is from 0"},
       Broken{"y_axis_tolerance: 0.2", "y_axis_tolerance: .nan",
              ":19: error: path_constraints.orientation_constraints[0].absolute_y_axis_tolerance is "
-             "'.nan', not a number"},
+             "'.nan'; it must be a finite number"},
       Broken{
           "parameterization: 1", "parameterization: 2",
           ":21: error: path_constraints.orientation_constraints[0].parameterization is 2; allowed "

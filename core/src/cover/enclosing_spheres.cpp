@@ -15,12 +15,13 @@ struct EnclosingSpheresSearch::Data {
 
 EnclosingSpheresSearch::EnclosingSpheresSearch(std::span<const PosedShape> body,
                                                const EnclosingSpheresOptions& options) {
-  detail::requireSphereOption("pieces", options.pieces, 1.0);
-  detail::requireSphereOption("restarts", options.restarts, 1.0);
-  detail::requireSphereOption("rounds", options.rounds, 0.0);
-  if (body.empty()) throw std::invalid_argument("a body without shapes needs no spheres");
-  data_ = inDefaultEnvironment(
-      [&] { return std::make_unique<Data>(detail::SphereFit(body, options)); });
+  data_ = inDefaultEnvironment([&] {
+    detail::requireSphereOption("pieces", options.pieces, 1.0);
+    detail::requireSphereOption("restarts", options.restarts, 1.0);
+    detail::requireSphereOption("rounds", options.rounds, 0.0);
+    if (body.empty()) throw std::invalid_argument("a body without shapes needs no spheres");
+    return std::make_unique<Data>(detail::SphereFit(body, options));
+  });
 }
 
 EnclosingSpheresSearch::~EnclosingSpheresSearch() = default;
@@ -33,13 +34,17 @@ int EnclosingSpheresSearch::countFor(double reach) const {
 }
 
 EnclosingSpheres EnclosingSpheresSearch::atMost(int count) {
-  detail::requireSphereOption("count", count, 1.0);
-  return inDefaultEnvironment([&] { return data_->fit.atMost(count); });
+  return inDefaultEnvironment([&] {
+    detail::requireSphereOption("count", count, 1.0);
+    return data_->fit.atMost(count);
+  });
 }
 
 EnclosingSpheres EnclosingSpheresSearch::within(double reach) {
-  detail::requireSphereOption("reach", reach, 0.0, true);
-  return inDefaultEnvironment([&] { return data_->fit.within(reach); });
+  return inDefaultEnvironment([&] {
+    detail::requireSphereOption("reach", reach, 0.0, true);
+    return data_->fit.within(reach);
+  });
 }
 
 }  // namespace swept

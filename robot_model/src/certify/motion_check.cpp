@@ -118,7 +118,7 @@ MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path
                                 MotionQuery wanted, WorkspaceData& workspace) {
   if (model.constraints.empty()) return certifyPairs(model, path, wanted, workspace);
   // First, for they take less time than pairs do.
-  const ConstraintProof task = proveConstraints(model, path, wanted, workspace);
+  const ConstraintProof task = proveConstraints(constraintsOf(model, workspace), path, wanted);
   if (task.verdict == Verdict::Violation && wanted == MotionQuery::VerdictOnly)
     return together(task, wanted, {});
   return together(task, wanted, certifyPairs(model, path, wanted, workspace));

@@ -92,7 +92,7 @@ Verdict checkAlone(const CheckerModel& model, std::span<const double> configurat
 Verdict taskVerdict(const CheckerModel& model, std::span<const double> configuration,
                     WorkspaceData& workspace) {
   if (model.constraints.empty()) return Verdict::Free;
-  return proveConstraints(model, configuration, workspace).verdict;
+  return proveConstraints(constraintsOf(model, workspace), configuration).verdict;
 }
 
 /// In a tube, planes between hulls may prove of a motion that stays where it is what exact geometry
@@ -236,7 +236,8 @@ StateReport reportState(const CheckerModel& model, std::span<const double> confi
     report.verdict = Verdict::Free;
   }
   if (model.constraints.empty()) return report;
-  const Verdict task = proveConstraints(model, q, workspace, &report.violations).verdict;
+  const Verdict task =
+      proveConstraints(constraintsOf(model, workspace), q, &report.violations).verdict;
   report.constraintsHold = task == Verdict::Free;
   if (report.verdict == Verdict::Free || task == Verdict::Violation) report.verdict = task;
   return report;

@@ -130,4 +130,15 @@ struct WorkspaceData {
   ConstraintScratch constraints;
 };
 
+/// What is proven of the constraints of a checker.
+inline ConstraintTask constraintsOf(const CheckerModel& model, WorkspaceData& workspace) {
+  return {.constraints = model.constraints,
+          .kinematics = model.kinematics,
+          .tube = model.tube,
+          .tolerance = model.options.tolerance,
+          .maxIntervals = model.options.maxIntervals,
+          .scratch = workspace.constraints,
+          .motion = workspace.motion};
+}
+
 }  // namespace swept::detail

@@ -36,10 +36,9 @@
 #include <limits>
 #include <numbers>
 
-#include "certify/checker_model.hpp"
-#include "certify/workspace_data.hpp"
 #include "kinematics/nested_motion_bounds.hpp"
 #include "kinematics/tube_motion.hpp"
+#include "model/pair_model.hpp"
 #include "robot/joint_types.hpp"
 #include "rounding/error_model.hpp"
 #include "swept/core/tolerances.hpp"
@@ -150,13 +149,13 @@ Vector3d rateOfVector(const Vector3d& v, const Vector3d& w) {
 
 class ConstraintQuery {
  public:
-  ConstraintQuery(const CheckerModel& model, const JointPath& path, WorkspaceData& workspace)
-      : model_(model),
-        task_(model.constraints),
+  ConstraintQuery(const ConstraintTask& task, const JointPath& path)
+      : asked_(task),
+        task_(task.constraints),
         path_(path),
-        scratch_(workspace.constraints),
-        motion_(std::span(workspace.motion).first(std::max<std::size_t>(task_.bodies, 1))),
-        tube_(model.tube) {
+        scratch_(task.scratch),
+        motion_(task.motion.first(std::max<std::size_t>(task_.bodies, 1))),
+        tube_(task.tube) {
     scratch_.states.resize(task_.links.size());
     for (std::size_t i = 0; i < task_.links.size(); ++i) {
       scratch_.states[i].tool.resize(task_.links[i].toolPath.size());
@@ -165,13 +164,13 @@ class ConstraintQuery {
     scratch_.bounds.resize(task_.vectors);
     scratch_.known.resize(task_.vectors);
     scratch_.walked.resize(task_.links.size());
-    if (inTube()) scratch_.tubeMotion.resize(model.kinematics.bodies.size());
+    if (inTube()) scratch_.tubeMotion.resize(task.kinematics.bodies.size());
   }
 
   /// False: no bound holds for the path.
   bool start() {
     if (!path_.linearize(0.5, 0.5, motion_)) return false;
-    if (inTube()) widenRanges(model_.kinematics, tube_, motion_);
+    if (inTube()) widenRanges(asked_.kinematics, tube_, motion_);
     curved_ = path_.asStraight() == nullptr;
     std::ranges::fill(scratch_.known, 0);
     double slid = 0.0;
@@ -183,9 +182,9 @@ class ConstraintQuery {
   void moveTo(double t, double half) {
     if (curved_) {
       linearizePart(path_, t, half, motion_);
-      if (inTube()) widenRanges(model_.kinematics, tube_, motion_);
+      if (inTube()) widenRanges(asked_.kinematics, tube_, motion_);
     }
-    if (inTube()) boundTubeMotion(model_.kinematics, tube_, half, motion_, scratch_.tubeMotion);
+    if (inTube()) boundTubeMotion(asked_.kinematics, tube_, half, motion_, scratch_.tubeMotion);
     if (curved_ || inTube()) std::ranges::fill(scratch_.known, 0);
     std::ranges::fill(scratch_.walked, 0);
     t_ = t;
@@ -234,13 +233,13 @@ class ConstraintQuery {
   }
 
   bool isTurn(const JointRange& own, std::size_t body) const {
-    const JointType type = model_.kinematics.bodies[body].type;
+    const JointType type = asked_.kinematics.bodies[body].type;
     return turns(type) || (type == JointType::Planar && own.value == 2);
   }
 
   /// A planar or floating joint's translation by its own axes; a prismatic one's along its axis.
   double valueOf(const JointRange& own, const JointMotion& joint) const {
-    const MovingBody& body = model_.kinematics.bodies[static_cast<std::size_t>(own.body)];
+    const MovingBody& body = asked_.kinematics.bodies[static_cast<std::size_t>(own.body)];
     const double since = t_ - joint.anchor;
     if (isTurn(own, static_cast<std::size_t>(own.body)))
       return joint.angle + since * joint.angleRate;
@@ -249,7 +248,7 @@ class ConstraintQuery {
 
   /// How far the value goes from the middle, at most.
   double waysOf(const JointRange& own, const JointMotion& joint) const {
-    const MovingBody& body = model_.kinematics.bodies[static_cast<std::size_t>(own.body)];
+    const MovingBody& body = asked_.kinematics.bodies[static_cast<std::size_t>(own.body)];
     const bool turn = isTurn(own, static_cast<std::size_t>(own.body));
     const double rate = turn ? joint.angleRate : directionOf(own, body).dot(joint.rate);
     const double change = turn ? joint.spinAcceleration : joint.acceleration;
@@ -290,7 +289,7 @@ class ConstraintQuery {
       for (Eigen::Index i = 0; i < sizesOf(region); ++i) least = std::min(least, region.size[i]);
     }
     found.violated = violated;
-    found.stops = reach.moves <= kStopShare * toleranceOf(least, model_.options.tolerance);
+    found.stops = reach.moves <= kStopShare * toleranceOf(least, asked_.tolerance);
     return found;
   }
 
@@ -437,7 +436,7 @@ class ConstraintQuery {
           const double angle = tube_[body].rotation;
           if (angle == 0.0) continue;
           all += angle;
-          if (model_.kinematics.bodies[body].type == JointType::Floating) {
+          if (asked_.kinematics.bodies[body].type == JointType::Floating) {
             beyond += angle;
             continue;
           }
@@ -471,7 +470,7 @@ class ConstraintQuery {
   ///@}
 
   Vector3d axisOf(std::size_t body) const {
-    const MovingBody& moving = model_.kinematics.bodies[body];
+    const MovingBody& moving = asked_.kinematics.bodies[body];
     return moving.type == JointType::Planar ? Vector3d(moving.planarBasis.col(2)) : moving.axis;
   }
 
@@ -488,7 +487,7 @@ class ConstraintQuery {
       for (std::size_t i = 0; i < path.size(); ++i) {
         const auto body = static_cast<std::size_t>(path[i]);
         at[i] =
-            bodyAt(model_.kinematics.bodies[body], motion_[body], t_, i == 0 ? still : at[i - 1]);
+            bodyAt(asked_.kinematics.bodies[body], motion_[body], t_, i == 0 ? still : at[i - 1]);
       }
     };
     go(task_.links[index].toolPath, states.tool);
@@ -508,7 +507,7 @@ class ConstraintQuery {
       const auto body = static_cast<std::size_t>(index);
       const JointMotion& joint = motion[body];
       turn.acceleration += turning.now() * joint.spinSpeed + joint.spinAcceleration;
-      turning.pass(model_.kinematics, model_.kinematics.bodies[body], joint.spinSpeed);
+      turning.pass(asked_.kinematics, asked_.kinematics.bodies[body], joint.spinSpeed);
     }
     return {turning.now() * kArithmeticOutward, turn.acceleration * kArithmeticOutward};
   }
@@ -525,7 +524,7 @@ class ConstraintQuery {
       bound.speed += joint.spinSpeed * arm;
       bound.acceleration += joint.spinSpeed * arm * (2.0 * turning.now() + joint.spinSpeed) +
                             joint.spinAcceleration * arm;
-      turning.pass(model_.kinematics, model_.kinematics.bodies[body], joint.spinSpeed);
+      turning.pass(asked_.kinematics, asked_.kinematics.bodies[body], joint.spinSpeed);
     }
     bound.speed *= kArithmeticOutward;
     bound.acceleration *= kArithmeticOutward;
@@ -538,10 +537,10 @@ class ConstraintQuery {
     std::span<const double> arms = levers.arms;
     if (levers.vary) {
       scratch_.arms.resize(levers.path.size());
-      motionArms(model_.kinematics, body, point, 0.0, motion, scratch_.arms);
+      motionArms(asked_.kinematics, body, point, 0.0, motion, scratch_.arms);
       arms = scratch_.arms;
     }
-    return pointMotionBound(model_.kinematics, levers.path, arms, first, motion);
+    return pointMotionBound(asked_.kinematics, levers.path, arms, first, motion);
   }
 
   const VectorBound& boundOf(const SeenVector& seen) {
@@ -640,7 +639,7 @@ class ConstraintQuery {
       const auto body = static_cast<std::size_t>(path[i]);
       const JointTolerance& off = tube_[body];
       if (off.rotation == 0.0 && off.translation == 0.0) continue;
-      const JointType type = model_.kinematics.bodies[body].type;
+      const JointType type = asked_.kinematics.bodies[body].type;
       const Isometry3d& frame = at[i].world_from_body;
       const Vector3d arm = seen.isDirection ? p : Vector3d(p - frame.translation());
       if (type == JointType::Floating) {
@@ -657,7 +656,7 @@ class ConstraintQuery {
     return anywhere;
   }
 
-  const CheckerModel& model_;
+  const ConstraintTask& asked_;
   const ConstraintModel& task_;
   const JointPath& path_;
   ConstraintScratch& scratch_;
@@ -675,12 +674,11 @@ std::uint64_t allOf(std::size_t count) {
 /// From the begin on, halving what is open, until all is proven or what is open is too short.
 class ConstraintSearch {
  public:
-  ConstraintSearch(const CheckerModel& model, ConstraintQuery& query, MotionQuery wanted,
-                   ConstraintScratch& scratch)
-      : model_(model), query_(query), wanted_(wanted), stack_(scratch.stack) {}
+  ConstraintSearch(const ConstraintTask& task, ConstraintQuery& query, MotionQuery wanted)
+      : asked_(task), query_(query), wanted_(wanted), stack_(task.scratch.stack) {}
 
   ConstraintProof run() {
-    const std::uint64_t all = allOf(model_.constraints.constraints.size());
+    const std::uint64_t all = allOf(asked_.constraints.constraints.size());
     stack_.clear();
     stack_.push_back({0.0, 1.0, all});
     while (!stack_.empty()) {
@@ -688,7 +686,7 @@ class ConstraintSearch {
       stack_.pop_back();
       if (proof_.violation && interval.begin >= proof_.violation->t) break;
       const double middle = 0.5 * (interval.begin + interval.end);
-      if (proof_.intervals >= model_.options.maxIntervals) {
+      if (proof_.intervals >= asked_.maxIntervals) {
         leaveOpen(interval.begin);
         break;
       }
@@ -724,7 +722,7 @@ class ConstraintSearch {
     for (std::uint64_t rest = asked; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       const CompiledConstraint& constraint =
-          model_.constraints.constraints[static_cast<std::size_t>(i)];
+          asked_.constraints.constraints[static_cast<std::size_t>(i)];
       const Finding found = query_.examine(constraint);
       if (found.violated && (!proof_.violation || t < proof_.violation->t))
         proof_.violation = {
@@ -753,7 +751,7 @@ class ConstraintSearch {
     return proof_;
   }
 
-  const CheckerModel& model_;
+  const ConstraintTask& asked_;
   ConstraintQuery& query_;
   const MotionQuery wanted_;
   std::vector<ConstraintScratch::Interval>& stack_;
@@ -766,22 +764,22 @@ constexpr ConstraintProof kNothingKnown{.verdict = Verdict::Undecided, .holdsUnt
 
 }  // namespace
 
-ConstraintProof proveConstraints(const CheckerModel& model, const JointPath& path,
-                                 MotionQuery wanted, WorkspaceData& workspace) {
-  ConstraintQuery query(model, path, workspace);
+ConstraintProof proveConstraints(const ConstraintTask& task, const JointPath& path,
+                                 MotionQuery wanted) {
+  ConstraintQuery query(task, path);
   if (!query.start()) return kNothingKnown;
-  return ConstraintSearch(model, query, wanted, workspace.constraints).run();
+  return ConstraintSearch(task, query, wanted).run();
 }
 
-ConstraintProof proveConstraints(const CheckerModel& model, std::span<const double> q,
-                                 WorkspaceData& workspace, std::vector<ConstraintViolation>* all) {
-  const StraightPath still(model.kinematics, q, q);
-  ConstraintQuery query(model, still, workspace);
+ConstraintProof proveConstraints(const ConstraintTask& task, std::span<const double> q,
+                                 std::vector<ConstraintViolation>* all) {
+  const StraightPath still(task.kinematics, q, q);
+  ConstraintQuery query(task, still);
   if (!query.start()) return kNothingKnown;
   query.moveTo(0.0, 0.0);
   ConstraintProof proof;
   proof.intervals = 1;
-  for (const CompiledConstraint& constraint : model.constraints.constraints) {
+  for (const CompiledConstraint& constraint : task.constraints.constraints) {
     const Finding found = query.examine(constraint);
     if (found.violated) {
       const ConstraintViolation violation{

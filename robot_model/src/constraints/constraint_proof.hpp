@@ -10,11 +10,9 @@
 #include "kinematics/joint_path.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/tracking_tolerance.hpp"
 
 namespace swept::detail {
-
-struct CheckerModel;
-struct WorkspaceData;
 
 /// Bounds over a motion, of a SeenVector.
 struct VectorBound {
@@ -57,11 +55,24 @@ struct ConstraintProof {
   std::optional<ConstraintViolation> violation = {};
 };
 
-ConstraintProof proveConstraints(const CheckerModel& model, const JointPath& path,
-                                 MotionQuery wanted, WorkspaceData& workspace);
+/// What is asked about, and the work allowed.
+struct ConstraintTask {
+  const ConstraintModel& constraints;
+  const KinematicModel& kinematics;
+  std::span<const JointTolerance> tube;  ///< per body; empty: none
+  double tolerance = 0.0;                ///< m, CheckerOptions::tolerance
+  int maxIntervals = 0;
+  ///@{
+  /// Room, whose content does not matter.
+  ConstraintScratch& scratch;
+  std::span<JointMotion> motion;  ///< per body
+  ///@}
+};
+
+ConstraintProof proveConstraints(const ConstraintTask& task, const JointPath& path,
+                                 MotionQuery wanted);
 /// Of one state. `all`: if not null, every violation is put there.
-ConstraintProof proveConstraints(const CheckerModel& model, std::span<const double> q,
-                                 WorkspaceData& workspace,
+ConstraintProof proveConstraints(const ConstraintTask& task, std::span<const double> q,
                                  std::vector<ConstraintViolation>* all = nullptr);
 
 }  // namespace swept::detail

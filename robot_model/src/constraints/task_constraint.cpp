@@ -81,6 +81,9 @@ TaskConstraint TaskConstraint::onLine(const std::string& link, const Eigen::Vect
 TaskConstraint TaskConstraint::onPlane(const std::string& link, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal, double tolerance,
                                        const Eigen::Vector3d& point) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment([&] { return onPlane(link, origin, normal, tolerance, point); });
+  }
   return inRegion(link, point,
                   {.type = ConstraintRegion::Type::Box,
                    .size = {kUnlimited, kUnlimited, 2.0 * tolerance},

@@ -32,8 +32,9 @@ struct JointConstraint {
 
 /// Where a point may be: a primitive of moveit_msgs/PositionConstraint. A size may be infinite.
 struct ConstraintRegion {
-  enum class Type : std::uint8_t { Box, Sphere, Cylinder };  ///< what its `size` is of
-  Type type = Type::Box;                                     ///< see there
+  /// The shape, of which `size` has the sizes.
+  enum class Type : std::uint8_t { Box, Sphere, Cylinder };
+  Type type = Type::Box;  ///< see there
   /// m. Of a box the full sides; of a sphere its radius, 0, 0; of a cylinder, about z, its radius
   /// and length, 0.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();

@@ -13,6 +13,7 @@
 #include "swept/robot_model/body_name.hpp"
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/rate_limits.hpp"
+#include "swept/robot_model/task_constraint.hpp"
 
 /// Results about curves in time: see Checker::certifyTrajectory().
 namespace swept {
