@@ -198,8 +198,9 @@ Site inProblem(const Actor& actor, const Problem& problem) {
 void addFiles(const Actor& actor, const fs::path& folder, std::vector<Place>& places) {
   for (const fs::path& file : filesBelow(folder, {".yaml", ".yml", ".scene"})) {
     const std::string name = file.filename().string();
-    // Starts and goals, and trajectories, are no scenes.
-    if (name == "queries.yaml" || file.parent_path().filename() == "trajectories") continue;
+    // Starts and goals, trajectories and work cells are no scenes.
+    const fs::path kind = file.parent_path().filename();
+    if (name == "queries.yaml" || kind == "trajectories" || kind == "cells") continue;
     places.push_back({actor.name, name, [=] { return inSceneFile(actor, file, name); }});
   }
   for (const fs::path& file : filesBelow(folder, {".pcd", ".ply", ".xyz", ".bt", ".ot"})) {

@@ -8,6 +8,7 @@
 #include "acm/acm_output.hpp"
 #include "command_line/commands.hpp"
 #include "input/read_again.hpp"
+#include "input/work_cells.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -51,6 +52,9 @@ ExitCode exitCodeOf(const std::vector<AcmDisagreement>& differences) {
 
 ExitCode runAcm(const Arguments& args) {
   Warnings warnings(args.quiet);
+  if (isWorkCell(args))
+    throw UsageError("'" + args.robot + "' is a work cell, which names the SRDF of each of its " +
+                     "robots: run `swept acm` on their URDFs");
   if (!args.output.empty()) requireWritable(args.output);
   const std::string srdfFile = chooseSrdf(args).file;
   if (!srdfFile.empty()) requireReadAgain(srdfFile);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "input/read_again.hpp"
+#include "input/work_cells.hpp"
 #include "swept/robot_model/input.hpp"
 #include "verify/encoding.hpp"
 
@@ -126,16 +127,16 @@ double hardLimitOf(const Arguments& args) {
 Json resultsHeader(const Batch& batch) {
   const Arguments& args = *batch.args;
   const std::string& srdf = batch.model.srdf.file;
-  Json header = {
-      {"format", kFormat},
-      {"version", kVersion},
-      {"swept", SWEPT_VERSION},
-      {"robot", batch.model.robot->name()},
-      {"urdf", args.xacro ? verify::digestOf(batch.model.urdf->text) : fileDigest(args.robot)},
-      {"srdf", srdf.empty() ? Json(nullptr) : Json(fileDigest(srdf))},
-      {"group", batch.group},
-      {"problems", fileDigest(args.problems)},
-      {"margin", args.margin}};
+  Json header = {{"format", kFormat},
+                 {"version", kVersion},
+                 {"swept", SWEPT_VERSION},
+                 {"robot", batch.model.robot->name()},
+                 {"urdf", args.xacro || isWorkCell(args) ? verify::digestOf(batch.model.urdf->text)
+                                                         : fileDigest(args.robot)},
+                 {"srdf", srdf.empty() ? Json(nullptr) : Json(fileDigest(srdf))},
+                 {"group", batch.group},
+                 {"problems", fileDigest(args.problems)},
+                 {"margin", args.margin}};
   if (args.selfMargin) header["margin_self"] = *args.selfMargin;
   if (args.worldMargin) header["margin_world"] = *args.worldMargin;
   header.update({{"tolerance", args.tolerance},

@@ -32,7 +32,7 @@ struct BatchArguments {
 /// The command line, as typed. Each subcommand reads the part it has.
 struct Arguments {
   const Command* command = nullptr;
-  std::string robot;                        ///< URDF file
+  std::string robot;                        ///< URDF file, or a work cell (.yaml)
   bool xacro = false;                       ///< `robot` is what the program xacro makes of it
   std::vector<std::string> xacroArguments;  ///< NAME:=VALUE
   std::vector<std::string> states;  ///< names, comma-separated values, @FILE, - or a path file
@@ -55,6 +55,7 @@ struct Arguments {
   std::vector<std::string> scales;     ///< NAME=FACTOR
   std::vector<std::string> allowed;    ///< A,B
   std::vector<std::string> attached;   ///< SHAPE@LINK[:POSE]
+  std::vector<std::string> standing;   ///< GROUP=STATE
   std::vector<std::string> explained;  ///< A,B
   double margin = 0.0;                 ///< m
   ///@{

@@ -36,7 +36,9 @@ void addXacroOptions(CLI::App& app, Arguments& args) {
 }  // namespace
 
 void addRobotOptions(CLI::App& app, Arguments& args, const std::string& use) {
-  app.add_option("robot", args.robot, "URDF file")->required()->type_name("ROBOT.urdf");
+  app.add_option("robot", args.robot, "URDF file, or a .yaml of several robots")
+      ->required()
+      ->type_name("ROBOT.urdf");
   app.add_option("--srdf", args.srdf,
                  "SRDF file" + use +
                      "; without: a .srdf beside the URDF with the same stem, if there is one; "
@@ -100,6 +102,11 @@ void addRuleOptions(CLI::App& app, Arguments& args) {
          "checked as the link is, but not against it; behind a colon its pose in the link's "
          "frame, X,Y,Z[,QX,QY,QZ,QW] (repeatable)")
       ->type_name("SHAPE@LINK")
+      ->allow_extra_args(false);
+  app.add_option("--stand", args.standing,
+                 "the joints of another group stand at this state, instead of at their default "
+                 "(repeatable)")
+      ->type_name("GROUP=STATE")
       ->allow_extra_args(false);
 }
 

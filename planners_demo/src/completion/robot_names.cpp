@@ -3,12 +3,15 @@
 
 #include <tinyxml2.h>
 
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "input/task.hpp"
+#include "input/work_cells.hpp"
 
 namespace swept {
 namespace {
@@ -25,6 +28,21 @@ std::string textOf(const std::string& file) {
   if (std::filesystem::file_size(file, error) > kMostBytes || error) return {};
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+struct Texts {
+  std::string urdf, srdf;
+};
+
+/// Empty where they cannot be read: whoever presses a key wants no message.
+Texts textsOf(const Arguments& args) {
+  if (!isWorkCell(args)) return {textOf(args.robot), textOf(chooseSrdf(args).file)};
+  try {
+    ComposedRobot cell = compose(WorkCell::read(args.robot));
+    return {std::move(cell.urdf), std::move(cell.srdf)};
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 std::string attribute(const XMLElement& element, const char* name) {
@@ -47,14 +65,14 @@ void forEach(tinyxml2::XMLDocument& document, const char* element, Take take) {
 RobotNames robotNames(const Arguments& args) {
   RobotNames names;
   tinyxml2::XMLDocument urdf, srdf;
-  urdf.Parse(textOf(args.robot).c_str());
+  const Texts texts = textsOf(args);
+  urdf.Parse(texts.urdf.c_str());
   forEach(urdf, "link",
           [&](const XMLElement&, const std::string& name) { names.links.push_back(name); });
   forEach(urdf, "joint", [&](const XMLElement& joint, const std::string& name) {
     if (attribute(joint, "type") != "fixed") names.joints.push_back(name);
   });
-  const std::string file = chooseSrdf(args).file;
-  if (!file.empty()) srdf.Parse(textOf(file).c_str());
+  srdf.Parse(texts.srdf.c_str());
   forEach(srdf, "group",
           [&](const XMLElement&, const std::string& name) { names.groups.push_back(name); });
   forEach(srdf, "group_state", [&](const XMLElement& state, const std::string& name) {

@@ -5,11 +5,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/exit_code.hpp"
 #include "input/rules.hpp"
 #include "input/states.hpp"
 #include "output/text_output.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 
 namespace swept {
 namespace {
@@ -75,6 +75,23 @@ const Group& onlyGroup(const Robot& robot, const std::vector<std::string>& state
                    "several groups; choose one with --group: " + joined(namesOf(robot.groups())));
 }
 
+/// With the group `left/arm+right/arm` of all joints of both, if it asks for one that is not there.
+std::shared_ptr<const Robot> withSum(std::shared_ptr<const Robot> robot, const std::string& name) {
+  if (name.find('+') == std::string::npos || robot->findGroup(name) != nullptr) return robot;
+  std::vector<std::string> joints;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('+', begin), name.size());
+    const Group* const group = robot->findGroup(name.substr(begin, end - begin));
+    if (group == nullptr) refuseGroup(*robot, name.substr(begin, end - begin));
+    for (const int joint : group->joints) {
+      const std::string& own = robot->joints()[static_cast<std::size_t>(joint)].name;
+      if (std::ranges::find(joints, own) == joints.end()) joints.push_back(own);
+    }
+    begin = end + 1;
+  }
+  return robot->withGroup(name, joints);
+}
+
 }  // namespace
 
 bool asksForGroup(const Arguments& args) {
@@ -93,7 +110,7 @@ const Group& chooseGroup(const Robot& robot, const Arguments& args) {
 
 std::shared_ptr<const Robot> withAskedGroup(std::shared_ptr<const Robot> robot,
                                             const Arguments& args) {
-  if (args.joints.empty() && args.chain.empty()) return robot;
+  if (args.joints.empty() && args.chain.empty()) return withSum(std::move(robot), args.group);
   try {
     if (!args.joints.empty())
       return robot->withGroup(nameOfGroup(args), splitAtCommas(args.joints));

@@ -162,6 +162,7 @@ void visit(Visitor& visitor, Args& args) {
   visitor.texts("scale", args.scales);
   visitor.texts("allow", args.allowed);
   visitor.attached("attach", args.attached);
+  visitor.texts("stand", args.standing);
   visitor.text("tracking", args.tracking);
   visitor.file("controllers", args.controllers);
   visitor.texts("keep_upright", args.keepUpright);

@@ -47,9 +47,12 @@ std::filesystem::path cacheFolder() {
   return folder == nullptr ? "" : folder;
 }
 
-std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText& urdf,
-                                       const std::filesystem::path& srdf,
-                                       const LoadOptions& options) {
+namespace {
+
+using Load = std::function<std::shared_ptr<const Robot>(const LoadOptions&)>;
+
+std::shared_ptr<const Robot> loadShown(const Arguments& args, const LoadOptions& options,
+                                       const Load& load) {
   HeldRemarks remarks(options);
   LoadOptions holding = remarks.options();
   const std::string label = "loading the robot";
@@ -58,10 +61,26 @@ std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText
     progress.setLabel(label + ": " + std::to_string(done) + " of " + std::to_string(total) +
                       " meshes");
   };
-  const std::string srdfText = srdf.empty() ? std::string() : readTextFile(srdf);
-  if (!srdf.empty() && srdfText.empty())
-    throw InputError(srdf.string(), 1, "malformed XML: the document is empty");
-  return Robot::parse(urdf.text, urdf.name, srdfText, srdf.string(), holding);
+  return load(holding);
+}
+
+}  // namespace
+
+std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText& urdf,
+                                       const std::filesystem::path& srdf,
+                                       const LoadOptions& options) {
+  return loadShown(args, options, [&](const LoadOptions& holding) {
+    const std::string srdfText = srdf.empty() ? std::string() : readTextFile(srdf);
+    if (!srdf.empty() && srdfText.empty())
+      throw InputError(srdf.string(), 1, "malformed XML: the document is empty");
+    return Robot::parse(urdf.text, urdf.name, srdfText, srdf.string(), holding);
+  });
+}
+
+std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ComposedRobot& cell,
+                                       const LoadOptions& options) {
+  return loadShown(args, options,
+                   [&](const LoadOptions& holding) { return loadComposed(cell, holding); });
 }
 
 }  // namespace swept

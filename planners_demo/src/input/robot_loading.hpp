@@ -7,6 +7,7 @@
 #include "command_line/arguments.hpp"
 #include "input/xacro.hpp"
 #include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/work_cell.hpp"
 
 namespace swept {
 
@@ -18,6 +19,9 @@ std::filesystem::path cacheFolder();
 /// Throws as Robot::load.
 std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ExpandedText& urdf,
                                        const std::filesystem::path& srdf,
+                                       const LoadOptions& options);
+/// The same, of a work cell. Throws as loadComposed().
+std::shared_ptr<const Robot> loadRobot(const Arguments& args, const ComposedRobot& cell,
                                        const LoadOptions& options);
 
 }  // namespace swept

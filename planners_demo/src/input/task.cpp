@@ -19,6 +19,7 @@
 #include "input/states.hpp"
 #include "input/tracking.hpp"
 #include "input/unchecked.hpp"
+#include "input/work_cells.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
@@ -104,14 +105,14 @@ Task problemTask(const Arguments& args, const Model& model, const Group& group,
 }  // namespace
 
 SrdfChoice chooseSrdf(const Arguments& args) {
-  if (args.srdf == "none") return {};
+  if (args.srdf == "none" || isWorkCell(args)) return {};
   if (!args.srdf.empty()) return {.file = args.srdf, .foundBesideUrdf = false};
   const std::string beside = Robot::srdfBeside(args.robot).string();
   return {.file = beside, .foundBesideUrdf = !beside.empty()};
 }
 
 bool leavesOutDefaultContacts(const Arguments& args) {
-  return !args.keepDefaultContacts && chooseSrdf(args).file.empty();
+  return !args.keepDefaultContacts && !isWorkCell(args) && chooseSrdf(args).file.empty();
 }
 
 Model loadModel(const Arguments& args, Warnings& warnings) {
@@ -126,14 +127,20 @@ Model loadModel(const Arguments& args, Warnings& warnings) {
   Model model;
   model.srdf = chooseSrdf(args);
   // Kept for who asks what the robot looks like: a pipe cannot be read again.
-  model.urdf = args.xacro ? expandedText(args)
-                          : ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
-  model.robot = withAskedGroup(loadRobot(args, *model.urdf, model.srdf.file, options), args);
+  if (isWorkCell(args)) {
+    const ComposedRobot cell = composedCell(args, options);
+    model.urdf = {.text = cell.urdf, .name = cell.name};
+    model.robot = withAskedGroup(loadRobot(args, cell, options), args);
+  } else {
+    model.urdf = args.xacro ? expandedText(args)
+                            : ExpandedText{.text = readTextFile(args.robot), .name = args.robot};
+    model.robot = withAskedGroup(loadRobot(args, *model.urdf, model.srdf.file, options), args);
+  }
   options.modelFrame = model.robot->modelFrame();
   PlanningScene scene;
   if (!args.scene.empty()) scene = PlanningScene::load(args.scene, *model.robot, options);
   World world = std::move(scene.world);
-  model.reference = scene.state;
+  model.reference = withStanding(args, *model.robot, std::move(scene.state), options);
   addClouds(args, *model.robot, model.reference, options, world);
   model.attached = attachedBodies(args, *model.robot, options, std::move(scene.attached));
   model.weakerRules = std::move(scene.rules);

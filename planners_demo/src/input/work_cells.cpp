@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "input/work_cells.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "command_line/exit_code.hpp"
+#include "input/groups.hpp"
+#include "input/states.hpp"
+
+namespace swept {
+
+bool isWorkCell(const Arguments& args) {
+  const std::filesystem::path ending = std::filesystem::path(args.robot).extension();
+  return ending == ".yaml" || ending == ".yml";
+}
+
+ComposedRobot composedCell(const Arguments& args, const LoadOptions& options) {
+  const std::string place = "'" + args.robot + "' is a work cell: ";
+  if (args.xacro) throw UsageError("--xacro: " + place + "it names URDFs, which xacro has made");
+  if (!args.srdf.empty() && args.srdf != "none")
+    throw UsageError("--srdf: " + place + "it names the SRDF of each of its robots");
+  return compose(WorkCell::read(args.robot, options), options);
+}
+
+std::optional<Eigen::VectorXd> withStanding(const Arguments& args, const Robot& robot,
+                                            std::optional<Eigen::VectorXd> before,
+                                            const LoadOptions& options) {
+  if (args.standing.empty()) return before;
+  Eigen::VectorXd all = before.value_or(robot.defaultState());
+  for (const std::string& text : args.standing) {
+    const auto at = text.find('=');
+    if (at == std::string::npos || at == 0)
+      throw UsageError("--stand '" + text + "': must be GROUP=STATE");
+    const Group& group = chooseGroup(robot, text.substr(0, at));
+    const AngleUnit unit = args.degrees ? AngleUnit::Degree : AngleUnit::Radian;
+    const std::vector<double> q =
+        readState(robot, group, text.substr(at + 1), "--stand '" + text + "'", options.warn, unit);
+    for (std::size_t i = 0; i < q.size(); ++i) all[group.variables[i]] = q[i];
+  }
+  return all;
+}
+
+}  // namespace swept
