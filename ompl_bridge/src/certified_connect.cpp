@@ -8,10 +8,12 @@
 #include <cmath>
 #include <vector>
 
+#include "constraint_steer.hpp"
 #include "default_range.hpp"
 #include "spread_sampler.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
+#include "used_checker.hpp"
 
 namespace swept {
 
@@ -119,25 +121,36 @@ bool CertifiedConnect::takeGoals(const ob::PlannerTerminationCondition& ptc, std
     Node* const goal = add(goals, state, nullptr);
     const Node* const start = trees_[kStart].nodes.nearest(goal);
     meeting = {start, goal};
-    if (isAllowed(meeting) && si_->checkMotion(start->state, goal->state)) return true;
+    if (!isAllowed(meeting)) continue;
+    if (si_->checkMotion(start->state, goal->state)) return true;
+    if (steer_ == nullptr) continue;
+    meeting.start = connectAlong(trees_[kStart], goal);
+    if (meeting.start != nullptr && isAllowed(meeting)) return true;
   }
   return false;
+}
+
+/// From a node towards the sample. Null: the constraints allow no step that comes nearer.
+const ob::State* CertifiedConnect::stepTowards(const Node& near, double distance) {
+  if (steer_ != nullptr) {
+    return steer_->step(near.state, sample_.state, range_, reached_.state) ? reached_.state
+                                                                           : nullptr;
+  }
+  if (!(distance > range_)) return sample_.state;
+  si_->getStateSpace()->interpolate(near.state, sample_.state, range_ / distance, reached_.state);
+  return reached_.state;
 }
 
 /// A step towards the next sample. Null: the sample is not taken, or the way is not free.
 CertifiedConnect::Node* CertifiedConnect::extend(Tree& tree) {
   sampler_->sample(sample_.state);
+  if (steer_ != nullptr && !steer_->project(sample_.state)) return nullptr;
   Node* const near = tree.nodes.nearest(&sample_);
   const double distance = si_->distance(near->state, sample_.state);
   if (distance > near->radius || distance == 0.0) return nullptr;
-  const ob::State* to = sample_.state;
-  if (distance > range_) {
-    si_->getStateSpace()->interpolate(near->state, sample_.state, range_ / distance,
-                                      reached_.state);
-    to = reached_.state;
-  }
+  const ob::State* const to = stepTowards(*near, distance);
   const bool wasRefused = std::isfinite(near->radius);
-  if (isFree(tree, near->state, to)) {
+  if (to != nullptr && isFree(tree, near->state, to)) {
     if (wasRefused) near->radius *= 1.0 + kRadiusChange;
     return add(tree, to, near);
   }
@@ -149,6 +162,7 @@ CertifiedConnect::Node* CertifiedConnect::extend(Tree& tree) {
 /// Steps from the nearest node towards a node of the other tree. The last node, if its motion to
 /// that one is free.
 const CertifiedConnect::Node* CertifiedConnect::connect(Tree& tree, Node* to) {
+  if (steer_ != nullptr) return connectAlong(tree, to);
   const ob::StateSpace& space = *si_->getStateSpace();
   const Node* const first = tree.nodes.nearest(to);
   const double steps = std::max(1.0, std::ceil(si_->distance(first->state, to->state) / range_));
@@ -159,6 +173,18 @@ const CertifiedConnect::Node* CertifiedConnect::connect(Tree& tree, Node* to) {
     last = add(tree, reached_.state, last);
   }
   return isFree(tree, last->state, to->state) ? last : nullptr;
+}
+
+/// The same by steps that keep the constraints.
+const CertifiedConnect::Node* CertifiedConnect::connectAlong(Tree& tree, const Node* to) {
+  Node wanted = *to;
+  const Node* last = tree.nodes.nearest(&wanted);
+  for (;;) {
+    if (!steer_->step(last->state, to->state, range_, reached_.state)) return nullptr;
+    if (!isFree(tree, last->state, reached_.state)) return nullptr;
+    if (si_->equalStates(reached_.state, to->state)) return last;
+    last = add(tree, reached_.state, last);
+  }
 }
 
 /// Returns whether the trees meet.
@@ -218,6 +244,10 @@ ob::PlannerStatus CertifiedConnect::solve(const ob::PlannerTerminationCondition&
   if (goal == nullptr) {
     OMPL_ERROR("%s: Unknown type of goal", getName().c_str());
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  }
+  if (auto checker = detail::checkerOf(*si_); checker != checker_ || steer_ == nullptr) {
+    steer_ = detail::steerOf(*si_);
+    checker_ = std::move(checker);
   }
   if (!sampler_) sampler_ = std::make_unique<detail::SpreadSampler>(si_->getStateSpace(), seed_);
   while (const ob::State* state = pis_.nextStart()) add(trees_[kStart], state, nullptr);

@@ -7,10 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
-#include "swept/ompl_bridge/validity_checker.hpp"
 #include "swept/robot_model/limits.hpp"
+#include "used_checker.hpp"
 
 namespace swept::detail {
 
@@ -22,15 +21,6 @@ constexpr double kTurn = 0.4;   // rad
 constexpr double kShare = 0.2;  // of the way of a joint that slides, or of a space's extent
 constexpr double kSlide = 4.0;  // m, of a joint without limits
 
-/// Null: of a space whose variables are not known.
-const Checker* checkerOf(const ob::SpaceInformation& si) {
-  if (const auto* motions = dynamic_cast<CertifiedMotionValidator*>(si.getMotionValidator().get()))
-    return motions->checker().get();
-  if (const auto* states = dynamic_cast<ValidityChecker*>(si.getStateValidityChecker().get()))
-    return states->checker().get();
-  return nullptr;
-}
-
 double stepOf(const Robot& robot, const Variable& variable) {
   const double way = variable.upper - variable.lower;
   if (unitOf(robot, variable) == "rad") return std::isfinite(way) ? std::min(kTurn, way) : kTurn;
@@ -41,7 +31,7 @@ double stepOf(const Robot& robot, const Variable& variable) {
 
 double defaultRange(const ob::SpaceInformation& si) {
   const ob::StateSpacePtr& space = si.getStateSpace();
-  const Checker* const checker = checkerOf(si);
+  const std::shared_ptr<const Checker> checker = checkerOf(si);
   if (checker == nullptr) return kShare * space->getMaximumExtent();
   const Robot& robot = checker->robot();
   std::vector<double> from, to;

@@ -1,80 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/ompl_bridge/pose_goal.hpp"
 
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/base/spaces/SE2StateSpace.h>
-#include <ompl/base/spaces/SE3StateSpace.h>
-
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "number_text.hpp"
 #include "preconditions.hpp"
-#include "state_layout.hpp"
+#include "space_bounds.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace ob = ompl::base;
-using detail::SubspaceKind;
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Solutions this much inside the tolerances are still inside after a conversion's rounding.
 constexpr double kInside = 0.5;
-
-void add(const ob::RealVectorBounds& translation, detail::SpaceBounds& bounds) {
-  bounds.lower.insert(bounds.lower.end(), translation.low.begin(), translation.low.end());
-  bounds.upper.insert(bounds.upper.end(), translation.high.begin(), translation.high.end());
-}
-
-void add(double most, int count, detail::SpaceBounds& bounds) {
-  bounds.lower.insert(bounds.lower.end(), count, -most);
-  bounds.upper.insert(bounds.upper.end(), count, most);
-}
-
-void addBounds(const ob::StateSpace& space, SubspaceKind kind, detail::SpaceBounds& bounds) {
-  switch (kind) {
-    case SubspaceKind::RealVector:
-      add(space.as<ob::RealVectorStateSpace>()->getBounds(), bounds);
-      break;
-    case SubspaceKind::SO2:
-      add(kPi, 1, bounds);
-      break;
-    case SubspaceKind::SE2:
-      add(space.as<ob::SE2StateSpace>()->getBounds(), bounds);
-      add(kPi, 1, bounds);
-      break;
-    case SubspaceKind::SE3:
-      add(space.as<ob::SE3StateSpace>()->getBounds(), bounds);
-      bounds.quaternions.push_back(static_cast<int>(bounds.lower.size()));
-      add(1.0, 4, bounds);
-      break;
-  }
-}
-
-detail::SpaceBounds boundsOf(const ob::StateSpace& space, const Checker& checker) {
-  const std::vector<detail::JointRun> runs = detail::jointRuns(checker.robot(), checker.group());
-  const bool single = detail::isSingleRealVector(runs);
-  detail::SpaceBounds bounds;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const auto index = static_cast<unsigned int>(i);
-    const ob::StateSpace* part =
-        single ? &space : space.as<ob::CompoundStateSpace>()->getSubspace(index).get();
-    addBounds(*part, runs[i].kind, bounds);
-  }
-  return bounds;
-}
 
 InverseKinematics kinematicsOf(const std::shared_ptr<const Checker>& checker, std::string_view link,
                                const PoseGoalOptions& options, const detail::SpaceBounds& bounds) {
   const std::shared_ptr<const Robot> robot(checker, &checker->robot());
   return InverseKinematics(robot, checker->group().name, link, checker->options().reference,
                            options.link_from_tool)
+      .within(bounds.lower, bounds.upper);
+}
+
+/// The constraints of the checker, and that the tool is at the pose.
+ConstraintProjection projectionOf(const Checker& checker, const std::string& link,
+                                  const Eigen::Isometry3d& model_from_tool,
+                                  const PoseGoalOptions& options,
+                                  const detail::SpaceBounds& bounds) {
+  TaskConstraint all = checker.options().constraints;
+  const ConstraintFrame tool{.body = link, .body_from_frame = options.link_from_tool};
+  if (std::isfinite(options.positionTolerance)) {
+    ConstraintRegion ball{.type = ConstraintRegion::Type::Sphere,
+                          .size = {options.positionTolerance, 0.0, 0.0}};
+    ball.reference_from_region.translation() = model_from_tool.translation();
+    all.positions.push_back({.frame = tool, .regions = {ball}});
+  }
+  if (std::isfinite(options.orientationTolerance)) {
+    // Three angles: their rotation is no larger than the root of three times each.
+    const double each = options.orientationTolerance / std::sqrt(3.0);
+    all.orientations.push_back(
+        {.frame = tool,
+         .orientation = Eigen::Quaterniond(model_from_tool.linear()),
+         .tolerance = {each, each, each},
+         .parameterization = OrientationConstraint::Parameterization::RotationVector});
+  }
+  return ConstraintProjection(checker.withConstraints(std::move(all)))
       .within(bounds.lower, bounds.upper);
 }
 
@@ -108,8 +85,8 @@ PoseGoal::PoseGoal(const ob::SpaceInformationPtr& si, const std::shared_ptr<cons
     : GoalLazySamples(
           si, [this](const GoalLazySamples*, ob::State* state) { return sample(state); }, false,
           kSampleDistance),
-      bounds_(
-          boundsOf(*si->getStateSpace(), *detail::requireChecker(checker, *si->getStateSpace()))),
+      bounds_(detail::boundsOf(*si->getStateSpace(),
+                               *detail::requireChecker(checker, *si->getStateSpace()))),
       kinematics_(kinematicsOf(checker, link, options, bounds_)),
       conversion_(kinematics_.robot(), kinematics_.group()),
       model_from_tool_(model_from_tool),
@@ -119,6 +96,10 @@ PoseGoal::PoseGoal(const ob::SpaceInformationPtr& si, const std::shared_ptr<cons
       q_(bounds_.lower.size()) {
   requireSensible(options);
   requireTarget();
+  if (!checker->options().constraints.empty()) {
+    together_ = projectionOf(*checker, std::string(link), model_from_tool, options, bounds_);
+    projecting_.emplace(*together_);
+  }
   setThreshold(1.0);
   // Not in the base's constructor: the thread uses the members of this class. It begins in the
   // environment of the thread that starts it.
@@ -165,6 +146,11 @@ void PoseGoal::drawSeed() {
   for (const int first : bounds_.quaternions) random_.quaternion(&q_[first]);
 }
 
+bool PoseGoal::findState() {
+  if (!kinematics_.solve(model_from_tool_, q_, search(), workspace_)) return false;
+  return !together_ || together_->project(q_, {}, *projecting_);
+}
+
 // The caller, OMPL, keeps the state if it is valid and differs from those before it.
 bool PoseGoal::sample(ob::State* state) {
   if (detail::inForeignEnvironment()) {
@@ -174,7 +160,7 @@ bool PoseGoal::sample(ob::State* state) {
          getStateCount() < static_cast<std::size_t>(options_.maxSamples)) {
     ++seeds_;
     drawSeed();
-    if (!kinematics_.solve(model_from_tool_, q_, search(), workspace_)) continue;
+    if (!findState()) continue;
     conversion_.toState(q_, state);
     return true;
   }

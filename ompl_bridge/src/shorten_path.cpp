@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "constraint_steer.hpp"
+#include "default_range.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/paths.hpp"
 
@@ -18,7 +20,10 @@ namespace ob = ompl::base;
 class Shortening {
  public:
   explicit Shortening(ompl::geometric::PathGeometric& path)
-      : path_(path), states_(path.getStates()), si_(path.getSpaceInformation().get()) {
+      : path_(path),
+        states_(path.getStates()),
+        si_(path.getSpaceInformation().get()),
+        steer_(detail::steerOf(*si_)) {
     for (ob::State*& state : cut_) state = si_->allocState();
     for (ob::State*& state : best_) state = si_->allocState();
   }
@@ -31,6 +36,7 @@ class Shortening {
 
   void run(const ShorteningOptions& options) {
     joinFarthest();
+    if (steer_ != nullptr) joinAlong(options.leastGain);
     if (states_.size() < 3) return;
     const ompl::geometric::PathGeometric joined(path_);
     asked_.assign(states_.size() - 1, true);
@@ -58,6 +64,38 @@ class Shortening {
         break;
       }
     }
+  }
+
+  /// The same by several motions that keep the constraints, between states ever nearer to each
+  /// other.
+  void joinAlong(double leastGain) {
+    const double range = detail::defaultRange(*si_);
+    for (std::size_t apart = states_.size() - 1; apart > 1; apart /= 2)
+      for (std::size_t i = 0; i + apart < states_.size(); ++i)
+        replaceAlong(i, i + apart, range, leastGain);
+  }
+
+  void replaceAlong(std::size_t from, std::size_t to, double range, double leastGain) {
+    double length = 0.0;
+    for (std::size_t i = from; i < to; ++i) length += si_->distance(states_[i], states_[i + 1]);
+    const double longest = (1.0 - leastGain) * length;
+    if (si_->distance(states_[from], states_[to]) > longest) return;
+    std::vector<ob::State*> way;
+    bool valid = steer_->between(states_[from], states_[to], range, longest, way);
+    const ob::State* last = states_[from];
+    for (std::size_t i = 0; valid && i <= way.size(); ++i) {
+      const ob::State* const next = i < way.size() ? way[i] : states_[to];
+      valid = si_->checkMotion(last, next);
+      last = next;
+    }
+    if (valid) {
+      const auto begin = states_.begin() + static_cast<std::ptrdiff_t>(from) + 1;
+      const auto end = states_.begin() + static_cast<std::ptrdiff_t>(to);
+      std::vector<ob::State*> before(begin, end);
+      states_.insert(states_.erase(begin, end), way.begin(), way.end());
+      way = std::move(before);
+    }
+    for (ob::State* state : way) si_->freeState(state);
   }
 
   /// False: none was.
@@ -109,8 +147,9 @@ class Shortening {
   ompl::geometric::PathGeometric& path_;
   std::vector<ob::State*>& states_;
   const ob::SpaceInformation* si_;
-  std::vector<bool> asked_;               ///< whether each motion of the path has been
-  std::array<ob::State*, 2> cut_, best_;  ///< the ends of a cut
+  std::unique_ptr<detail::ConstraintSteer> steer_;  ///< null: there are no constraints
+  std::vector<bool> asked_;                         ///< whether each motion of the path has been
+  std::array<ob::State*, 2> cut_, best_;            ///< the ends of a cut
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "kinematics/degrees_of_freedom.hpp"
 #include "kinematics/full_state.hpp"
 #include "kinematics/lever_arms.hpp"
 #include "kinematics/motion_model.hpp"
@@ -23,16 +24,6 @@ namespace swept {
 
 namespace detail {
 
-/// One degree of freedom of a configuration: a variable's value, or a rotation of a quaternion.
-struct Degree {
-  int variable = 0;     ///< of a rotation: the first of the quaternion's four
-  bool turn = false;    ///< of a quaternion
-  bool cyclic = false;  ///< an angle modulo 2 pi
-  bool slides = false;  ///< in m
-  double low = -std::numeric_limits<double>::infinity();  ///< rad or m
-  double high = std::numeric_limits<double>::infinity();  ///< rad or m
-};
-
 /// The moving frames between the model's and a tool's, and the meaning of the group's variables.
 struct ToolChain {
   std::shared_ptr<const Robot> robot;
@@ -40,10 +31,8 @@ struct ToolChain {
   KinematicModel kinematics;
   std::vector<int> path;                                             ///< bodies, root first
   Eigen::Isometry3d body_from_tool = Eigen::Isometry3d::Identity();  ///< of the last body
-  std::vector<Degree> degrees;
-  std::vector<int> degreeOf;     ///< per variable; a quaternion's four have the first rotation
-  std::vector<int> quaternions;  ///< the first variable of each
-  double scale = 1.0;            ///< m that count as much as a radian
+  DegreesOfFreedom freedom;
+  double scale = 1.0;  ///< m that count as much as a radian
 };
 
 }  // namespace detail
@@ -57,11 +46,10 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using Jacobian = detail::PointJacobian;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kShortestQuaternion = 1e-6;  // compileJoint refuses shorter ones
 constexpr const char* kUnusable =
     "a value is not finite, a quaternion has no direction, or a prismatic value is outside its "
@@ -78,45 +66,6 @@ void requireSize(std::size_t size, std::size_t expected, const std::string& what
 
 void requireRigid(const Isometry3d& pose, const std::string& what) {
   if (!detail::isRigid(pose)) refuse(what + " is not a rigid transform");
-}
-
-/// The rotation vector (rad) of a rotation by at most half a turn.
-Vector3d rotationVector(const Matrix3d& rotation) {
-  Quaterniond q(rotation);
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const double sine = q.vec().norm();
-  // Half the vector is the sine if that rounds to the angle.
-  if (sine < 1e-12) return 2.0 * q.vec();
-  return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
-}
-
-Quaterniond turned(const Vector3d& rotation, const Quaterniond& from) {
-  const double angle = rotation.norm();
-  if (!(angle > 0.0)) return from;
-  return (Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * from).normalized();
-}
-
-void addVariable(ToolChain& chain, int value) {
-  const Variable& variable = chain.robot->variables()[chain.group->variables[value]];
-  const Joint& joint = chain.robot->joints()[variable.joint];
-  const int place = chain.group->variables[value] - joint.firstVariable;
-  const bool rotates = isOrientation(*chain.robot, variable);
-  if (rotates && place > detail::quaternionPlace(joint.type)) {
-    chain.degreeOf.push_back(chain.degreeOf.back());
-    return;
-  }
-  chain.degreeOf.push_back(static_cast<int>(chain.degrees.size()));
-  Degree degree;
-  degree.variable = value;
-  degree.turn = rotates;
-  degree.cyclic = variable.cyclic;
-  degree.slides = detail::isLength(joint.type, place);
-  if (!rotates && !variable.cyclic) {
-    degree.low = variable.lower;
-    degree.high = variable.upper;
-  }
-  chain.degrees.insert(chain.degrees.end(), rotates ? 3 : 1, degree);
-  if (rotates) chain.quaternions.push_back(value);
 }
 
 /// Metres are compared with radians at the longest lever arm of the chain.
@@ -145,50 +94,6 @@ bool allFinite(std::span<const double> q) {
   return std::all_of(q.begin(), q.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// Column of a joint whose body turns about an axis through `center`, and of one that slides; p is
-/// the tool's origin, all in the model frame.
-Vector6 turningColumn(const Vector3d& axis, const Vector3d& center, const Vector3d& p) {
-  Vector6 column;
-  column << axis.cross(p - center), axis;
-  return column;
-}
-
-Vector6 slidingColumn(const Vector3d& direction) {
-  Vector6 column;
-  column << direction, Vector3d::Zero();
-  return column;
-}
-
-/// Adds the contribution of one joint; several joints may follow one variable.
-void addColumns(const ToolChain& chain, const MovingBody& body, const Matrix3d& axes,
-                const Vector3d& center, const Vector3d& p, Jacobian& jacobian) {
-  const int first = chain.degreeOf[body.variable];
-  switch (body.type) {
-    case JointType::Revolute:
-    case JointType::Continuous:
-      jacobian.col(first) += turningColumn(body.multiplier * (axes * body.axis), center, p);
-      break;
-    case JointType::Prismatic:
-      jacobian.col(first) += slidingColumn(body.multiplier * (axes * body.axis));
-      break;
-    case JointType::Planar: {
-      const Matrix3d plane = axes * body.planarBasis;
-      jacobian.col(first) += slidingColumn(plane.col(0));
-      jacobian.col(first + 1) += slidingColumn(plane.col(1));
-      jacobian.col(first + 2) += turningColumn(plane.col(2), center, p);
-      break;
-    }
-    case JointType::Floating:
-      for (int i = 0; i < 3; ++i) {
-        jacobian.col(first + i) += slidingColumn(axes.col(i));
-        jacobian.col(first + 3 + i) += turningColumn(axes.col(i), center, p);
-      }
-      break;
-    case JointType::Fixed:
-      break;
-  }
-}
-
 }  // namespace
 
 PoseError poseError(const Isometry3d& actual, const Isometry3d& wanted) {
@@ -196,11 +101,11 @@ PoseError poseError(const Isometry3d& actual, const Isometry3d& wanted) {
     return inDefaultEnvironment([&] { return poseError(actual, wanted); });
   }
   return {(wanted.translation() - actual.translation()).norm(),
-          rotationVector(wanted.linear() * actual.linear().transpose()).norm()};
+          detail::rotationVector(wanted.linear() * actual.linear().transpose()).norm()};
 }
 
 InverseKinematics::Workspace::Workspace(const InverseKinematics& kinematics)
-    : candidate_(kinematics.chain_->degreeOf.size()),
+    : candidate_(kinematics.chain_->freedom.degreeOf.size()),
       world_from_joint_(kinematics.chain_->path.size()),
       world_from_body_(kinematics.chain_->path.size()),
       jacobian_(6, kinematics.degreesOfFreedom()),
@@ -238,7 +143,7 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const Robot> robot, std::st
   }
   chain->path = levers.path;
   chain->scale = scaleOf(levers);
-  for (int i = 0; i < chain->kinematics.dimension; ++i) addVariable(*chain, i);
+  chain->freedom = detail::degreesOfFreedom(*chain->robot, *chain->group);
   chain_ = std::move(chain);
 }
 
@@ -250,21 +155,12 @@ InverseKinematics InverseKinematics::within(ConfigurationView lower,
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, lower, upper] { return within(lower, upper); });
   }
-  requireSize(lower.size(), chain_->degreeOf.size(), "the lower limit");
-  requireSize(upper.size(), chain_->degreeOf.size(), "the upper limit");
+  requireSize(lower.size(), chain_->freedom.degreeOf.size(), "the lower limit");
+  requireSize(upper.size(), chain_->freedom.degreeOf.size(), "the upper limit");
   auto chain = std::make_shared<ToolChain>(*chain_);
-  for (Degree& degree : chain->degrees) {
-    if (degree.turn || degree.cyclic) continue;
-    double low = lower[degree.variable], high = upper[degree.variable];
-    const bool ordered = low <= high;
-    if (low > degree.high && isWithin(low, degree.low, degree.high)) low = degree.high;
-    if (high < degree.low && isWithin(high, degree.low, degree.high)) high = degree.low;
-    degree.low = std::max(degree.low, low);
-    degree.high = std::min(degree.high, high);
-    if (!ordered || !(degree.low <= degree.high)) {
-      refuse("the limits leave no value to variable '" +
-             robot().variables()[group().variables[degree.variable]].name + "'");
-    }
+  if (const auto variable = chain->freedom.limit(lower, upper)) {
+    refuse("the limits leave no value to variable '" +
+           robot().variables()[group().variables[*variable]].name + "'");
   }
   return InverseKinematics(std::move(chain));
 }
@@ -278,18 +174,18 @@ const Group& InverseKinematics::group() const {
 }
 
 int InverseKinematics::dimension() const {
-  return static_cast<int>(chain_->degreeOf.size());
+  return static_cast<int>(chain_->freedom.degreeOf.size());
 }
 
 int InverseKinematics::degreesOfFreedom() const {
-  return static_cast<int>(chain_->degrees.size());
+  return static_cast<int>(chain_->freedom.degrees.size());
 }
 
 std::optional<Isometry3d> InverseKinematics::findPose(ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return findPose(q); });
   }
-  requireSize(q.size(), chain_->degreeOf.size(), "the configuration");
+  requireSize(q.size(), chain_->freedom.degreeOf.size(), "the configuration");
   if (!allFinite(q)) return {};
   Isometry3d world_from_body;
   const auto keep = [&](std::size_t, const Isometry3d&, const Isometry3d& body) {
@@ -316,29 +212,16 @@ void fillJacobian(const ToolChain& chain, const std::vector<Isometry3d>& world_f
   const Vector3d p = world_from_body.back() * chain.body_from_tool.translation();
   jacobian.setZero();
   for (std::size_t i = 0; i < chain.path.size(); ++i) {
-    addColumns(chain, chain.kinematics.bodies[chain.path[i]], world_from_joint[i].linear(),
-               world_from_body[i].translation(), p, jacobian);
+    detail::addJointColumns(chain.freedom, chain.kinematics.bodies[chain.path[i]],
+                            world_from_joint[i].linear(), world_from_body[i].translation(), p, 1.0,
+                            jacobian);
   }
-}
-
-/// Moves values to the limits, into [-pi, pi], and to unit length.
-void putInPlace(const ToolChain& chain, std::span<double> q) {
-  for (const Degree& degree : chain.degrees) {
-    if (degree.turn) continue;
-    double& value = q[degree.variable];
-    if (degree.cyclic) {
-      if (std::abs(value) > kPi) value = std::remainder(value, 2.0 * kPi);
-    } else {
-      value = std::clamp(value, degree.low, degree.high);
-    }
-  }
-  for (const int first : chain.quaternions) Eigen::Map<Eigen::Vector4d>(&q[first]).normalize();
 }
 
 void requireSeed(const ToolChain& chain, std::span<const double> q) {
-  requireSize(q.size(), chain.degreeOf.size(), "the seed");
+  requireSize(q.size(), chain.freedom.degreeOf.size(), "the seed");
   if (!allFinite(q)) refuse("the seed has a value that is not finite");
-  for (const int first : chain.quaternions) {
+  for (const int first : chain.freedom.quaternions) {
     if (!(Eigen::Map<const Eigen::Vector4d>(&q[first]).norm() > kShortestQuaternion)) {
       refuse("the seed has a quaternion without direction");
     }
@@ -366,7 +249,7 @@ Jacobian InverseKinematics::jacobian(ConfigurationView q) const {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, q] { return jacobian(q); });
   }
-  requireSize(q.size(), chain_->degreeOf.size(), "the configuration");
+  requireSize(q.size(), chain_->freedom.degreeOf.size(), "the configuration");
   Workspace workspace(*this);
   const auto keep = [&](std::size_t i, const Isometry3d& joint, const Isometry3d& body) {
     workspace.world_from_joint_[i] = joint;
@@ -392,7 +275,7 @@ class InverseKinematics::Search {
     const double position = std::isfinite(options.positionTolerance) ? 1.0 : 0.0;
     const double rotation = std::isfinite(options.orientationTolerance) ? 1.0 : 0.0;
     counts_ << position, position, position, rotation, rotation, rotation;
-    putInPlace(chain_, q_);
+    chain_.freedom.putInPlace(q_);
     error_ = errorAt(q_);
   }
 
@@ -436,7 +319,7 @@ class InverseKinematics::Search {
     const Isometry3d actual = workspace_.world_from_body_.back() * chain_.body_from_tool;
     Vector6 error;
     error << (wanted_.translation() - actual.translation()) / chain_.scale,
-        rotationVector(wanted_.linear() * actual.linear().transpose());
+        detail::rotationVector(wanted_.linear() * actual.linear().transpose());
     return error.cwiseProduct(counts_);
   }
 
@@ -450,15 +333,14 @@ class InverseKinematics::Search {
     Jacobian& jacobian = workspace_.jacobian_;
     fillJacobian(chain_, workspace_.world_from_joint_, workspace_.world_from_body_, jacobian);
     jacobian.topRows<3>() /= chain_.scale;
-    for (std::size_t i = 0; i < chain_.degrees.size(); ++i) {
-      const Degree& degree = chain_.degrees[i];
+    for (std::size_t i = 0; i < chain_.freedom.degrees.size(); ++i) {
+      const Degree& degree = chain_.freedom.degrees[i];
       auto column = jacobian.col(static_cast<Eigen::Index>(i));
       column = column.cwiseProduct(counts_).eval();
       if (degree.slides) column *= chain_.scale;
       if (degree.turn) continue;
       const double wish = column.dot(error_);
-      const double value = q_[degree.variable];
-      if ((wish < 0.0 && value <= degree.low) || (wish > 0.0 && value >= degree.high)) {
+      if (degree.isHeld(q_[degree.variable], wish)) {
         column.setZero();
       }
     }
@@ -474,24 +356,7 @@ class InverseKinematics::Search {
     for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
       workspace_.step_[i] = jacobian.col(i).dot(pull);
     }
-    takeStep();
-  }
-
-  void takeStep() {
-    const std::span<double> candidate(workspace_.candidate_);
-    std::copy(q_.begin(), q_.end(), candidate.begin());
-    for (std::size_t i = 0; i < chain_.degrees.size(); ++i) {
-      const Degree& degree = chain_.degrees[i];
-      const double unit = degree.slides ? chain_.scale : 1.0;
-      if (!degree.turn) candidate[degree.variable] += unit * workspace_.step_[i];
-    }
-    for (const int first : chain_.quaternions) {
-      const Vector3d rotation = workspace_.step_.segment<3>(chain_.degreeOf[first]);
-      const Quaterniond from(&q_[first]);
-      Eigen::Map<Quaterniond> to(&candidate[first]);
-      to = turned(rotation, from);
-    }
-    putInPlace(chain_, candidate);
+    chain_.freedom.move(q_, workspace_.step_, chain_.scale, workspace_.candidate_);
   }
 
   const ToolChain& chain_;
@@ -512,7 +377,7 @@ bool InverseKinematics::solve(const Isometry3d& model_from_tool, ConfigurationSp
   requireSeed(*chain_, q);
   requireSensible(options);
   if (workspace.world_from_body_.size() != chain_->path.size() ||
-      workspace.candidate_.size() != chain_->degreeOf.size() ||
+      workspace.candidate_.size() != chain_->freedom.degreeOf.size() ||
       workspace.step_.size() != degreesOfFreedom()) {
     refuse("the workspace is of another object");
   }

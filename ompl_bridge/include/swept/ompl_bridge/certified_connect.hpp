@@ -17,9 +17,12 @@
 
 namespace swept {
 
+class Checker;
+
 namespace detail {
 class SpreadSampler;
-}
+class ConstraintSteer;
+}  // namespace detail
 
 /// RRT-Connect (J. Kuffner and S. LaValle, 2000) for motions that are quickly proven or refused.
 /// Give it to a SimpleSetup as any planner of OMPL.
@@ -31,6 +34,11 @@ class SpreadSampler;
 /// J. Kuffner and S. LaValle, 2005). The motion from start to goal is tried first. No state is
 /// checked that a motion proves. Nearest neighbours are those of NearestStates. Most of this is as
 /// in VAMP (W. Thomason, Z. Kingston and L. Kavraki, Motions in microseconds, 2024).
+///
+/// Where the checker of the validators has constraints (Checker::withConstraints), it plans along
+/// them: samples are brought to where they hold, and so is the end of each step towards one, which
+/// is halved until the straight motion keeps them (D. Berenson et al., Manipulation planning on
+/// constraint manifolds, 2009). The validator then proves the motion.
 ///
 /// It takes goals that can be sampled, several starts and goals, and goals that come while it runs.
 /// The same problem, range and seed give the same path, unless goals come from another thread. With
@@ -85,6 +93,8 @@ class CertifiedConnect : public ompl::base::Planner {
                  Meeting& meeting);
   Node* extend(Tree& tree);
   const Node* connect(Tree& tree, Node* to);
+  const Node* connectAlong(Tree& tree, const Node* to);
+  const ompl::base::State* stepTowards(const Node& near, double distance);
   bool isAllowed(const Meeting& meeting) const;
   bool grow(Meeting& meeting);
   ompl::base::PlannerStatus search(const ompl::base::PlannerTerminationCondition& ptc);
@@ -96,6 +106,8 @@ class CertifiedConnect : public ompl::base::Planner {
   std::uint32_t seed_ = 1;
   bool provesEnds_ = false;  ///< a motion is free only if both ends are
   std::unique_ptr<detail::SpreadSampler> sampler_;
+  std::shared_ptr<const Checker> checker_;          ///< whose constraints steer_ keeps
+  std::unique_ptr<detail::ConstraintSteer> steer_;  ///< null: there are none
   std::deque<Node> nodes_;
   std::array<Tree, 2> trees_;  ///< of starts, of goals
   int turn_ = 0;               ///< the tree that was extended last

@@ -7,11 +7,13 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/constraint_projection.hpp"
 #include "swept/robot_model/inverse_kinematics.hpp"
 
 namespace swept {
@@ -42,6 +44,9 @@ struct PoseGoalOptions {
 /// (setMinNewSampleDistance changes that). A pose that cannot be reached, or only in collision,
 /// gives no sample. Planners that plan from the goal then return as soon as sampling has ended.
 ///
+/// Where the checker has constraints, a solution that does not keep them is moved to where they and
+/// the pose hold together (ConstraintProjection).
+///
 /// The same seed gives the same samples in the same order. How many samples a planner sees at a
 /// time depends on the threads, and so may its path. It does not if the planner starts after
 /// isSampling() has become false.
@@ -55,7 +60,8 @@ class PoseGoal final : public ompl::base::GoalLazySamples {
 
   /// `model_from_tool` is the goal pose, in the robot's model frame. Reads the bounds of the space.
   /// Throws std::invalid_argument as ValidityChecker and InverseKinematics do, and for a target
-  /// that is not a rigid transform, a tolerance that is not positive, and a negative number.
+  /// that is not a rigid transform, a tolerance that is not positive, a negative number, and a
+  /// checker with more than 62 constraints.
   PoseGoal(const ompl::base::SpaceInformationPtr& si, const std::shared_ptr<const Checker>& checker,
            std::string_view link, const Eigen::Isometry3d& model_from_tool,
            const PoseGoalOptions& options = {});
@@ -74,6 +80,7 @@ class PoseGoal final : public ompl::base::GoalLazySamples {
  private:
   bool sample(ompl::base::State* state);
   void drawSeed();
+  bool findState();
   void requireTarget();
   InverseKinematicsOptions search() const;
 
@@ -82,8 +89,11 @@ class PoseGoal final : public ompl::base::GoalLazySamples {
   StateConversion conversion_;
   Eigen::Isometry3d model_from_tool_;
   PoseGoalOptions options_;
+  std::optional<ConstraintProjection>
+      together_;  ///< of constraints and the pose; none: no constraints
   // Used only by the sampling thread.
   InverseKinematics::Workspace workspace_;
+  std::optional<ConstraintProjection::Workspace> projecting_;
   ompl::RNG random_;
   std::vector<double> q_;
   int seeds_ = 0;  ///< drawn so far
