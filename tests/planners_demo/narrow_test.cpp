@@ -148,7 +148,7 @@ TEST_F(Narrow, EveryTextFitsAndNothingIsLost) {
 
 TEST_F(Narrow, HelpFits) {
   for (const std::string command :
-       {"", "info", "check", "motion", "plan", "verify", "acm", "cover", "replay", "report",
+       {"", "info", "check", "motion", "plan", "line", "verify", "acm", "cover", "replay", "report",
         "completion", "bench", "bench edges", "bench planners", "bench summary"})
     expectNarrow(runOnTerminal(words(command + " --help"), kColumns).out, command + " --help");
 }

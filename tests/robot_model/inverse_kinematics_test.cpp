@@ -542,6 +542,8 @@ TEST(InverseKinematics, SaysWhatCannotBeSolved) {
   options = {.orientationTolerance = 0.0};
   EXPECT_EQ(solve(workspace),
             "InverseKinematics: the orientation tolerance is 0 rad; it must be above 0");
+  options = {.firstDamping = 0.0};
+  EXPECT_EQ(solve(workspace), "InverseKinematics: the first damping is 0; it must be above 0");
   options = {.maxIterations = -1};
   EXPECT_EQ(solve(workspace),
             "InverseKinematics: the number of iterations is -1; it must be at least 0");

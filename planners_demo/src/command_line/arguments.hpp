@@ -136,6 +136,14 @@ struct Arguments {
   int samples = 1000;                ///< per pair of links
   std::optional<double> acmTime;     ///< s; none: see acm
 
+  struct ToolLine {
+    std::vector<std::string> to;  ///< X,Y,Z[,QX,QY,QZ,QW], m, model frame
+    std::vector<std::string> by;  ///< X,Y,Z, m
+    std::string frame = "world";  ///< of `by`: `world` or `tool`
+    std::string tool;             ///< link_from_tool; empty: the link's own frame
+    std::string deviation;        ///< MM[,DEG]; empty: the default
+  } toolLine;
+
   struct Cover {
     std::optional<int> spheres;    ///< of all links
     std::optional<double> excess;  ///< m

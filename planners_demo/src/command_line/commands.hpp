@@ -26,6 +26,9 @@ ExitCode runTrajectory(const Arguments& args);
 extern const Command kPlanCommand;
 ExitCode runPlan(const Arguments& args);
 
+extern const Command kLineCommand;
+ExitCode runLine(const Arguments& args);
+
 extern const Command kVerifyCommand;
 ExitCode runVerify(const Arguments& args);
 

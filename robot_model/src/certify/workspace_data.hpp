@@ -131,7 +131,7 @@ struct WorkspaceData {
 };
 
 /// What is proven of the constraints of a checker.
-inline ConstraintTask constraintsOf(const CheckerModel& model, WorkspaceData& workspace) {
+inline ConstraintQuestion constraintsOf(const CheckerModel& model, WorkspaceData& workspace) {
   return {.constraints = model.constraints,
           .kinematics = model.kinematics,
           .tube = model.tube,

@@ -370,7 +370,7 @@ void forEachLimited(std::span<const ConstraintRow> rows, const Use& use) {
 }
 
 double toleranceOf(const ConstraintRow& row) {
-  return std::max(row.tolerance, detail::kLeastTolerance);
+  return std::max(row.tolerance, detail::kLeastLimit);
 }
 
 constexpr const char* kNoPose =

@@ -19,14 +19,7 @@
 // [-1, 1] g around the origin, and of a ball ("beyond", with what rounding takes of x(m)): Reach.
 // Each constraint asks for less than that sum's extent along a direction, or from an axis.
 //
-// A rotation vector v of a rotation M, M' = [w] M, has v' = J(v) w with J = 1 - [v] / 2 + c [v]^2
-// and c = (1 - (f / 2) cot(f / 2)) / f^2, f = |v| (Bullo and Murray 1995). |J| is at most
-// k = (f / 2) / sin(f / 2), the derivative of J along a unit vector at most
-// l = 1 / 2 + c' f^2 + 2 c f, as c and c' are positive and grow with f. So with a constant w, v(m +
-// s) is within l k (s |w|)^2 / 2 of v(m) + s J w; where w changes, M is off that by a rotation of
-// no more than s^2 / 2 times the angular acceleration, and v by k times this. With f <= pi, k is at
-// most pi / 2 and l k / 2 at most 1.03; with f <= 4, 2.2 and 2.14. v may be followed beyond f = pi:
-// the shorter vector of the same rotation is (1 - 2 pi / f) v, and its components are smaller.
+// Rotation vectors: see rotation_vector.hpp.
 #include "constraints/constraint_proof.hpp"
 
 #include <algorithm>
@@ -37,6 +30,7 @@
 #include <numbers>
 
 #include "kinematics/nested_motion_bounds.hpp"
+#include "kinematics/rotation_vector.hpp"
 #include "kinematics/tube_motion.hpp"
 #include "model/pair_model.hpp"
 #include "robot/joint_types.hpp"
@@ -128,28 +122,9 @@ double toleranceOf(double own, double general) {
   return std::max(kLeastTolerance, std::min(general, kShareOfOwn * own));
 }
 
-/// The rotation vector of a rotation, |v| <= pi.
-Vector3d vectorOf(const Matrix3d& rotation) {
-  Quaterniond q(rotation);
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const double sine = q.vec().norm();
-  if (!(sine > 1e-150)) return 2.0 * q.vec();
-  return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
-}
-
-/// J(v) w: see above.
-Vector3d rateOfVector(const Vector3d& v, const Vector3d& w) {
-  constexpr double kSmall = 1e-3;  // rad; the series is then off by less than 1e-17
-  const double f = v.norm();
-  const double c =
-      f < kSmall ? 1.0 / 12.0 + f * f / 720.0 : (1.0 - 0.5 * f / std::tan(0.5 * f)) / (f * f);
-  const Vector3d turned = v.cross(w);
-  return w - 0.5 * turned + c * v.cross(turned);
-}
-
 class ConstraintQuery {
  public:
-  ConstraintQuery(const ConstraintTask& task, const JointPath& path)
+  ConstraintQuery(const ConstraintQuestion& task, const JointPath& path)
       : asked_(task),
         task_(task.constraints),
         path_(path),
@@ -414,7 +389,7 @@ class ConstraintQuery {
     const Matrix3d frame = reference.world_from_body.linear() * own.reference_from_frame;
     const Matrix3d turned = frame.transpose() * tool.world_from_body.linear() *
                             own.tool_from_frame * own.desired.transpose();
-    const Vector3d v = vectorOf(turned);
+    const Vector3d v = rotationVectorOf(turned);
     const Vector3d spin = half_ * (frame.transpose() * (tool.angular - reference.angular));
     const std::span<const JointMotion> bounded = inTube() ? scratch_.tubeMotion : motion_;
     const double scale = inTube() ? 1.0 : half_;
@@ -427,7 +402,7 @@ class ConstraintQuery {
     double beyond = 0.5 * scale * scale * (toolRate + referenceRate + toolTurn * referenceTurn) *
                     (1.0 + kVelocityRounding);
     double all = spin.norm();
-    Vector3d reach = rateOfVector(v, spin).cwiseAbs();
+    Vector3d reach = rateOfRotationVector(v, spin).cwiseAbs();
     const double moving = all;
     if (inTube()) {
       const auto addErrors = [&](const std::vector<int>& path, const std::vector<BodyState>& at) {
@@ -441,7 +416,7 @@ class ConstraintQuery {
             continue;
           }
           const Vector3d axis = at[i].world_from_body.linear() * axisOf(body);
-          reach += rateOfVector(v, angle * (frame.transpose() * axis)).cwiseAbs();
+          reach += rateOfRotationVector(v, angle * (frame.transpose() * axis)).cwiseAbs();
         }
       };
       addErrors(link.toolPath, states.tool);
@@ -656,7 +631,7 @@ class ConstraintQuery {
     return anywhere;
   }
 
-  const ConstraintTask& asked_;
+  const ConstraintQuestion& asked_;
   const ConstraintModel& task_;
   const JointPath& path_;
   ConstraintScratch& scratch_;
@@ -674,7 +649,7 @@ std::uint64_t allOf(std::size_t count) {
 /// From the begin on, halving what is open, until all is proven or what is open is too short.
 class ConstraintSearch {
  public:
-  ConstraintSearch(const ConstraintTask& task, ConstraintQuery& query, MotionQuery wanted)
+  ConstraintSearch(const ConstraintQuestion& task, ConstraintQuery& query, MotionQuery wanted)
       : asked_(task), query_(query), wanted_(wanted), stack_(task.scratch.stack) {}
 
   ConstraintProof run() {
@@ -751,7 +726,7 @@ class ConstraintSearch {
     return proof_;
   }
 
-  const ConstraintTask& asked_;
+  const ConstraintQuestion& asked_;
   ConstraintQuery& query_;
   const MotionQuery wanted_;
   std::vector<ConstraintScratch::Interval>& stack_;
@@ -764,14 +739,14 @@ constexpr ConstraintProof kNothingKnown{.verdict = Verdict::Undecided, .holdsUnt
 
 }  // namespace
 
-ConstraintProof proveConstraints(const ConstraintTask& task, const JointPath& path,
+ConstraintProof proveConstraints(const ConstraintQuestion& task, const JointPath& path,
                                  MotionQuery wanted) {
   ConstraintQuery query(task, path);
   if (!query.start()) return kNothingKnown;
   return ConstraintSearch(task, query, wanted).run();
 }
 
-ConstraintProof proveConstraints(const ConstraintTask& task, std::span<const double> q,
+ConstraintProof proveConstraints(const ConstraintQuestion& task, std::span<const double> q,
                                  std::vector<ConstraintViolation>* all) {
   const StraightPath still(task.kinematics, q, q);
   ConstraintQuery query(task, still);

@@ -56,7 +56,7 @@ struct ConstraintProof {
 };
 
 /// What is asked about, and the work allowed.
-struct ConstraintTask {
+struct ConstraintQuestion {
   const ConstraintModel& constraints;
   const KinematicModel& kinematics;
   std::span<const JointTolerance> tube;  ///< per body; empty: none
@@ -69,10 +69,10 @@ struct ConstraintTask {
   ///@}
 };
 
-ConstraintProof proveConstraints(const ConstraintTask& task, const JointPath& path,
+ConstraintProof proveConstraints(const ConstraintQuestion& task, const JointPath& path,
                                  MotionQuery wanted);
 /// Of one state. `all`: if not null, every violation is put there.
-ConstraintProof proveConstraints(const ConstraintTask& task, std::span<const double> q,
+ConstraintProof proveConstraints(const ConstraintQuestion& task, std::span<const double> q,
                                  std::vector<ConstraintViolation>* all = nullptr);
 
 }  // namespace swept::detail

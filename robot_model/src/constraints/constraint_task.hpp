@@ -14,7 +14,7 @@
 namespace swept::detail {
 
 /// A tolerance counts as no less (rad or m): shares of it are numbers.
-inline constexpr double kLeastTolerance = 1e-9;
+inline constexpr double kLeastLimit = 1e-9;
 
 /// A value that a constraint limits. `count` rows from this one on are a vector whose length is
 /// limited; 0: of the vector before.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "kinematics/degrees_of_freedom.hpp"
@@ -228,15 +229,16 @@ void requireSeed(const ToolChain& chain, std::span<const double> q) {
   }
 }
 
-void requirePositive(double tolerance, const std::string& of, const std::string& unit) {
-  if (tolerance > 0.0) return;
-  refuse("the " + of + " tolerance is " + detail::formatNumber(tolerance) + " " + unit +
+void requirePositive(double value, std::string_view of, std::string_view unit) {
+  if (value > 0.0) return;
+  refuse("the " + std::string(of) + " is " + detail::formatNumber(value) + std::string(unit) +
          "; it must be above 0");
 }
 
 void requireSensible(const InverseKinematicsOptions& options) {
-  requirePositive(options.positionTolerance, "position", "m");
-  requirePositive(options.orientationTolerance, "orientation", "rad");
+  requirePositive(options.positionTolerance, "position tolerance", " m");
+  requirePositive(options.orientationTolerance, "orientation tolerance", " rad");
+  requirePositive(options.firstDamping, "first damping", "");
   if (options.maxIterations < 0) {
     refuse("the number of iterations is " + std::to_string(options.maxIterations) +
            "; it must be at least 0");
@@ -280,7 +282,7 @@ class InverseKinematics::Search {
   }
 
   bool run() {
-    double damping = kFirstDamping;
+    double damping = std::max(options_.firstDamping, kLeastDamping);
     bool moved = true;
     for (int i = 0; i < options_.maxIterations && !arrived(); ++i) {
       if (moved) linearise();
@@ -303,7 +305,6 @@ class InverseKinematics::Search {
   // Relative to squared lever arms of at most about 1 each. Less damping than the minimum would
   // only amplify rounding where the chain has lost a direction; with more than the maximum, steps
   // are shorter than 1e-8 of the error.
-  static constexpr double kFirstDamping = 1e-2;
   static constexpr double kLeastDamping = 1e-8;
   static constexpr double kMostDamping = 1e8;
   static constexpr double kTrustMore = 0.1;

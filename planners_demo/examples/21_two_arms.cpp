@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two arms over one table: one moves while the other stands in its way or not, then both at once.
-//   example_22_two_arms MODELS
+//   example_21_two_arms MODELS
 // Exits 0 if the standing arm blocks what is free without it, and both find a proven path together.
 #include <iostream>
 #include <string>
