@@ -254,7 +254,8 @@ INSTANTIATE_TEST_SUITE_P(
                "p.json: error: there are no values of wheel, slide, which group 'arm' moves"},
         Broken{"p.json", R"({"points": []})",
                "p.json: error: the path has the unknown key 'points'; allowed are robot, group, "
-               "planner, seed, margin, margin_self, margin_world, tolerance, clouds, joint_names, "
+               "planner, tool, deviation, deviation_angle, seed, margin, margin_self, "
+               "margin_world, tolerance, clouds, joint_names, "
                "states, trajectory, segments, nothing_checked, links_without_geometry, warnings, "
                "inputs, model "
                "and proof"}));

@@ -48,10 +48,26 @@ TEST(PathKeys, OfJson) {
        R"({"joint_names": ["wheel", "turn", "slide"], "states": [[0.5, 0.25, 0]]})"},
       {"states", with(""),
        R"({"joint_names": ["turn", "wheel", "slide"], "states": [[0.5, 0.5, 0]]})"}};
-  for (const char* key :
-       {"robot", "group", "planner", "seed", "margin", "margin_self", "margin_world", "tolerance",
-        "clouds", "trajectory", "segments", "nothing_checked", "links_without_geometry", "warnings",
-        "inputs", "model", "proof"})
+  for (const char* key : {"robot",
+                          "group",
+                          "planner",
+                          "tool",
+                          "deviation",
+                          "deviation_angle",
+                          "seed",
+                          "margin",
+                          "margin_self",
+                          "margin_world",
+                          "tolerance",
+                          "clouds",
+                          "trajectory",
+                          "segments",
+                          "nothing_checked",
+                          "links_without_geometry",
+                          "warnings",
+                          "inputs",
+                          "model",
+                          "proof"})
     cases.push_back({key, with(""), with(std::string(", \"") + key + "\": \"other\"")});
   test::walkFormat("Path (.json)", cases,
                    [](const std::string& text) { return answer(".json", text, "arm"); });

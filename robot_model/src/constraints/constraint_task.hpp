@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <string>
 #include <variant>
 #include <vector>
 

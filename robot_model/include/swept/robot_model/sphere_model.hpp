@@ -23,7 +23,7 @@ struct LinkSpheres {
 
 /// Spheres for the links of a robot.
 struct SphereModel {
-  std::vector<LinkSpheres> links;
+  std::vector<LinkSpheres> links;  ///< each link once
   /// Null if it has none for the link.
   const LinkSpheres* find(std::string_view link) const;
   /// Of all links.

@@ -23,11 +23,10 @@ struct LineModel;
 
 /// How far a tool may be off its line, and how hard ToolLinePlanner tries.
 ///
-/// The straight motion of a tool, by the share s in [0, 1] of it: the tool's origin is at p0 + s
-/// (p1
-/// - p0), and its orientation is slerp(R0, R1, s), along the shorter arc. A path follows it in
-/// chords, which are straight motions of the joints (as Checker::certifyMotion() has them) between
-/// way points at shares s0 < s1. At every instant t in [0, 1] of a chord
+/// The straight motion of a tool, by the share s in [0, 1] of it: the tool's origin is at
+/// p0 + s (p1 - p0), and its orientation is slerp(R0, R1, s), along the shorter arc. A path follows
+/// it in chords, which are straight motions of the joints (as Checker::certifyMotion() has them)
+/// between way points at shares s0 < s1. At every instant t in [0, 1] of a chord
 ///
 /// * the tool's origin is within `position` of the segment between the line's points at s0 and s1;
 /// * its orientation is within `angle` of the line's at the share s0 + t (s1 - s0).
@@ -44,6 +43,7 @@ struct ToolLineOptions {
 
 /// Why a path does not follow its line to the end.
 struct ToolLineStop {
+  /// What is in the way.
   enum class Reason : std::uint8_t {
     Limit,        ///< a variable would have to leave its limits; or the start is outside them
     Singularity,  ///< near a singular configuration joints had to jump, or the line leads out of
@@ -54,7 +54,7 @@ struct ToolLineStop {
     Violation,    ///< of CheckerOptions::constraints
     Undecided,    ///< freedom, or these constraints, could not be proven; or too many way points
   };
-  Reason reason = Reason::Undecided;
+  Reason reason = Reason::Undecided;  ///< see there
   double share = 0.0;  ///< of the line, in [0, 1]: where that is, at or beyond ToolLine::share
   /// Limit: the name of the variable; empty otherwise.
   std::string variable = {};
@@ -88,7 +88,7 @@ struct ToolLine {
   std::optional<ToolLineStop> stop;  ///< present exactly if the share is less than 1
   int solved = 0;                    ///< effort: calls of InverseKinematics::solve()
 
-  bool complete() const { return !stop; }
+  bool complete() const { return !stop; }  ///< whether all of the line is proven
 };
 
 /// Follows straight lines with a tool, a frame that is fixed in a link or an attached body.
