@@ -8,8 +8,7 @@
 #include "constraints/campaign.hpp"
 #include "in_parts.hpp"
 
-// NOLINTNEXTLINE(bugprone-exception-escape): CLI throws where the options below are wrong.
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   constraints::CampaignOptions options;
   std::uint64_t report = 1000;
   CLI::App app{"Tries to prove wrong what Checker says of motions under constraints."};
@@ -21,10 +20,8 @@ int main(int argc, char** argv) {
   app.add_option("--report", report, "a line after so many motions")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   if (app.count("--first") > 0 && app.count("--count") == 0) options.count = 1;
-  try {
-    return runInParts(options, report, constraints::runCampaign).failures.empty() ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 3;
-  }
+  return runInParts(options, report, constraints::runCampaign).failures.empty() ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 3;
 }
