@@ -80,6 +80,13 @@ TEST_F(BatchHeader, WhatIsAttachedIsCompared) {
                 R"(:1: error: attach is ["box:0.1,0.1,0.1@cube"]; it is [] in ')" + file_ + "0'");
 }
 
+TEST_F(BatchHeader, WhatStandsIsCompared) {
+  ASSERT_EQ(batch({}).exitCode, 0);
+  EXPECT_FALSE(header().contains("stand"));
+  expectRefused(batch({"--stand", "both=default"}),
+                R"(:1: error: stand is []; it is ["both=default"] on the command line)");
+}
+
 TEST_F(BatchHeader, AFileThatDoesNotSayWhatIsAttachedIsOneWithoutIt) {
   ASSERT_EQ(batch({}).exitCode, 0);
   ordered_json old = header();

@@ -69,6 +69,12 @@ TEST(WorkCellProgram, RefusesWhatIsAboutOneRobot) {
               HasSubstr("has no group 'rihgt/arm'"));
   EXPECT_THAT(runSwept({"check", kCell, "home", "--group", "left/arm", "--stand", "right"}).err,
               HasSubstr("--stand 'right': must be GROUP=STATE"));
+  EXPECT_THAT(runSwept({"check", kCell, "home", "--group", "left/arm", "--degrees", "--stand",
+                        "right/arm=0,0,0,0,0,0,9"})
+                  .err,
+              HasSubstr("values are in rad and m; name a state, or leave out --degrees"));
+  EXPECT_THAT(runSwept({"info", kCell, "--stand", "right/arm=home"}).err,
+              HasSubstr("--stand needs --group"));
   EXPECT_THAT(
       runSwept({"check", kCell, "home", "--group", "left/arm", "--stand", "right/arm=up"}).err,
       HasSubstr("--stand 'right/arm=up': "));

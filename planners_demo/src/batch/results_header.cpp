@@ -59,39 +59,31 @@ struct Field {
   const char* name;
   void (*require)(const JsonValue&);
 };
-constexpr std::array kFields{Field{"format", requireText},
-                             Field{"version", requireNumber},
-                             Field{"swept", requireText},
-                             Field{"robot", requireText},
-                             Field{"urdf", requireText},
-                             Field{"srdf", requireTextOrNull},
-                             Field{"group", requireText},
-                             Field{"problems", requireText},
-                             Field{"margin", requireNumber},
-                             Field{"margin_self", requireNumber},
-                             Field{"margin_world", requireNumber},
-                             Field{"tolerance", requireNumber},
-                             Field{"pad", requireTexts},
-                             Field{"scale", requireTexts},
-                             Field{"allow", requireTexts},
-                             Field{"attach", requireTexts},
-                             Field{kWithoutContacts, requireTruth},
-                             Field{"time_limit", requireNumber},
-                             Field{"hard_limit", requireNumber},
-                             Field{"simplify", requireTruth},
-                             Field{"clearance", requireTruth}};
+constexpr std::array kFields{
+    Field{"format", requireText},         Field{"version", requireNumber},
+    Field{"swept", requireText},          Field{"robot", requireText},
+    Field{"urdf", requireText},           Field{"srdf", requireTextOrNull},
+    Field{"group", requireText},          Field{"problems", requireText},
+    Field{"margin", requireNumber},       Field{"margin_self", requireNumber},
+    Field{"margin_world", requireNumber}, Field{"tolerance", requireNumber},
+    Field{"pad", requireTexts},           Field{"scale", requireTexts},
+    Field{"allow", requireTexts},         Field{"attach", requireTexts},
+    Field{"stand", requireTexts},         Field{kWithoutContacts, requireTruth},
+    Field{"time_limit", requireNumber},   Field{"hard_limit", requireNumber},
+    Field{"simplify", requireTruth},      Field{"clearance", requireTruth}};
 
-/// Completes an older header. Files from before --attach lack that field. Files older than the
+/// Completes an older header. Files from before --attach lack that field, and files without --stand
+/// that one. Files older than the
 /// fields for contacts and for the two margins mean that no contacts of robots without an SRDF are
 /// left out, and that both kinds of pairs have the margin `margin`.
 bool isOptional(std::string_view field) {
-  return field == "attach" || field == kWithoutContacts || field == "margin_self" ||
-         field == "margin_world";
+  return field == "attach" || field == "stand" || field == kWithoutContacts ||
+         field == "margin_self" || field == "margin_world";
 }
 
 Json valueOf(const Json& header, std::string_view field) {
   if (!isOptional(field) || header.contains(field)) return header.at(field);
-  if (field == "attach") return Json::array();
+  if (field == "attach" || field == "stand") return Json::array();
   return field == kWithoutContacts ? Json(false) : header.at("margin");
 }
 
@@ -137,6 +129,7 @@ Json resultsHeader(const Batch& batch) {
                  {"group", batch.group},
                  {"problems", fileDigest(args.problems)},
                  {"margin", args.margin}};
+  if (!args.standing.empty()) header["stand"] = args.standing;
   if (args.selfMargin) header["margin_self"] = *args.selfMargin;
   if (args.worldMargin) header["margin_world"] = *args.worldMargin;
   header.update({{"tolerance", args.tolerance},

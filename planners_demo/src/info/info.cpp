@@ -43,6 +43,7 @@ void refuseRules(const Arguments& args) {
                                       {"--scale", !args.scales.empty()},
                                       {"--allow", !args.allowed.empty()},
                                       {"--attach", !args.attached.empty()},
+                                      {"--stand", !args.standing.empty()},
                                       {"--margin", args.margin > 0.0},
                                       {"--margin-self", args.selfMargin.has_value()},
                                       {"--margin-world", args.worldMargin.has_value()}})

@@ -33,9 +33,13 @@ std::optional<Eigen::VectorXd> withStanding(const Arguments& args, const Robot& 
     if (at == std::string::npos || at == 0)
       throw UsageError("--stand '" + text + "': must be GROUP=STATE");
     const Group& group = chooseGroup(robot, text.substr(0, at));
-    const AngleUnit unit = args.degrees ? AngleUnit::Degree : AngleUnit::Radian;
+    const std::string state = text.substr(at + 1);
+    // Files that keep the command line have no unit.
+    if (args.degrees && state != "default" && robot.findNamedState(state, group.name) == nullptr)
+      throw UsageError("--stand '" + text +
+                       "': values are in rad and m; name a state, or leave out --degrees");
     const std::vector<double> q =
-        readState(robot, group, text.substr(at + 1), "--stand '" + text + "'", options.warn, unit);
+        readState(robot, group, state, "--stand '" + text + "'", options.warn);
     for (std::size_t i = 0; i < q.size(); ++i) all[group.variables[i]] = q[i];
   }
   return all;

@@ -18,7 +18,7 @@ bool isWorkCell(const Arguments& args);
 ComposedRobot composedCell(const Arguments& args, const LoadOptions& options);
 
 /// Values of all variables: `before`, or the default state, with those of --stand. Without it
-/// `before`. Throws UsageError for an unknown group or state.
+/// `before`. Throws UsageError for an unknown group or state, and for values with --degrees.
 std::optional<Eigen::VectorXd> withStanding(const Arguments& args, const Robot& robot,
                                             std::optional<Eigen::VectorXd> before,
                                             const LoadOptions& options);

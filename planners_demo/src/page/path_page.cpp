@@ -52,6 +52,7 @@ void refuseRules(const Arguments& args) {
       {"--scale", !args.scales.empty()},
       {"--allow", !args.allowed.empty()},
       {"--attach", !args.attached.empty()},
+      {"--stand", !args.standing.empty()},
       {"--margin", args.margin != none.margin},
       {"--margin-self", args.selfMargin.has_value()},
       {"--margin-world", args.worldMargin.has_value()},
