@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "constraint.hpp"
 #include "enclosed.hpp"
 #include "encoding.hpp"
 #include "environment.hpp"
@@ -51,6 +52,7 @@ class ProofCheck {
     else
       readStates();
     pairs_ = pairsToProve(model_);
+    if (path.contains("constraints")) constraints_ = readConstraints(path["constraints"], model_);
   }
 
   Summary run() {
@@ -127,6 +129,8 @@ class ProofCheck {
       summary_.allowed[reason].push_back(nameOf({pair.first, pair.second}));
     if (!points_.empty()) summary_.duration = points_.back().time - points_.front().time;
     addTube();
+    for (const Constraint& constraint : constraints_)
+      summary_.constraints.push_back(constraint.text);
   }
 
   /// Joints that follow others are off as far as these let them.
@@ -178,6 +182,9 @@ class ProofCheck {
     }
     if (proofs.size() != pairs_.size())
       throw Refusal(where + ": it has proofs of pairs that are not checked");
+    for (const Constraint& constraint : constraints_)
+      summary_.intervals +=
+          checkConstraint(model_, motion, constraint, where + ", " + constraint.name);
   }
 
   const Json& path_;
@@ -186,6 +193,7 @@ class ProofCheck {
   std::vector<std::vector<double>> states_;  ///< of a path that is no trajectory
   std::vector<Point> points_;                ///< of a trajectory
   std::vector<PairToProve> pairs_;
+  std::vector<Constraint> constraints_;
   Summary summary_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -67,6 +68,13 @@ std::vector<double> doublesOf(const std::string& text, const std::string& where)
 
 std::vector<std::uint32_t> integersOf(const std::string& text, const std::string& where) {
   return decoded<std::uint32_t>(text, where);
+}
+
+std::string numberText(double number, int digits) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
+                                 std::chars_format::general, digits);
+  return {text.data(), end.ptr};
 }
 
 std::string digestOf(const std::string& text) {

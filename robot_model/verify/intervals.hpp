@@ -23,7 +23,7 @@ struct JointTube {
 struct Summary {
   std::size_t segments = 0;   ///< between states, or between points of a trajectory
   std::size_t pairs = 0;      ///< of bodies, each over the whole path
-  std::size_t intervals = 0;  ///< of a pair
+  std::size_t intervals = 0;  ///< of a pair or a constraint
   std::size_t planes = 0;     ///< between two sets of elements during an interval
   /// m. Least of all proven distances; infinity: there is no pair.
   double clearance = std::numeric_limits<double>::infinity();
@@ -37,6 +37,9 @@ struct Summary {
   std::optional<double> duration = {};  ///< s, of a trajectory
   /// Of every joint of the group, by name; empty: none has one.
   std::map<std::string, JointTube> tube = {};
+  /// What holds at every instant besides, in words: `axis (0, 0, 1) of hand within 0.0873 rad of
+  /// (0, 0, 1)`.
+  std::vector<std::string> constraints = {};
 
   void add(const Summary& part);
 };

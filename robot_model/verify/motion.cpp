@@ -149,6 +149,7 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
                                         const std::vector<Course>& courses) {
   JointMotion motion;
   motion.axis = joint.axis;
+  motion.courses = courses;
   switch (joint.kind) {
     case JointKind::Fixed:
       break;
@@ -161,6 +162,7 @@ Motion::JointMotion Motion::jointMotion(const Joint& joint, std::span<const doub
       // of a large value.
       const double made = std::abs(joint.multiplier) * std::max(courses[0].begin, courses[0].end) +
                           std::abs(joint.offset);
+      motion.courses[0] = {.curve = value, .begin = made, .end = made};
       if (joint.kind == JointKind::Revolute) {
         motion.angle = value;
         motion.angles = made;
@@ -273,8 +275,10 @@ Bounds Motion::bounds(int link, int reference, double reach, double middle, doub
     bounds.turn += motion.angles + 2.0 * turn.speed + half * turn.acceleration +
                    4.0 * joint.tolerance.rotation;
     bounds.spin += spin;
+    bounds.bend += bend;
     ++bounds.joints;
   }
+  bounds.speed = speed;
   return bounds;
 }
 

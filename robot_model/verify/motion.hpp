@@ -40,6 +40,8 @@ struct Bounds {
   double extent = 0.0;        ///< m, at least the distance from the origin of the reference frame
   double turn = 0.0;          ///< rad: largest angles and multiples of all that is turned, added up
   double spin = 0.0;          ///< rad per unit of u: sum of all rotations
+  double bend = 0.0;          ///< rad per unit of u squared: sum of how these change
+  double speed = 0.0;         ///< m per unit of u
   int joints = 0;
 };
 
@@ -57,6 +59,10 @@ class Motion {
   /// At a time. The plays are those of all times within `half` of it.
   Placed at(int link, int reference, double t, double half = 0.0) const;
   Bounds bounds(int link, int reference, double reach, double middle, double half) const;
+  /// A value of a joint, in the units of its kind. The position of a floating joint has three.
+  const Course& course(std::size_t joint, std::size_t value) const {
+    return joints_[joint].courses[value];
+  }
 
  private:
   /// child origin = place; orientation = turn by the angle about axis, after `rotation`. All in the
@@ -72,6 +78,7 @@ class Motion {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitX();               ///< unit
     double angles = 0.0;   ///< rad: what the angle is made of at either end, added up
     double lengths = 0.0;  ///< m: what the translation is made of at either end, added up
+    std::vector<Course> courses = {};  ///< of the joint's values
   };
   static JointMotion jointMotion(const Joint& joint, std::span<const double> from,
                                  std::span<const double> to, const std::vector<Course>& courses);

@@ -9,6 +9,10 @@ namespace swept::verify {
 /// 1.1e-16. If it were smaller by half, a forged plane could be believed.
 constexpr double kRounding = 1e-11;
 
+/// The same of what one link sees of another, which is turned by one more rotation, and by one more
+/// link's.
+constexpr double kSeenRounding = 4.0 * kRounding;
+
 /// m. More than all that underflows, where no length and no angle is above kLargest.
 constexpr double kUnderflow = 1e-100;
 

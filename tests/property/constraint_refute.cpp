@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// constraint_refute: tries to prove wrong what Checker says of motions and curves under
-// constraints. Exit code 1 when it did.
+// constraint_refute: tries to prove wrong what Checker, and the checker of proofs, say of motions
+// and curves under constraints. Exit code 1 when it did.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
 
 #include "constraints/campaign.hpp"
+#include "constraints/shown.hpp"
 #include "in_parts.hpp"
 
 int main(int argc, char** argv) try {
   constraints::CampaignOptions options;
+  options.shows = constraints::isShown;
   std::uint64_t report = 1000;
   CLI::App app{"Tries to prove wrong what Checker says of motions under constraints."};
   app.add_option("--count", options.count, "how many motions");

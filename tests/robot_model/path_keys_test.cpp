@@ -60,6 +60,7 @@ TEST(PathKeys, OfJson) {
                           "margin_world",
                           "tolerance",
                           "clouds",
+                          "constraints",
                           "trajectory",
                           "segments",
                           "nothing_checked",

@@ -66,8 +66,8 @@ TEST(TrajectoryKeys, OfJson) {
       with("accelerations")};
   for (const char* claim :
        {"robot", "group", "planner", "seed", "margin", "margin_self", "margin_world", "tolerance",
-        "clouds", "joint_names", "states", "segments", "nothing_checked", "links_without_geometry",
-        "warnings", "inputs", "model", "proof"})
+        "clouds", "joint_names", "constraints", "states", "segments", "nothing_checked",
+        "links_without_geometry", "warnings", "inputs", "model", "proof"})
     cases.push_back(
         {claim, plain, "{\"" + std::string(claim) + "\": [\"other\"], " + plain.substr(1)});
   test::walkFormat("Trajectory (.json)", cases,

@@ -127,6 +127,8 @@ std::string summaryText(const verify::Summary& summary) {
                      countedText(summary.pairs, "pair of bodies", "pairs of bodies") + ", " +
                      countedText(summary.intervals, "interval") + ", " +
                      countedText(summary.planes, "plane") + "\n" + keptText(summary) + "\n";
+  for (const std::string& constraint : summary.constraints)
+    text += escapedLine("at every instant: " + constraint) + "\n";
   for (const auto& [reason, pairs] : summary.allowed)
     text += escapedLine("not checked (" + reason + "): " + joined(pairs)) + "\n";
   return text;
@@ -163,6 +165,7 @@ Json outcomeJson(const VerifyOutcome& outcome) {
     if (tube.rotation) json["tube"][joint]["rotation"] = *tube.rotation;
     if (tube.translation) json["tube"][joint]["translation"] = *tube.translation;
   }
+  if (!summary.constraints.empty()) json["constraints"] = summary.constraints;
   json["not_checked"] = Json::object();
   for (const auto& [reason, pairs] : summary.allowed) json["not_checked"][reason] = pairs;
   return json;

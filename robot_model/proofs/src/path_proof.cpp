@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/certificate.hpp"
+#include "certificate/constraints_json.hpp"
 #include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
 #include "certificate/verify_outcome.hpp"
@@ -91,7 +92,8 @@ CheckedProof checkedProof(const VerifyOutcome& outcome) {
           .clearanceSelf = outcome.summary.clearanceSelf,
           .notChecked = outcome.summary.allowed,
           .duration = outcome.summary.duration,
-          .tube = tubeOf(outcome.summary)};
+          .tube = tubeOf(outcome.summary),
+          .constraints = outcome.summary.constraints};
 }
 
 }  // namespace
@@ -154,7 +156,12 @@ CheckedProof verifyProof(const std::filesystem::path& file, const Checker& check
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&] { return verifyProof(file, checker); });
   }
-  return checkedProof(verified(pathWithProof(file.string()), modelJson(checker)));
+  const Json path = pathWithProof(file.string());
+  const VerifyOutcome outcome = verified(path, modelJson(checker));
+  const Json own = constraintsJson(checker);
+  if (outcome.holds() && !own.empty() && path.value("constraints", Json::array()) != own)
+    return {.refusal = "constraints: they are not those of the checker", .notChecked = {}};
+  return checkedProof(outcome);
 }
 
 }  // namespace swept

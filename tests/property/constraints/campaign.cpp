@@ -132,6 +132,12 @@ class CaseJudge {
   CaseJudge(const Case& of, const swept::Checker& checker, std::size_t samples, Random& random)
       : of_(of), checker_(checker), most_(samples), random_(random) {}
 
+  /// Of what is shown of a motion that is not Free.
+  std::string faultOfShown(CampaignReport& report) {
+    std::string text = outside(1.0, report);
+    return text.empty() ? text : "shown, but " + text;
+  }
+
   std::string fault(const Answer& answer, CampaignReport& report) {
     if (answer.verdict != answer.verdictOnly) return "queries give two verdicts";
     if ((answer.verdict == Verdict::Violation) != answer.violation.has_value())
@@ -239,7 +245,8 @@ bool isRelative(const swept::TaskConstraint& constraint) {
          std::ranges::any_of(constraint.axes, moves);
 }
 
-std::string judge(const Case& of, Random& random, std::size_t samples, CampaignReport& report) {
+std::string judge(const Case& of, Random& random, const CampaignOptions& campaign,
+                  CampaignReport& report) {
   const auto robot = swept::Robot::parse(of.robot.urdf(), "random.urdf");
   swept::CheckerOptions options;
   options.constraints = of.constraint;
@@ -253,7 +260,15 @@ std::string judge(const Case& of, Random& random, std::size_t samples, CampaignR
   if (of.curve) count(answer.verdict, report.curves);
   if (isRelative(of.constraint)) count(answer.verdict, report.relative);
   count(answer.verdict, report.kinds[static_cast<std::size_t>(of.kind)]);
-  std::string fault = CaseJudge(of, checker, samples, random).fault(answer, report);
+  CaseJudge caseJudge(of, checker, campaign.samples, random);
+  std::string fault = caseJudge.fault(answer, report);
+  const auto shown =
+      campaign.shows ? campaign.shows(of, checker, orderOf(of, checker)) : std::optional<bool>();
+  if (shown && answer.verdict == Verdict::Free) ++(*shown ? report.shown : report.notShown);
+  if (shown.value_or(false) && answer.verdict != Verdict::Free) {
+    ++report.shownOfOthers;
+    if (fault.empty()) fault = caseJudge.faultOfShown(report);
+  }
   return fault.empty() && !of.inTube ? stateFault(of, checker) : fault;
 }
 
@@ -281,6 +296,9 @@ void CampaignReport::add(const CampaignReport& other) {
   for (std::size_t i = 0; i < kinds.size(); ++i) kinds[i].add(other.kinds[i]);
   near += other.near;
   prefixes += other.prefixes;
+  shown += other.shown;
+  notShown += other.notShown;
+  shownOfOthers += other.shownOfOthers;
   samples += other.samples;
   intervals += other.intervals;
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
@@ -293,7 +311,7 @@ CampaignReport runCampaign(const CampaignOptions& options) {
     try {
       const Case made = makeCase(options.seed, i);
       Random random(options.seed ^ 0x5EEDULL, i);
-      fault = judge(made, random, options.samples, report);
+      fault = judge(made, random, options, report);
     } catch (const std::exception& error) {
       fault = error.what();
     }
@@ -312,9 +330,11 @@ std::string summary(const CampaignReport& report) {
   for (int i = 0; i < kKinds; ++i)
     text += line(kNames[i], report.kinds[static_cast<std::size_t>(i)]);
   return text + " near " + std::to_string(report.near) + ", prefixes " +
-         std::to_string(report.prefixes) + ", samples " + std::to_string(report.samples) +
-         ", intervals " + std::to_string(report.intervals) + ", refuted " +
-         std::to_string(report.failures.size());
+         std::to_string(report.prefixes) + ", shown again " + std::to_string(report.shown) +
+         " of " + std::to_string(report.shown + report.notShown) + " free and " +
+         std::to_string(report.shownOfOthers) + " others, samples " +
+         std::to_string(report.samples) + ", intervals " + std::to_string(report.intervals) +
+         ", refuted " + std::to_string(report.failures.size());
 }
 
 }  // namespace constraints

@@ -78,6 +78,42 @@ TEST_F(PathProof, HoldsAndKeepsWhatIsTrue) {
   EXPECT_TRUE(std::isinf(proof.clearanceSelf));
 }
 
+TEST_F(PathProof, HasTheConstraintsOfItsChecker) {
+  const auto within = [this](double height) {
+    return checker_.withConstraints(
+        {.joints = {{.joint = "z", .position = 0.0, .above = height, .below = 0.0}}});
+  };
+  const Checker low = within(0.5);
+  const std::filesystem::path file = folder_.path() / "low.json";
+  EXPECT_TRUE(writeProof(file, low, kOver, certifyPath(low, kOver)).isWritten());
+  const std::vector<std::string> shown{"joint z from 0 to 0.5"};
+  EXPECT_EQ(verifyProof(file).constraints, shown);
+  EXPECT_EQ(verifyProof(file, low).constraints, shown);
+  EXPECT_EQ(verifyProof(file, checker_).constraints, shown) << "who asks for none gets more";
+  EXPECT_EQ(verifyProof(file, within(0.6)).refusal,
+            "constraints: they are not those of the checker");
+  EXPECT_EQ(verifyProof(written(kOver), low).refusal,
+            "constraints: they are not those of the checker");
+}
+
+/// At 1e7 m the library takes micrometres for rounding, and the checker of proofs millimetres.
+TEST_F(PathProof, OfAConstraintThatCannotBeShownIsNotWritten) {
+  constexpr double kFar = 1e7;
+  const Checker far = checker_.withConstraints(
+      {.positions = {
+           {.frame = {.body = "cube",
+                      .body_from_frame = Eigen::Isometry3d(Eigen::Translation3d(kFar, 0.0, 0.0))},
+            .regions = {{.type = ConstraintRegion::Type::Box,
+                         .size = {5.0, 1.0, 1.0 + 1e-4},
+                         .reference_from_region =
+                             Eigen::Isometry3d(Eigen::Translation3d(kFar, 0.0, 0.0))}}}}});
+  const PathCertificate certificate = certifyPath(far, kOver);
+  ASSERT_EQ(certificate.segments[1].certificate.verdict, Verdict::Free);
+  const std::filesystem::path file = folder_.path() / "far.json";
+  EXPECT_EQ(writeProof(file, far, kOver, certificate).missing, "segment 1, position of cube");
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(PathProof, IsAPathAgain) {
   const auto& group = checker_.group();
   EXPECT_EQ(readPath(written(kOver), checker_.robot(), group), kOver);

@@ -9,9 +9,11 @@
 #include <set>
 #include <utility>
 
+#include "certificate/constraints_json.hpp"
 #include "certificate/pair_search.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "verify/check.hpp"
+#include "verify/constraint.hpp"
 #include "verify/trajectory.hpp"
 
 namespace swept {
@@ -27,6 +29,7 @@ class CertificateSearch {
   CertificateSearch(const Checker& checker, const Json& model)
       : model_(verify::readModel(model)),
         pairs_(verify::pairsToProve(model_)),
+        constraints_(verify::readConstraints(constraintsJson(checker), model_)),
         inTube_(model.contains("tracking")) {
     const std::vector<CertifiedBody> sources = certifiedBodies(checker);
     for (std::size_t i = 0; i < sources.size(); ++i)
@@ -36,7 +39,7 @@ class CertificateSearch {
 
   const verify::Model& model() const { return model_; }
 
-  /// Null where a pair is not proven; then `missing` says why.
+  /// Null where a pair or a constraint is not proven; then `missing` says which.
   Json segment(const verify::Motion& motion, double clearance, std::string& missing) {
     Json proofs = Json::array();
     for (const verify::PairToProve& pair : pairs_) {
@@ -48,10 +51,25 @@ class CertificateSearch {
       entry["digest"] = verify::pairDigest(entry);
       proofs.push_back(std::move(entry));
     }
+    for (const verify::Constraint& constraint : constraints_)
+      if (!isShown(motion, constraint)) {
+        missing = constraint.name;
+        return nullptr;
+      }
     return proofs;
   }
 
  private:
+  /// Whether verifying will show it: the file has nothing for a constraint but itself.
+  bool isShown(const verify::Motion& motion, const verify::Constraint& constraint) const {
+    try {
+      verify::checkConstraint(model_, motion, constraint, constraint.name);
+    } catch (const verify::Refusal&) {
+      return false;
+    }
+    return true;
+  }
+
   const std::string& nameOf(int body) const {
     return model_.bodies[static_cast<std::size_t>(body)].name();
   }
@@ -81,6 +99,7 @@ class CertificateSearch {
 
   verify::Model model_;
   std::vector<verify::PairToProve> pairs_;
+  std::vector<verify::Constraint> constraints_;
   bool inTube_;
   std::deque<SearchedBody> bodies_;
   /// Pairs that the clearances cover. Bodies out of a link's reach have to be proven apart as well,
@@ -96,10 +115,10 @@ Certificate certificateBetween(const Checker& checker, const Json& knots, const 
   CertificateSearch search(checker, certificate.model);
   Json segments = Json::array();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    std::string pair;
-    Json proofs = search.segment(motionOf(search.model(), i), clearanceOf(i), pair);
+    std::string missing;
+    Json proofs = search.segment(motionOf(search.model(), i), clearanceOf(i), missing);
     if (proofs.is_null()) {
-      certificate.missing = "segment " + std::to_string(i + 1) + ", " + pair;
+      certificate.missing = "segment " + std::to_string(i + 1) + ", " + missing;
       return certificate;
     }
     segments.push_back({{"states_digest", verify::stateDigest(knots[i], knots[i + 1])},

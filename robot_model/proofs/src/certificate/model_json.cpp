@@ -37,15 +37,6 @@ Names proofNamesInWorld(const Checker& checker) {
   return names;
 }
 
-Json poseJson(const Isometry3d& pose) {
-  Json numbers = Json::array();
-  for (Eigen::Index row = 0; row < 3; ++row)
-    for (Eigen::Index column = 0; column < 3; ++column)
-      numbers.push_back(pose.linear()(row, column));
-  for (Eigen::Index row = 0; row < 3; ++row) numbers.push_back(pose.translation()[row]);
-  return numbers;
-}
-
 /// Where the joint's values come from: the group's variables, or those that stay as they are.
 void addValues(const Checker& checker, const Joint& joint, Json& json) {
   const Robot& robot = checker.robot();
@@ -129,6 +120,15 @@ Json askedJson(const Checker& checker) {
 }
 
 }  // namespace
+
+Json poseJson(const Isometry3d& pose) {
+  Json numbers = Json::array();
+  for (Eigen::Index row = 0; row < 3; ++row)
+    for (Eigen::Index column = 0; column < 3; ++column)
+      numbers.push_back(pose.linear()(row, column));
+  for (Eigen::Index row = 0; row < 3; ++row) numbers.push_back(pose.translation()[row]);
+  return numbers;
+}
 
 std::vector<CertifiedBody> certifiedBodies(const Checker& checker) {
   const CollisionRules& rules = checker.options().rules;

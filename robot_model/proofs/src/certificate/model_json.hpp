@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,9 @@ std::vector<CertifiedBody> certifiedBodies(const Checker& checker);
 /// bit for bit, margins, pairs that may touch, tolerances of joints. Throws UsageError for moving
 /// obstacles, which the form cannot express.
 Json modelJson(const Checker& checker);
+
+/// 12 numbers: the rotation by rows, then the translation (m).
+Json poseJson(const Eigen::Isometry3d& pose);
 
 /// Throws UsageError, beginning with `where`, for the first name or reason in modelJson() that is
 /// not UTF-8.

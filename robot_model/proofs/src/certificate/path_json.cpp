@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "certificate/constraints_json.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "output/clouds_json.hpp"
 #include "output/unchecked_json.hpp"
@@ -121,6 +122,7 @@ std::string pathJsonText(const Checker& checker, const PathRecord& record,
   json["tolerance"] = checker.options().tolerance;
   json["clouds"] = cloudsJson(checker.world());
   json["joint_names"] = jointNames(checker);
+  if (!checker.options().constraints.empty()) json["constraints"] = constraintsJson(checker);
   json["states"] = Json::array();
   for (const std::vector<double>& q : record.states) json["states"].push_back(toJson(q));
   if (record.trajectory != nullptr) json["trajectory"] = trajectoryJson(*record.trajectory);
@@ -130,12 +132,7 @@ std::string pathJsonText(const Checker& checker, const PathRecord& record,
         {{"verdict", toString(segment.verdict)}, {"clearance", finiteOrNull(segment.clearance)}});
     addClearances(segment.clearances, json["segments"].back());
   }
-  std::vector<std::string> warnings = record.warnings;
-  if (!checker.options().constraints.empty())
-    warnings.emplace_back(
-        "swept: warning: the proof in this file is about contacts alone: that the path keeps the "
-        "constraints of its task was proven before, and cannot be verified from the file");
-  addUnchecked(json, checker, warnings);
+  addUnchecked(json, checker, record.warnings);
   if (!record.inputs.is_null()) json["inputs"] = record.inputs;
   requireUtf8(json, where);
   if (embed) json["model"] = certificate.model;

@@ -22,8 +22,9 @@ namespace swept {
 
 /// The result of writing a proof.
 struct WrittenProof {
-  /// The place where no separating planes were found: `segment 3, forearm - shelf`. Then there is
-  /// no file. Empty: the file is written.
+  /// The place where no separating planes were found, `segment 3, forearm - shelf`, or the
+  /// constraint that the file would not show, `segment 3, axis of hand`. Then there is no file.
+  /// Empty: the file is written.
   std::string missing;
 
   bool isWritten() const { return missing.empty(); }  ///< whether the file is written
@@ -34,7 +35,8 @@ struct WrittenProof {
 /// without any other file. The file is written completely or not at all. `certificate`: the result
 /// of certifyPath() for the same states, with clearances. `warnings`: lines about what is not
 /// checked, which the reader of the file sees again (LoadOptions::warnOfUnchecked). The planes
-/// hold wherever CheckerOptions::tracking lets the robot be.
+/// hold wherever CheckerOptions::tracking lets the robot be. The constraints of the checker are in
+/// the file, and need no planes: whoever checks it proves them from the states.
 ///
 /// Throws UsageError for a path that is not Free, a world with moving obstacles, names that are not
 /// UTF-8, a file that cannot be written or has another extension, and a proof that is larger than
@@ -78,6 +80,9 @@ struct CheckedProof {
   /// How far each joint of the group may be off, by name: all this holds wherever it is within
   /// that. Empty: it holds of the path or trajectory itself.
   std::map<std::string, JointTolerance> tube = {};
+  /// What holds at every instant besides, in words: `axis (0, 0, 1) of hand within 0.0873 rad of
+  /// (0, 0, 1)`.
+  std::vector<std::string> constraints = {};
 
   bool holds() const { return refusal.empty(); }  ///< whether the file's claims are proven
 };
@@ -88,7 +93,8 @@ struct CheckedProof {
 CheckedProof verifyProof(const std::filesystem::path& file);
 
 /// The same for any path file with a proof; also checks that robot, world and rules are those of
-/// `checker`. Throws UsageError for a world with moving obstacles.
+/// `checker`, and that the file shows its constraints, if it has any. Throws UsageError for a world
+/// with moving obstacles.
 CheckedProof verifyProof(const std::filesystem::path& file, const Checker& checker);
 
 }  // namespace swept

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "output/text_output.hpp"
+#include "swept/robot_model/checker.hpp"
+
+namespace swept {
+
+/// CheckerOptions::constraints in the form that robot_model/verify reads; an empty list: there are
+/// none. Frames in attached bodies are those of the links that carry them.
+Json constraintsJson(const Checker& checker);
+
+}  // namespace swept
