@@ -489,7 +489,10 @@ class ConstraintProjection::Search {
     return cost;
   }
 
-  /// The gradients of what is beyond, over the free degrees: others are 0.
+  /// Of what is beyond, over the free degrees: others are 0. The length l of a vector v, beyond a
+  /// share s, has the second derivative (l - s) / l across v, which is no less of the cost than
+  /// what is along it: to the rows n n^T of gradients come sqrt(1 - s / l) (1 - n n^T), n = v / l.
+  /// Without these the search goes to and fro around small regions.
   void linearise() {
     Eigen::MatrixXd& steepest = data_.steepest;
     steepest.setZero();
@@ -498,12 +501,18 @@ class ConstraintProjection::Search {
       const ConstraintRow& row = data_.rows[i];
       const double beyond = length - options_.share * toleranceOf(row);
       if (!(beyond > 0.0)) return;
+      const auto part = [&](int k) {
+        return data_.rows[i + static_cast<std::size_t>(k)].value / length;
+      };
+      const double across = std::sqrt(beyond / length);
       const auto at = static_cast<Eigen::Index>(i);
-      data_.beyond[at] = beyond / row.unit;
-      for (Eigen::Index k = at; k < at + row.count; ++k)
-        steepest.row(at) +=
-            (data_.rows[static_cast<std::size_t>(k)].value / length) * data_.gradients.row(k);
-      steepest.row(at) /= row.unit;
+      for (int k = 0; k < row.count; ++k) {
+        data_.beyond[at + k] = part(k) * beyond / row.unit;
+        for (int other = 0; other < row.count; ++other)
+          steepest.row(at + k) +=
+              ((1.0 - across) * part(k) * part(other) + (k == other ? across : 0.0)) / row.unit *
+              data_.gradients.row(at + other);
+      }
     });
     for (std::size_t i = 0; i < task_.freedom.degrees.size(); ++i) {
       const detail::Degree& degree = task_.freedom.degrees[i];
