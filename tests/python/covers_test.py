@@ -32,6 +32,7 @@ def test_spheres_against_cpp(oracle, hand):
         assert 1 <= len(found) <= count and found.spheres.shape == (len(found), 4)
         outside = swept.outside_spheres(hand, found.spheres)
         assert outside and outside.upper <= 0.0
+        assert (found.spheres == found.spheres.astype(np.float32)).all()
 
 
 def test_judgements_against_cpp(oracle, hand, random):

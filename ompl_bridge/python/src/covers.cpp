@@ -119,7 +119,7 @@ void bindFound(py::module_& module) {
                                     "Spheres that together contain a body: proven.");
   type.def_property_readonly(
           "spheres", [](const EnclosingSpheres& self) { return arrayOf(self.spheres); },
-          "(k, 4): x, y, z and radius (m), body's frame.")
+          "(k, 4): x, y, z and radius (m), body's frame; numbers of single precision.")
       .def_readonly("reach", &EnclosingSpheres::reach,
                     "m. No sphere reaches farther beyond the body: proven, except that pockets of "
                     "open meshes count as filled.")
