@@ -35,7 +35,7 @@ print(f"{len(found)} spheres contain it; they reach {excess.largest:.4f} m beyon
 
 # A robot, for a planner that reads cuRobo's files; and one link of it by the excess.
 robot = swept.Robot.load(f"{models}/robots/rook7/rook7.urdf")
-model = swept.SphereModel.search(robot, spheres=80, pieces=800, restarts=1)
+model = swept.SphereModel.search(robot, spheres=80, pieces=300, restarts=1)
 with tempfile.TemporaryDirectory() as folder:
     file = Path(folder) / "spheres.yaml"
     model.save(file, robot)
