@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A trajectory optimiser in numpy: it makes RRT-Connect's paths short, smooth and clear of bodies, and proves them.
 
-    17_optimise.py MODELS
-    17_optimise.py PROBLEMS.json ROBOT.urdf GROUP [PER_SET]
+    optimise.py MODELS
+    optimise.py PROBLEMS.json ROBOT.urdf GROUP [PER_SET]
 
 Runs problems of MotionBenchMaker, and prints for each set how many RRT-Connect solves, for how many the optimiser has a
 proven trajectory, and medians: lengths (rad) and clearances (mm) of both and of shorten_path, times. Exits 0 if at least
