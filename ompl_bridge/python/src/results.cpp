@@ -90,7 +90,7 @@ void bindReport(py::module_& module) {
       .def("__bool__", [](const StateReport& self) { return self.verdict == Verdict::Free; });
   addBody(type, "nearest_a", &StateReport::nearestA, "The pair that gave `clearance`.");
   addBody(type, "nearest_b", &StateReport::nearestB, "The pair that gave `clearance`.");
-  addRepr(type, {"verdict", "clearance", "nearest_a", "nearest_b", "contacts"});
+  addRepr(type, {"verdict", "clearance", "nearest_a", "nearest_b", "contacts", "violations"});
   addImmutableCopies(type);
 }
 
