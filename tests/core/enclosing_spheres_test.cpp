@@ -156,7 +156,10 @@ TEST(EnclosingSpheres, AreTheSameForASeed) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].center, b[i].center);
     EXPECT_EQ(a[i].radius, b[i].radius);
-    EXPECT_EQ(a[i].radius, static_cast<double>(static_cast<float>(a[i].radius)));
+    for (const double value : {a[i].center.x(), a[i].center.y(), a[i].center.z(), a[i].radius}) {
+      const volatile float single = static_cast<float>(value);  // see inSinglePrecision()
+      EXPECT_EQ(value, static_cast<double>(single)) << i;
+    }
   }
 }
 

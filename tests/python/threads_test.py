@@ -2,6 +2,7 @@
 """Threads of Python share a checker; signals end long work; nothing leaks."""
 import gc
 import os
+import pickle
 import resource
 import signal
 import subprocess
@@ -125,7 +126,57 @@ def test_a_million_calls_leak_nothing(checker, home, states):
     assert grown(lambda: swept.plan(checker, home, near), 50) < 16000
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_constraints_lines_covers_and_cells_leak_nothing(checker, home, states):
+    keep = swept.TaskConstraint.upright("hand", 0.01)
+    tipped = checker.with_constraints(keep)
+    projection = swept.ConstraintProjection(tipped)
+    planner = swept.ToolLinePlanner(checker, "hand")
+    hand = checker.robot.link_shapes("hand")
+    search = swept.EnclosingSpheresSearch(hand, pieces=50, restarts=1)
+    cell = swept.WorkCell.load("models/cells/two_rooks.yaml")
+    arms = cell.robot()
+    problems = swept.ProblemFile.load("models/problems.json")
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            swept.AxisConstraint(3, 0.1)
+
+    assert grown(lambda: (keep & keep).axes[0].frame, 20_000) < 4000
+    assert grown(lambda: tipped.certify_motion(states[0], states[0]).violation.kind, 20_000) < 4000
+    assert grown(lambda: tipped.report_state(states[0]).violations, 300) < 4000
+    assert grown(lambda: keep.describe(tipped.report_state(states[0]).violations[0]), 300) < 4000
+    assert grown(lambda: (projection.project(home), projection.residuals(home), projection.jacobian(home)), 300) < 4000
+    assert grown(lambda: projection.project_states(states), 20) < 8000
+    assert grown(lambda: planner.plan_by(home, [0, 0, -2.0]).stop.variable, 100) < 4000
+    assert grown(lambda: search.at_most(3).spheres, 50) < 8000
+    assert grown(lambda: swept.outside_spheres(hand, [[0, 0, 0, 0.05]], samples=100).point, 50) < 8000
+    assert grown(lambda: checker.robot.link_shapes("link1"), 1000) < 4000
+    assert grown(lambda: swept.SphereModel({"hand": [[0, 0, 0, 1.0]]})["hand"], 10_000) < 4000
+    assert grown(lambda: pickle.loads(pickle.dumps(cell)).robots[0].pose, 2000) < 4000
+    assert grown(lambda: arms.standing({"left/arm": "ready"}), 2000) < 4000
+    assert grown(lambda: problems.problem("shelf", problems.indices("shelf")[0]).world, 1000) < 4000
+    assert grown(refused, 20_000) < 4000
+
+
+def test_constraints_and_lines_keep_what_they_need(robot):
+    """Objects outlive what they were made of."""
+    def make():
+        checker = swept.Checker(robot, "arm", constraints=swept.TaskConstraint.upright("hand", 0.5))
+        return swept.ConstraintProjection(checker), swept.ToolLinePlanner(checker, "hand"), checker.constraints.axes[0]
+
+    projection, planner, axis = make()
+    gc.collect()
+    q = robot.named_state("arm", "ready")
+    assert projection.used_share(q) > 0.0 and planner.pose(q).shape == (4, 4) and axis.angle == 0.5
+    pieces = swept.WorkCell.load("models/cells/two_rooks.yaml").robot().link_shapes("left/hand")
+    gc.collect()
+    assert swept.EnclosingSpheresSearch(pieces, pieces=50, restarts=1).at_most(2).reach > 0.0
+
+
 def test_references_are_given_back(checker, home):
+    tipped = checker.with_constraints(swept.TaskConstraint.upright("hand", 0.01))
+    projection, planner, way = swept.ConstraintProjection(tipped), swept.ToolLinePlanner(checker, "hand"), np.zeros(3)
     before = sys.getrefcount(home), sys.getrefcount(swept.Verdict.FREE), sys.getrefcount(checker)
     for _ in range(100):
         checker.check_state(home)
@@ -133,5 +184,10 @@ def test_references_are_given_back(checker, home):
         checker.check_states(home[None])
         with pytest.raises(TypeError):
             checker.check_state(home, home)
+        projection.project(home)
+        planner.plan_by(home, way).stop
+        tipped.certify_motion(home, home).violation
+        with pytest.raises(TypeError):
+            swept.AxisConstraint(home, 0.1)
     after = sys.getrefcount(home), sys.getrefcount(swept.Verdict.FREE), sys.getrefcount(checker)
     assert before == after

@@ -86,7 +86,7 @@ def test_pages_show_what_runs():
 @pytest.mark.skipif(shutil.which("mypy") is None, reason="mypy is not installed")
 def test_mypy_accepts_stubs_and_examples(tmp_path):
     # One program at a time: all are scripts of the same name for mypy.
-    examples = sorted(str(path) for path in Path("planners_demo/examples/python").glob("*.py"))
+    examples = sorted(str(path) for path in Path("planners_demo/examples/python").rglob("*.py"))
     assert len(examples) >= 10
     command = [shutil.which("mypy"), "--python-version", "3.11", "--cache-dir", str(tmp_path), "--scripts-are-modules"]
     for arguments in (["--strict", "--no-warn-unused-ignores", str(PACKAGE)], examples):

@@ -60,6 +60,10 @@ py::object witness(const MotionCertificate& value) {
   if (!value.witness) return py::none();
   return py::cast(*value.witness);
 }
+py::object violation(const MotionCertificate& value) {
+  if (!value.violation) return py::none();
+  return py::cast(*value.violation);
+}
 py::object effort(const MotionCertificate& value) {
   return py::cast(value.effort);
 }
@@ -70,6 +74,8 @@ PyGetSetDef properties[] = {
      "Largest proven t in [0, 1]: until then all is free. 1 if the verdict is FREE.", nullptr},
     {"witness", &property<&witness>, nullptr,
      "Witness of the contact, exactly if the verdict is COLLISION; else None.", nullptr},
+    {"violation", &property<&violation>, nullptr,
+     "ConstraintViolation, exactly if the verdict is VIOLATION; else None.", nullptr},
     {"undecided_at", &property<&undecidedAt>, nullptr,
      "Start of the first interval that could not be proven, exactly if the verdict is UNDECIDED; "
      "else None.",
@@ -88,6 +94,8 @@ PyObject* describe(PyObject* self) {
   if (value.witness)
     text += ", contact at t = " + std::string(py::str(py::float_(value.witness->t))) + " of " +
             value.witness->bodyA.str() + " and " + value.witness->bodyB.str();
+  if (value.violation)
+    text += ", violation at t = " + std::string(py::str(py::float_(value.violation->t)));
   return PyUnicode_FromString((text + ">").c_str());
 }
 

@@ -55,7 +55,8 @@ CheckerHandle make(RobotHandle robot, const py::object& group, const WorldHandle
                    double margin, std::optional<double> selfMargin,
                    std::optional<double> worldMargin, double tolerance, const py::object& reference,
                    int maxIntervals, std::size_t maxPairs, const CollisionRules& rules,
-                   const std::vector<AttachedBody>& attached, const TrackingTolerance& tracking) {
+                   const std::vector<AttachedBody>& attached, const TrackingTolerance& tracking,
+                   const TaskConstraint& constraints) {
   const std::string name = groupOf(robot, group);
   const CheckerOptions options{.margin = margin,
                                .tolerance = tolerance,
@@ -66,7 +67,8 @@ CheckerHandle make(RobotHandle robot, const py::object& group, const WorldHandle
                                .attached = attached,
                                .selfMargin = selfMargin,
                                .worldMargin = worldMargin,
-                               .tracking = tracking};
+                               .tracking = tracking,
+                               .constraints = constraints};
   const std::shared_ptr<const World> obstacles = worldOf(world);
   const py::gil_scoped_release others;
   return {robot, Checker(robot.robot, name, obstacles, options)};
@@ -160,6 +162,17 @@ void addVersions(py::class_<CheckerHandle>& type) {
           },
           py::arg("tracking"), "The same checks in another tube. Takes as long as a new Checker.")
       .def(
+          "with_constraints",
+          [](const Handle& self, const TaskConstraint& constraints) {
+            return version(self,
+                           [&](const Checker& old) { return old.withConstraints(constraints); });
+          },
+          py::arg("constraints"),
+          "The same checks under a TaskConstraint, in place of that before: FREE then also means "
+          "that it holds at every instant, VIOLATION\nthat it does not. Raises ArgumentError for "
+          "links, bodies and joints that there are not, and for tolerances, sizes, axes and poses "
+          "that\ncannot be used.")
+      .def(
           "with_detached",
           [](const Handle& self, const std::string& name, const py::object& q) {
             const Table at = readVector(q, "q", self.dimension());
@@ -205,6 +218,9 @@ void addProperties(py::class_<CheckerHandle>& type) {
           "attached",
           [](const Handle& self) { return py::tuple(py::cast(self.checker().options().attached)); },
           "The AttachedBody that links carry.")
+      .def_property_readonly(
+          "constraints", [](const Handle& self) { return self.checker().options().constraints; },
+          "The TaskConstraint that has to hold; an empty one: none.")
       .def_property_readonly(
           "checked_pairs",
           [](const Handle& self) { return pairsOf(self.checker().checkedPairs()); },
@@ -285,6 +301,7 @@ void bindChecker(py::module_& module) {
       py::arg("reference") = py::none(), py::arg("max_intervals") = usual.maxIntervals,
       py::arg("max_pairs") = usual.maxPairs, py::arg("rules") = CollisionRules(),
       py::arg("attached") = std::vector<AttachedBody>(), py::arg("tracking") = TrackingTolerance(),
+      py::arg("constraints") = TaskConstraint(),
       "`group`: a name, or a list of joints. `margin`: m, FREE means that each pair keeps more; "
       "`self_margin`, `world_margin`: in its\nplace for pairs of the robot's own bodies, and "
       "with the world. `tolerance`: m, a motion that keeps more than margin +\ntolerance is "

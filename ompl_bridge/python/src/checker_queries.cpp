@@ -75,7 +75,8 @@ class OthersRun {
 constexpr const char* kCheckState =
     "check_state($self, /, q)\n--\n\n"
     "Verdict on a state q (n,). Proven, or witnessed; UNDECIDED within rounding of the margin, and "
-    "with a prismatic value beyond\nits limits.";
+    "with a prismatic value beyond\nits limits; VIOLATION, of a constraint, whether in contact or "
+    "not.";
 
 PyObject* checkState(PyObject* self, PyObject* const* given, Py_ssize_t count, PyObject* names) {
   const auto [value] = argumentsOf<1>("check_state", {"q"}, 1, given, count, names);

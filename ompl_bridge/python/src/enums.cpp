@@ -46,13 +46,23 @@ const Enumeration<4>& clearanceQueries() {
 }  // namespace
 
 py::object toPython(Verdict verdict) {
-  static const Enumeration<3> found("Verdict");
+  static const Enumeration<4> found("Verdict");
   return found.member(static_cast<std::size_t>(verdict));
 }
 
 py::object toPython(LimitKind kind) {
   static const Enumeration<4> found("LimitKind");
   return found.member(static_cast<std::size_t>(kind));
+}
+
+py::object toPython(ConstraintViolation::Kind kind) {
+  static const Enumeration<4> found("ConstraintKind");
+  return found.member(static_cast<std::size_t>(kind));
+}
+
+py::object toPython(ToolLineStop::Reason reason) {
+  static const Enumeration<7> found("LineStop");
+  return found.member(static_cast<std::size_t>(reason));
 }
 
 MotionQuery motionQueryOf(py::handle value, const char* argument) {

@@ -5,6 +5,8 @@
 
 #include "swept/core/verdict.hpp"
 #include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/task_constraint.hpp"
+#include "swept/robot_model/tool_line.hpp"
 #include "swept/robot_model/trajectory_certificate.hpp"
 
 /// The enumerations of swept/enums.py, which have the values of C++.
@@ -14,6 +16,8 @@ namespace swept::python {
 /// The member, without making an object.
 pybind11::object toPython(Verdict verdict);
 pybind11::object toPython(LimitKind kind);
+pybind11::object toPython(ConstraintViolation::Kind kind);
+pybind11::object toPython(ToolLineStop::Reason reason);
 ///@}
 ///@{
 /// The value of a member; throws ArgumentTypeError, naming the argument, for all else.

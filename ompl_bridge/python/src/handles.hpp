@@ -11,6 +11,7 @@
 
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/robot.hpp"
+#include "swept/robot_model/work_cell.hpp"
 #include "swept/robot_model/world.hpp"
 #include "watch.hpp"
 
@@ -25,6 +26,8 @@ struct Source {
   std::filesystem::path cache = {};                                          ///< empty: none
   std::string modelFrame = {};                                               ///< see LoadOptions
   bool childProcess = true;                                                  ///< likewise
+  /// What a robot of several is composed of, in place of `file`; else null.
+  std::shared_ptr<const WorkCell> cell = {};
 };
 
 /// swept.Robot.

@@ -36,7 +36,7 @@ Source sourceOf(const std::filesystem::path& file, const py::object& srdf,
   const auto absolute = [](const py::object& value) {
     return value.is_none() ? std::filesystem::path() : std::filesystem::absolute(pathOf(value));
   };
-  Source source{.file = std::filesystem::absolute(file),
+  Source source{.file = file.empty() ? file : std::filesystem::absolute(file),
                 .srdf = absolute(srdf),
                 .packages = {},
                 .cache = absolute(cache),

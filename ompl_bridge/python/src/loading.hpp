@@ -28,7 +28,7 @@ class Remarks {
 };
 
 /// The keyword arguments of loading functions. Paths become absolute, since a pickle may be read in
-/// another folder.
+/// another folder. `file` may be empty.
 Source sourceOf(const std::filesystem::path& file, const pybind11::object& srdf,
                 const pybind11::object& packages, const pybind11::object& cache,
                 const std::string& modelFrame, bool childProcess);

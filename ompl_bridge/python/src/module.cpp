@@ -12,16 +12,23 @@ PYBIND11_MODULE(_swept, module) {
   importNumpy();
   registerErrors();
   bindWatch(module);
+  bindConstraints(module);
   bindResults(module);
   bindCertificates(module);
   bindShapes(module);
   bindRobot(module);
+  bindCells(module);
   bindWorld(module);
   bindRules(module);
   bindChecker(module);
+  bindProjections(module);
   bindKinematics(module);
+  bindToolLines(module);
+  bindCovers(module);
+  bindSphereModels(module);
   bindTrajectories(module);
   bindPaths(module);
   bindPlanning(module);
+  bindProblems(module);
   bindPages(module);
 }

@@ -29,7 +29,12 @@ PageHandle make(const CheckerHandle& checker, const std::string& title, const st
                 const Facts& facts) {
   PageOptions options{.title = title, .headline = headline, .facts = facts};
   const Source& source = checker.robot().source;
-  if (!source.file.empty()) options.visuals = VisualModel::load(source.file);
+  if (source.cell != nullptr) {
+    const ComposedRobot composed = compose(*source.cell);
+    options.visuals = VisualModel::parse(composed.urdf, composed.name);
+  } else if (!source.file.empty()) {
+    options.visuals = VisualModel::load(source.file);
+  }
   return {Page(checker.shared(), std::move(options)), checker.dimension()};
 }
 

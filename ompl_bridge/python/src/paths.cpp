@@ -47,7 +47,7 @@ void bindCertificate(py::module_& module) {
                                    "configurations. True if the verdict is FREE.");
   type.def_property_readonly(
           "verdict", [](const PathCertificate& self) { return toPython(self.verdict()); },
-          "FREE if all segments are, COLLISION if one is; else UNDECIDED.")
+          "VIOLATION if one segment is, else COLLISION if one is; FREE if all are; else UNDECIDED.")
       .def_property_readonly("segments", &segmentsOf,
                              "A MotionCertificate for the motion from each state to the next.")
       .def_property_readonly(

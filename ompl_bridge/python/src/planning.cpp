@@ -18,6 +18,7 @@
 #include "arrays.hpp"
 #include "binding.hpp"
 #include "errors.hpp"
+#include "goals.hpp"
 #include "handles.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/certified_connect.hpp"
@@ -39,13 +40,6 @@ namespace {
 
 using States = std::vector<std::vector<double>>;
 using Token = std::shared_ptr<CancellationToken>;
-
-/// swept.PoseGoal.
-struct PoseTarget {
-  std::string link;
-  Eigen::Isometry3d model_from_tool, link_from_tool;
-  double positionTolerance, orientationTolerance;
-};
 
 /// swept.Plan.
 struct Plan {
@@ -382,7 +376,8 @@ void bindPlanning(py::module_& module) {
       py::arg("simplify_seconds") = py::none(), py::arg("cancel") = py::none(),
       "Plan of a path from start (n,) to a goal: (n,), any of (k, n), or a PoseGoal. `planner`: "
       "see planner_names(). `seconds`: how long\nit may search. `range`: longest motion of a "
-      "tree. The path is shortened by a few tens of motions, or by OMPL's simplifier for\n"
+      "tree. A checker's constraints hold all along the path; CertifiedConnect plans for them. The "
+      "path is shortened by a few tens of motions, or by OMPL's simplifier for\n"
       "`simplify_seconds`. The same seed gives the same path, if no other thread plans with a "
       "planner of OMPL's. Ctrl-C and `cancel`\nend it: KeyboardInterrupt, Cancelled.");
   module.def(

@@ -75,6 +75,12 @@ void bindReport(py::module_& module) {
       .def_property_readonly(
           "contacts", [](const StateReport& self) { return py::tuple(py::cast(self.contacts)); },
           "A Witness for each violating pair.")
+      .def_property_readonly(
+          "violations",
+          [](const StateReport& self) { return py::tuple(py::cast(self.violations)); },
+          "A ConstraintViolation for each constraint that does not hold.")
+      .def_readonly("constraints_hold", &StateReport::constraintsHold,
+                    "Whether all constraints are proven to hold.")
       .def_readonly(
           "clearance", &StateReport::clearance,
           "m, proven lower bound of the least distance over all checked pairs; inf: no pairs.")
@@ -84,7 +90,7 @@ void bindReport(py::module_& module) {
       .def("__bool__", [](const StateReport& self) { return self.verdict == Verdict::Free; });
   addBody(type, "nearest_a", &StateReport::nearestA, "The pair that gave `clearance`.");
   addBody(type, "nearest_b", &StateReport::nearestB, "The pair that gave `clearance`.");
-  addRepr(type, {"verdict", "clearance", "nearest_a", "nearest_b", "contacts"});
+  addRepr(type, {"verdict", "clearance", "nearest_a", "nearest_b", "contacts", "violations"});
   addImmutableCopies(type);
 }
 
@@ -95,8 +101,10 @@ void bindEffort(py::module_& module) {
       .def_readonly("distances", &Effort::distances, "Exact pair queries.")
       .def_readonly("culled", &Effort::culled, "Pairs settled by bounding volumes alone.")
       .def_readonly("lanes", &Effort::lanes,
-                    "Sub-intervals examined in single precision, by the SIMD tier.");
-  addRepr(type, {"intervals", "distances", "culled", "lanes"});
+                    "Sub-intervals examined in single precision, by the SIMD tier.")
+      .def_readonly("constrained", &Effort::constrained,
+                    "Sub-intervals, or states, examined for constraints.");
+  addRepr(type, {"intervals", "distances", "culled", "lanes", "constrained"});
 }
 
 void bindClearance(py::module_& module) {

@@ -10,8 +10,11 @@
 #include "binding.hpp"
 #include "handles.hpp"
 #include "loading.hpp"
+#include "robots.hpp"
+#include "shapes.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/named_states.hpp"
+#include "swept/robot_model/sphere_model.hpp"
 
 namespace py = pybind11;
 
@@ -33,14 +36,6 @@ struct GroupHandle {
   }
 };
 
-const Group& groupOf(const Robot& robot, const std::string& name) {
-  if (const Group* group = robot.findGroup(name)) return *group;
-  std::string names;
-  for (const Group& group : robot.groups()) names += (names.empty() ? "" : ", ") + group.name;
-  throw std::invalid_argument("robot '" + robot.name() + "' has no group '" + name +
-                              "'; it has: " + names);
-}
-
 /// The names of some of the robot's parts.
 template <typename Part>
 py::tuple namesOf(const std::vector<Part>& parts) {
@@ -49,23 +44,11 @@ py::tuple namesOf(const std::vector<Part>& parts) {
   return names;
 }
 
-RobotHandle load(const Source& source) {
-  Remarks remarks;
-  const LoadOptions options = remarks.optionsFor(source);
-  RobotHandle handle{.robot = nullptr, .source = source};
-  {
-    const py::gil_scoped_release others;
-    handle.robot = Robot::load(source.file, source.srdf, options);
-  }
-  remarks.warn();
-  return handle;
-}
-
 RobotHandle loadFiles(const std::filesystem::path& urdf, const py::object& srdf,
                       const py::object& packages, const py::object& cache, bool childProcess) {
   Source source = sourceOf(urdf, srdf, packages, cache, {}, childProcess);
   if (srdf.is_none()) source.srdf = Robot::srdfBeside(source.file);
-  return load(source);
+  return loadRobot(source);
 }
 
 RobotHandle withGroup(const RobotHandle& self, const std::string& name,
@@ -119,19 +102,53 @@ py::object sphereCover(const RobotHandle& self, const std::string& name, std::op
   return makeArray(balls, 4);
 }
 
+/// Pairs of a Shape and its pose: a body, as functions take it.
+py::list linkShapes(const RobotHandle& self, const std::string& name) {
+  const std::optional<int> index = self.robot->findLink(name);
+  if (!index) throw std::invalid_argument("the robot has no link '" + name + "'");
+  py::list pieces;
+  for (PosedShape& piece : bodyOf(self.robot->links()[static_cast<std::size_t>(*index)]))
+    pieces.append(
+        py::make_tuple(ShapeHandle{std::move(piece.shape)}, makeArray(piece.body_from_shape)));
+  return pieces;
+}
+
+/// All variables, where some groups have postures: the name of a state, or values.
+py::object standing(const RobotHandle& self, const py::dict& postures) {
+  const Robot& robot = *self.robot;
+  Eigen::VectorXd all = robot.defaultState();
+  for (const auto& [key, posture] : postures) {
+    const auto name = key.cast<std::string>();
+    const Group& group = groupOf(robot, name);
+    std::vector<double> q;
+    if (py::isinstance<py::str>(posture)) {
+      q = namedConfiguration(robot, group, posture.cast<std::string>());
+    } else {
+      const Table values =
+          readVector(posture, ("posture of '" + name + "'").c_str(), group.variables.size());
+      q.assign(values.numbers().begin(), values.numbers().end());
+    }
+    for (std::size_t i = 0; i < q.size(); ++i) all[group.variables[i]] = q[i];
+  }
+  return makeArray(ConfigurationView(all));
+}
+
 py::tuple stateOf(const RobotHandle& self) {
   const Source& source = self.source;
-  return py::make_tuple(toPython(source.file), toPython(source.srdf), source.packages,
-                        toPython(source.cache), source.childProcess, self.groups);
+  return py::make_tuple(
+      toPython(source.file), toPython(source.srdf), source.packages, toPython(source.cache),
+      source.childProcess, self.groups,
+      source.cell != nullptr ? py::object(stateOfCell(*source.cell)) : py::none());
 }
 
 RobotHandle fromState(const py::tuple& state) {
-  const RobotHandle loaded = load({.file = pathOf(state[0]),
-                                   .srdf = pathOf(state[1]),
-                                   .packages = state[2].cast<decltype(Source::packages)>(),
-                                   .cache = pathOf(state[3]),
-                                   .childProcess = state[4].cast<bool>()});
-  RobotHandle result = loaded;
+  Source source{.file = pathOf(state[0]),
+                .srdf = pathOf(state[1]),
+                .packages = state[2].cast<decltype(Source::packages)>(),
+                .cache = pathOf(state[3]),
+                .childProcess = state[4].cast<bool>()};
+  if (!state[6].is_none()) source.cell = std::make_shared<const WorkCell>(cellOf(state[6]));
+  RobotHandle result = loadRobot(source);
   for (const auto& [name, joints] : state[5].cast<decltype(RobotHandle::groups)>())
     result = withGroup(result, name, joints);
   return result;
@@ -195,6 +212,27 @@ void bindGroup(py::module_& module) {
 }
 
 }  // namespace
+
+RobotHandle loadRobot(const Source& source) {
+  Remarks remarks;
+  const LoadOptions options = remarks.optionsFor(source);
+  RobotHandle handle{.robot = nullptr, .source = source};
+  {
+    const py::gil_scoped_release others;
+    handle.robot = source.cell != nullptr ? loadWorkCell(*source.cell, options)
+                                          : Robot::load(source.file, source.srdf, options);
+  }
+  remarks.warn();
+  return handle;
+}
+
+const Group& groupOf(const Robot& robot, const std::string& name) {
+  if (const Group* group = robot.findGroup(name)) return *group;
+  std::string names;
+  for (const Group& group : robot.groups()) names += (names.empty() ? "" : ", ") + group.name;
+  throw std::invalid_argument("robot '" + robot.name() + "' has no group '" + name +
+                              "'; it has: " + names);
+}
 
 py::object makeGroup(std::shared_ptr<const Robot> robot, const Group& group) {
   // That of the robot, which the handle keeps alive.
@@ -280,6 +318,13 @@ void bindRobot(py::module_& module) {
            "geometry, proven; for planners and\noptimisers that take spheres. `level`: from 0, one "
            "ball "
            "for each piece, to the finest, the default.")
+      .def("link_shapes", &linkShapes, py::arg("link"),
+           "The collision geometry of a link: a list of pairs of a Shape and its pose (4, 4) in "
+           "the link's frame.")
+      .def("standing", &standing, py::arg("postures"),
+           "(all variables,) where groups stand as a dict says: by the name of the group that of a "
+           "state, or values (n,); all others have their\ndefault. For Checker's `reference`: "
+           "joints outside its group keep these values.")
       .def_property_readonly(
           "links_without_geometry",
           [](const RobotHandle& self) {

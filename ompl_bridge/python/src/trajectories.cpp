@@ -261,6 +261,20 @@ void bindCertificate(py::module_& module) {
           },
           "(n,) that of the contact; else None.")
       .def_property_readonly(
+          "violation",
+          [](const Certificate& self) -> py::object {
+            if (!self.violation) return py::none();
+            return py::cast(self.violation->violation);
+          },
+          "ConstraintViolation, exactly if the verdict is VIOLATION; its t is the share of the "
+          "duration. Else None.")
+      .def_property_readonly(
+          "violation_time",
+          [](const Certificate& self) {
+            return self.violation ? timeOf(*self.violation) : timeOf(std::nullopt);
+          },
+          "s, of that; else None.")
+      .def_property_readonly(
           "undecided_at", [](const Certificate& self) { return timeOf(self.undecided); },
           "s, where the first interval begins that could not be proven, exactly if the verdict is "
           "UNDECIDED; else None.")

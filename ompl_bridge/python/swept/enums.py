@@ -19,6 +19,7 @@ class Verdict(_Named):
     UNDECIDED = 0  #: closer to the margin than the tolerance; planners treat it as invalid
     FREE = 1  #: proven: every checked pair keeps more than the margin, rounding included
     COLLISION = 2  #: witnessed: two points of the exact geometry are within the margin
+    VIOLATION = 3  #: witnessed: a constraint of the task does not hold
 
     def __bool__(self) -> bool:
         return self is Verdict.FREE
@@ -47,3 +48,24 @@ class LimitKind(_Named):
     VELOCITY = 1  #: rad/s or m/s
     ACCELERATION = 2  #: rad/s^2 or m/s^2
     JERK = 3  #: rad/s^3 or m/s^3
+
+
+class ConstraintKind(_Named):
+    """In which list of a TaskConstraint a constraint is."""
+
+    JOINT = 0  #: `joints`
+    POSITION = 1  #: `positions`
+    ORIENTATION = 2  #: `orientations`
+    AXIS = 3  #: `axes`
+
+
+class LineStop(_Named):
+    """Why a path does not follow its line to the end."""
+
+    LIMIT = 0  #: a variable would have to leave its limits, or the start is outside them
+    SINGULARITY = 1  #: near a singular configuration joints had to jump, or the line leads out of reach
+    JUMP = 2  #: only joints that jump get the tool farther along the line
+    UNREACHABLE = 3  #: the group cannot move the tool in this direction at all
+    CONTACT = 4  #: with a witness
+    VIOLATION = 5  #: of the checker's constraints
+    UNDECIDED = 6  #: freedom, or the constraints, could not be proven; or too many way points

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/sphere_model.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "binding.hpp"
+#include "handles.hpp"
+#include "loading.hpp"
+#include "spheres.hpp"
+#include "swept/robot_model/text_file.hpp"
+#include "swept/robot_model/usage_error.hpp"
+
+namespace py = pybind11;
+
+namespace swept::python {
+namespace {
+
+using Reports = std::vector<LinkSphereReport>;
+
+SphereModel modelOf(const py::dict& links) {
+  SphereModel model;
+  for (const auto& [link, spheres] : links) {
+    const auto name = link.cast<std::string>();
+    model.links.push_back({name, spheresOf(py::reinterpret_borrow<py::object>(spheres),
+                                           ("spheres of '" + name + "'").c_str())});
+  }
+  return model;
+}
+
+const LinkSpheres& linkOf(const SphereModel& model, const std::string& name) {
+  if (const LinkSpheres* link = model.find(name)) return *link;
+  throw std::invalid_argument("the model has no spheres for a link '" + name + "'");
+}
+
+SphereModel search(const RobotHandle& robot, std::optional<int> spheres,
+                   std::optional<double> excess, int pieces, int restarts, int rounds,
+                   std::uint32_t seed, unsigned threads) {
+  if (spheres.has_value() == excess.has_value())
+    throw std::invalid_argument("expected one of spheres and excess");
+  const py::gil_scoped_release others;
+  return enclosingSphereModel(*robot.robot, {.spheres = spheres,
+                                             .excess = excess,
+                                             .search = {pieces, restarts, rounds, seed},
+                                             .threads = threads});
+}
+
+SphereModel load(const std::filesystem::path& file, const RobotHandle& robot) {
+  Remarks remarks;
+  const LoadOptions options = remarks.optionsFor(robot.source);
+  SphereModel model;
+  {
+    const py::gil_scoped_release others;
+    model = readSphereModel(file, *robot.robot, options);
+  }
+  remarks.warn();
+  return model;
+}
+
+Reports judge(const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
+              int samples, unsigned threads) {
+  const py::gil_scoped_release others;
+  return judgeSphereModel(*robot.robot, self, {tolerance, mostSplits, samples}, threads);
+}
+
+std::string textOf(const SphereModel& self, const std::filesystem::path& file,
+                   const RobotHandle& robot) {
+  const std::string& name = robot.robot->name();
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".json") return sphereModelJson(self, name, judgeSphereModel(*robot.robot, self));
+  if (ending == ".yaml" || ending == ".yml") return curoboSpheres(self, name);
+  const Source& source = robot.source;
+  if (ending == ".srdf") {
+    const std::string srdf = source.srdf.empty() ? "" : readTextFile(source.srdf.string());
+    return sphereApproximationSrdf(self, name, srdf, source.srdf.string());
+  }
+  if (ending != ".urdf")
+    throw UsageError("'" + file.string() + "' ends in '" + ending +
+                     "'; allowed: .urdf, .yaml, .yml (cuRobo), .srdf, .json");
+  if (source.file.empty())
+    throw UsageError("robot '" + name +
+                     "' has no URDF of its own, whose other elements a .urdf "
+                     "would keep: write another format");
+  return spherizedUrdf(self, readTextFile(source.file.string()), source.file.string());
+}
+
+void save(const SphereModel& self, const std::filesystem::path& file, const RobotHandle& robot) {
+  const py::gil_scoped_release others;
+  const std::string text = textOf(self, file, robot);
+  std::ofstream output(file, std::ios::binary);
+  output << text;
+  output.close();
+  if (!output) throw UsageError("'" + file.string() + "' cannot be written");
+}
+
+void bindReport(py::module_& module) {
+  using Report = LinkSphereReport;
+  py::class_<Report> type(module, "LinkSphereReport",
+                          "What is to be said about one link of a sphere model. True if its "
+                          "spheres contain the link, proven.");
+  type.def_readonly("link", &Report::link, "Its name.")
+      .def_readonly("spheres", &Report::spheres, "How many it has.")
+      .def_readonly("outside", &Report::outside, "OutsideSpheres: what of the link is in none.")
+      .def_readonly("excess", &Report::excess,
+                    "SphereExcess of the spheres, grown by `outside.upper` if that is above 0.")
+      .def("__bool__", [](const Report& self) { return self.outside.upper <= 0.0; });
+  addRepr(type, {"link", "spheres", "outside", "excess"});
+  addImmutableCopies(type);
+}
+
+}  // namespace
+
+void bindSphereModels(py::module_& module) {
+  bindReport(module);
+  const EnclosingSpheresOptions usual;
+  const OutsideSpheresOptions judged;
+  py::class_<SphereModel> type(
+      module, "SphereModel",
+      "Spheres for the links of a robot, as fast planners check them: made with proof, read and "
+      "judged. `model[link]` are those of a link (k, 4):\nx, y, z and radius (m), in its frame.");
+  type.def(py::init(&modelOf), py::arg("links"), "`links`: spheres (k, 4) by the name of the link.")
+      .def_static(
+          "search", &search, py::arg("robot"), py::kw_only(), py::arg("spheres") = py::none(),
+          py::arg("excess") = py::none(), py::arg("pieces") = usual.pieces,
+          py::arg("restarts") = usual.restarts, py::arg("rounds") = usual.rounds,
+          py::arg("seed") = usual.seed, py::arg("threads") = 0,
+          "Spheres which together contain all collision geometry of the robot, proven; closed "
+          "meshes with their inside. Either `spheres`: their number,\ndivided so that the largest "
+          "reach beyond a link is small; or `excess`: m, each link gets as many as this reach "
+          "needs. Others as in\nEnclosingSpheresSearch; the result does not depend on `threads`. "
+          "Takes seconds to minutes. Raises ArgumentError, and UsageError for fewer\nspheres than "
+          "links with geometry.")
+      .def_static("load", &load, py::arg("file"), py::arg("robot"),
+                  "Reads spheres for a Robot: of `save`; .yaml of cuRobo; .srdf with MoveIt's "
+                  "sphere approximations; .urdf with spheres alone. Raises InputError.")
+      .def("save", &save, py::arg("file"), py::arg("robot"),
+           "Writes a .json; .yaml, .yml of cuRobo; .srdf, the robot's with these sphere "
+           "approximations; or .urdf, the robot's with these for `<collision>`.\nNumbers read back "
+           "to the same. Raises UsageError for another ending and a file that cannot be written.")
+      .def(
+          "judge",
+          [](const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
+             int samples, unsigned threads) {
+            return py::tuple(py::cast(judge(self, robot, tolerance, mostSplits, samples, threads)));
+          },
+          py::arg("robot"), py::kw_only(), py::arg("tolerance") = judged.tolerance,
+          py::arg("most_splits") = judged.mostSplits, py::arg("samples") = judged.samples,
+          py::arg("threads") = 0,
+          "A LinkSphereReport for each link of a Robot with collision geometry; arguments as "
+          "outside_spheres.")
+      .def_property_readonly(
+          "links",
+          [](const SphereModel& self) {
+            py::tuple names(self.links.size());
+            for (std::size_t i = 0; i < names.size(); ++i) names[i] = self.links[i].link;
+            return names;
+          },
+          "Names of the links with spheres.")
+      .def(
+          "__getitem__",
+          [](const SphereModel& self, const std::string& link) {
+            return arrayOf(linkOf(self, link).spheres);
+          },
+          py::arg("link"))
+      .def("__len__", &SphereModel::count)
+      .def("__repr__", [](const SphereModel& self) {
+        return "<swept.SphereModel of " + std::to_string(self.links.size()) + " links, " +
+               std::to_string(self.count()) + " spheres>";
+      });
+  addImmutableCopies(type);
+}
+
+}  // namespace swept::python
