@@ -17,6 +17,12 @@ class FloatingPointTraps {
   FloatingPointTraps(const FloatingPointTraps&) = delete;
   FloatingPointTraps& operator=(const FloatingPointTraps&) = delete;
 
+  /// Most ARM processors have no traps.
+  static bool areSupported() {
+    const FloatingPointTraps traps;
+    return fegetexcept() == kTrapped;
+  }
+
  private:
   static constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 };

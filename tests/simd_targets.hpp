@@ -11,10 +11,10 @@
 
 namespace swept::simd_test {
 
-/// Instruction sets that this program is compiled for and that this machine has.
+/// Instruction sets that the library is compiled for and that this machine has.
 inline std::vector<std::int64_t> simdTargets() {
   std::vector<std::int64_t> targets;
-  for (std::int64_t left = detail::processorTargets() & HWY_TARGETS; left != 0; left &= left - 1)
+  for (std::int64_t left = detail::processorTargets(); left != 0; left &= left - 1)
     targets.push_back(left & -left);
   return targets;
 }

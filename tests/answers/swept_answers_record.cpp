@@ -23,7 +23,7 @@ constexpr int kBadInput = 3;
 /// of that which runs.
 std::string chooseTarget(const std::string& name) {
   std::string all;
-  for (std::int64_t left = detail::processorTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
+  for (std::int64_t left = detail::processorTargets(); left != 0; left &= left - 1) {
     std::string one = hwy::TargetName(left & -left);
     if (name.empty()) return one;
     if (one == name) {

@@ -24,6 +24,10 @@ using samples::Sampler;
 using test::FloatingPointTraps;
 
 TEST(FloatingPointTraps, EndTheProcess) {
+#if defined(__x86_64__)
+  ASSERT_TRUE(FloatingPointTraps::areSupported());
+#endif
+  if (!FloatingPointTraps::areSupported()) GTEST_SKIP() << "the processor has no traps";
   const auto divide = [](double a, double b) {
     const FloatingPointTraps traps;
     volatile const double divisor = b;  // or the compiler divides before
@@ -38,6 +42,7 @@ TEST(FloatingPointTraps, EndTheProcess) {
 class TrappedPair : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(TrappedPair, AnswersWithoutNaN) {
+  if (!FloatingPointTraps::areSupported()) GTEST_SKIP() << "the processor has no traps";
   Sampler sampler(31 + static_cast<unsigned>(GetParam()));
   const std::vector<std::int64_t> targets = simd_test::simdTargets();
   int apart = 0;

@@ -268,6 +268,22 @@ case_bare_options() {
   [[ ! -e "$temporary/bare" ]] || fail "bare_debian.sh makes a folder for what it refuses"
 }
 
+# What arm64.sh and same_answers.sh refuse before they do anything.
+case_arm_options() {
+  local arm="$here/arm64.sh" same="$here/same_answers.sh" none="$temporary/none"
+  refuses 'usage: tests/packaging/arm64.sh FOLDER' "$arm"
+  refuses "error: no option '--test'; there are: --tests --target --help" "$arm" "$none" --test core
+  refuses 'error: --tests needs a value' "$arm" "$none" --tests
+  refuses "error: a second folder, '/tmp'; one is taken" "$arm" "$none" /tmp
+  mkdir "$temporary/programs"
+  ln -s "$(command -v bash)" "$(command -v dirname)" "$temporary/programs"
+  refuses 'error: these programs are missing: aarch64-linux-gnu-g++ qemu-aarch64-static cmake' \
+    env PATH="$temporary/programs" bash "$arm" "$none"
+  [[ ! -e "$none" ]] || fail "arm64.sh makes a folder for what it refuses"
+  refuses 'usage: tests/packaging/same_answers.sh BUILD OTHER FOLDER' "$same" "$build"
+  refuses "error: no $temporary/tests/answers/swept_answers_record; build the targets" "$same" "$temporary" "$temporary" "$temporary/said_of"
+}
+
 # swept's sources in another build, by FetchContent: that is configured, and the program compiled. Compiling the core once
 # more takes minutes, so the finished one is put into the command that links the program.
 case_tree() {

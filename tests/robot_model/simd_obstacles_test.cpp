@@ -18,11 +18,17 @@ void measureSquared(const SimdObstacles& world, const Row (&x)[3], const Row (&g
   store(squaredDistance(world, world.obstacles.front(), Segment{load3(x), load3(g)}), squared);
 }
 
+void compareRows(const Row& a, const Row& b, Row& most, Row& least) {
+  store(larger(load(a), load(b)), most);
+  store(smaller(load(a), load(b)), least);
+}
+
 }  // namespace
 }  // namespace swept::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <bit>
 #include <limits>
 #include <map>
 
@@ -35,6 +41,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace swept::detail {
 SWEPT_DISPATCH_TABLE(measureSquared);
+SWEPT_DISPATCH_TABLE(compareRows);
 
 namespace {
 
@@ -334,6 +341,27 @@ TEST(SimdObstacles, NothingIsShownForWhatIsNoNumber) {
       }
     }
     EXPECT_GT(shown, 2500);
+  }
+}
+
+/// Of two numbers one of which is NaN, and of equal ones, it is the second, bit by bit.
+TEST(SimdLanes, TheLargerAndTheSmallerAreTheSameOnEachInstructionSet) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Row a{{1.0F, -2.0F, kNan, 3.0F, 0.0F, -0.0F, kInfinity, -kInfinity}};
+  const Row b{{2.0F, -3.0F, 3.0F, kNan, -0.0F, 0.0F, kNan, 5.0F}};
+  for (const std::int64_t target : simd_test::simdTargets()) {
+    const OnTarget on(target);
+    Row most, least;
+    SWEPT_DISPATCH(compareRows)(a, b, most, least);
+    for (int i = 0; i < kLanes; ++i) {
+      SCOPED_TRACE(i);
+      const float x = a.lane[i], y = b.lane[i];
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(most.lane[i]),
+                std::bit_cast<std::uint32_t>(x > y ? x : y));
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(least.lane[i]),
+                std::bit_cast<std::uint32_t>(x < y ? x : y));
+    }
   }
 }
 

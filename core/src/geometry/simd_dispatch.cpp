@@ -73,7 +73,7 @@ constinit hwy::ChosenTarget chosen;
 }  // namespace
 
 std::int64_t processorTargets() {
-  static const std::int64_t targets = HWY_STATIC_TARGET | detectedTargets();
+  static const std::int64_t targets = (HWY_STATIC_TARGET | detectedTargets()) & HWY_TARGETS;
   return targets;
 }
 

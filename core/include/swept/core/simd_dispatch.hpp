@@ -13,9 +13,9 @@
 
 namespace swept::detail {
 
-/// Bits of Highway (`HWY_AVX2`, ...) for the instruction sets that the processor has and the
-/// operating system saves, and for the one that the library is compiled for anyway. On processors
-/// other than x86-64, only the latter.
+/// Bits of Highway (`HWY_AVX2`, ...) for the instruction sets that the library's kernels are
+/// compiled for, of those that the processor has and the operating system saves. On processors
+/// other than x86-64 it is one (`HWY_NEON`).
 std::int64_t processorTargets();
 
 /// The target that dispatch uses: processorTargets(), until a test changes it (`Update`).

@@ -53,8 +53,25 @@ SWEPT_F8_BINARY(operator+, Add)
 SWEPT_F8_BINARY(operator-, Sub)
 SWEPT_F8_BINARY(operator*, Mul)
 SWEPT_F8_BINARY(operator/, Div)
+// The larger and the smaller of two numbers; b if either is NaN, or if they are equal. x86-64's
+// instructions do this. Those of others drop a NaN, and so could a proof that no number supports.
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 SWEPT_F8_BINARY(larger, Max)
 SWEPT_F8_BINARY(smaller, Min)
+#else
+HWY_INLINE F8 larger(const F8& a, const F8& b) {
+  F8 r;
+  for (int i = 0; i < kParts; ++i)
+    r.part[i] = hn::IfThenElse(hn::Gt(a.part[i], b.part[i]), a.part[i], b.part[i]);
+  return r;
+}
+HWY_INLINE F8 smaller(const F8& a, const F8& b) {
+  F8 r;
+  for (int i = 0; i < kParts; ++i)
+    r.part[i] = hn::IfThenElse(hn::Lt(a.part[i], b.part[i]), a.part[i], b.part[i]);
+  return r;
+}
+#endif
 #undef SWEPT_F8_BINARY
 
 #define SWEPT_F8_UNARY(name, function)                                    \

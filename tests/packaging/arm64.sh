@@ -1,0 +1,153 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds swept for 64-bit ARM (aarch64) on a Debian 12 of another processor, and runs its tests in an
+# emulator. Needs g++-aarch64-linux-gnu, qemu-user-static, cmake, ninja-build, python3, and a mirror of Debian;
+# no root, and nothing of it is installed: the libraries are unpacked in FOLDER.
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+root="$(cd "$here/../.." && pwd)"
+architecture=arm64
+triple=aarch64-linux-gnu
+
+usage() {
+  echo "usage: tests/packaging/arm64.sh FOLDER [--tests REGEX] [--target NAME ...]"
+  echo "FOLDER is made, or goes on with what an earlier run left in it; it takes 3 GB. The build is FOLDER/build."
+  echo "--tests: only the tests that match are built and run. Without it, all are."
+  echo "--target: only this target is built, and no test runs unless --tests is given too."
+  echo "Packages come from \$DEBIAN_MIRROR, or from http://deb.debian.org/debian."
+}
+
+tests=
+folder=
+targets=()
+while (($# > 0)); do
+  case "$1" in
+    --tests | --target)
+      if (($# < 2)); then
+        echo "error: $1 needs a value" >&2
+        exit 3
+      fi
+      if [[ "$1" == --tests ]]; then tests="$2"; else targets+=("$2"); fi
+      shift 2
+      ;;
+    -h | --help) usage && exit 0 ;;
+    -*)
+      echo "error: no option '$1'; there are: --tests --target --help" >&2
+      exit 3
+      ;;
+    *)
+      if [[ -n "$folder" ]]; then
+        echo "error: a second folder, '$1'; one is taken" >&2
+        exit 3
+      fi
+      folder="$1" && shift
+      ;;
+  esac
+done
+if [[ -z "$folder" ]]; then
+  usage >&2
+  exit 3
+fi
+missing=()
+for program in "$triple-g++" qemu-aarch64-static cmake ninja python3 apt-get dpkg-deb; do
+  if ! command -v "$program" >/dev/null; then missing+=("$program"); fi
+done
+if ((${#missing[@]} > 0)); then
+  echo "error: these programs are missing: ${missing[*]}" >&2
+  echo "Debian 12 has them in g++-aarch64-linux-gnu, qemu-user-static, cmake, ninja-build, python3, apt and dpkg." >&2
+  exit 2
+fi
+mkdir -p "$folder"
+folder="$(cd "$folder" && pwd)"
+sysroot="$folder/sysroot"
+# Programs that tests start are emulated as well.
+export QEMU_LD_PREFIX="$sysroot"
+
+# The libraries of .ci/apt-packages.txt, and what they depend on; those for Python and MPI would need programs
+# of the other processor while building.
+libraries() {
+  sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/.ci/apt-packages.txt" | grep -e '-dev$' -e '^libjs-' |
+    grep -v -e '^libopenmpi' -e '^python3' -e '^pybind11'
+  echo libc6-dev libstdc++-12-dev
+}
+
+# An apt of its own: of the other architecture, with nothing installed.
+other_apt() {
+  apt-get -q -o APT::Architecture="$architecture" -o APT::Architectures="$architecture" \
+    -o Dir::State="$folder/apt" -o Dir::State::status="$folder/apt/status" \
+    -o Dir::Cache="$folder/apt/cache" -o Dir::Etc::sourceparts="$folder/apt/none" \
+    -o Dir::Etc::sourcelist="$folder/apt/sources.list" -o Debug::NoLocking=true "$@"
+}
+
+unpack_libraries() {
+  if [[ -e "$sysroot/complete" ]]; then return; fi
+  rm -rf "$sysroot"
+  mkdir -p "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial" "$folder/apt/none" "$sysroot"
+  : >"$folder/apt/status"
+  echo "deb ${DEBIAN_MIRROR:-http://deb.debian.org/debian} bookworm main" >"$folder/apt/sources.list"
+  local names
+  mapfile -t names < <(libraries | tr ' ' '\n')
+  if ! other_apt update || ! other_apt install --download-only --yes --no-install-recommends "${names[@]}"; then
+    echo "error: the packages of $architecture cannot be had; DEBIAN_MIRROR names another mirror" >&2
+    exit 2
+  fi
+  local package link
+  for package in "$folder"/apt/cache/archives/*.deb; do dpkg-deb -x "$package" "$sysroot"; done
+  # Links and CMake files name /usr of the system that the packages are for.
+  find "$sysroot" -type l -lname '/*' | while read -r link; do
+    ln -sfnr "$sysroot$(readlink "$link")" "$link"
+  done
+  grep -rlE '[" ;(:]/usr' "$sysroot/usr/lib/$triple" "$sysroot/usr/share" --include='*.cmake' |
+    xargs sed -i -E "s#([\" ;(:])/usr([/\"])#\1$sysroot/usr\2#g"
+  touch "$sysroot/complete"
+}
+
+configure() {
+  cat >"$folder/toolchain.cmake" <<END
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER $triple-gcc)
+set(CMAKE_CXX_COMPILER $triple-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE $triple)
+set(CMAKE_SYSROOT "$sysroot")
+set(CMAKE_FIND_ROOT_PATH "$sysroot")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(CMAKE_CROSSCOMPILING_EMULATOR "$(command -v qemu-aarch64-static);-L;$sysroot")
+END
+  cmake -S "$root" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSWEPT_WARNINGS_AS_ERRORS=ON \
+    -DSWEPT_BUILD_PYTHON=OFF -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON -DCMAKE_TOOLCHAIN_FILE="$folder/toolchain.cmake"
+}
+
+# Of the tests that match: `emulated NAME FILE` of a program that the emulator runs, or `other NAME`. The others
+# are scripts, which run on this system, and would start programs of the other one without the emulator.
+list_tests() {
+  ctest --test-dir "$folder/build" --show-only=json-v1 --tests-regex "${tests:-.}" |
+    python3 -c '
+import json, os, sys
+build = sys.argv[1]
+for test in json.load(sys.stdin)["tests"]:
+    command = test.get("command", [""])
+    if os.path.basename(command[0]) == "qemu-aarch64-static":
+        print("emulated", test["name"], os.path.relpath(command[3], build))
+    else:
+        print("other", test["name"])' "$folder/build"
+}
+
+unpack_libraries
+configure
+if ((${#targets[@]} > 0)); then ninja -C "$folder/build" "${targets[@]}"; fi
+if ((${#targets[@]} > 0)) && [[ -z "$tests" ]]; then exit 0; fi
+list_tests >"$folder/tests.txt"
+mapfile -t programs < <(awk '$1 == "emulated" { print $3 }' "$folder/tests.txt" | sort -u)
+others="$(awk '$1 == "other" { print $2 }' "$folder/tests.txt" | paste -sd '|')"
+if ((${#programs[@]} == 0)); then
+  echo "error: no test that the emulator can run matches '$tests'" >&2
+  exit 3
+fi
+ninja -C "$folder/build" "${programs[@]}"
+if [[ -n "$others" ]]; then echo "left out, as scripts on this system: ${others//|/ }"; fi
+exec ctest --test-dir "$folder/build" --parallel "$(nproc)" --timeout 3600 --output-on-failure --no-tests=error \
+  --tests-regex "${tests:-.}" --exclude-regex "^(${others:-none})\$"
