@@ -74,11 +74,19 @@ Values step(const Site& site, const Values& from, double length, Random& random)
   return to;
 }
 
+/// From an anchor, a part of the ranges between `least` and `most`. Draws in one order: that of
+/// arguments is each compiler's own.
+Values stepFromAnchor(const Site& site, double least, double most, Random& random) {
+  const double length = random.uniform(least, most);
+  const Values from = anchor(site, random);
+  return step(site, from, length, random);
+}
+
 /// Anywhere, near what has a name, at limits, a little or far beyond them, or no number.
 Values state(const Site& site, Random& random) {
   const std::size_t which = random.below(64);
   if (which < 24) return anywhere(site, random);
-  if (which < 56) return step(site, anchor(site, random), random.uniform(0, 1.5), random);
+  if (which < 56) return stepFromAnchor(site, 0, 1.5, random);
   Values q = anywhere(site, random);
   const std::size_t i = random.below(q.size());
   const Bounds bounds = boundsOf(site, i);
@@ -99,8 +107,7 @@ struct Ends {
 };
 
 Ends shortMotion(const Site& site, Random& random) {
-  Values from = random.oneIn(3) ? anywhere(site, random)
-                                : step(site, anchor(site, random), random.uniform(0, 1), random);
+  Values from = random.oneIn(3) ? anywhere(site, random) : stepFromAnchor(site, 0, 1, random);
   double length = random.uniform(0.02, 0.4);
   if (random.oneIn(8)) length *= std::pow(10.0, -random.uniform(0, 6));
   if (random.oneIn(64)) length = 0;
@@ -129,7 +136,7 @@ Ends asked(const Ends& motion, Answer& answer) {
 }
 
 std::vector<Values> path(const Site& site, std::size_t states, Random& random, Answer& answer) {
-  std::vector<Values> all{step(site, anchor(site, random), random.uniform(0, 0.5), random)};
+  std::vector<Values> all{stepFromAnchor(site, 0, 0.5, random)};
   while (all.size() < states)
     all.push_back(step(site, all.back(), random.uniform(0.02, 0.6), random));
   answer.question("path", all);
@@ -272,7 +279,7 @@ void askTouching(const Site& site, Workspace* workspace, Random& random, Answer&
   const Checker& checker = *site.checker;
   Values from = anchor(site, random);
   for (int i = 0; i < 8 && checker.checkState(from, *workspace) != Verdict::Free; ++i)
-    from = step(site, anchor(site, random), random.uniform(0, 1), random);
+    from = stepFromAnchor(site, 0, 1, random);
   const Ends motion = asked({from, anywhere(site, random)}, answer);
   double open = 0;
   double shut = 1;
