@@ -252,6 +252,18 @@ def test_plans_keep_constraints(level, robot):
     assert not refused and not refused.solved
 
 
+def test_proofs_have_constraints(level, tmp_path):
+    start = level.named_state("ready")
+    file = tmp_path / "path.json"
+    swept.write_proof(file, level, np.array([start, start + np.array([1.5, 0, 0, 0, 0, 0, 0])]))
+    proof = swept.verify(file)
+    assert proof and len(proof.constraints) == 1
+    assert proof.constraints[0].startswith("axis (") and " of hand within 0.524 rad of (0, 0, 1)" in proof.constraints[0]
+    assert swept.verify(file, level).constraints == proof.constraints
+    tighter = level.with_constraints(TaskConstraint.upright("hand", 0.1))
+    assert swept.verify(file, tighter).refusal == "constraints: they are not those of the checker"
+
+
 def test_plans_to_poses_under_constraints(level, robot):
     start = level.named_state("ready")
     pose = robot.link_pose("arm", "hand", start)

@@ -146,6 +146,8 @@ void bindProofs(py::module_& module) {
                     "m, of pairs of the robot's own bodies.")
       .def_readonly("not_checked", &CheckedProof::notChecked,
                     "Pairs that may touch and were not checked, by who says so.")
+      .def_readonly("constraints", &CheckedProof::constraints,
+                    "What holds at every instant besides, in words.")
       .def_readonly("duration", &CheckedProof::duration, "s, of a trajectory; None for a path.")
       .def("__bool__", &CheckedProof::holds);
   addRepr(type, {"holds", "refusal", "segments", "pairs", "planes", "clearance"});
@@ -161,11 +163,11 @@ void bindProofs(py::module_& module) {
              py::arg("trajectory"), py::arg("certificate") = nullptr,
              "The same for the curve of a Trajectory. `certificate`: of certify_trajectory with "
              "`clearances`, for the same trajectory.");
-  module.def(
-      "verify", &verify, py::arg("file"), py::arg("checker") = nullptr,
-      "CheckedProof of a file, by a checker that shares no code with what found the proof. "
-      "`checker`: also compares robot, world\nand rules with its own. Raises InputError for a "
-      "file that is no path with a proof.");
+  module.def("verify", &verify, py::arg("file"), py::arg("checker") = nullptr,
+             "CheckedProof of a file, by a checker that shares no code with what found the proof. "
+             "`checker`: also compares robot, world,\nrules and constraints with its own. Raises "
+             "InputError for a "
+             "file that is no path with a proof.");
 }
 
 }  // namespace
