@@ -157,7 +157,7 @@ TEST(EnclosingSpheres, AreTheSameForASeed) {
     EXPECT_EQ(a[i].center, b[i].center);
     EXPECT_EQ(a[i].radius, b[i].radius);
     for (const double value : {a[i].center.x(), a[i].center.y(), a[i].center.z(), a[i].radius}) {
-      const auto single = static_cast<float>(value);
+      const volatile float single = static_cast<float>(value);  // see inSinglePrecision()
       EXPECT_EQ(value, static_cast<double>(single)) << i;
     }
   }

@@ -386,7 +386,7 @@ EnclosingSpheres SphereFit::finished(Balls balls) {
   EnclosingSpheres found;
   found.reach = -std::numeric_limits<double>::infinity();
   for (Ball& ball : balls) {
-    ball.place = placeAt(ball.place.center.cast<float>().cast<double>());
+    ball.place = placeAt(ball.place.center.unaryExpr(&inSinglePrecision));
     measure(ball);
     ball.radius = roundedUp(ball.radius);
     found.spheres.push_back({ball.place.center, ball.radius});
