@@ -109,6 +109,24 @@ TEST_F(Constraints, ThatDoNotHoldAreRefusedWhateverTheDigestsSay) {
   expectRefused("segment 1, joint lift: not shown at 0.5 of the segment", joint(0.0));
 }
 
+/// Each joint may be 0.01 m off, so that the cube is up to 0.51 m high.
+TEST_F(Constraints, HoldInTheTubeOfATrajectory) {
+  const std::string csv =
+      gantry_.folder().write("timed.csv", "time,slide,lift\n0,0,0\n1,0,0.5\n4,2,0.5\n5,2,0\n");
+  const std::string file = gantry_.folder().path("timed.json");
+  const Outcome run = gantry_.run("trajectory", {csv, "--group", "both", "--tracking", "0.01",
+                                                 "--stay-in", "cube:box:5,1,1.1", "-o", file});
+  ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
+  Json path = Json::parse(gantry_.folder().read("timed.json"));
+  const auto exitCode = [&](double size) {
+    path["constraints"][0]["regions"][0]["size"][2] = size;
+    path["proof"]["digests"]["claims"] = verify::claimDigests(path);
+    return runSwept({"verify", gantry_.folder().write("changed.json", path.dump())}).exitCode;
+  };
+  EXPECT_EQ(exitCode(1.02 + 1e-6), 0);
+  EXPECT_EQ(exitCode(1.02 - 1e-9), 1);
+}
+
 TEST_F(Constraints, OfAFileThatAreNoneAreRefused) {
   const auto in = [](const char* key, Json value) {
     return [key, value](Json& list) { list[0][key] = value; };
