@@ -8,6 +8,7 @@
 #include "bv/extents.hpp"
 #include "bv/principal_axes.hpp"
 #include "geometry/error_model.hpp"
+#include "geometry/single_precision.hpp"
 
 namespace swept::detail {
 
@@ -21,14 +22,6 @@ constexpr double kLargest = 1e30;
 
 double halfSurfaceOf(const OrientedBox& box) {
   return halfSurface(2.0 * Vector3d(box.half[0], box.half[1], box.half[2]));
-}
-
-/// The nearest numbers that single precision holds (Dekker 1971, splitting). Not by conversion to
-/// float and back, which GCC 12 optimises away where it vectorises.
-template <typename Derived>
-typename Derived::PlainObject inSinglePrecision(const Eigen::MatrixBase<Derived>& values) {
-  const typename Derived::PlainObject spread = (0x1p29 + 1.0) * values;
-  return spread - (spread - values);
 }
 
 OrientedBox unbounded(const Vector3d& origin) {
@@ -56,12 +49,12 @@ Matrix3d turned(const Matrix3d& axes) {
 /// kTurnedBoxRounding of `far` covers them.
 OrientedBox along(const Matrix3d& wanted, const BallsInBox& balls, const Vector3d& origin,
                   double far) {
-  const Matrix3d axes = inSinglePrecision(wanted);
+  const Matrix3d axes = wanted.unaryExpr(&inSinglePrecision);
   const Vector3d& first = balls.points.front();
   const Extents extents = extentsAlong(balls.points, axes);
   const Vector3d start = axes.transpose() * (first - origin);
   const Vector3d lower = start + extents.lower, upper = start + extents.upper;
-  const Vector3d center = inSinglePrecision(Vector3d(axes * (0.5 * (lower + upper))));
+  const Vector3d center = (axes * (0.5 * (lower + upper))).unaryExpr(&inSinglePrecision);
   const Vector3d middle = axes.transpose() * center;
   const double slack = kTurnedBoxRounding * far + balls.radius;
   OrientedBox box;
@@ -111,7 +104,7 @@ OrientedBox alignedBox(const Aabb& bounds, const Vector3d& origin) {
   const Vector3d far = farthest(bounds, origin);
   if (!(far.maxCoeff() < kLargest)) return unbounded(origin);
   const Vector3d lower = bounds.lower - origin, upper = bounds.upper - origin;
-  const Vector3d center = inSinglePrecision(Vector3d(0.5 * (lower + upper)));
+  const Vector3d center = (0.5 * (lower + upper)).unaryExpr(&inSinglePrecision);
   OrientedBox box;
   box.center = origin + center;
   for (int i = 0; i < 3; ++i) {

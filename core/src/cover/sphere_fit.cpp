@@ -9,6 +9,7 @@
 
 #include "cover/rounded.hpp"
 #include "cover/set_cover.hpp"
+#include "geometry/single_precision.hpp"
 
 namespace swept::detail {
 namespace {

@@ -7,9 +7,11 @@
 
 namespace swept::detail {
 
-/// Single precision, at least `value`.
+/// Single precision, at least `value`. Volatile, as GCC 12 takes a number that is rounded to single
+/// precision and back for what it was, where it makes vectors of neighbouring statements.
 inline float singleAbove(double value) {
-  const auto single = static_cast<float>(value);
+  const volatile float rounded = static_cast<float>(value);
+  const float single = rounded;
   if (static_cast<double>(single) >= value) return single;
   return std::nextafter(single, std::numeric_limits<float>::infinity());
 }
