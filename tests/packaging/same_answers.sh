@@ -48,7 +48,7 @@ record there other
 for target in ${TARGETS:-SCALAR SSE4 AVX2}; do
   record here_ "$target" --target "$target"
   printf '%-8s' "$target"
-  python3 -B tests/answers/compare.py "$folder/$target.each.txt" "$folder/other.each.txt" >"$folder/$target.differ" || true
+  python3 -B tests/answers/compare.py "$folder/$target.each.txt" "$folder/other.each.txt" >"$folder/$target.differ" || failed=1
   tail -n 1 "$folder/$target.differ"
 done
 
