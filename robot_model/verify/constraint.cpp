@@ -66,8 +66,7 @@ class Observed {
  public:
   Observed(const Model& model, const Motion& motion, int link, int observer, double middle,
            double half)
-      : model_(model),
-        motion_(motion),
+      : motion_(motion),
         link_(link),
         observer_(observer),
         reference_(commonAncestor(model, link, observer)),
@@ -182,7 +181,6 @@ class Observed {
            kUnderflow;
   }
 
-  const Model& model_;
   const Motion& motion_;
   int link_, observer_, reference_;
   double middle_, half_;
