@@ -95,8 +95,7 @@ PathClearance clearanceOf(const CheckerHandle& checker, const py::object& path, 
 }
 
 void requireWritten(const WrittenProof& written) {
-  if (!written.isWritten())
-    throw UsageError("no proof: no separating planes were found for " + written.missing);
+  if (!written.isWritten()) throw UsageError("no proof was found for " + written.missing);
 }
 
 void write(const std::filesystem::path& file, const CheckerHandle& checker, const py::object& path,
@@ -158,7 +157,7 @@ void bindProofs(py::module_& module) {
       "Writes a path (m, n) with planes that separate all pairs of bodies, the robot and the "
       "world to a .json file, which can be\nchecked without any other: `verify`, or `swept "
       "verify`. `certificate`: of certify_path, for the same path. Raises\nUsageError for a "
-      "path that is not FREE, or for which no planes were found.");
+      "path that is not FREE, or for which no proof was found.");
   module.def("write_trajectory_proof", &writeOfTrajectory, py::arg("file"), py::arg("checker"),
              py::arg("trajectory"), py::arg("certificate") = nullptr,
              "The same for the curve of a Trajectory. `certificate`: of certify_trajectory with "

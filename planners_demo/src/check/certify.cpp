@@ -76,8 +76,7 @@ std::string writeProofOf(const Arguments& args, const PathFile& file, const Task
   for (const LabelledState& state : task.states) states.push_back(state.q);
   const ProvenPath proven = provenPath(states, path);
   const Certificate certificate = certificateOf(*task.checker, proven.states, proven.clearances());
-  if (!certificate.missing.empty())
-    return "no separating planes were found for " + certificate.missing;
+  if (!certificate.missing.empty()) return "none was found for " + certificate.missing;
   const PathRecord record{.maker = Json::object(),
                           .states = proven.states,
                           .segments = proven.segments,

@@ -211,8 +211,7 @@ ExitCode runLine(const Arguments& args) {
   std::string unproven;
   if (file && complete) unproven = writeLines(args, *file, checker, tool, found, warnings);
   if (!unproven.empty())
-    warnings("swept: warning: no proof in '" + args.output +
-             "': no separating planes were found for " + unproven);
+    warnings("swept: warning: no proof in '" + args.output + "': none was found for " + unproven);
   if (args.json) {
     Json json = {{"robot", checker.robot().name()},
                  {"group", checker.group().name},

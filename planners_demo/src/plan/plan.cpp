@@ -50,8 +50,8 @@ void writePath(const Arguments& args, const PathFile& file, const Checker& check
   Progress progress("writing " + args.output, args.quiet);
   const PathProof proof = proofOf(file, checker, report);
   if (!proof.certificate.missing.empty())
-    warnings("swept: warning: no proof in '" + args.output +
-             "': no separating planes were found for " + proof.certificate.missing);
+    warnings("swept: warning: no proof in '" + args.output + "': none was found for " +
+             proof.certificate.missing);
   file.write(checker,
              {.maker = {{"planner", report.request.planner}, {"seed", report.request.seed}},
               .states = proof.path.states,

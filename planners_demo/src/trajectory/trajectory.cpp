@@ -179,7 +179,7 @@ class TrajectoryRun {
     if (file_->holdsProof()) {
       proof = proofOf(*checker_, trajectory, found);
       if (!proof.certificate.missing.empty())
-        return "no separating planes were found for " + proof.certificate.missing;
+        return "none was found for " + proof.certificate.missing;
     }
     file_->write(*checker_,
                  {.states = proof.path.states,
