@@ -132,6 +132,13 @@ struct Arguments {
     bool repair = false;
   } trajectory;
 
+  struct Schedule {
+    std::vector<std::string> parts;   ///< GROUP=FILE
+    std::vector<std::string> starts;  ///< GROUP=S
+    std::vector<std::string> late;    ///< GROUP=S
+    std::vector<std::string> slow;    ///< GROUP=PERCENT
+  } schedule;
+
   std::int64_t budget = 20'000'000;  ///< per pair of links
   int samples = 1000;                ///< per pair of links
   std::optional<double> acmTime;     ///< s; none: see acm

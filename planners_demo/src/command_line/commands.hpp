@@ -23,6 +23,9 @@ ExitCode runCertify(const Arguments& args);
 extern const Command kTrajectoryCommand;
 ExitCode runTrajectory(const Arguments& args);
 
+extern const Command kScheduleCommand;
+ExitCode runSchedule(const Arguments& args);
+
 extern const Command kPlanCommand;
 ExitCode runPlan(const Arguments& args);
 

@@ -41,6 +41,8 @@ std::vector<NamedFile> read(const Arguments& args) {
     if (const std::string file = state.substr(state.starts_with('@') ? 1 : 0); file != "-")
       files.push_back({"states", file});
   for (const std::string& cloud : args.clouds) files.push_back({"--cloud", cloud});
+  for (const std::string& part : args.schedule.parts)
+    files.push_back({"part", part.substr(part.find('=') + 1)});
   for (const std::string& results : args.batch.files) files.push_back({"results", results});
   return files;
 }

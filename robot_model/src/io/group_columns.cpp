@@ -32,12 +32,34 @@ std::string whyAnotherRate(const Robot& robot, const Joint& joint, double rate,
   return "follows '" + master.name + "' at " + exactNumber(wanted);
 }
 
+/// What names of the cell's robot begin with whose joints a group has.
+std::string ownerOf(const Robot& robot, const Group& group) {
+  std::string owner;
+  for (const int joint : group.joints) {
+    const std::string& name = robot.joints()[static_cast<std::size_t>(joint)].name;
+    const std::string own = name.substr(0, name.find('/') + 1);
+    if (own.empty() || (!owner.empty() && own != owner)) return {};
+    owner = own;
+  }
+  return owner;
+}
+
 }  // namespace
+
+GroupColumns::GroupColumns(const Robot& robot, const Group& group, const Eigen::VectorXd& reference)
+    : robot_(robot), group_(group), reference_(reference), owner_(ownerOf(robot, group)) {}
 
 std::optional<std::size_t> GroupColumns::placeOf(int variable) const {
   const auto place = std::ranges::find(group_.variables, variable);
   if (place == group_.variables.end()) return std::nullopt;
   return static_cast<std::size_t>(place - group_.variables.begin());
+}
+
+bool GroupColumns::knows(const std::string& name) const {
+  const auto has = [this](const std::string& own) {
+    return robot_.findVariable(own) || robot_.findJoint(own);
+  };
+  return has(name) || (!owner_.empty() && has(owner_ + name));
 }
 
 GroupColumns::Column GroupColumns::columnOf(const std::string& name, const FailAt& fail) const {
@@ -49,6 +71,7 @@ GroupColumns::Column GroupColumns::columnOf(const std::string& name, const FailA
     return column;
   }
   const auto joint = robot_.findJoint(name);
+  if (!joint && knows(name)) return columnOf(owner_ + name, fail);
   if (!joint)
     fail("is '" + name + "', which is no joint of robot '" + robot_.name() + "'; group '" +
          group_.name + "' has " + joined(variableNames(robot_, group_)));
@@ -66,7 +89,13 @@ void GroupColumns::set(std::span<const std::string> names, const FailAtColumn& f
   for (std::size_t i = 0; i < names.size(); ++i) {
     const FailAt fail = [&](const std::string& message) { failAt(i, message); };
     if (!known.insert(names[i]).second) fail("is '" + names[i] + "' a second time");
-    columns_.push_back(columnOf(names[i], fail));
+    const Column column = columnOf(names[i], fail);
+    // With and without its robot's name it is the same one.
+    const auto same = [&](const Column& other) {
+      return other.variable == column.variable && other.joint == column.joint;
+    };
+    if (std::ranges::any_of(columns_, same)) fail("is '" + names[i] + "' a second time");
+    columns_.push_back(column);
   }
 }
 

@@ -23,11 +23,14 @@ using FailAtColumn = std::function<void(std::size_t i, const std::string& messag
 class GroupColumns {
  public:
   /// `reference`: a value for each of the robot's variables, for those outside of the group.
-  GroupColumns(const Robot& robot, const Group& group, const Eigen::VectorXd& reference)
-      : robot_(robot), group_(group), reference_(reference) {}
+  GroupColumns(const Robot& robot, const Group& group, const Eigen::VectorXd& reference);
 
-  /// The columns from now on. Fails for a name that the robot does not have, or a second time.
+  /// The columns from now on. Fails for a name that the robot does not have, or a second time. If
+  /// all joints of the group are of one robot of a cell, a name may lack that robot's: `elbow` is
+  /// `left/elbow`, unless there is an `elbow`.
   void set(std::span<const std::string> names, const FailAtColumn& failAt);
+  /// Whether a column may have this name.
+  bool knows(const std::string& name) const;
   /// The group's variables that have no column.
   std::vector<std::string> missing() const;
   /// Fails when there are some.
@@ -65,6 +68,7 @@ class GroupColumns {
   const Robot& robot_;
   const Group& group_;
   const Eigen::VectorXd& reference_;
+  std::string owner_;  ///< `left/`; empty: the group's joints are not of one robot of a cell
   std::vector<Column> columns_;
 };
 

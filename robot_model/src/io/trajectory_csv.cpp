@@ -30,8 +30,7 @@ struct KindOfColumns {
 
 class CsvTrajectory {
  public:
-  CsvTrajectory(const InputSource& source, const Robot& robot, TrajectoryRows& rows)
-      : source_(source), robot_(robot), rows_(rows) {}
+  CsvTrajectory(const InputSource& source, TrajectoryRows& rows) : source_(source), rows_(rows) {}
 
   void read(const std::string& text) {
     CsvLines lines(text);
@@ -81,9 +80,7 @@ class CsvTrajectory {
       positions_.add(i, names_[i]);
   }
 
-  bool isKnown(const std::string& name) const {
-    return robot_.findVariable(name) || robot_.findJoint(name);
-  }
+  bool isKnown(const std::string& name) const { return rows_.columns().knows(name); }
 
   std::optional<std::string> jointOf(const std::string& name, std::string_view ending) const {
     if (!name.ends_with(ending)) return std::nullopt;
@@ -139,7 +136,6 @@ class CsvTrajectory {
   }
 
   const InputSource& source_;
-  const Robot& robot_;
   TrajectoryRows& rows_;
   std::vector<std::string> names_;
   std::optional<std::size_t> time_;  ///< its column
@@ -149,9 +145,8 @@ class CsvTrajectory {
 
 }  // namespace
 
-void readCsvTrajectory(const std::string& text, const InputSource& source, const Robot& robot,
-                       TrajectoryRows& rows) {
-  CsvTrajectory(source, robot, rows).read(text);
+void readCsvTrajectory(const std::string& text, const InputSource& source, TrajectoryRows& rows) {
+  CsvTrajectory(source, rows).read(text);
 }
 
 }  // namespace swept::detail

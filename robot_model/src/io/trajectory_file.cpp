@@ -25,7 +25,7 @@ std::vector<JointTrajectory> readTrajectories(const std::filesystem::path& file,
   detail::TrajectoryRows rows(source, robot, group, still);
   const std::string text = readTextFile(file);
   if (file.extension() == ".csv")
-    detail::readCsvTrajectory(text, source, robot, rows);
+    detail::readCsvTrajectory(text, source, rows);
   else if (file.extension() == ".json")
     detail::readJsonTrajectory(text, source, rows);
   else

@@ -12,8 +12,7 @@
 /// trajectories to `rows`, and throw InputError.
 namespace swept::detail {
 
-void readCsvTrajectory(const std::string& text, const InputSource& source, const Robot& robot,
-                       TrajectoryRows& rows);
+void readCsvTrajectory(const std::string& text, const InputSource& source, TrajectoryRows& rows);
 void readJsonTrajectory(const std::string& text, const InputSource& source, TrajectoryRows& rows);
 /// The object `trajectory` of a JSON file.
 void readJsonTrajectory(const JsonPlace& trajectory, TrajectoryRows& rows);

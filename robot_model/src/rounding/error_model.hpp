@@ -196,6 +196,16 @@ inline CurveRounding curveRounding(std::size_t degree, double largest) {
   const double value = kCurveRoundings * d * power * largest;
   return {value, value * d, value * d * (d - 1.0)};
 }
+/// Times on a common clock that differ by less are one: of the largest. Each is a product and a sum,
+/// 3 kDouble (L19).
+inline constexpr double kSameTime = 64.0 * kDouble;
+/// Of a value, and of what it moves by in all of the clock's time: L19 counts 105 and 131 kDouble.
+inline constexpr double kCombinedRoundings = 256.0 * kDouble;
+/// rad or m. What a curve on a common clock may be off by. `value`, `rate` (per s): its largest;
+/// `end`: s, of the clock.
+inline double combinedRounding(double value, double rate, double end) {
+  return kCombinedRoundings * (value + rate * end);
+}
 /// Half the width of a range, from its middle: 3 kDouble.
 inline constexpr double kHalfRangeOutward = 1.0 + 1e-15;
 /// Boxes around pieces of the world, of the largest coordinate: a product with a rotation and a

@@ -33,6 +33,9 @@ namespace swept {
 /// an angle within half a turn of the one before, and those of a floating joint the quaternion
 /// nearer to the one before.
 ///
+/// Where all joints of the group are of one robot of a WorkCell, the file may name them without it,
+/// as files of that robot alone do.
+///
 /// The file may name joints outside the group. Their positions must equal those in `reference` (a
 /// value for each of the robot's variables; default Robot::defaultState()), to within
 /// tolerance::kLimit, their velocities and accelerations must be 0, and mimicking joints must

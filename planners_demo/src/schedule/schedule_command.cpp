@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line/commands.hpp"
+#include "command_line/options.hpp"
+#include "page/pages.hpp"
+
+namespace swept {
+namespace {
+
+void addScheduleOptions(CLI::App& app, Arguments& args) {
+  addRobotOptions(app, args);
+  app.add_option("part", args.schedule.parts,
+                 "a group and its trajectory, a file of 'swept trajectory': left/arm=left.yaml. "
+                 "Names of joints may lack that of the robot")
+      ->required()
+      ->type_name("GROUP=FILE");
+  app.add_option("--at", args.schedule.starts,
+                 "s; when the group's trajectory starts (default 0; repeatable)")
+      ->type_name("GROUP=S")
+      ->allow_extra_args(false);
+  app.add_option("--late", args.schedule.late,
+                 "s; prove, too, that nothing touches if the group starts up to so much later; "
+                 "else the longest delay that is proven, and the first conflict after it "
+                 "(repeatable, one group at a time)")
+      ->type_name("GROUP=S")
+      ->allow_extra_args(false);
+  app.add_option("--slow", args.schedule.slow,
+                 "percent; the same where the group takes up to so much longer, with each of the "
+                 "delays of --late (repeatable)")
+      ->type_name("GROUP=PERCENT")
+      ->allow_extra_args(false);
+  addCheckerOptions(app, args);
+  addSceneOptions(app, args);
+  addTrackingOptions(app, args);
+  addConstraintOptions(app, args);
+  addLimitsOption(app, args);
+  app.add_option("-o,--output", args.output,
+                 "the trajectory of all groups, if it is free: .json (with a proof for 'swept "
+                 "verify'), .csv, or .yaml (JointTrajectory)")
+      ->type_name("FILE");
+  addEmbedOption(app, args);
+  addHtmlOption(app, args);
+  addJsonOption(app, args);
+  addQuietOption(app, args);
+}
+
+std::string notes() {
+  return "All groups share one clock. Before its trajectory begins, and after it ends, a group "
+         "rests.\nA delay stands for the whole trajectory; --tracking is for errors on the way.\n";
+}
+
+}  // namespace
+
+const Command kScheduleCommand{
+    .name = "schedule",
+    .summary = "Do these trajectories of several robots keep apart, and how late may one be?",
+    .example =
+        "swept schedule models/cells/two_rooks.yaml left/arm=models/trajectories/rook7_reach.yaml "
+        "right/arm=models/trajectories/rook7_reach.yaml --at right/arm=2 --late left/arm=3",
+    .exitCodes =
+        "Exit codes: 0 free with all delays that were asked about, 1 there is a conflict or a "
+        "limit is left,\n2 undecided, 3 bad input or usage.",
+    .addOptions = addScheduleOptions,
+    .run = runSchedule,
+    .notes = notes};
+
+}  // namespace swept

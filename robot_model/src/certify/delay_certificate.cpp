@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "certify/delayed_pairs.hpp"
+#include "robot/joint_types.hpp"
+#include "rounding/error_model.hpp"
+#include "swept/core/floating_point_environment.hpp"
+#include "swept/robot_model/schedule.hpp"
+#include "text/numbers.hpp"
+#include "trajectory/rate_bounds.hpp"
+
+namespace swept {
+
+namespace {
+
+void requireDelay(bool holds, const std::string& message) {
+  if (!holds) throw std::invalid_argument("certifyDelays: " + message);
+}
+
+void requireQuery(const DelayQuery& query, std::size_t curves) {
+  requireDelay(query.curve < curves, "there is no curve " + std::to_string(query.curve + 1) +
+                                         ", there are " + std::to_string(curves));
+  requireDelay(std::isfinite(query.latest) && query.latest >= 0.0,
+               "the latest delay is " + detail::formatNumber(query.latest) +
+                   " s; allowed are finite numbers from 0 on");
+  requireDelay(std::isfinite(query.slowest) && query.slowest >= 1.0,
+               "the slowest factor is " + detail::formatNumber(query.slowest) +
+                   "; allowed are finite numbers from 1 on");
+  requireDelay(std::isfinite(query.resolution) && query.resolution > 0.0,
+               "the resolution is " + detail::formatNumber(query.resolution) +
+                   " s; allowed are positive numbers");
+}
+
+/// The group's values may each be off by so much: what the checker's tube becomes with it. Throws
+/// std::invalid_argument for an orientation of a floating joint that is off.
+TrackingTolerance widened(const Checker& checker, const std::vector<double>& off) {
+  TrackingTolerance tracking = checker.options().tracking;
+  const Robot& robot = checker.robot();
+  const Group& group = checker.group();
+  for (std::size_t v = 0; v < off.size(); ++v) {
+    if (off[v] == 0.0) continue;
+    const int variable = group.variables[v];
+    const Joint& joint =
+        robot.joints()[static_cast<std::size_t>(robot.variables()[variable].joint)];
+    const int place = variable - joint.firstVariable;
+    const std::optional<int> quaternion = detail::quaternionPlace(joint.type);
+    if (quaternion && place >= *quaternion)
+      throw std::invalid_argument("certifySchedule: the orientation of the floating joint '" +
+                                  joint.name + "' changes, which has no bound here");
+    JointTolerance& own =
+        tracking.joints.try_emplace(joint.name, static_cast<const JointTolerance&>(tracking))
+            .first->second;
+    (detail::isLength(joint.type, place) ? own.translation : own.rotation) += off[v];
+  }
+  return tracking;
+}
+
+/// A constant quaternion is copied, and rounds by nothing.
+void dropResting(const PiecewisePolynomial& curve, std::vector<double>& off) {
+  for (std::size_t v = 0; v < off.size(); ++v) {
+    const auto row = static_cast<Eigen::Index>(v);
+    bool rests = true;
+    for (std::size_t i = 0; i < curve.pieces() && rests; ++i)
+      rests = (curve.coefficients(i).row(row).array() == curve.coefficients(0)(row, 0)).all();
+    if (rests) off[v] = 0.0;
+  }
+}
+
+/// Delays and slowdowns, as factors.
+struct DelayBox {
+  double begin = 0.0, end = 0.0;        ///< s
+  double fastest = 1.0, slowest = 1.0;  ///< factors
+
+  double delay() const { return 0.5 * (begin + end); }
+  double slowdown() const { return 0.5 * (fastest + slowest); }
+  double halfDelay() const { return 0.5 * (end - begin); }
+  double halfSlowdown() const { return 0.5 * (slowest - fastest); }
+};
+
+/// The search for the longest range of delays from 0 on that is proven.
+class DelaySearch {
+ public:
+  DelaySearch(const Checker& checker, std::span<const ScheduledCurve> curves,
+              const DelayQuery& query, ConfigurationView still)
+      : checker_(checker),
+        curves_(curves.begin(), curves.end()),
+        query_(query),
+        still_(still),
+        planned_(curves_[query.curve]),
+        pairs_(detail::delayedPairs(checker, planned_.variables, namesOfOthers())),
+        rates_(detail::largestRates(planned_.curve)) {
+    for (const std::string& name : planned_.variables)
+      places_.push_back(
+          std::ranges::find(checker.group().variables, *checker.robot().findVariable(name)) -
+          checker.group().variables.begin());
+  }
+
+  DelayCertificate run() {
+    const DelayBox all{
+        .begin = 0.0, .end = query_.latest, .fastest = 1.0, .slowest = query_.slowest};
+    found_.verdict = Verdict::Free;
+    ++found_.curves;
+    if (certifySchedule(checker_, curves_, {.contact = MotionQuery::VerdictOnly}, still_).verdict ==
+        Verdict::Free) {
+      const double proven = provenUntil(all);
+      // That nothing is proven from 0 on says nothing of 0 itself with all slowdowns.
+      if (query_.slowest == 1.0 || proven > 0.0 || found_.verdict == Verdict::Free)
+        found_.proven = proven;
+    } else {
+      say({0.0, 0.0, 1.0, 1.0});
+    }
+    return std::move(found_);
+  }
+
+ private:
+  /// The first delay of a box that is not proven with all of its slowdowns; its end if all are.
+  double provenUntil(const DelayBox& box) {
+    if (isFree(box)) return box.end;
+    const double bySlowdown = planned_.slowdown * planned_.curve.end() * 2.0 * box.halfSlowdown();
+    const double byDelay = 2.0 * box.halfDelay();
+    if (std::max(byDelay, bySlowdown) <= query_.resolution) {
+      say(box);
+      return box.begin;
+    }
+    DelayBox first = box;
+    DelayBox rest = box;
+    if (byDelay >= bySlowdown) {
+      first.end = rest.begin = box.delay();
+      const double until = provenUntil(first);
+      return until < first.end ? until : provenUntil(rest);
+    }
+    first.slowest = rest.fastest = box.slowdown();
+    rest.end = provenUntil(first);
+    // Of no delay is left anything to ask about where not even the first one is proven.
+    return rest.end > box.begin || found_.verdict == Verdict::Free ? provenUntil(rest) : box.begin;
+  }
+
+  std::vector<std::string> namesOfOthers() const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < curves_.size(); ++i)
+      if (i != query_.curve)
+        names.insert(names.end(), curves_[i].variables.begin(), curves_[i].variables.end());
+    return names;
+  }
+
+  CombinedCurve combined(double delay, double slowdown) {
+    ScheduledCurve& late = curves_[query_.curve];
+    late.start = planned_.start + delay;
+    late.slowdown = planned_.slowdown * slowdown;
+    return combinedCurve(checker_.robot(), checker_.group(), curves_, still_);
+  }
+
+  /// Whether all of a box is proven, by the curve of its middle, if the schedule is free as
+  /// planned.
+  bool isFree(const DelayBox& box) {
+    ++found_.curves;
+    const CombinedCurve middle = combined(box.delay(), box.slowdown());
+    std::vector<double> off = middle.rounding;
+    const double time = (box.halfDelay() / (planned_.slowdown * box.fastest) +
+                         planned_.curve.end() * box.halfSlowdown() / box.slowdown()) *
+                        detail::kArithmeticOutward;
+    for (std::size_t v = 0; v < places_.size(); ++v)
+      off[static_cast<std::size_t>(places_[v])] += time * rates_[v] * detail::kArithmeticOutward;
+    dropResting(middle.curve, off);
+    const Checker& tube = inTube(box, off);
+    Workspace workspace(tube);
+    return tube.certifyTrajectory(middle.curve, workspace, {.contact = MotionQuery::VerdictOnly})
+               .verdict == Verdict::Free;
+  }
+
+  /// Boxes of one width have tubes of nearly one width: that of the first is kept while it is wide
+  /// enough, with a share to spare for what rounds otherwise.
+  const Checker& inTube(const DelayBox& box, const std::vector<double>& off) {
+    Tube& kept = tubes_[{box.halfDelay(), box.halfSlowdown()}];
+    const auto fits = [](double wanted, double there) { return wanted <= there; };
+    if (!kept.checker || !std::ranges::equal(off, kept.off, fits)) {
+      kept.off = off;
+      for (double& value : kept.off) value *= kSpare;
+      kept.checker.emplace(inTubeOf(kept.off));
+    }
+    return *kept.checker;
+  }
+
+  Checker inTubeOf(const std::vector<double>& off) const {
+    CheckerOptions options = pairs_.options();
+    options.tracking = widened(pairs_, off);
+    const double width = std::accumulate(off.begin(), off.end(), 0.0);
+    options.tolerance = std::max(options.tolerance, kToleranceShare * width);
+    // Both live as long as the checker that has them.
+    const auto borrowed = [](const auto& owned) {
+      return std::shared_ptr<std::remove_reference_t<decltype(owned)>>(std::shared_ptr<void>(),
+                                                                       &owned);
+    };
+    return {borrowed(pairs_.robot()), pairs_.group().name, borrowed(pairs_.world()), options};
+  }
+
+  /// What is the matter with a box that is not proven: a contact of one of its corners, or of a
+  /// later delay, each twice as far away.
+  void say(const DelayBox& box) {
+    found_.verdict = Verdict::Undecided;
+    found_.contact.reset();
+    if (meets(box.begin, box.fastest) || meets(box.begin, box.slowest)) return;
+    const double step = std::max(box.end - box.begin, query_.resolution);
+    for (double later = step; box.begin + later < 2.0 * query_.latest; later *= 2.0) {
+      const double delay = std::min(box.begin + later, query_.latest);
+      if (meets(delay, box.fastest) || meets(delay, box.slowest)) return;
+    }
+    if (query_.slowest > box.slowest) meets(box.begin, query_.slowest);
+  }
+
+  /// Whether the schedule is in contact, and which.
+  bool meets(double delay, double slowdown) {
+    const CombinedCurve late = combined(delay, slowdown);
+    Workspace workspace(checker_);
+    TrajectoryCertificate certificate = checker_.certifyTrajectory(late.curve, workspace);
+    if (certificate.verdict != Verdict::Collision || !certificate.contact) return false;
+    found_.verdict = Verdict::Collision;
+    found_.contact = DelayContact{delay, slowdown, std::move(*certificate.contact)};
+    return true;
+  }
+
+  static constexpr double kSpare = 1.0 + 1e-6;
+  /// m per rad and m that all values may be off together. What a wide tube does not prove soon, it
+  /// rarely proves later, and half of it does.
+  static constexpr double kToleranceShare = 0.25;
+
+  struct Tube {
+    std::vector<double> off;
+    std::optional<Checker> checker;
+  };
+
+  const Checker& checker_;
+  std::vector<ScheduledCurve> curves_;
+  const DelayQuery query_;
+  const ConfigurationView still_;
+  const ScheduledCurve planned_;
+  const Checker pairs_;
+  const std::vector<double> rates_;  ///< per s of the curve's own time
+  std::vector<std::ptrdiff_t> places_;
+  std::map<std::pair<double, double>, Tube> tubes_;  ///< by half widths
+  DelayCertificate found_;
+};
+
+}  // namespace
+
+TrajectoryCertificate certifySchedule(const Checker& checker,
+                                      std::span<const ScheduledCurve> curves,
+                                      const TrajectoryQuery& query, ConfigurationView still) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, curves, still] { return certifySchedule(checker, curves, query, still); });
+  }
+  CombinedCurve combined = combinedCurve(checker.robot(), checker.group(), curves, still);
+  dropResting(combined.curve, combined.rounding);
+  const Checker tube = checker.withTracking(widened(checker, combined.rounding));
+  Workspace workspace(tube);
+  return tube.certifyTrajectory(combined.curve, workspace, query);
+}
+
+DelayCertificate certifyDelays(const Checker& checker, std::span<const ScheduledCurve> curves,
+                               const DelayQuery& query, ConfigurationView still) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, curves, still] { return certifyDelays(checker, curves, query, still); });
+  }
+  requireQuery(query, curves.size());
+  combinedCurve(checker.robot(), checker.group(), curves, still);  // throws for what is not allowed
+  return DelaySearch(checker, curves, query, still).run();
+}
+
+}  // namespace swept

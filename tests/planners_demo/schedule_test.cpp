@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// swept schedule: two cubes that slide through one crossing, whose conflicts are known by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace swept::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class ScheduleProgram : public testing::Test {
+ protected:
+  ScheduleProgram() {
+    write("slider.urdf", R"(<robot name='slider'><link name='rail'/>
+  <link name='cube'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>
+  <joint name='slide' type='prismatic'><parent link='rail'/><child link='cube'/><axis xyz='1 0 0'/>
+    <limit lower='-3' upper='3' effort='1' velocity='2'/></joint></robot>)");
+    write("cell.yaml", R"(robots:
+  - name: east
+    urdf: slider.urdf
+  - name: north
+    urdf: slider.urdf
+    pose: {position: [0, 0, 0], orientation: [0, 0, 0.7071067811865476, 0.7071067811865476]}
+)");
+    // Through the crossing, within 0.2 m of it from 0.8 s to 1.2 s.
+    write("pass.csv", "time,slide\n0,-1\n2,1\n");
+    write("smooth.csv", "time,slide,slide_velocity\n0,-1,0\n2,1,0\n");
+    write("corner.csv", "time,slide,slide_velocity\n0,-1,0\n1,0,1\n2,1,0\n");
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.path(name)) << text;
+  }
+  std::string file(const std::string& name) const { return folder_.path(name); }
+  Outcome schedule(const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"schedule", file("cell.yaml")};
+    all.insert(all.end(), more.begin(), more.end());
+    return runSwept(all);
+  }
+  /// Both, and the second one later.
+  Outcome passes(double later, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"east=" + file("pass.csv"), "north=" + file("pass.csv"), "--at",
+                               "north=" + std::to_string(later)});
+    return schedule(more);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScheduleProgram, SaysWhoMeetsAndWhen) {
+  const Outcome meet = passes(0.2);
+  EXPECT_EQ(meet.exitCode, 1) << meet.err;
+  EXPECT_THAT(meet.out, AllOf(HasSubstr("schedule: collision"), HasSubstr("east/cube"),
+                              HasSubstr("north/cube"), HasSubstr("free until  0.99")));
+  const Outcome apart = passes(0.5);
+  EXPECT_EQ(apart.exitCode, 0) << apart.err;
+  EXPECT_THAT(apart.out, AllOf(HasSubstr("schedule: free"), HasSubstr("duration    2.5 s"),
+                               HasSubstr("part        east, 0 to 2 s"),
+                               HasSubstr("part        north, 0.5 to 2.5 s")));
+}
+
+TEST_F(ScheduleProgram, ProvesDelays) {
+  // One leaves at 1.2 s, and the other one arrives at 1.8 s.
+  const Outcome enough = passes(1.0, {"--late", "east=0.55"});
+  EXPECT_EQ(enough.exitCode, 0) << enough.err;
+  EXPECT_THAT(enough.out, HasSubstr("late          east: free up to 0.55 s"));
+  const Outcome late = passes(1.0, {"--late", "east=2", "--json"});
+  EXPECT_EQ(late.exitCode, 1);
+  const auto found = nlohmann::json::parse(late.out);
+  EXPECT_EQ(found["schedule"]["verdict"], "free");
+  const auto& delay = found["delays"][0];
+  EXPECT_EQ(delay["group"], "east");
+  EXPECT_NEAR(delay["proven"].get<double>(), 0.6, 4e-3);
+  EXPECT_LE(delay["proven"].get<double>(), 0.6);
+  EXPECT_NEAR(delay["contact"]["delay"].get<double>(), 0.6, 4e-3);
+  EXPECT_NEAR(delay["contact"]["time"].get<double>(), 1.8, 4e-3);
+  // At up to 25 % slower it leaves at 1.5 s.
+  const Outcome slow = passes(1.0, {"--late", "east=0.29", "--slow", "east=25"});
+  EXPECT_EQ(slow.exitCode, 0) << slow.out;
+  EXPECT_THAT(slow.out, HasSubstr("free up to 0.29 s, at up to 25 % slower"));
+  const Outcome slower = passes(1.0, {"--slow", "east=80"});
+  EXPECT_EQ(slower.exitCode, 1);
+  EXPECT_THAT(slower.out, AllOf(HasSubstr("nothing is proven, at up to 80 % slower"),
+                                HasSubstr("% slower, at 1.8")));
+  const Outcome two = passes(1.0, {"--late", "east=0.5", "--late", "north=9"});
+  EXPECT_EQ(two.exitCode, 0);
+  EXPECT_THAT(two.out, AllOf(HasSubstr("east: free"), HasSubstr("north: free up to 9 s")));
+}
+
+TEST_F(ScheduleProgram, WritesOneTrajectoryWithAProof) {
+  const std::string out = folder_.path("both.json");
+  const Outcome run = passes(0.5, {"-o", out});
+  ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
+  const Outcome verified = runSwept({"verify", out});
+  EXPECT_EQ(verified.exitCode, 0) << verified.out << verified.err;
+  // And is a trajectory of the cell like any other.
+  const Outcome again = runSwept({"trajectory", file("cell.yaml"), out, "--group", "all"});
+  EXPECT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("duration    2.5 s"));
+
+  const std::string csv = folder_.path("both.csv");
+  const Outcome smooth = schedule(
+      {"east=" + file("smooth.csv"), "north=" + file("smooth.csv"), "--at", "north=2", "-o", csv});
+  EXPECT_EQ(smooth.exitCode, 0) << smooth.out << smooth.err;
+  EXPECT_EQ(runSwept({"trajectory", file("cell.yaml"), csv, "--group", "all"}).exitCode, 0);
+}
+
+TEST_F(ScheduleProgram, SaysWhyNothingIsWritten) {
+  const std::string out = folder_.path("no.json");
+  const Outcome collides = passes(0.0, {"-o", out});
+  EXPECT_EQ(collides.exitCode, 1);
+  EXPECT_THAT(collides.out, HasSubstr("not written to " + out + ": it is not free"));
+  const Outcome mixed = schedule(
+      {"east=" + file("pass.csv"), "north=" + file("corner.csv"), "--at", "north=3", "-o", out});
+  EXPECT_EQ(mixed.exitCode, 2) << mixed.out;
+  EXPECT_THAT(mixed.out, HasSubstr("no one trajectory has the curves of all parts"));
+  EXPECT_FALSE(std::ifstream(out).good());
+}
+
+TEST_F(ScheduleProgram, RefusesWhatIsNoSchedule) {
+  const std::string pass = file("pass.csv");
+  const auto err = [&](const std::vector<std::string>& more) {
+    const Outcome run = schedule(more);
+    EXPECT_EQ(run.exitCode, 3) << run.out;
+    return run.err;
+  };
+  EXPECT_THAT(err({pass}), HasSubstr("part '" + pass + "': must be GROUP=FILE"));
+  EXPECT_THAT(err({"east=" + pass, "east=" + pass}),
+              HasSubstr("group 'east' has a trajectory already"));
+  EXPECT_THAT(err({"esat=" + pass}), HasSubstr("has no group 'esat'"));
+  EXPECT_THAT(err({"east=" + pass, "--at", "north=1"}),
+              HasSubstr("--at 'north=1': no part is of group 'north'; there are east"));
+  EXPECT_THAT(err({"east=" + pass, "--at", "east=-1"}),
+              HasSubstr("--at 'east=-1': '-1' is no number from 0 to 1000000 (S)"));
+  EXPECT_THAT(err({"east=" + pass, "--late", "east=soon"}),
+              HasSubstr("--late 'east=soon': 'soon' is no number from 0 to 1000000 (S)"));
+  EXPECT_THAT(err({"east=" + pass, "--slow", "east"}),
+              HasSubstr("--slow 'east': must be GROUP=PERCENT"));
+  EXPECT_THAT(err({"east=" + pass, "--at", "east=1", "--at", "east=2"}),
+              HasSubstr("--at 'east=2': group 'east' has one already"));
+  EXPECT_THAT(err({"east=" + pass, "--group", "all"}),
+              HasSubstr("the group of a schedule is that of its parts: leave out --group"));
+  EXPECT_THAT(err({"east=" + pass, "all=" + pass}), HasSubstr("'slide', which is no joint of robot 'cell'; group 'all' has"));
+  write("two.yaml",
+        "joint_names: [slide]\npoints:\n- positions: [0]\n  time_from_start: {sec: 0, nanosec: 0}\n"
+        "- positions: [1]\n  time_from_start: {sec: 1, nanosec: 0}\n---\n"
+        "joint_names: [slide]\npoints:\n- positions: [1]\n  time_from_start: {sec: 0, nanosec: 0}\n"
+        "- positions: [0]\n  time_from_start: {sec: 1, nanosec: 0}\n");
+  EXPECT_THAT(err({"east=" + file("two.yaml")}),
+              HasSubstr("the file has 2 trajectories, and a part is one"));
+  write("wrong.csv", "time,glide\n0,1\n");
+  EXPECT_THAT(err({"east=" + file("wrong.csv")}),
+              AllOf(HasSubstr("wrong.csv:1"), HasSubstr("'glide', which is no joint of robot")));
+  write("twice.csv", "time,slide,east/slide\n0,1,1\n1,1,1\n");
+  EXPECT_THAT(err({"east=" + file("twice.csv")}), HasSubstr("a second time"));
+  EXPECT_THAT(err({"east=" + pass, "-o", pass}), HasSubstr("pass.csv"));
+}
+
+}  // namespace
+}  // namespace swept::test
