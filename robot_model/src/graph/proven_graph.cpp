@@ -138,23 +138,6 @@ bool isReversible(const Checker& checker, std::span<const double> from,
   return true;
 }
 
-/// Of the motions from `first` on.
-void findBoxes(ProvenGraphData& graph, std::size_t first, unsigned threads) {
-  const std::size_t coarse = graph.boxesOf->coarseBoxes(), fine = graph.boxesOf->fineBoxes();
-  const std::size_t count = graph.motions.size();
-  graph.coarse.resize(count * coarse);
-  graph.fine.resize(count * fine);
-  const std::size_t batches = (count - first + detail::kBatch - 1) / detail::kBatch;
-  detail::forEachIndex(batches, threads, [&](std::size_t batch) {
-    MotionBoxes::Scratch scratch;
-    const std::size_t begin = first + batch * detail::kBatch;
-    for (std::size_t i = begin; i < std::min(begin + detail::kBatch, count); ++i)
-      graph.boxesOf->find(graph.state(graph.motions[i].from), graph.state(graph.motions[i].to),
-                          {graph.coarse.data() + i * coarse, coarse},
-                          {graph.fine.data() + i * fine, fine}, scratch);
-  });
-}
-
 std::vector<std::uint32_t> firstNumbers(std::size_t first, std::size_t last) {
   std::vector<std::uint32_t> numbers;
   for (std::size_t i = first; i < last; ++i) numbers.push_back(static_cast<std::uint32_t>(i));
@@ -267,7 +250,7 @@ std::size_t ProvenGraph::addMotions(std::span<const Motion> motions, unsigned th
   graph.motions.resize(kept);
   graph.blocks.resize(kept);
 
-  findBoxes(graph, before, threads);
+  graph.findBoxes(before, threads);
   for (const WorldBody& body : checker.world().bodies())
     takeBlocks(askBody(graph, checker, lone, body, open, threads), graph.numberOf(body.name),
                graph);
@@ -300,48 +283,69 @@ ProvenGraph::Change ProvenGraph::update(std::shared_ptr<const Checker> changed, 
     return change;
   }
   std::vector<const WorldBody*> added;
-  std::vector<char> isGone(graph.names.size(), 0);
+  std::vector<std::string> gone;
   for (const WorldBody& body : changed->world().bodies()) {
     const WorldBody* const old = checker.world().find(body.name);
-    if (old != nullptr && detail::isSameBody(checker, *old, *changed, body)) continue;
-    added.push_back(&body);
+    if (old == nullptr || !detail::isSameBody(checker, *old, *changed, body))
+      added.push_back(&body);
   }
   for (const WorldBody& body : checker.world().bodies()) {
     const WorldBody* const now = changed->world().find(body.name);
-    if (now != nullptr && std::ranges::find(added, now) == added.end()) continue;
-    ++change.bodiesGone;
-    const auto name = std::ranges::find(graph.names, body.name);
-    if (name != graph.names.end()) isGone[static_cast<std::size_t>(name - graph.names.begin())] = 1;
+    if (now == nullptr || std::ranges::find(added, now) != added.end()) gone.push_back(body.name);
   }
-  change.bodiesNew = added.size();
+  return graph.change(std::move(changed), gone, added, threads);
+}
+
+void detail::ProvenGraphData::findBoxes(std::size_t first, unsigned threads) {
+  const std::size_t ofCoarse = boxesOf->coarseBoxes(), ofFine = boxesOf->fineBoxes();
+  const std::size_t count = motions.size();
+  coarse.resize(count * ofCoarse);
+  fine.resize(count * ofFine);
+  forEachIndex((count - first + kBatch - 1) / kBatch, threads, [&](std::size_t batch) {
+    MotionBoxes::Scratch scratch;
+    const std::size_t begin = first + batch * kBatch;
+    for (std::size_t i = begin; i < std::min(begin + kBatch, count); ++i)
+      boxesOf->find(state(motions[i].from), state(motions[i].to),
+                    {coarse.data() + i * ofCoarse, ofCoarse}, {fine.data() + i * ofFine, ofFine},
+                    scratch);
+  });
+}
+
+ProvenGraph::Change detail::ProvenGraphData::change(std::shared_ptr<const Checker> changed,
+                                                    std::span<const std::string> gone,
+                                                    std::span<const WorldBody* const> added,
+                                                    unsigned threads) {
   std::vector<BodyAnswer> answers;
   if (!added.empty()) {
     const LoneChecker lone(*changed);
-    const std::vector<std::uint32_t> all = firstNumbers(0, graph.motions.size());
+    const std::vector<std::uint32_t> all = firstNumbers(0, motions.size());
     for (const WorldBody* body : added)
-      answers.push_back(askBody(graph, *changed, lone, *body, all, threads));
+      answers.push_back(askBody(*this, *changed, lone, *body, all, threads));
   }
 
-  // Nothing fails from here on.
-  std::vector<char> wasFree(graph.motions.size(), 0), wasAsked(graph.motions.size(), 0);
-  for (std::size_t i = 0; i < graph.motions.size(); ++i) {
-    wasFree[i] = graph.blocks[i].empty() ? 1 : 0;
-    std::erase_if(graph.blocks[i],
-                  [&](const MotionBlock& block) { return isGone[block.body] != 0; });
+  // What can fail is done.
+  ProvenGraph::Change change{.bodiesGone = gone.size(), .bodiesNew = added.size()};
+  std::vector<char> isGone(names.size(), 0);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    isGone[i] = std::ranges::find(gone, names[i]) != gone.end() ? 1 : 0;
+  std::vector<char> wasFree(motions.size(), 0), wasAsked(motions.size(), 0);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    wasFree[i] = blocks[i].empty() ? 1 : 0;
+    std::erase_if(blocks[i], [&](const MotionBlock& block) { return isGone[block.body] != 0; });
   }
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    takeBlocks(answers[i], graph.numberOf(added[i]->name), graph);
+    takeBlocks(answers[i], numberOf(added[i]->name), *this);
     change.byArithmetic += answers[i].byArithmetic;
     change.asked += answers[i].asked.size();
     for (const std::uint32_t motion : answers[i].asked) wasAsked[motion] = 1;
   }
-  for (std::size_t i = 0; i < graph.motions.size(); ++i) {
-    const bool isNow = graph.blocks[i].empty();
-    change.motionsAsked += static_cast<std::size_t>(wasAsked[i]);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const bool isNow = blocks[i].empty();
+    change.motionsAsked += wasAsked[i] != 0 ? 1 : 0;
     change.freed += isNow && wasFree[i] == 0 ? 1 : 0;
     change.blocked += !isNow && wasFree[i] != 0 ? 1 : 0;
   }
-  graph.checker = std::move(changed);
+  checker = std::move(changed);
   return change;
 }
 

@@ -35,6 +35,12 @@ struct ProvenGraphData {
   }
   /// The number of a body; adds the name if it is new.
   std::uint32_t numberOf(const std::string& name);
+  /// Boxes of the motions from `first` on.
+  void findBoxes(std::size_t first, unsigned threads);
+  /// To the world of another checker, in which bodies of these names are gone, and these are new.
+  ProvenGraph::Change change(std::shared_ptr<const Checker> changed,
+                             std::span<const std::string> gone,
+                             std::span<const WorldBody* const> added, unsigned threads);
 };
 
 }  // namespace swept::detail

@@ -97,8 +97,31 @@ class ProvenGraph {
   /// has changed.
   Change update(std::shared_ptr<const Checker> changed, unsigned threads = 1);
 
+  /// Writes a file (JSON): states, motions, what blocks them, and hashes of the robot, of the
+  /// checker's options, and of each body of the world. Throws UsageError if it cannot be written,
+  /// or would be larger than what load() reads.
+  void save(const std::filesystem::path& file) const;
+  /// Reads a file of save(). Nothing is asked: verdicts are those of the file, boxes are made anew.
+  /// It finds out damage, and any change of the robot, the options or the world, but not forgery:
+  /// who can write the file can write verdicts. Throws InputError for a file that is none of
+  /// save()'s, damaged, or of another robot, group, option or world than the checker's, naming what
+  /// differs; and as the constructor does.
+  static ProvenGraph load(const std::filesystem::path& file, std::shared_ptr<const Checker> checker,
+                          unsigned threads = 1);
+  struct Updated;
+  /// The same for a checker of another world: what load() in the file's world and update() give.
+  /// Throws likewise, but not for another world.
+  static Updated loadChanged(const std::filesystem::path& file,
+                             std::shared_ptr<const Checker> checker, unsigned threads = 1);
+
  private:
   std::unique_ptr<detail::ProvenGraphData> data_;
+};
+
+/// A graph, and what update() did with it.
+struct ProvenGraph::Updated {
+  ProvenGraph graph;
+  Change change;
 };
 
 }  // namespace swept
