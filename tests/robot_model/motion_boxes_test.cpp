@@ -20,7 +20,7 @@ using test::at;
 bool contains(const SingleBox& box, const Eigen::Vector3d& point, double slack = 0.0) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double x = point[static_cast<Eigen::Index>(k)];
-    if (x < box.lower[k] - slack || x > box.upper[k] + slack) return false;
+    if (x < box.lower(k) - slack || x > box.upper(k) + slack) return false;
   }
   return true;
 }
@@ -177,7 +177,7 @@ TEST(BodySpace, HasAllOfItsBody) {
       ++(touches ? touching : apart);
       if (meets) {
         ASSERT_TRUE(touches) << i;
-        ASSERT_TRUE(space.box().overlaps(box));
+        ASSERT_TRUE(BoxProbe(space.box()).overlaps(box));
       }
       for (const Eigen::Vector3d& point : points)
         inside += contains(box, point) && !touches ? 1 : 0;

@@ -24,10 +24,10 @@ constexpr float kSingleShare = 0x1p-18F;
 constexpr double kDoubleShare = 1e-13;
 
 Eigen::Vector3d lowerOf(const SingleBox& box) {
-  return {box.lower[0], box.lower[1], box.lower[2]};
+  return {box.lower(0), box.lower(1), box.lower(2)};
 }
 Eigen::Vector3d upperOf(const SingleBox& box) {
-  return {box.upper[0], box.upper[1], box.upper[2]};
+  return {box.upper(0), box.upper(1), box.upper(2)};
 }
 
 }  // namespace
@@ -37,7 +37,8 @@ void BodySpace::add(const Aabb& local, const Eigen::Isometry3d& pose, double gro
   const Vector3d half = (local.upper - middle).cwiseMax(middle - local.lower);
   const Vector3d at = pose * middle;
   const Vector3d reach = (pose.linear().cwiseAbs() * half).array() + grown;
-  Part part{.box = singleBox(at - reach, at + reach), .middle = {}, .halfExtents = {}};
+  const SingleBox whole = singleBox(at - reach, at + reach);
+  Part part{.box = whole, .probe = BoxProbe(whole), .middle = {}, .halfExtents = {}};
   part.turned = !pose.linear().cwiseAbs().isApprox(Eigen::Matrix3d::Identity(), 1e-6);
   part.axes = pose.linear().transpose().cast<float>();
   part.middle = (pose.linear().transpose() * at).cast<float>();
@@ -76,7 +77,7 @@ void BodySpace::fillGrid(std::size_t count, const BoxOf& boxOf) {
   box_.extend(all);
   const Vector3d sides = gridUpper_ - gridLower_;
   const double longest = sides.maxCoeff();
-  if (!std::isfinite(all.upper[0]) || !std::isfinite(longest)) {
+  if (!std::isfinite(all.upper(0)) || !std::isfinite(longest)) {
     isEverywhere_ = true;
     return;
   }
@@ -158,11 +159,11 @@ bool BodySpace::gridTouches(const SingleBox& box) const {
   std::array<int, 3> first{}, last{};
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    if (static_cast<double>(box.lower[i]) > gridUpper_[k] ||
-        static_cast<double>(box.upper[i]) < gridLower_[k])
+    if (static_cast<double>(box.lower(i)) > gridUpper_[k] ||
+        static_cast<double>(box.upper(i)) < gridLower_[k])
       return false;
-    first[i] = cellOf(k, box.lower[i]);
-    last[i] = cellOf(k, box.upper[i]) + 1;
+    first[i] = cellOf(k, box.lower(i));
+    last[i] = cellOf(k, box.upper(i)) + 1;
   }
   const auto before = [&](int x, int y, int z) { return occupied_[place(x, y, z)]; };
   // Of unsigned numbers, whose sum is right whatever the terms are.
@@ -176,9 +177,9 @@ bool BodySpace::gridTouches(const SingleBox& box) const {
 }
 
 bool BodySpace::partTouches(const Part& part, const SingleBox& box) {
-  if (!part.box.overlaps(box)) return false;
+  if (!part.probe.overlaps(box)) return false;
   if (!part.turned) return true;
-  const Eigen::Vector3f lower(box.lower.data()), upper(box.upper.data());
+  const Eigen::Vector3f lower(box.sides.data()), upper(box.sides.data() + 3);
   const Eigen::Vector3f middle = 0.5F * (lower + upper), half = 0.5F * (upper - lower);
   const Eigen::Vector3f away = (part.axes * middle - part.middle).cwiseAbs();
   const Eigen::Vector3f reach = part.axes.cwiseAbs() * half + part.halfExtents;
@@ -197,7 +198,7 @@ bool BodySpace::flatTouches(const Flat& flat, const SingleBox& box) {
 }
 
 bool BodySpace::touches(const SingleBox& box) const {
-  if (!box_.overlaps(box)) return false;
+  if (!BoxProbe(box_).overlaps(box)) return false;
   for (const Part& part : parts_)
     if (partTouches(part, box)) return true;
   for (const Flat& flat : flats_)

@@ -28,6 +28,7 @@ class BodySpace {
   /// A part: what is in `box`, and along each of three axes within a distance of the middle.
   struct Part {
     SingleBox box;
+    BoxProbe probe;       ///< of it
     bool turned = false;  ///< the axes are not those of the model frame
     Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();  ///< rows
     Eigen::Vector3f middle, halfExtents;                 ///< along these

@@ -27,11 +27,11 @@ constexpr double kLargestCoordinate = 1e30;
 }  // namespace
 
 SingleBox unboundedBox() {
-  return {{-kEverywhere, -kEverywhere, -kEverywhere}, {kEverywhere, kEverywhere, kEverywhere}};
+  return {{-kEverywhere, -kEverywhere, -kEverywhere, kEverywhere, kEverywhere, kEverywhere}};
 }
 
 SingleBox emptyBox() {
-  return {{kEverywhere, kEverywhere, kEverywhere}, {-kEverywhere, -kEverywhere, -kEverywhere}};
+  return {{kEverywhere, kEverywhere, kEverywhere, -kEverywhere, -kEverywhere, -kEverywhere}};
 }
 
 SingleBox singleBox(const Vector3d& lower, const Vector3d& upper) {
@@ -40,16 +40,16 @@ SingleBox singleBox(const Vector3d& lower, const Vector3d& upper) {
     const auto i = static_cast<std::size_t>(k);
     if (!(lower[k] > -kLargestCoordinate) || !(upper[k] < kLargestCoordinate))
       return unboundedBox();
-    box.lower[i] = singleBelow(lower[k]);
-    box.upper[i] = singleAbove(upper[k]);
+    box.sides[i] = singleBelow(lower[k]);
+    box.sides[i + 3] = singleAbove(upper[k]);
   }
   return box;
 }
 
 void SingleBox::extend(const SingleBox& other) {
   for (std::size_t k = 0; k < 3; ++k) {
-    lower[k] = std::min(lower[k], other.lower[k]);
-    upper[k] = std::max(upper[k], other.upper[k]);
+    sides[k] = std::min(sides[k], other.sides[k]);
+    sides[k + 3] = std::max(sides[k + 3], other.sides[k + 3]);
   }
 }
 

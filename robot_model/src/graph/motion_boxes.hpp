@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,16 +14,28 @@ namespace swept::detail {
 
 /// An axis-aligned box of the model frame, in single precision, rounded outward.
 struct SingleBox {
-  std::array<float, 3> lower, upper;  ///< m
+  std::array<float, 6> sides;  ///< m: lower x, y, z, upper x, y, z
 
-  bool overlaps(const SingleBox& other) const {
-    // Not of NaN, which no box has.
-    const bool apart = (lower[0] > other.upper[0]) | (other.lower[0] > upper[0]) |
-                       (lower[1] > other.upper[1]) | (other.lower[1] > upper[1]) |
-                       (lower[2] > other.upper[2]) | (other.lower[2] > upper[2]);
-    return !apart;
-  }
+  float lower(std::size_t k) const { return sides[k]; }
+  float upper(std::size_t k) const { return sides[k + 3]; }
   void extend(const SingleBox& other);
+};
+
+/// A box that many others are compared with.
+class BoxProbe {
+ public:
+  explicit BoxProbe(const SingleBox& box)
+      : upper_(box.upper(0), box.upper(1), box.upper(2), std::numeric_limits<float>::infinity()),
+        lower_(-std::numeric_limits<float>::infinity(), box.lower(0), box.lower(1), box.lower(2)) {}
+
+  /// Whether they share a point. No side is NaN.
+  bool overlaps(const SingleBox& box) const {
+    using Four = Eigen::Map<const Eigen::Array4f>;
+    return (Four(box.sides.data()) <= upper_).all() && (Four(box.sides.data() + 2) >= lower_).all();
+  }
+
+ private:
+  Eigen::Array4f upper_, lower_;  ///< with a number that changes nothing
 };
 
 /// Holds everything.

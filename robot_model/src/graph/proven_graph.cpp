@@ -48,12 +48,12 @@ bool touches(const ProvenGraphData& graph, std::size_t motion, const BodySpace& 
   const std::size_t pieces = boxesOf.pieces();
   const SingleBox* const parts = graph.coarse.data() + motion * boxesOf.coarseBoxes();
   const SingleBox* const whole = parts + MotionBoxes::kParts;
+  const BoxProbe probe(space.box());
   const SingleBox* fine = graph.fine.data() + motion * boxesOf.fineBoxes();
   for (std::size_t part = 0; part < MotionBoxes::kParts; ++part, fine += pieces) {
-    if (!parts[part].overlaps(space.box())) continue;
+    if (!probe.overlaps(parts[part])) continue;
     for (std::size_t piece = 0; piece < pieces; ++piece)
-      if (whole[piece].overlaps(space.box()) && fine[piece].overlaps(space.box()) &&
-          space.touches(fine[piece]))
+      if (probe.overlaps(whole[piece]) && probe.overlaps(fine[piece]) && space.touches(fine[piece]))
         return true;
   }
   return false;
