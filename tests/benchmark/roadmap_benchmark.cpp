@@ -31,7 +31,9 @@ struct Options {
   unsigned threads = 1;
 };
 
-double wallSeconds() {
+/// s. Of one thread its own time, which other programs on the machine do not change.
+double seconds(unsigned threads) {
+  if (threads == 1) return cpuSeconds();
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
@@ -48,11 +50,11 @@ class Changes {
   Changes(std::string name, unsigned threads) : name_(std::move(name)), threads_(threads) {}
 
   void take(const std::function<Checker()>& makeVersion, CertifiedRoadmap& roadmap) {
-    const double begin = wallSeconds();
+    const double begin = seconds(threads_);
     const auto changed = std::make_shared<const Checker>(makeVersion());
-    const double made = wallSeconds();
+    const double made = seconds(threads_);
     const ProvenGraph::Change change = roadmap.update(changed, threads_);
-    const double done = wallSeconds();
+    const double done = seconds(threads_);
     versions_.push_back(made - begin);
     updates_.push_back(done - made);
     both_.push_back(done - begin);
@@ -82,9 +84,17 @@ class Changes {
       to.insert(to.end(), b.begin(), b.end());
     }
     std::vector<MotionCertificate> certificates(graph.motions());
-    const double begin = wallSeconds();
-    graph.checker()->certifyMotions(from, to, certificates, MotionQuery::VerdictOnly, threads_);
-    rechecks_.push_back(wallSeconds() - begin);
+    const double begin = seconds(threads_);
+    if (threads_ == 1) {
+      Workspace workspace(*graph.checker());
+      for (std::size_t i = 0; i < graph.motions(); ++i)
+        certificates[i] = graph.checker()->certifyMotion(graph.state(graph.motion(i).from),
+                                                         graph.state(graph.motion(i).to), workspace,
+                                                         MotionQuery::VerdictOnly);
+    } else {
+      graph.checker()->certifyMotions(from, to, certificates, MotionQuery::VerdictOnly, threads_);
+    }
+    rechecks_.push_back(seconds(threads_) - begin);
     for (std::size_t i = 0; i < graph.motions(); ++i) {
       const Verdict verdict = certificates[i].verdict;
       unsound_ += graph.isFree(i) && verdict == Verdict::Collision ? 1 : 0;
@@ -104,14 +114,14 @@ class RoadmapRun {
   RoadmapRun(const Options& options, const PlanningProblems& problems, const PlanningCase& problem)
       : options_(options), problem_(problem) {
     checker_ = std::make_shared<const Checker>(problems.robot(), problems.group(), problem.world);
-    const double begin = wallSeconds();
+    const double begin = seconds(options_.threads);
     roadmap_.emplace(checker_,
                      RoadmapOptions{.states = options.states, .threads = options.threads});
     const ProvenGraph& graph = roadmap_->graph();
     std::printf("%s %d, %zu bodies: %zu states, %zu motions, %zu free, %zu components, %.2f s\n\n",
                 problem.set.c_str(), problem.index, problem.world->bodies().size(), graph.states(),
                 graph.motions(), roadmap_->freeMotions(), roadmap_->components(),
-                wallSeconds() - begin);
+                seconds(options_.threads) - begin);
   }
 
   bool changes() {
@@ -173,24 +183,25 @@ class RoadmapRun {
       }
       if (checker_->checkState(q, workspace) == Verdict::Free) states.push_back(std::move(q));
     }
-    std::vector<double> times;
+    std::vector<double> all, around;  // of those whose start and goal no free motion joins
     std::size_t found = 0, segments = 0, unproven = 0;
     for (std::size_t i = 0; i < kQueries; ++i) {
-      const double begin = wallSeconds();
+      const double begin = seconds(options_.threads);
       const auto path = roadmap_->path(states[2 * i], states[2 * i + 1], workspace);
-      times.push_back(wallSeconds() - begin);
+      all.push_back(seconds(options_.threads) - begin);
+      if (!path || path->size() > 2) around.push_back(all.back());
       if (!path) continue;
       ++found;
       const PathCertificate certificate = certifyPath(*checker_, *path, {.clearances = false});
       segments += certificate.segments.size();
       unproven += certificate.segments.size() - certificate.count(Verdict::Free);
     }
-    std::ranges::sort(times);
-    std::printf(
-        "\n%zu of %zu queries have a path, us: median %.1f, 95 %% %.1f, largest %.1f; %zu "
-        "motions, %zu not proven anew\n",
-        found, kQueries, kMicro * times[kQueries / 2], kMicro * times[kQueries * 95 / 100],
-        kMicro * times.back(), segments, unproven);
+    std::printf("\nus of queries: median / largest\n\n");
+    const MarkdownTable table({"queries", "with a path", "all", "not joined directly", "these",
+                               "motions", "not proven anew"});
+    table.row({std::to_string(kQueries), std::to_string(found), spread(all, kMicro),
+               std::to_string(around.size()), spread(around, kMicro), std::to_string(segments),
+               std::to_string(unproven)});
     return unproven == 0;
   }
 
