@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "swept/ompl_bridge/state_space.hpp"
+#include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/proven_graph.hpp"
 
 namespace swept {

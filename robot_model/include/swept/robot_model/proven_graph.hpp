@@ -42,11 +42,10 @@ class ProvenGraph {
   };
   /// What update() did.
   struct Change {
-    std::size_t bodiesGone = 0;  ///< removed, or not what they were
-    std::size_t bodiesNew = 0;   ///< added, or not what they were
-    /// Pairs of a motion and a new body that are apart by arithmetic, and those that a Checker was
-    /// asked about.
-    std::size_t byArithmetic = 0, asked = 0;
+    std::size_t bodiesGone = 0;    ///< removed, or not what they were
+    std::size_t bodiesNew = 0;     ///< added, or not what they were
+    std::size_t byArithmetic = 0;  ///< pairs of a motion and a new body that touches no box of it
+    std::size_t asked = 0;         ///< the other pairs, which a Checker was asked about
     std::size_t motionsAsked = 0;  ///< motions that a Checker was asked about
     std::size_t freed = 0;         ///< motions that are Free and were not
     std::size_t blocked = 0;       ///< motions that were Free and are not
@@ -120,8 +119,8 @@ class ProvenGraph {
 
 /// A graph, and what update() did with it.
 struct ProvenGraph::Updated {
-  ProvenGraph graph;
-  Change change;
+  ProvenGraph graph;  ///< in the world of the checker
+  Change change;      ///< from the world of the file
 };
 
 }  // namespace swept
