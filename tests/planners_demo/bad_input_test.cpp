@@ -88,15 +88,15 @@ const Case kOptions[] = {
     {"NoSubcommand",
      {},
      kError +
-         "a subcommand is required; there are info, check, motion, certify, plan, line, verify, "
-         "trajectory, acm, cover, "
+         "a subcommand is required; there are info, check, motion, certify, plan, line, roadmap, "
+         "verify, trajectory, acm, cover, "
          "replay, " +
          (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
      kError +
-         "no subcommand 'verfy'; there are info, check, motion, certify, plan, line, verify, "
-         "trajectory, "
+         "no subcommand 'verfy'; there are info, check, motion, certify, plan, line, roadmap, "
+         "verify, trajectory, "
          "acm, cover, "
          "replay, " +
          (programHasPages() ? "view, " : "") +

@@ -148,8 +148,10 @@ TEST_F(Narrow, EveryTextFitsAndNothingIsLost) {
 
 TEST_F(Narrow, HelpFits) {
   for (const std::string command :
-       {"", "info", "check", "motion", "plan", "line", "verify", "acm", "cover", "replay", "report",
-        "completion", "bench", "bench edges", "bench planners", "bench summary"})
+       {"",           "info",    "check",         "motion",         "plan",
+        "line",       "roadmap", "roadmap build", "roadmap update", "roadmap query",
+        "verify",     "acm",     "cover",         "replay",         "report",
+        "completion", "bench",   "bench edges",   "bench planners", "bench summary"})
     expectNarrow(runOnTerminal(words(command + " --help"), kColumns).out, command + " --help");
 }
 

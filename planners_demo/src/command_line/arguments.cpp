@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "command_line/command.hpp"
-#include "swept/robot_model/did_you_mean.hpp"
 #include "command_line/program_options.hpp"
 #include "command_line/shell_word.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
+#include "swept/robot_model/did_you_mean.hpp"
 
 namespace swept {
 namespace {
@@ -75,8 +75,9 @@ CLI::App& parentOf(const Command& command, CLI::App& program) {
   const auto isFamily = [&](CLI::App* app) { return app->get_name() == family; };
   const std::vector<CLI::App*> found = program.get_subcommands(isFamily);
   if (!found.empty()) return *found.front();
-  CLI::App* made =
-      program.add_subcommand(family, "What checks and planners take and find on this machine");
+  CLI::App* made = program.add_subcommand(
+      family, family == "bench" ? "What checks and planners take and find on this machine"
+                                : "Motions that stay proven while the world changes");
   made->require_subcommand(1);
   return *made;
 }

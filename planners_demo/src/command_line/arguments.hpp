@@ -158,6 +158,12 @@ struct Arguments {
     bool visual = false;
   } cover;
 
+  struct Roadmap {
+    std::string file;     ///< that `update` and `query` read
+    int states = 2000;    ///< to sample
+    int neighbours = 10;  ///< of each state
+  } roadmap;
+
   struct Report {
     int motions = 1000;                                                     ///< over all worlds
     std::vector<double> resolutions = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005};  ///< share of the extent

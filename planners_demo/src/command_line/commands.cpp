@@ -7,10 +7,11 @@ namespace swept {
 
 std::span<const Command* const> commands() {
   static const std::vector<const Command*> all = [] {
-    std::vector<const Command*> list{&kInfoCommand,    &kCheckCommand,      &kMotionCommand,
-                                     &kCertifyCommand, &kPlanCommand,       &kLineCommand,
-                                     &kVerifyCommand,  &kTrajectoryCommand, &kScheduleCommand,
-                                     &kAcmCommand,     &kCoverCommand,      &kReplayCommand};
+    std::vector<const Command*> list{
+        &kInfoCommand,         &kCheckCommand,  &kMotionCommand,       &kCertifyCommand,
+        &kPlanCommand,         &kLineCommand,   &kRoadmapBuildCommand, &kRoadmapUpdateCommand,
+        &kRoadmapQueryCommand, &kVerifyCommand, &kTrajectoryCommand,   &kScheduleCommand,
+        &kAcmCommand,          &kCoverCommand,  &kReplayCommand};
     list.insert(list.end(), pageCommands().begin(), pageCommands().end());
     list.insert(list.end(), {&kBenchEdgesCommand, &kBenchPlannersCommand, &kBenchSummaryCommand,
                              &kReportCommand, &kCompletionCommand});

@@ -32,6 +32,15 @@ ExitCode runPlan(const Arguments& args);
 extern const Command kLineCommand;
 ExitCode runLine(const Arguments& args);
 
+extern const Command kRoadmapBuildCommand;
+ExitCode runRoadmapBuild(const Arguments& args);
+
+extern const Command kRoadmapUpdateCommand;
+ExitCode runRoadmapUpdate(const Arguments& args);
+
+extern const Command kRoadmapQueryCommand;
+ExitCode runRoadmapQuery(const Arguments& args);
+
 extern const Command kVerifyCommand;
 ExitCode runVerify(const Arguments& args);
 

@@ -291,7 +291,7 @@ namespace {
 
 Task statesTask(const Arguments& args, const Model& model, const Group& group, Warnings& warnings) {
   Task task;
-  const bool plan = args.command == &kPlanCommand;
+  const bool plan = args.command == &kPlanCommand || args.command == &kRoadmapQueryCommand;
   const AngleUnit unit = args.degrees ? AngleUnit::Degree : AngleUnit::Radian;
   for (std::size_t i = 0; i < args.states.size(); ++i) {
     const std::string& text = args.states[i];

@@ -4,6 +4,7 @@
 namespace swept::detail {
 
 struct GeometryPair;
+struct MotionBoundSlot;
 struct PairModel;
 
 /// The moving frames, and all geometry of the robot, of its attached bodies and of the world. Parts
@@ -14,6 +15,10 @@ void compileBodies(const PairModel* like, PairModel& model);
 /// PairModel::tube of CheckerOptions::tracking. Throws std::invalid_argument as the constructor of
 /// Checker does.
 void compileTube(PairModel& model);
+
+/// m. How far the tube's configurations move points of a geometry, by joints of its path from
+/// MotionBoundSlot::firstJoint on; infinity: no bound is known.
+double tubeReach(const PairModel& model, const MotionBoundSlot& slot);
 
 /// GeometryPair::tube of all pairs.
 void boundTube(PairModel& model);

@@ -72,9 +72,23 @@ bool isZero(const JointTolerance& tolerance) {
   return tolerance.rotation == 0.0 && tolerance.translation == 0.0;
 }
 
-/// m. How far the tube's configurations move points of the geometry, by joints of its path from
-/// `first` on: none moves a point by more than its tolerance times the point's lever arm.
-double reachOf(const PairModel& model, const MotionBoundSlot& slot) {
+}  // namespace
+
+void compileTube(PairModel& model) {
+  const TrackingTolerance& tracking = model.options.tracking;
+  requireTolerance(tracking, "all joints");
+  for (const auto& [name, tolerance] : tracking.joints) {
+    requireTolerance(tolerance, "joint '" + name + "'");
+    requireMoved(model, name);
+  }
+  model.tube.clear();
+  for (const MovingBody& body : model.kinematics.bodies)
+    model.tube.push_back(toleranceOf(model, body));
+  if (std::ranges::all_of(model.tube, isZero)) model.tube.clear();
+}
+
+/// No joint moves a point by more than its tolerance times the point's lever arm.
+double tubeReach(const PairModel& model, const MotionBoundSlot& slot) {
   const LeverArms& levers = model.robotGeometry[static_cast<std::size_t>(slot.geometry)].levers;
   double reach = 0.0;
   double turned = 0.0;  // rad, by joints so far
@@ -91,21 +105,6 @@ double reachOf(const PairModel& model, const MotionBoundSlot& slot) {
   return reach * kArithmeticOutward;
 }
 
-}  // namespace
-
-void compileTube(PairModel& model) {
-  const TrackingTolerance& tracking = model.options.tracking;
-  requireTolerance(tracking, "all joints");
-  for (const auto& [name, tolerance] : tracking.joints) {
-    requireTolerance(tolerance, "joint '" + name + "'");
-    requireMoved(model, name);
-  }
-  model.tube.clear();
-  for (const MovingBody& body : model.kinematics.bodies)
-    model.tube.push_back(toleranceOf(model, body));
-  if (std::ranges::all_of(model.tube, isZero)) model.tube.clear();
-}
-
 void boundTube(PairModel& model) {
   if (model.tube.empty()) return;
   model.worldTubes.assign(model.robotGeometry.size(), 0.0);
@@ -113,12 +112,13 @@ void boundTube(PairModel& model) {
     const bool isPaired = model.firstWorldPair[i] < model.firstWorldPair[i + 1];
     if (!isPaired) continue;
     const auto slot = static_cast<std::size_t>(model.likeWorldPairs[i].motionBoundA);
-    model.worldTubes[i] = reachOf(model, model.motionBounds[slot]);
+    model.worldTubes[i] = tubeReach(model, model.motionBounds[slot]);
   }
   for (GeometryPair& pair : model.pairs) {
-    pair.tube = reachOf(model, model.motionBounds[static_cast<std::size_t>(pair.motionBoundA)]);
+    pair.tube = tubeReach(model, model.motionBounds[static_cast<std::size_t>(pair.motionBoundA)]);
     if (pair.motionBoundB >= 0)
-      pair.tube += reachOf(model, model.motionBounds[static_cast<std::size_t>(pair.motionBoundB)]);
+      pair.tube +=
+          tubeReach(model, model.motionBounds[static_cast<std::size_t>(pair.motionBoundB)]);
   }
 }
 

@@ -3,6 +3,7 @@
 
 /// OMPL over a swept::Checker: `isValid` and `checkMotion` mean *proven free*. Holds no geometry.
 #include "swept/ompl_bridge/certified_connect.hpp"
+#include "swept/ompl_bridge/certified_roadmap.hpp"
 #include "swept/ompl_bridge/clearance_objective.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
