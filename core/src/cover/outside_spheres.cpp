@@ -7,9 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cover/convex_field.hpp"
 #include "cover/posed_body.hpp"
 #include "cover/sphere_checks.hpp"
-#include "swept/core/enclosing_spheres.hpp"
+#include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
@@ -34,26 +35,20 @@ void requireSphereOption(const char* name, double value, double least, bool abov
   throw std::invalid_argument(message.str());
 }
 
-double outsideAll(const Eigen::Vector3d& point, std::span<const EnclosingSphere> spheres) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const EnclosingSphere& sphere : spheres)
-    least = std::min(least, (point - sphere.center).norm() - sphere.radius);
-  return least;
-}
-
 }  // namespace detail
 
 namespace {
 
 using detail::BodyPiece;
+using detail::ConvexField;
 using detail::PosedBody;
 using Eigen::Vector3d;
 
 /// Divides the piece that may reach out farthest, until the bounds agree.
 class OutsideSearch {
  public:
-  OutsideSearch(std::span<const PosedShape> shapes, std::span<const EnclosingSphere> spheres)
-      : body_(shapes), spheres_(spheres) {
+  OutsideSearch(std::span<const PosedShape> shapes, std::span<const ConvexField> fields)
+      : body_(shapes), fields_(fields) {
     for (BodyPiece& piece : body_.pieces()) add(std::move(piece));
   }
 
@@ -99,10 +94,10 @@ class OutsideSearch {
 
   double upperOf(const BodyPiece& piece) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const EnclosingSphere& sphere : spheres_) {
-      // No ball around the centre that holds the piece is smaller than this.
-      if (!((piece.middle - sphere.center).norm() - piece.reach - sphere.radius < least)) continue;
-      least = std::min(least, piece.farthest(sphere.center) - sphere.radius);
+    for (const ConvexField& field : fields_) {
+      // The piece has a point within its reach of the middle, where the field is no smaller.
+      if (!(field.value(piece.middle) - piece.reach < least)) continue;
+      least = std::min(least, field.over(piece));
     }
     return least;
   }
@@ -117,21 +112,19 @@ class OutsideSearch {
   void see(Vector3d point, std::size_t shape) {
     const double radius = body_.leastRadius(shape);
     if (radius > 0.0) {
-      const auto nearest = std::ranges::min_element(spheres_, {}, [&](const EnclosingSphere& s) {
-        return (point - s.center).norm() - s.radius;
-      });
-      const Vector3d away = point - nearest->center;
-      point += radius * (away.norm() > 0.0 ? Vector3d(away.normalized()) : Vector3d::UnitX());
+      const auto nearest = std::ranges::min_element(
+          fields_, {}, [&](const ConvexField& field) { return field.value(point); });
+      point += radius * nearest->outward(point);
     }
     const double error = body_.pointError(shape) + 1e-14 * point.lpNorm<1>();
-    const double outside = detail::outsideAll(point, spheres_) - error;
+    const double outside = detail::outsideAll(point, fields_) - error;
     if (!(outside > lower_)) return;
     lower_ = outside;
     point_ = point;
   }
 
   PosedBody body_;
-  std::span<const EnclosingSphere> spheres_;
+  std::span<const ConvexField> fields_;
   std::vector<Open> open_;  ///< a heap
   double lower_ = -std::numeric_limits<double>::infinity();
   Vector3d point_ = Vector3d::Zero();
@@ -145,7 +138,7 @@ double OutsideSearch::surfaceShare(int samples) const {
   std::uniform_real_distribution<double> uniform;
   const auto count = [&](const Vector3d& point, std::size_t shape, double weight) {
     all += weight;
-    if (detail::outsideAll(body_.pose(shape) * point, spheres_) > body_.pointError(shape))
+    if (detail::outsideAll(body_.pose(shape) * point, fields_) > body_.pointError(shape))
       out += weight;
   };
   const auto areaOf = [](std::span<const Vector3d> vertices, const Eigen::Vector3i& t) {
@@ -176,24 +169,37 @@ double OutsideSearch::surfaceShare(int samples) const {
 
 }  // namespace
 
+OutsideSpheres detail::outsideFields(std::span<const PosedShape> body,
+                                     std::span<const ConvexField> fields,
+                                     const OutsideSpheresOptions& options) {
+  requireSphereOption("tolerance", options.tolerance, 0.0, true);
+  requireSphereOption("mostSplits", options.mostSplits, 0.0);
+  requireSphereOption("samples", options.samples, 0.0);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (body.empty()) return {-kInfinity, -kInfinity, Vector3d::Zero(), 0.0};
+  if (fields.empty()) {
+    PosedBody shapes(body);
+    return {kInfinity, kInfinity, shapes.pieces().front().middle, 1.0};
+  }
+  OutsideSearch search(body, fields);
+  search.run(options);
+  return {search.lower(), search.upper(), search.point(), search.surfaceShare(options.samples)};
+}
+
 OutsideSpheres outsideSpheres(std::span<const PosedShape> body,
                               std::span<const EnclosingSphere> spheres,
                               const OutsideSpheresOptions& options) {
   if (detail::inForeignEnvironment())
     return inDefaultEnvironment([&] { return outsideSpheres(body, spheres, options); });
   detail::requireSpheres(spheres);
-  detail::requireSphereOption("tolerance", options.tolerance, 0.0, true);
-  detail::requireSphereOption("mostSplits", options.mostSplits, 0.0);
-  detail::requireSphereOption("samples", options.samples, 0.0);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (body.empty()) return {-kInfinity, -kInfinity, Vector3d::Zero(), 0.0};
-  if (spheres.empty()) {
-    PosedBody shapes(body);
-    return {kInfinity, kInfinity, shapes.pieces().front().middle, 1.0};
-  }
-  OutsideSearch search(body, spheres);
-  search.run(options);
-  return {search.lower(), search.upper(), search.point(), search.surfaceShare(options.samples)};
+  return detail::outsideFields(body, detail::fieldsOf(spheres), options);
+}
+
+OutsideSpheres outsideShapes(std::span<const PosedShape> body, std::span<const PosedShape> shapes,
+                             const OutsideSpheresOptions& options) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return outsideShapes(body, shapes, options); });
+  return detail::outsideFields(body, detail::fieldsOf(shapes), options);
 }
 
 }  // namespace swept

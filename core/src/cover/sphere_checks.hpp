@@ -15,7 +15,4 @@ void requireSpheres(std::span<const EnclosingSphere> spheres);
 /// `least`.
 void requireSphereOption(const char* name, double value, double least, bool above = false);
 
-/// m: the least distance of the point from the surface of a sphere, negative inside one.
-double outsideAll(const Eigen::Vector3d& point, std::span<const EnclosingSphere> spheres);
-
 }  // namespace swept::detail

@@ -8,14 +8,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cover/convex_field.hpp"
 #include "cover/posed_body.hpp"
 #include "cover/sphere_checks.hpp"
-#include "swept/core/enclosing_spheres.hpp"
+#include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
 namespace swept {
 namespace {
 
+using detail::ConvexField;
 using detail::PosedBody;
 using Eigen::Vector3d;
 
@@ -24,13 +26,13 @@ using Eigen::Vector3d;
 /// surface of the union.
 class ExcessSearch {
  public:
-  ExcessSearch(const PosedBody& body, std::span<const EnclosingSphere> spheres)
-      : body_(body), spheres_(spheres) {
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-      // A point of the ball is at most this far from the ball of the body around the centre.
-      const double most =
-          spheres[i].radius - body_.depth(spheres[i].center, false) + roundingOf(spheres[i]);
-      add({std::max(most, 0.0), spheres[i].center, spheres[i].radius, i});
+  ExcessSearch(const PosedBody& body, std::span<const ConvexField> fields)
+      : body_(body), fields_(fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const ConvexField& field = fields[i];
+      // A point of the shape is at most this far from the ball of the body around its centre.
+      const double most = field.reach() - body_.depth(field.center(), false) + roundingOf(field);
+      add({std::max(most, 0.0), field.center(), field.reach(), i});
     }
   }
 
@@ -44,11 +46,11 @@ class ExcessSearch {
       for (int corner = 0; corner < 8; ++corner) {
         const Vector3d sign((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
                             (corner & 4) != 0 ? 1.0 : -1.0);
-        Cube part{top.bound, top.middle + 0.5 * top.half * sign, 0.5 * top.half, top.sphere};
+        Cube part{top.bound, top.middle + 0.5 * top.half * sign, 0.5 * top.half, top.field};
         if (!meetsSurface(part)) continue;
         ++distances;
         const double here = std::max(0.0, -body_.depth(part.middle, false));
-        part.bound = std::min(top.bound, here + diagonal(part) + roundingOf(spheres_[part.sphere]));
+        part.bound = std::min(top.bound, here + diagonal(part) + roundingOf(fields_[part.field]));
         see(part);
         if (part.bound > seen_) add(part);
       }
@@ -62,13 +64,13 @@ class ExcessSearch {
   struct Cube {
     double bound;  ///< m
     Vector3d middle;
-    double half;         ///< m, of an edge
-    std::size_t sphere;  ///< only its surface counts
+    double half;        ///< m, of an edge
+    std::size_t field;  ///< only the surface of this shape counts
   };
   static bool less(const Cube& a, const Cube& b) { return a.bound < b.bound; }
   static double diagonal(const Cube& cube) { return 1.7320508075688774 * cube.half; }
-  static double roundingOf(const EnclosingSphere& sphere) {
-    return 1e-12 * (sphere.center.lpNorm<Eigen::Infinity>() + sphere.radius);
+  static double roundingOf(const ConvexField& field) {
+    return 1e-12 * (field.center().lpNorm<Eigen::Infinity>() + field.reach());
   }
 
   void add(const Cube& cube) {
@@ -76,53 +78,46 @@ class ExcessSearch {
     std::push_heap(cubes_.begin(), cubes_.end(), less);
   }
 
-  /// Not if it is off the sphere, or in a ball: then it is not on the surface of the union.
+  /// Not if it is off the shape, or in some shape: then it is not on the surface of the union.
   bool meetsSurface(const Cube& cube) const {
-    const EnclosingSphere& own = spheres_[cube.sphere];
-    const double error = roundingOf(own);
-    if ((cube.middle - own.center).norm() - diagonal(cube) > own.radius + error) return false;
-    return std::ranges::none_of(spheres_, [&](const EnclosingSphere& ball) {
-      const Vector3d far = (cube.middle - ball.center).cwiseAbs().array() + cube.half;
-      return far.norm() < ball.radius - error - roundingOf(ball);
+    if (fields_[cube.field].missesCube(cube.middle, cube.half)) return false;
+    return std::ranges::none_of(fields_, [&](const ConvexField& field) {
+      return field.containsCube(cube.middle, cube.half);
     });
   }
 
   void see(const Cube& cube) {
-    const EnclosingSphere& own = spheres_[cube.sphere];
-    const Vector3d away = cube.middle - own.center;
-    if (!(away.norm() > 0.0)) return;
-    const Vector3d point = own.center + own.radius * away.normalized();
-    for (std::size_t i = 0; i < spheres_.size(); ++i)
-      if (i != cube.sphere && (point - spheres_[i].center).norm() < spheres_[i].radius) return;
+    const ConvexField& own = fields_[cube.field];
+    Vector3d point = cube.middle;
+    for (int step = 0; step < kSteps; ++step) point -= own.value(point) * own.outward(point);
+    if (!(std::abs(own.value(point)) <= 1e-9 * own.reach())) return;
+    for (std::size_t i = 0; i < fields_.size(); ++i)
+      if (i != cube.field && fields_[i].value(point) < 0.0) return;
     seen_ = std::max(seen_, -body_.depth(point, false));
   }
 
+  static constexpr int kSteps = 3;  // one does, but near edges
   const PosedBody& body_;
-  std::span<const EnclosingSphere> spheres_;
+  std::span<const ConvexField> fields_;
   std::vector<Cube> cubes_;  ///< a heap
   double seen_ = 0.0;        ///< m
 };
 
-double meanExcess(const PosedBody& body, std::span<const EnclosingSphere> spheres, int samples,
+double meanExcess(const PosedBody& body, std::span<const ConvexField> fields, int samples,
                   std::mt19937& random) {
-  std::normal_distribution<double> normal;
   double area = 0.0;
-  for (const EnclosingSphere& sphere : spheres) area += sphere.radius * sphere.radius;
+  for (const ConvexField& field : fields) area += field.area();
   double sum = 0.0;
   double all = 0.0;
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const auto& [center, radius] = spheres[i];
-    const auto points = static_cast<int>(std::ceil(samples * radius * radius / area));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto points = static_cast<int>(std::ceil(samples * fields[i].area() / area));
     for (int k = 0; k < points; ++k) {
-      const double x = normal(random);
-      const double y = normal(random);
-      const double z = normal(random);
-      const Vector3d point = center + radius * Vector3d(x, y, z).normalized();
+      const Vector3d point = fields[i].pointOfSurface(random);
       bool isInner = false;
-      for (std::size_t j = 0; j < spheres.size() && !isInner; ++j)
-        isInner = j != i && (point - spheres[j].center).norm() < spheres[j].radius;
+      for (std::size_t j = 0; j < fields.size() && !isInner; ++j)
+        isInner = j != i && fields[j].value(point) < 0.0;
       if (isInner) continue;
-      const double weight = radius * radius / points;
+      const double weight = fields[i].area() / points;
       all += weight;
       sum += weight * std::max(0.0, -body.depth(point, false));
     }
@@ -130,23 +125,19 @@ double meanExcess(const PosedBody& body, std::span<const EnclosingSphere> sphere
   return all > 0.0 ? sum / all : 0.0;
 }
 
-double volumeRatio(const PosedBody& body, std::span<const EnclosingSphere> spheres, int samples,
+double volumeRatio(const PosedBody& body, std::span<const ConvexField> fields, int samples,
                    std::mt19937& random) {
   if (!body.hasInside()) return std::numeric_limits<double>::quiet_NaN();
-  Vector3d lower = spheres.front().center;
-  Vector3d upper = lower;
-  for (const auto& [center, radius] : spheres) {
-    lower = lower.cwiseMin(Vector3d(center.array() - radius));
-    upper = upper.cwiseMax(Vector3d(center.array() + radius));
-  }
+  Eigen::AlignedBox3d box;
+  for (const ConvexField& field : fields) box.extend(field.box());
   std::uniform_real_distribution<double> uniform;
   int inUnion = 0;
   int inBody = 0;
   for (int k = 0; k < samples; ++k) {
     Vector3d point;
     for (int axis = 0; axis < 3; ++axis)
-      point[axis] = lower[axis] + uniform(random) * (upper[axis] - lower[axis]);
-    if (detail::outsideAll(point, spheres) <= 0.0) ++inUnion;
+      point[axis] = box.min()[axis] + uniform(random) * box.sizes()[axis];
+    if (detail::outsideAll(point, fields) <= 0.0) ++inUnion;
     if (body.contains(point)) ++inBody;
   }
   if (inBody == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -155,24 +146,37 @@ double volumeRatio(const PosedBody& body, std::span<const EnclosingSphere> spher
 
 }  // namespace
 
+SphereExcess detail::fieldsExcess(std::span<const PosedShape> body,
+                                  std::span<const ConvexField> fields,
+                                  const SphereExcessOptions& options) {
+  requireSphereOption("samples", options.samples, 1.0);
+  requireSphereOption("tolerance", options.tolerance, 0.0, true);
+  requireSphereOption("mostDistances", options.mostDistances, 0.0);
+  if (body.empty()) throw std::invalid_argument("a body without shapes has no excess");
+  if (fields.empty()) return {0.0, 0.0, 0.0, 0.0};
+  const PosedBody shapes(body);
+  ExcessSearch search(shapes, fields);
+  search.run(options.tolerance, options.mostDistances);
+  std::mt19937 random(options.seed);
+  const double mean = meanExcess(shapes, fields, options.samples, random);
+  const double ratio = volumeRatio(shapes, fields, options.samples, random);
+  return {search.seen(), search.largest(), mean, ratio};
+}
+
 SphereExcess sphereExcess(std::span<const PosedShape> body,
                           std::span<const EnclosingSphere> spheres,
                           const SphereExcessOptions& options) {
   if (detail::inForeignEnvironment())
     return inDefaultEnvironment([&] { return sphereExcess(body, spheres, options); });
   detail::requireSpheres(spheres);
-  detail::requireSphereOption("samples", options.samples, 1.0);
-  detail::requireSphereOption("tolerance", options.tolerance, 0.0, true);
-  detail::requireSphereOption("mostDistances", options.mostDistances, 0.0);
-  if (body.empty()) throw std::invalid_argument("a body without shapes has no excess");
-  if (spheres.empty()) return {0.0, 0.0, 0.0, 0.0};
-  const PosedBody shapes(body);
-  ExcessSearch search(shapes, spheres);
-  search.run(options.tolerance, options.mostDistances);
-  std::mt19937 random(options.seed);
-  const double mean = meanExcess(shapes, spheres, options.samples, random);
-  const double ratio = volumeRatio(shapes, spheres, options.samples, random);
-  return {search.seen(), search.largest(), mean, ratio};
+  return detail::fieldsExcess(body, detail::fieldsOf(spheres), options);
+}
+
+SphereExcess shapesExcess(std::span<const PosedShape> body, std::span<const PosedShape> shapes,
+                          double growth, const SphereExcessOptions& options) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return shapesExcess(body, shapes, growth, options); });
+  return detail::fieldsExcess(body, detail::fieldsOf(shapes, growth), options);
 }
 
 }  // namespace swept

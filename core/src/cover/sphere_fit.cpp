@@ -321,7 +321,8 @@ void SphereFit::improve(Balls& balls, int rounds, std::mt19937& random) const {
   }
 }
 
-EnclosingSpheres SphereFit::atMost(int count) {
+/// From nothing: what a greedy choice gives, settled, filled up and improved, several times.
+SphereFit::Balls SphereFit::searched(int count) const {
   Balls best;
   for (int restart = 0; restart < options_.restarts; ++restart) {
     std::mt19937 random(options_.seed + static_cast<std::uint32_t>(restart));
@@ -330,25 +331,61 @@ EnclosingSpheres SphereFit::atMost(int count) {
     Balls balls = greedy(reach, noise, random);
     if (static_cast<int>(balls.size()) > count) balls.resize(static_cast<std::size_t>(count));
     balls = settled(balls, 6);
-    while (static_cast<int>(balls.size()) < count) {
-      const auto worst = std::ranges::max_element(balls, {}, &Ball::reach);
-      if (worst->pieces.size() < 2) break;
-      Balls next = balls;
-      next.push_back({placeFor(*worst)});
-      next = settled(next, 4);
-      if (next.size() <= balls.size()) break;
-      balls = std::move(next);
-    }
+    fill(balls, count);
     improve(balls, options_.rounds, random);
     if (best.empty() || isBetter(balls, best, kLeastGain * size_)) best = std::move(balls);
   }
-  return finished(std::move(best));
+  return best;
+}
+
+void SphereFit::fill(Balls& balls, int count) const {
+  while (static_cast<int>(balls.size()) < count) {
+    const auto worst = std::ranges::max_element(balls, {}, &Ball::reach);
+    if (worst->pieces.size() < 2) return;
+    Balls next = balls;
+    next.push_back({placeFor(*worst)});
+    next = settled(next, 4);
+    if (next.size() <= balls.size()) return;
+    balls = std::move(next);
+  }
+}
+
+/// One ball more or less than before leaves most of the others where they are.
+SphereFit::Balls SphereFit::changed(Balls balls, int count) const {
+  std::mt19937 random(options_.seed);
+  if (static_cast<int>(balls.size()) > count) {
+    balls.erase(balls.begin() + static_cast<std::ptrdiff_t>(leastUseful(balls).first));
+    balls = settled(balls, 4);
+  }
+  fill(balls, count);
+  improve(balls, options_.rounds, random);
+  return balls;
+}
+
+EnclosingSpheres SphereFit::atMost(int count) {
+  auto found = found_.find(count);
+  if (found == found_.end()) {
+    auto near = found_.find(count - 1);
+    if (near == found_.end()) near = found_.find(count + 1);
+    const bool isNear = near != found_.end();
+    found = found_
+                .emplace(count, Found{isNear ? changed(near->second.balls, count) : searched(count),
+                                      isNear})
+                .first;
+  } else if (found->second.isChanged) {
+    found->second.isChanged = false;
+    Balls anew = searched(count);
+    if (isBetter(anew, found->second.balls, kLeastGain * size_))
+      found->second.balls = std::move(anew);
+  }
+  return finished(found->second.balls);
 }
 
 EnclosingSpheres SphereFit::within(double reach) {
-  const std::size_t before = pieces_.size();
+  // Dividing them also puts them in another order.
+  found_.clear();
   divide(options_.pieces, 0.5 * reach);
-  if (pieces_.size() != before) findPlaces();
+  findPlaces();
   std::mt19937 random(options_.seed);
   Balls balls = settled(greedy(reach, 0.0, random), 4);
   for (int restart = 1; restart < options_.restarts; ++restart) {

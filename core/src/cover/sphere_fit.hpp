@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <map>
 #include <random>
 #include <span>
 #include <vector>
@@ -48,6 +49,9 @@ class SphereFit {
   Balls owned(const Balls& places) const;
   void recenter(Ball& ball) const;
   Balls settled(const Balls& places, int steps) const;
+  Balls searched(int count) const;
+  void fill(Balls& balls, int count) const;
+  Balls changed(Balls balls, int count) const;
   void improve(Balls& balls, int rounds, std::mt19937& random) const;
   Place placeFor(const Ball& ball) const;
   /// The ball that the others can replace best, and the reach that they then need.
@@ -60,6 +64,11 @@ class SphereFit {
   double size_ = 0.0;  ///< m
   std::vector<BodyPiece> pieces_;
   std::vector<Place> places_;
+  struct Found {
+    Balls balls;             ///< their pieces not yet divided
+    bool isChanged = false;  ///< made of the balls of a number nearby, not searched from nothing
+  };
+  std::map<int, Found> found_;             ///< by the number that was asked for
   std::vector<std::vector<float>> needs_;  ///< m, per place and piece: the reach of a ball for it
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/model_json.hpp"
+#include "certificate/verify_cover.hpp"
 #include "certificate/verify_outcome.hpp"
 #include "command_line/commands.hpp"
 #include "input/inputs.hpp"
@@ -175,6 +176,8 @@ Json outcomeJson(const VerifyOutcome& outcome) {
 
 ExitCode runVerify(const Arguments& args) {
   requirePageFile(args);
+  if (const Json file = parseOrderedJson(args.verify.path); isCoverFile(file))
+    return verifyCover(args, file);
   Warnings warnings(args.quiet);
   const Json path = pathWithProof(args.verify.path);
   requireShown(args, path);

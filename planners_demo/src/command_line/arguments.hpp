@@ -152,9 +152,11 @@ struct Arguments {
   } toolLine;
 
   struct Cover {
-    std::optional<int> spheres;    ///< of all links
+    std::optional<int> spheres;    ///< of all links; of other shapes, too
     std::optional<double> excess;  ///< m
-    std::string check;             ///< file of spheres to judge; empty: some are searched for
+    std::string shape = "sphere";  ///< sphere, capsule, box or convex
+    std::string format;            ///< of the output; empty: by its ending
+    std::string check;             ///< file of a model to judge; empty: one is searched for
     bool visual = false;
   } cover;
 

@@ -12,6 +12,7 @@
 #include "planning/planning.hpp"
 #include "swept/robot_model/path_certificate.hpp"
 #include "swept/robot_model/piecewise_polynomial.hpp"
+#include "swept/robot_model/shape_model.hpp"
 #include "swept/robot_model/trajectory_certificate.hpp"
 
 namespace CLI {
@@ -52,5 +53,8 @@ void writeVerifyPage(const Arguments& args, const Model& model, const Task& task
                      const VerifyOutcome& outcome);
 /// `checker` may be null.
 void writeInfoPage(const Arguments& args, const Model& model, const Checker* checker);
+/// `robot`: whose links the model is of; the one of `model`, or its visuals.
+void writeCoverPage(const Arguments& args, const Model& model, const Robot& robot,
+                    const ShapeModel& shapes, const std::vector<LinkSphereReport>& reports);
 
 }  // namespace swept

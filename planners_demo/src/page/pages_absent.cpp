@@ -23,5 +23,7 @@ void writePlanPage(const Arguments&, const Model&, const Task&, const PlanReques
 void writeVerifyPage(const Arguments&, const Model&, const Task&, const Json&,
                      const VerifyOutcome&) {}
 void writeInfoPage(const Arguments&, const Model&, const Checker*) {}
+void writeCoverPage(const Arguments&, const Model&, const Robot&, const ShapeModel&,
+                    const std::vector<LinkSphereReport>&) {}
 
 }  // namespace swept

@@ -149,7 +149,7 @@ swept.panel = (function () {
     const shapes = data.bodies[body].parts.map((part) => part.shape);
     byId('picked-name').textContent = data.bodies[body].name;
     byId('picked-kind').textContent =
-        {link: 'link', attached: 'attached body', world: 'body of the world'}[data.bodies[body].kind] +
+        {link: 'link', attached: 'attached body', world: 'body of the world', drawing: 'drawing'}[data.bodies[body].kind] +
         ': ' + shapes.slice(0, 4).join('; ') + (shapes.length > 4 ? '; and ' + (shapes.length - 4) + ' more' : '');
     const charted = data.isPath && data.nearest(body, 0) !== null;
     byId('picked-chart').style.display = charted ? 'block' : 'none';

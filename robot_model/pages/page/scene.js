@@ -24,7 +24,7 @@ swept.scene = (function () {
                                .getPropertyValue('--' + name).trim());
   }
   function colourOf(body, index) {
-    if (body.kind === 'attached') return 'held';
+    if (body.kind === 'attached' || body.kind === 'drawing') return 'held';
     if (body.kind === 'link') return index % 2 === 0 ? 'link-a' : 'link-b';
     return body.parts.some((p) => data.geometries[p.geometry].kind === 'balls') ? 'balls' : 'world';
   }
@@ -49,6 +49,9 @@ swept.scene = (function () {
     const many = single.clone(); // three.js r111 cannot share one between meshes and instances
     const thin = single.clone();
     Object.assign(thin, {transparent: true, opacity: 0.3, depthWrite: false});
+    if (body.opacity !== undefined)
+      for (const material of [single, many])
+        Object.assign(material, {transparent: true, opacity: body.opacity, depthWrite: false});
     const group = new THREE.Group(), meshes = [];
     for (const part of body.parts) {
       const balls = data.geometries[part.geometry].kind === 'balls';
@@ -56,7 +59,7 @@ swept.scene = (function () {
       const mesh = swept.geometry.part(part.geometry, balls ? many : sheet ? thin : single);
       place(mesh, data.floats(part.pose), 0);
       mesh.userData.body = index;
-      mesh.castShadow = !sheet;
+      mesh.castShadow = !sheet && body.kind !== 'drawing';
       mesh.receiveShadow = true;
       if (body.kind === 'world' && data.geometries[part.geometry].kind === 'box') addEdges(mesh);
       group.add(mesh);

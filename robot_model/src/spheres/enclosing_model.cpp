@@ -39,6 +39,7 @@ class SphereShares {
     forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i]); });
     giveRest(spheres, counts);
     exchange(counts);
+    searchAgain(counts);
   }
 
   SphereModel model() && {
@@ -104,7 +105,7 @@ class SphereShares {
   /// From the link that would reach least without one of its spheres to the one that reaches
   /// farthest, while the farther of both comes nearer.
   void exchange(std::vector<int>& counts) {
-    constexpr int kMostExchanges = 6;
+    constexpr int kMostExchanges = 12;
     std::vector<std::optional<EnclosingSpheres>> fewer(links_.size());
     for (int step = 0; step < kMostExchanges && links_.size() > 1; ++step) {
       forLinks([&](std::size_t i) {
@@ -125,6 +126,19 @@ class SphereShares {
       --counts[*from];
       fewer[to].reset();
       fewer[*from].reset();
+    }
+  }
+
+  /// The links that reach farthest, as long as that brings them nearer.
+  void searchAgain(const std::vector<int>& counts) {
+    const std::size_t most = std::min<std::size_t>(links_.size(), 6);
+    for (std::size_t step = 0; step < most; ++step) {
+      std::size_t worst = 0;
+      for (std::size_t i = 1; i < links_.size(); ++i)
+        if (found_[i].reach > found_[worst].reach) worst = i;
+      EnclosingSpheres again = searches_[worst]->atMost(counts[worst]);
+      if (!(again.reach < found_[worst].reach)) return;
+      found_[worst] = std::move(again);
     }
   }
 

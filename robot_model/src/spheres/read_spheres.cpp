@@ -8,24 +8,16 @@
 #include "io/json_value.hpp"
 #include "io/xml.hpp"
 #include "io/yaml.hpp"
+#include "spheres/link_names.hpp"
 #include "swept/core/floating_point_environment.hpp"
-#include "swept/robot_model/did_you_mean.hpp"
 #include "swept/robot_model/sphere_model.hpp"
 #include "swept/robot_model/text_file.hpp"
 
 namespace swept {
 namespace {
 
+using detail::unknownLink;
 using detail::YamlPlace;
-
-/// What messages say about a link that the robot lacks; empty: it has it.
-std::string unknownLink(const Robot& robot, const std::string& name) {
-  if (robot.findLink(name)) return {};
-  std::vector<std::string> known;
-  for (const Link& link : robot.links()) known.push_back(link.name);
-  return "'" + name + "', which is no link of robot '" + robot.name() + "'" +
-         didYouMean(name, known);
-}
 
 /// The entry of the link, which may have come before.
 std::vector<EnclosingSphere>& spheresOf(SphereModel& model, const std::string& link) {
@@ -35,10 +27,15 @@ std::vector<EnclosingSphere>& spheresOf(SphereModel& model, const std::string& l
   return model.links.back().spheres;
 }
 
-SphereModel fromJson(const std::string& file, const Robot& robot) {
+SphereModel fromUrdf(const std::string& file, const Robot& robot, const LoadOptions& options);
+
+SphereModel fromJson(const std::string& file, const Robot& robot, const LoadOptions& options) {
   const nlohmann::json json = JsonValue::parseFile(file);
+  const JsonValue root(json, "the file", file);
+  if (const auto urdf = detail::urdfOfConfiguration(root))
+    return fromUrdf(urdf->string(), robot, options);
   SphereModel model;
-  for (const JsonValue& entry : JsonValue(json, "the file", file).at("links").elements()) {
+  for (const JsonValue& entry : root.at("links").elements()) {
     const JsonValue name = entry.at("link");
     const std::string link = name.text();
     if (const std::string unknown = unknownLink(robot, link); !unknown.empty())
@@ -53,13 +50,28 @@ SphereModel fromJson(const std::string& file, const Robot& robot) {
   return model;
 }
 
-SphereModel fromCurobo(const std::string& file, const Robot& robot, const LoadOptions& options) {
+/// The mapping from links to spheres in a file for cuRobo, or an XRDF one.
+YamlPlace spheresByLink(const YamlPlace& root, bool isXrdf) {
+  if (isXrdf || root.at("format").present()) {
+    if (!root.at("format").present() || root.at("format").text() != "xrdf")
+      root.at("format").fail("must be xrdf");
+    YamlPlace user =
+        root.at("world_collision").present() ? root.at("world_collision") : root.at("collision");
+    const std::string name = user.at("geometry").text();
+    const YamlPlace geometry = root.at("geometry").at(name);
+    if (!geometry.present()) user.at("geometry").fail("is '" + name + "', which geometry lacks");
+    return geometry.at("spheres");
+  }
+  const bool nested = root.at("robot_cfg").present();
+  return nested ? root.at("robot_cfg").at("kinematics").at("collision_spheres")
+                : root.at("collision_spheres");
+}
+
+SphereModel fromYaml(const std::string& file, const Robot& robot, const LoadOptions& options) {
   const detail::InputSource source(file, options);
   const YamlPlace root = YamlPlace::parse(readTextFile(file), source);
-  if (!root.isMap()) root.fail("a cuRobo file must be a mapping with 'collision_spheres'");
-  const bool nested = root.at("robot_cfg").present();
-  const YamlPlace links = nested ? root.at("robot_cfg").at("kinematics").at("collision_spheres")
-                                 : root.at("collision_spheres");
+  if (!root.isMap()) root.fail("a file of spheres must be a mapping with 'collision_spheres'");
+  const YamlPlace links = spheresByLink(root, file.ends_with(".xrdf"));
   if (!links.present()) links.fail("is missing");
   if (!links.isMap())
     links.fail("must be a mapping from links to their spheres; if it names a file, give that file");
@@ -127,13 +139,14 @@ SphereModel readSphereModel(const std::filesystem::path& file, const Robot& robo
   if (detail::inForeignEnvironment())
     return inDefaultEnvironment([&] { return readSphereModel(file, robot, options); });
   const std::string ending = file.extension().string();
-  if (ending == ".json") return fromJson(file.string(), robot);
-  if (ending == ".yaml" || ending == ".yml") return fromCurobo(file.string(), robot, options);
+  if (ending == ".json") return fromJson(file.string(), robot, options);
+  if (ending == ".yaml" || ending == ".yml" || ending == ".xrdf")
+    return fromYaml(file.string(), robot, options);
   if (ending == ".srdf") return fromSrdf(file.string(), robot, options);
   if (ending == ".urdf") return fromUrdf(file.string(), robot, options);
   throw InputError(file.string(), 0,
                    "spheres cannot be in a file that ends in '" + ending +
-                       "'; allowed: .json, .yaml, .yml (cuRobo), .srdf, .urdf");
+                       "'; allowed: .json, .yaml, .yml (cuRobo), .xrdf, .srdf, .urdf");
 }
 
 }  // namespace swept

@@ -65,10 +65,13 @@ std::vector<LinkSphereReport> judgeSphereModel(const Robot& robot, const SphereM
 /// Reads spheres for the robot's links from one of these files, by their ending:
 ///
 /// * `.json`: what sphereModelJson writes: `links`, each with `link` and `spheres` of
-///   `[x, y, z, radius]`; other keys are ignored.
+///   `[x, y, z, radius]`; other keys are ignored. Or a file for VAMP's generator, whose `urdf` is
+///   read.
 /// * `.yaml`, `.yml`: `collision_spheres` of cuRobo, at the top, or in `robot_cfg` and
 ///   `kinematics`: per link a list of `center` and `radius`. cuRobo leaves spheres with a negative
 ///   radius out, and so does this.
+/// * `.xrdf`, and YAML with `format: xrdf`: the spheres of the geometry that `collision` (or
+///   `world_collision`) names.
 /// * `.srdf`: MoveIt's `<link_sphere_approximation>`.
 /// * `.urdf`: the collision geometry of a robot with the same links, all spheres.
 ///

@@ -24,8 +24,7 @@ class Collector {
   explicit Collector(const Checker* checker) : checker_(checker) {}
 
   PageBody body(const std::string& name, PageBody::Kind kind, int link) const {
-    PageBody body{
-        .name = name, .kind = kind, .link = link, .parts = {}, .colour = {}, .padding = 0.0};
+    PageBody body{.name = name, .kind = kind, .link = link, .parts = {}, .colour = {}};
     if (checker_ != nullptr) body.padding = checker_->options().rules.padding(name);
     return body;
   }

@@ -16,7 +16,7 @@ namespace swept {
 
 /// What a page shows of a robot and its world: bodies with the shapes that are checked.
 struct PageBody {
-  enum class Kind { Link, Attached, World };
+  enum class Kind { Link, Attached, World, Drawing };
   struct Part {
     Shape shape;                               ///< scaled as the rules say
     Eigen::Isometry3d body_from_shape;         ///< of World: model_from_shape
@@ -28,6 +28,7 @@ struct PageBody {
   std::vector<Part> parts;
   std::optional<Colour> colour;  ///< of a link; none: the page's own
   double padding = 0.0;          ///< m
+  double opacity = 1.0;
 };
 
 /// Links with collision geometry, attached bodies, bodies of the world, in this order. A null

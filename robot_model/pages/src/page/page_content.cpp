@@ -39,6 +39,8 @@ std::string_view toString(PageBody::Kind kind) {
       return "link";
     case PageBody::Kind::Attached:
       return "attached";
+    case PageBody::Kind::Drawing:
+      return "drawing";
     case PageBody::Kind::World:
       break;
   }
@@ -56,8 +58,22 @@ Json bodiesJson(const std::vector<PageBody>& bodies, const PageFrames& frames,
                     {"padding", body.padding},
                     {"colour", body.colour ? Json(cssColour(*body.colour)) : Json(nullptr)},
                     {"parts", geometries.partsJson(body)}});
+    if (body.opacity < 1.0) json.back()["opacity"] = body.opacity;
   }
   return json;
+}
+
+void addDrawings(const PageContent& content, std::vector<PageBody>& bodies) {
+  for (const PageContent::Drawing& drawing : content.drawings) {
+    PageBody body{.name = drawing.name,
+                  .kind = PageBody::Kind::Drawing,
+                  .link = drawing.link,
+                  .parts = {},
+                  .colour = drawing.colour,
+                  .opacity = drawing.opacity};
+    for (const auto& [shape, pose] : drawing.shapes) body.parts.push_back({shape, pose, nullptr});
+    bodies.push_back(std::move(body));
+  }
 }
 
 Json framesJson(const Robot& robot, const PageFrames& frames) {
@@ -214,7 +230,8 @@ Json pageJson(const Robot& robot, const World& world, const Checker* checker,
               const PageContent& content, const VisualModel& visuals) {
   const Group& group = checker == nullptr ? robot.groups().front() : checker->group();
   const auto reference = checker == nullptr ? std::nullopt : checker->options().reference;
-  const std::vector<PageBody> bodies = pageBodies(robot, world, checker, &visuals);
+  std::vector<PageBody> bodies = pageBodies(robot, world, checker, &visuals);
+  addDrawings(content, bodies);
   const std::vector<PageSpan> spans = spansOf(content);
   const std::vector<int> links = linksOf(bodies, group.tipLink, linksWithVisuals(robot, visuals));
   const PageFrames frames = framesOf(robot, group, reference, spans, links);

@@ -39,12 +39,21 @@ struct PageContent {
     TrajectoryCertificate certificate;
     std::vector<std::vector<double>> polyline;  ///< configurations that are shown beside it
   };
+  /// What else is drawn with a link: it is not checked, and no number is about it.
+  struct Drawing {
+    std::string name;                                         ///< in the list of bodies
+    int link = 0;                                             ///< whose frame it moves with
+    std::vector<std::pair<Shape, Eigen::Isometry3d>> shapes;  ///< and link_from_shape
+    Colour colour;
+    double opacity = 1.0;
+  };
   std::string title;    ///< stands above the headline: `swept check`
   std::string command;  ///< that makes the page again; empty: none does
   Tone tone = Tone::Plain;
   std::string headline;
   std::string reason;  ///< the whole of what the headline says in short; may be empty
   std::vector<std::pair<std::string, std::string>> facts;  ///< name and value
+  std::vector<Drawing> drawings;
   std::vector<State> states;    ///< shown one at a time, where there are no motions
   std::vector<Motion> motions;  ///< played one after the other
   std::vector<Path> paths;      ///< that the motions are of; empty: of one

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/robot_model/shape_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "swept/core/floating_point_environment.hpp"
+#include "swept/robot_model/usage_error.hpp"
+#include "threads/for_each_index.hpp"
+
+namespace swept {
+namespace {
+
+/// Links with geometry, and how many shapes each has: a search has the answer for every number.
+class ShapeShares {
+ public:
+  ShapeShares(const Robot& robot, const ShapeModelOptions& options) : options_(options) {
+    for (const Link& link : robot.links())
+      if (!link.collision.empty()) links_.push_back(&link);
+    searches_.resize(links_.size());
+    found_.resize(links_.size());
+    forLinks([&](std::size_t i) {
+      searches_[i] = std::make_unique<EnclosingShapesSearch>(bodyOf(*links_[i]), options_.kind,
+                                                             options_.search);
+    });
+  }
+
+  std::size_t linkCount() const { return links_.size(); }
+
+  void findWithin(double excess) {
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess); });
+  }
+
+  void findAtMost(int shapes) {
+    const std::vector<int> counts = countsFor(shapes);
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i]); });
+  }
+
+  ShapeModel model() && {
+    ShapeModel model;
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      model.links.push_back({links_[i]->name, std::move(found_[i].shapes)});
+    return model;
+  }
+
+ private:
+  void forLinks(const std::function<void(std::size_t)>& work) {
+    detail::forEachIndex(links_.size(), options_.threads, work);
+  }
+
+  /// One more at a time, for the link that reaches farthest, unless that does not bring it nearer
+  /// however many are left.
+  std::vector<int> countsFor(int shapes) const {
+    std::vector<int> counts(links_.size(), 1);
+    std::vector<double> reaches(links_.size());
+    for (std::size_t i = 0; i < links_.size(); ++i) reaches[i] = searches_[i]->reachFor(1);
+    std::vector<bool> isFull(links_.size(), false);
+    int left = shapes - static_cast<int>(links_.size());
+    while (left > 0) {
+      std::size_t worst = links_.size();
+      for (std::size_t i = 0; i < links_.size(); ++i)
+        if (!isFull[i] && (worst == links_.size() || reaches[i] > reaches[worst])) worst = i;
+      if (worst == links_.size()) break;
+      const auto [more, reach] = nearer(worst, counts[worst], reaches[worst], left);
+      isFull[worst] = more == 0;
+      counts[worst] += more;
+      left -= more;
+      reaches[worst] = reach;
+    }
+    return counts;
+  }
+
+  /// How many more shapes bring the link nearer, and how near; 0: none of so many.
+  std::pair<int, double> nearer(std::size_t link, int count, double reach, int most) const {
+    constexpr int kMostMore = 16;
+    for (int more = 1; more <= std::min(most, kMostMore); ++more)
+      if (const double now = searches_[link]->reachFor(count + more); now < reach)
+        return {more, now};
+    return {0, reach};
+  }
+
+  const ShapeModelOptions& options_;
+  std::vector<const Link*> links_;
+  std::vector<std::unique_ptr<EnclosingShapesSearch>> searches_;
+  std::vector<EnclosingShapes> found_;
+};
+
+}  // namespace
+
+const LinkShapes* ShapeModel::find(std::string_view link) const {
+  const auto found = std::ranges::find(links, link, &LinkShapes::link);
+  return found == links.end() ? nullptr : &*found;
+}
+
+std::size_t ShapeModel::count() const {
+  std::size_t count = 0;
+  for (const LinkShapes& link : links) count += link.shapes.size();
+  return count;
+}
+
+ShapeModel shapeModelOf(const SphereModel& model) {
+  ShapeModel shapes;
+  for (const LinkSpheres& link : model.links) {
+    LinkShapes& own = shapes.links.emplace_back(LinkShapes{link.link, {}});
+    for (const EnclosingSphere& sphere : link.spheres)
+      own.shapes.push_back(
+          {Sphere{sphere.radius}, Eigen::Isometry3d(Eigen::Translation3d(sphere.center))});
+  }
+  return shapes;
+}
+
+std::optional<SphereModel> sphereModelOf(const ShapeModel& model) {
+  SphereModel spheres;
+  for (const LinkShapes& link : model.links) {
+    LinkSpheres& own = spheres.links.emplace_back(LinkSpheres{link.link, {}});
+    for (const PosedShape& posed : link.shapes) {
+      const auto* sphere = std::get_if<Sphere>(&posed.shape);
+      if (sphere == nullptr) return {};
+      own.spheres.push_back({posed.body_from_shape.translation(), sphere->radius});
+    }
+  }
+  return spheres;
+}
+
+ShapeModel enclosingShapeModel(const Robot& robot, const ShapeModelOptions& options) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return enclosingShapeModel(robot, options); });
+  if (options.shapes.has_value() == options.excess.has_value())
+    throw std::invalid_argument("a model takes a number of shapes or an excess");
+  if (options.shapes && *options.shapes < 1)
+    throw std::invalid_argument("a model has " + std::to_string(*options.shapes) +
+                                " shapes; allowed: at least 1");
+  if (options.excess && !(*options.excess > 0.0))
+    throw std::invalid_argument("a model has an excess of " + std::to_string(*options.excess) +
+                                "; allowed: above 0");
+  const auto isSolid = [](const Link& link) { return !link.collision.empty(); };
+  const auto links = std::ranges::count_if(robot.links(), isSolid);
+  if (options.shapes && *options.shapes < links)
+    throw UsageError(std::to_string(*options.shapes) + " shapes are too few for robot '" +
+                     robot.name() + "': " + std::to_string(links) +
+                     " links have collision geometry");
+  ShapeShares shares(robot, options);
+  if (options.excess)
+    shares.findWithin(*options.excess);
+  else
+    shares.findAtMost(*options.shapes);
+  return std::move(shares).model();
+}
+
+std::vector<LinkSphereReport> judgeShapeModel(const Robot& robot, const ShapeModel& model,
+                                              const OutsideSpheresOptions& options,
+                                              unsigned threads) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return judgeShapeModel(robot, model, options, threads); });
+  std::vector<const Link*> links;
+  for (const Link& link : robot.links())
+    if (!link.collision.empty()) links.push_back(&link);
+  std::vector<LinkSphereReport> reports(links.size());
+  detail::forEachIndex(links.size(), threads, [&](std::size_t i) {
+    LinkSphereReport& report = reports[i];
+    report.link = links[i]->name;
+    const std::vector<PosedShape> body = bodyOf(*links[i]);
+    std::vector<PosedShape> shapes;
+    if (const LinkShapes* own = model.find(report.link)) shapes = own->shapes;
+    report.spheres = shapes.size();
+    report.outside = outsideShapes(body, shapes, options);
+    const double growth = shapes.empty() ? 0.0 : std::max(0.0, report.outside.upper);
+    // Shapes without an inside grow to no size that contains anything.
+    report.excess = std::isfinite(growth) ? shapesExcess(body, shapes, growth)
+                                          : SphereExcess{growth, growth, growth, growth};
+  });
+  return reports;
+}
+
+}  // namespace swept
