@@ -7,7 +7,8 @@ namespace swept {
 namespace {
 
 void addVerifyOptions(CLI::App& app, Arguments& args) {
-  app.add_option("path", args.verify.path, "path file that 'swept plan -o' has written")
+  app.add_option("path", args.verify.path,
+                 "path file that 'swept plan -o' has written, or a task of several")
       ->required()
       ->type_name("PATH.json");
   app.add_option("--robot", args.verify.robot, "URDF file, if it is elsewhere by now")
