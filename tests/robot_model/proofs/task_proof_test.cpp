@@ -12,10 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "carried_box.hpp"
 #include "input_files.hpp"
 #include "message_of.hpp"
-#include "sliding_cube.hpp"
-#include "swept/robot_model/time_parameterization.hpp"
 #include "swept/robot_model/usage_error.hpp"
 #include "transcript.hpp"
 #include "verify/task.hpp"
@@ -27,73 +26,10 @@ using Eigen::Isometry3d;
 using Json = nlohmann::ordered_json;
 using Kind = TaskChange::Kind;
 
-Isometry3d at(double x, double y, double z) {
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
+using test::at;
 
-/// A cube that slides along x carries a box over a block: it goes there, takes the box on its side,
-/// lifts, carries and lowers it, and leaves it. A map is sensed again before the cube leaves.
-class Task : public testing::Test {
+class Task : public testing::Test, protected test::CarriedBox {
  protected:
-  static constexpr double kBox = 0.1;  ///< m, side
-
-  static std::shared_ptr<const Robot> robotOf(const std::shared_ptr<const Robot>& cube) {
-    return cube->withGroup("along", std::vector<std::string>{"x"})
-        ->withGroup("up", std::vector<std::string>{"z"});
-  }
-  static World world(double mapAt) {
-    World world;
-    world.add("block", makeBox({0.2, 0.2, 0.2}), at(0.2, 0, 0));
-    world.add("map", makeSphere(0.1), at(mapAt, 2, 0));
-    return world;
-  }
-  static CheckerOptions standing(double x, double z) {
-    CheckerOptions options;
-    options.reference = Eigen::Vector2d(x, z);
-    return options;
-  }
-  Checker checker(const char* group, double x, double z, double mapAt = 0.0) const {
-    return {robot_, group, std::make_shared<const World>(world(mapAt)), standing(x, z)};
-  }
-  static Checker beside(const Checker& checker, double x) {
-    return checker.withBody("box", makeBox({kBox, kBox, kBox}), at(x, 0, 0));
-  }
-  static Checker carrying(const Checker& checker, const Isometry3d& cube_from_box = at(0.2, 0, 0)) {
-    return checker.withAttached("box", "cube", makeBox({kBox, kBox, kBox}), cube_from_box);
-  }
-  /// One variable from a value to another, from a time on.
-  static TaskPhase phase(const std::string& name, const Checker& checker, double from, double to,
-                         double begin, std::vector<TaskChange> changes = {}) {
-    const std::vector<std::vector<double>> way{{from}, {to}};
-    const RateLimits limits{{1.0}, {2.0}, {1.0}};
-    const TimedPath timed = timeParameterize(checker.robot(), checker.group(), way, limits);
-    TaskPhase phase{.name = name,
-                    .checker = std::make_shared<const Checker>(checker),
-                    .trajectory = delayed(timed.trajectory, begin),
-                    .certificate = {},
-                    .changes = std::move(changes)};
-    certify(phase);
-    return phase;
-  }
-  static void certify(TaskPhase& phase) {
-    Workspace workspace(*phase.checker);
-    phase.certificate = phase.checker->certifyTrajectory(controllerCurve(phase.trajectory),
-                                                         workspace, {.clearances = true});
-    ASSERT_EQ(phase.certificate.verdict, Verdict::Free) << phase.name;
-  }
-  static double endOf(const TaskPhase& phase) { return phase.trajectory.points.back().time; }
-
-  std::vector<TaskPhase> phases() const {
-    std::vector<TaskPhase> all;
-    all.push_back(phase("reach", beside(checker("along", 0, 0.0), -1.0), -2.0, -1.2, 0.0));
-    all.push_back(phase("lift", carrying(checker("up", -1.2, 0)), 0.0, 0.5, endOf(all[0]),
-                        {{Kind::Attached, "box"}}));
-    all.push_back(phase("carry", carrying(checker("along", 0, 0.5)), -1.2, 1.0, endOf(all[1])));
-    all.push_back(phase("lower", carrying(checker("up", 1.0, 0)), 0.5, 0.0, endOf(all[2])));
-    all.push_back(phase("leave", beside(checker("up", 1.0, 0, 0.3), 1.2), 0.0, 1.0, endOf(all[3]),
-                        {{Kind::Placed, "box"}, {Kind::Sensed, "map"}}));
-    return all;
-  }
   std::filesystem::path file() const { return folder_.path() / "task.json"; }
   std::string written(const std::vector<TaskPhase>& phases) const {
     try {
@@ -127,7 +63,6 @@ class Task : public testing::Test {
     return verifyTask(folder_.write("changed.json", task.dump())).refusal;
   }
 
-  std::shared_ptr<const Robot> robot_ = robotOf(test::slidingCube());
   test::TemporaryFolder folder_;
 };
 
