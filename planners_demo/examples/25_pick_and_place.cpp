@@ -1,54 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Three things are moved from one side of a table to the other, past what a noisy depth camera has
 // seen; the map is sensed anew after each. The other arm stands in one posture, then in another.
-//   example_25_pick_and_place MODELS [FOLDER]
+//   example_25_pick_and_place MODELS [FOLDER [PR2]]
 // Writes pick_and_place.json, which `swept verify` checks, and pick_and_place.html, which plays it.
+// The robot is the cell of two rooks in MODELS, or the PR2 of a folder.
 // Exits 0 if all of the task is proven, and each thing stands where it should.
 #include <filesystem>
 #include <iostream>
 #include <random>
 #include <vector>
 
-#include "pick_and_place/workplace.hpp"
-#include "swept/robot_model/named_states.hpp"
-#include "swept/robot_model/work_cell.hpp"
+#include "pick_and_place/workers.hpp"
 
 int main(int argc, char** argv) try {
   const std::string models = argc > 1 ? argv[1] : "models";
   const std::filesystem::path folder = argc > 2 ? argv[2] : std::filesystem::temp_directory_path();
-  const auto robot = swept::loadWorkCell(swept::WorkCell::read(models + "/cells/two_rooks.yaml"));
-  const std::vector<Thing> things{{"cup", 16, 0.03, 0.12, {0.5, -0.3}, {0.5, 0.3}},
-                                  {"nut", 6, 0.025, 0.08, {0.42, -0.2}, {0.42, 0.2}},
-                                  {"block", 4, 0.03, 0.1, {0.55, -0.18}, {0.4, 0.32}}};
-  const Hand hand{.arm = "left/arm",
-                  .gripper = "left/gripper",
-                  .tool = "left/tool",
-                  .palm = "left/hand",
-                  .fingers = {"left/finger_left", "left/finger_right"},
-                  .open = 0.04,
-                  .offset = 0.0015};
-  const auto posture = [&](const char* group, const char* name) {
-    return swept::namedConfiguration(*robot, *robot->findGroup(group), name);
-  };
-  RecordedTask task(robot, knownWorld(things));
-  task.stand("left/arm", posture("left/arm", "home"));
-  task.stand("left/gripper", {hand.open});
-  task.stand("right/arm", posture("right/arm", "tucked"));
+  const Worker worker = argc > 3 ? pr2(argv[3]) : twoRooks(models);
+  const std::vector<Thing> things{{"cup", 16, 0.03, 0.12, {0.2, -0.3}, {0.2, 0.3}},
+                                  {"nut", 6, 0.025, 0.08, {0.12, -0.2}, {0.12, 0.2}},
+                                  {"block", 4, 0.03, 0.1, {0.25, -0.18}, {0.1, 0.32}}};
+  RecordedTask task(worker.robot, knownWorld(worker, things));
+  task.stand(worker.hand.arm, worker.start);
+  task.stand(worker.hand.gripper, {worker.hand.open});
+  task.stand(worker.otherArm, worker.other);
   std::mt19937 random(1);
-  task.sense(sensedMap(task, random));
+  task.sense(sensedMap(task, worker, random));
 
   for (const Thing& thing : things) {
-    move(task, thing, hand, random);
-    if (thing.name == "cup") task.plan("the other arm", "right/arm", posture("right/arm", "home"));
+    move(task, thing, worker, random);
+    if (thing.name == "cup") task.plan("the other arm", worker.otherArm, worker.otherLater);
   }
-  task.plan("home", "left/arm", posture("left/arm", "home"));
+  task.plan("home", worker.hand.arm, worker.start);
   task.write(folder, "pick_and_place");
 
   const swept::CheckedTask checked = swept::verifyTask(folder / "pick_and_place.json");
   bool placed = true;
   for (const Thing& thing : things) {
     const Eigen::Isometry3d& at = task.world().find(thing.name)->parts[0].world_from_shape;
-    placed &= (at.translation() - standing(thing.to).translation()).norm() < 1e-4;
+    placed &= (at.translation() - standing(worker, thing.to).translation()).norm() < 1e-4;
   }
   std::cout << task.phases() << " phases, " << task.seconds()
             << " s: " << (checked.holds() ? "all proven" : checked.refusal) << '\n';

@@ -15,8 +15,8 @@
 /// A simulated depth camera, and the voxel map of what it sees.
 struct DepthSensor {
   Eigen::Isometry3d world_from_sensor;  ///< looks along z
-  int columns = 64, rows = 48;
-  double halfWidth = 0.6;  ///< tangent of half the angle between the outermost columns
+  int columns = 128, rows = 96;
+  double halfWidth = 0.4;  ///< tangent of half the angle between the outermost columns
   double range = 3.0;      ///< m
   double noise = 0.002;    ///< m, standard deviation along the ray
 

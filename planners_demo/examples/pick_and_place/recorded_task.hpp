@@ -22,7 +22,10 @@
 class RecordedTask {
  public:
   RecordedTask(std::shared_ptr<const swept::Robot> robot, swept::World world)
-      : robot_(std::move(robot)), world_(std::move(world)), state_(robot_->defaultState()) {}
+      : robot_(std::move(robot)),
+        world_(std::move(world)),
+        state_(robot_->defaultState()),
+        page_({.title = "pick and place", .headline = {}, .facts = {}}) {}
 
   const std::shared_ptr<const swept::Robot>& robot() const { return robot_; }
   const swept::World& world() const { return world_; }
@@ -34,13 +37,15 @@ class RecordedTask {
     for (const int variable : robot_->findGroup(group)->variables) q.push_back(state_[variable]);
     return q;
   }
-  Eigen::Isometry3d pose(const std::string& group, const std::string& link) const {
-    return swept::InverseKinematics(robot_, group, link, state_).pose(values(group));
+  /// Of a frame that a group moves, in the model frame.
+  Eigen::Isometry3d pose(const std::string& group, const swept::ConstraintFrame& frame) const {
+    return swept::InverseKinematics(robot_, group, frame.body, state_, frame.body_from_frame)
+        .pose(values(group));
   }
 
   /// m. What planned motions keep from the world. They are proven without it: planes between bodies
   /// need room.
-  static constexpr double kRoom = 0.003;
+  static constexpr double kRoom = 0.005;
 
   /// What checks a group's motions from here on. `margin`: m, from the world.
   std::shared_ptr<const swept::Checker> checker(const std::string& group,
@@ -69,12 +74,12 @@ class RecordedTask {
     record(name, checker(group, {}, keep), planned.trajectory->timed.trajectory);
   }
   /// Moves a tool along a straight line, to a pose in the model frame.
-  void line(const std::string& name, const std::string& group, const std::string& tool,
+  void line(const std::string& name, const std::string& group, const swept::ConstraintFrame& tool,
             const Eigen::Isometry3d& goal, const swept::CollisionRules& rules = {}) {
     const auto own = checker(group, rules);
     swept::Workspace workspace(*own);
     const swept::ToolLine line =
-        swept::ToolLinePlanner(own, {.body = tool}).plan(values(group), goal, workspace);
+        swept::ToolLinePlanner(own, tool).plan(values(group), goal, workspace);
     if (!line.complete())
       throw std::runtime_error("'" + name + "': " + swept::describe(*line.stop, {}));
     follow(name, own, line.wayPoints);
@@ -92,7 +97,8 @@ class RecordedTask {
               std::vector<std::string> touchLinks) {
     swept::AttachedBody held{.name = body, .link = link, .touchLinks = std::move(touchLinks)};
     for (const swept::WorldBody::Part& part : world_.find(body)->parts)
-      held.parts.push_back({part.shape, pose(group, link).inverse() * part.world_from_shape});
+      held.parts.push_back(
+          {part.shape, pose(group, {.body = link}).inverse() * part.world_from_shape});
     world_.remove(body);
     attached_.push_back(std::move(held));
     changed(swept::TaskChange::Kind::Attached, body, body + " attached to " + link);

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <random>
 #include <span>
 #include <string>
@@ -26,15 +28,22 @@ struct Thing {
 
 /// A robot's hand, as far as a grasp from above needs it.
 struct Hand {
-  std::string arm, gripper;          ///< groups
-  std::string tool, palm;            ///< links; the tool points along z
-  std::vector<std::string> fingers;  ///< links that touch what they hold
-  double open;                       ///< value of the gripper's variable
-  double closedOn(double r) const { return r - offset; }
-  double offset;  ///< m, from the variable to the distance of a finger from the middle
+  std::string arm, gripper;                ///< groups; the gripper has one variable
+  std::string palm;                        ///< link that carries what the hand holds
+  swept::ConstraintFrame tool;             ///< between the fingers, z away from the palm
+  std::vector<std::string> fingers;        ///< links that touch what they hold
+  double open;                             ///< value of the gripper's variable
+  std::function<double(double)> closedOn;  ///< the same, by the radius of what it holds (m)
 };
 
-constexpr double kTable = 0.1;  ///< m, height of its top
+/// A robot at the table, and another arm of it.
+struct Worker {
+  std::shared_ptr<const swept::Robot> robot;
+  Hand hand;
+  std::string otherArm;
+  std::vector<double> start, other, otherLater;  ///< of the hand's arm, of the other one
+  Eigen::Isometry3d model_from_table;            ///< the middle of an edge of its top, x across it
+};
 
 /// An upright prism with its foot at the origin, as a mesh.
 inline swept::Shape prism(int sides, double radius, double height) {
@@ -52,36 +61,37 @@ inline swept::Shape prism(int sides, double radius, double height) {
   return swept::TriangleMesh::build(vertices, triangles);
 }
 
-inline Eigen::Isometry3d standing(const Eigen::Vector2d& at) {
-  return Eigen::Isometry3d(Eigen::Translation3d(at.x(), at.y(), kTable));
+inline Eigen::Isometry3d standing(const Worker& worker, const Eigen::Vector2d& at) {
+  return worker.model_from_table * Eigen::Translation3d(at.x(), at.y(), 0);
 }
 
 /// What is known: a table, and the things on it.
-inline swept::World knownWorld(std::span<const Thing> things) {
+inline swept::World knownWorld(const Worker& worker, std::span<const Thing> things) {
   swept::World world;
   world.add("table", swept::makeBox({0.6, 1.0, 0.04}),
-            Eigen::Isometry3d(Eigen::Translation3d(0.6, 0, kTable - 0.02)));
+            worker.model_from_table * Eigen::Translation3d(0.3, 0, -0.02));
   for (const Thing& thing : things)
-    world.add(thing.name, prism(thing.sides, thing.radius, thing.height), standing(thing.from));
+    world.add(thing.name, prism(thing.sides, thing.radius, thing.height),
+              standing(worker, thing.from));
   return world;
 }
 
 /// Senses all that is not known: a post on the table and a crate, which no planner is told of.
 /// Points on what is known, the robot included, belong to no map.
-inline swept::WorldBody sensedMap(const RecordedTask& task, std::mt19937& random) {
+inline swept::WorldBody sensedMap(const RecordedTask& task, const Worker& worker,
+                                  std::mt19937& random) {
   constexpr double kNear = 0.02, kVoxel = 0.02;  // m
   swept::World all = task.world();
   all.remove("map");
-  swept::World known = all;
-  all.add("post", swept::makeCylinder(0.03, 0.3),
-          Eigen::Isometry3d(Eigen::Translation3d(0.5, 0, kTable + 0.15)));
-  all.add("crate", swept::makeBox({0.2, 0.15, 0.2}),
-          Eigen::Isometry3d(Eigen::Translation3d(0.78, 0.1, kTable + 0.1)));
-  DepthSensor sensor{.world_from_sensor = Eigen::Isometry3d::Identity()};
-  sensor.world_from_sensor.translation() = Eigen::Vector3d(0.2, -0.9, 1.2);
-  sensor.world_from_sensor.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(0.4, 0.9, -1.0))
-          .toRotationMatrix();
+  const swept::World known = all;
+  const auto on = [&](double x, double y, double z) {
+    return worker.model_from_table * Eigen::Translation3d(x, y, z);
+  };
+  all.add("post", swept::makeCylinder(0.03, 0.3), Eigen::Isometry3d(on(0.2, 0, 0.15)));
+  all.add("crate", swept::makeBox({0.2, 0.15, 0.2}), Eigen::Isometry3d(on(0.48, 0.1, 0.1)));
+  DepthSensor sensor{.world_from_sensor = Eigen::Isometry3d(on(-0.1, -0.9, 1.1))};
+  sensor.world_from_sensor.rotate(Eigen::Quaterniond::FromTwoVectors(
+      Eigen::Vector3d::UnitZ(), Eigen::Vector3d(0.4, 0.9, -1.0)));
   std::vector<Eigen::Vector3d> points = sensor.points(all, random);
   std::erase_if(points, [&](const Eigen::Vector3d& point) {
     return DepthSensor::nearest(known, point, kNear) < kNear;
@@ -96,9 +106,10 @@ inline std::vector<double> reach(const RecordedTask& task, const Hand& hand,
                                  const swept::CollisionRules& rules, std::mt19937& random) {
   const auto checker = task.checker(hand.arm, rules, {}, RecordedTask::kRoom);
   swept::Workspace workspace(*checker);
-  const swept::InverseKinematics kinematics(task.robot(), hand.arm, hand.tool, task.state());
+  const swept::InverseKinematics kinematics(task.robot(), hand.arm, hand.tool.body, task.state(),
+                                            hand.tool.body_from_frame);
   swept::InverseKinematics::Workspace scratch(kinematics);
-  const swept::ToolLinePlanner lines(checker, {.body = hand.tool});
+  const swept::ToolLinePlanner lines(checker, hand.tool);
   std::vector<double> seed = task.values(hand.arm);
   for (int i = 0; i < 200; ++i) {
     std::vector<double> q = seed;
@@ -115,17 +126,20 @@ inline std::vector<double> reach(const RecordedTask& task, const Hand& hand,
     for (std::size_t k = 0; k < seed.size(); ++k) {
       const swept::Variable& own =
           task.robot()->variables()[std::size_t(checker->group().variables[k])];
-      seed[k] = std::uniform_real_distribution(own.lower, own.upper)(random);
+      seed[k] = std::uniform_real_distribution(own.cyclic ? -M_PI : own.lower,
+                                               own.cyclic ? M_PI : own.upper)(random);
     }
   }
   throw std::runtime_error("the hand does not get there");
 }
 
 /// Moves a thing: to it, down, grasp, up, over to its place, upright, down, release, up.
-inline void move(RecordedTask& task, const Thing& thing, const Hand& hand, std::mt19937& random) {
+inline void move(RecordedTask& task, const Thing& thing, const Worker& worker,
+                 std::mt19937& random) {
+  const Hand& hand = worker.hand;
   const double grip = thing.height - 0.03;  // m, above its foot
   const auto tool = [&](const Eigen::Vector2d& at, double height) {
-    Eigen::Isometry3d pose = standing(at) * Eigen::Translation3d(0, 0, grip + height);
+    Eigen::Isometry3d pose = standing(worker, at) * Eigen::Translation3d(0, 0, grip + height);
     pose.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
     return pose;
   };
@@ -152,10 +166,11 @@ inline void move(RecordedTask& task, const Thing& thing, const Hand& hand, std::
   vertical("lift", thing.from, 0.1, onTable);
   task.plan("carry " + thing.name, hand.arm,
             reach(task, hand, tool(thing.to, 0.1), tool(thing.to, 0), onTable, random),
-            swept::TaskConstraint::upright(hand.tool, 0.2, -Eigen::Vector3d::UnitZ()));
+            swept::TaskConstraint::upright(hand.tool.body, 0.2,
+                                           -hand.tool.body_from_frame.linear().col(2)));
   vertical("lower", thing.to, 0.0, onTable);
   task.place(thing.name, hand.arm);
   fingers("release", hand.open);
   vertical("up from", thing.to, 0.1, none);
-  task.sense(sensedMap(task, random));
+  task.sense(sensedMap(task, worker, random));
 }
