@@ -92,7 +92,8 @@ void PathFile::requireNames(const Json& inputs, const Checker& checker) const {
 void PathFile::write(const Checker& checker, const PathRecord& record,
                      const Certificate& certificate, bool embed) const {
   if (holdsProof())
-    writeWholeFile(file_, pathJsonText(checker, record, certificate, embed, optionText(file_)));
+    writeWholeFile(file_, pathText(pathJson(checker, record, certificate, embed, optionText(file_)),
+                                   optionText(file_)));
   else if (record.trajectory != nullptr)
     writeTrajectory(file_, *record.trajectory, checker.robot(), TrajectoryMessage::Joint);
   else if (file_.extension() == ".csv")

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "certificate/model_json.hpp"
+#include "certificate/summary_output.hpp"
 #include "certificate/verify_cover.hpp"
 #include "certificate/verify_outcome.hpp"
+#include "certificate/verify_task.hpp"
 #include "command_line/commands.hpp"
 #include "input/inputs.hpp"
 #include "input/task.hpp"
@@ -89,37 +91,6 @@ VerifyOutcome examine(const Json& path, const Files* files, std::vector<std::str
   return outcome;
 }
 
-std::string keptText(const verify::Summary& summary) {
-  if (std::isinf(summary.clearance)) return "there is no pair to check";
-  const auto kept = [](const std::string& pairs, double clearance) {
-    return std::isinf(clearance) ? "there is no pair " + pairs
-                                 : "pairs " + pairs + " more than " + shortNumber(clearance) + " m";
-  };
-  return "every pair keeps more than " + shortNumber(summary.clearance) + " m; " +
-         kept("with the world", summary.clearanceWorld) + ", " +
-         kept("of the robot's bodies", summary.clearanceSelf);
-}
-
-/// `0.005 rad`, `0.001 to 0.005 rad`, of the joints that have such a tolerance; empty: none has.
-std::string rangeText(const verify::Summary& summary,
-                      std::optional<double> verify::JointTube::*tolerance, const char* unit) {
-  std::optional<double> least, most;
-  for (const auto& [joint, tube] : summary.tube) {
-    if (!(tube.*tolerance)) continue;
-    least = std::min(least.value_or(*(tube.*tolerance)), *(tube.*tolerance));
-    most = std::max(most.value_or(*(tube.*tolerance)), *(tube.*tolerance));
-  }
-  if (!most) return "";
-  return (*least == *most ? "" : shortNumber(*least) + " to ") + shortNumber(*most) + " " + unit;
-}
-
-std::string tubeText(const verify::Summary& summary) {
-  if (summary.tube.empty()) return summary.duration ? "no tube, " : "";
-  const std::string turned = rangeText(summary, &verify::JointTube::rotation, "rad");
-  const std::string slid = rangeText(summary, &verify::JointTube::translation, "m");
-  return "tube " + turned + (turned.empty() || slid.empty() ? "" : " and ") + slid + ", ";
-}
-
 std::string summaryText(const verify::Summary& summary) {
   const std::string what = summary.duration ? "trajectory of " + secondsText(*summary.duration) +
                                                   ", " + countedText(summary.segments, "piece")
@@ -142,44 +113,15 @@ void requireShown(const Arguments& args, const Json& path) {
                      "' has a trajectory; swept trajectory --html shows it");
 }
 
-/// What the path says that it is not about, where no files say it again.
-void repeatWarnings(const Json& path, Warnings& warnings) {
-  if (!path.contains("warnings") || !path["warnings"].is_array()) return;
-  for (const Json& line : path["warnings"])
-    if (line.is_string()) warnings.ofUnchecked(line.get<std::string>());
-}
-
-Json outcomeJson(const VerifyOutcome& outcome) {
-  if (!outcome.holds()) return {{"verified", false}, {"refusal", outcome.refusal}};
-  const verify::Summary& summary = outcome.summary;
-  Json json = {{"verified", true},
-               {"refusal", nullptr},
-               {"segments", summary.segments},
-               {"pairs", summary.pairs},
-               {"intervals", summary.intervals},
-               {"planes", summary.planes},
-               {"clearance", finiteOrNull(summary.clearance)},
-               {"clearance_world", finiteOrNull(summary.clearanceWorld)},
-               {"clearance_self", finiteOrNull(summary.clearanceSelf)}};
-  if (summary.duration) json["duration"] = *summary.duration;
-  for (const auto& [joint, tube] : summary.tube) {
-    if (tube.rotation) json["tube"][joint]["rotation"] = *tube.rotation;
-    if (tube.translation) json["tube"][joint]["translation"] = *tube.translation;
-  }
-  if (!summary.constraints.empty()) json["constraints"] = summary.constraints;
-  json["not_checked"] = Json::object();
-  for (const auto& [reason, pairs] : summary.allowed) json["not_checked"][reason] = pairs;
-  return json;
-}
-
 }  // namespace
 
 ExitCode runVerify(const Arguments& args) {
   requirePageFile(args);
-  if (const Json file = parseOrderedJson(args.verify.path); isCoverFile(file))
-    return verifyCover(args, file);
+  const Json path = parseOrderedJson(args.verify.path);
+  if (isCoverFile(path)) return verifyCover(args, path);
+  if (isTask(path)) return runVerifyTask(args, path);
+  requireProof(path, args.verify.path);
   Warnings warnings(args.quiet);
-  const Json path = pathWithProof(args.verify.path);
   requireShown(args, path);
   std::optional<Files> files;
   VerifyOutcome outcome;

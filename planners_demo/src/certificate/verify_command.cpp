@@ -8,8 +8,8 @@ namespace {
 
 void addVerifyOptions(CLI::App& app, Arguments& args) {
   app.add_option("path", args.verify.path,
-                 "path file that 'swept plan -o' has written, or a model of 'swept cover -o' with "
-                 "--robot")
+                 "path file that 'swept plan -o' has written, a task of several, or a model of "
+                 "'swept cover -o' with --robot")
       ->required()
       ->type_name("PATH.json");
   app.add_option("--robot", args.verify.robot, "URDF file, if it is elsewhere by now")

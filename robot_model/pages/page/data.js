@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the program computed, unpacked; and where on the page's clock each motion is.
 'use strict';
-const swept = {};
+const swept = window.swept = {}; // the page of a task reaches it, too
 
 swept.data = (function () {
   const data = JSON.parse(document.getElementById('data').textContent);

@@ -7,6 +7,7 @@ swept.playback = (function () {
   const listeners = [];
   const state = {time: 0, playing: false, speed: 1, values: null};
   let last = null;
+  let host = null; // the clock of the task that this is a phase of
 
   const tell = () => listeners.forEach((listener) => listener(state));
 
@@ -35,7 +36,13 @@ swept.playback = (function () {
   }
   function pause() {
     state.playing = false;
+    if (host) host.pause();
     tell();
+  }
+  function toggle() {
+    if (host) host.toggle();
+    else if (state.playing) pause();
+    else play();
   }
 
   // Called for every picture of the browser; `now` in ms.
@@ -76,8 +83,12 @@ swept.playback = (function () {
   }
 
   return {
-    state, setTime, setValues, tell, play, pause, tick, step, skip,
-    toggle: () => (state.playing ? pause() : play()),
+    state, setTime, setValues, tell, play, pause, tick, step, skip, toggle,
+    // Another clock says when it is, and has the buttons for it.
+    follow: (clock) => {
+      host = clock;
+      document.documentElement.classList.add('phase');
+    },
     setSpeed: (speed) => { state.speed = speed; },
     onChange: (listener) => listeners.push(listener)
   };

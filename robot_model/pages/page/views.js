@@ -159,5 +159,5 @@ swept.views = (function () {
     return asked.has('t') || asked.has('view');
   }
 
-  return {reset, preset, fit, focus, link, open, savePicture, drawn, fragment};
+  return {reset, preset, fit, focus, link, open, savePicture, drawn, fragment, saved, restore};
 })();

@@ -5,6 +5,7 @@
 
 #include "output/whole_file.hpp"
 #include "page/page_content.hpp"
+#include "page/page_data.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/pages/page.hpp"
 #include "swept/robot_model/usage_error.hpp"
@@ -54,26 +55,6 @@ void requireDrawable(const Checker& checker, const std::string& label,
 
 }  // namespace
 
-struct Page::Data {
-  enum class Kind { Nothing, States, Motions, Paths, Trajectories };
-
-  std::shared_ptr<const Checker> checker;
-  PageOptions options;
-  PageContent content;
-  std::vector<Finding> findings;  ///< of each motion, path or trajectory
-  Kind kind = Kind::Nothing;
-
-  void require(Kind wanted) {
-    if (kind != Kind::Nothing && kind != wanted)
-      throw std::invalid_argument(
-          "a page has either states, or motions, or paths, or trajectories");
-    kind = wanted;
-  }
-  Finding addMotion(const std::string& label, const std::vector<double>& from,
-                    const std::vector<double>& to);
-  PageContent judged() const;
-};
-
 Finding Page::Data::addMotion(const std::string& label, const std::vector<double>& from,
                               const std::vector<double>& to) {
   Workspace workspace(*checker);
@@ -103,6 +84,10 @@ PageContent Page::Data::judged() const {
   all.facts = options.facts;
   if (!options.headline.empty()) all.headline = options.headline;
   return all;
+}
+
+Json Page::Data::json() const {
+  return pageJson(checker->robot(), checker->world(), checker.get(), judged(), options.visuals);
 }
 
 Page::Page(std::shared_ptr<const Checker> checker, PageOptions options)
@@ -170,9 +155,7 @@ void Page::addTrajectory(const std::string& label, const PiecewisePolynomial& cu
 
 std::string Page::html() const {
   if (detail::inForeignEnvironment()) return inDefaultEnvironment([&] { return html(); });
-  const Checker& checker = *data_->checker;
-  return htmlOf(pageJson(checker.robot(), checker.world(), &checker, data_->judged(),
-                         data_->options.visuals));
+  return htmlOf(data_->json());
 }
 
 void Page::write(const std::filesystem::path& file) const {

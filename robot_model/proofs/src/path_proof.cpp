@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swept/proofs/path_proof.hpp"
 
-#include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "certificate/certificate.hpp"
+#include "certificate/checked_proof.hpp"
 #include "certificate/constraints_json.hpp"
 #include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
+#include "certificate/trajectory_proof.hpp"
 #include "certificate/verify_outcome.hpp"
 #include "output/whole_file.hpp"
 #include "swept/core/floating_point_environment.hpp"
@@ -32,28 +32,6 @@ void requireFree(const std::string& where, const PathCertificate& certificate) {
   }
 }
 
-void requireFree(const std::string& where, const TrajectoryCertificate& certificate) {
-  if (certificate.verdict != Verdict::Free)
-    throw UsageError(where + ": there is no proof of a trajectory that is not free: it is " +
-                     std::string(toString(certificate.verdict)));
-  for (const LimitViolation& violation : certificate.violations)
-    if (violation.kind == LimitKind::Position)
-      throw UsageError(where + ": there is no proof of a trajectory that leaves its limits: " +
-                       violation.variable + " is at " + shortNumber(violation.value) + " at " +
-                       shortNumber(violation.time) + " s, and its limit is " +
-                       shortNumber(violation.limit));
-}
-
-void requireVariables(const JointTrajectory& trajectory, const Checker& checker) {
-  std::vector<std::string> names;
-  for (const int variable : checker.group().variables)
-    names.push_back(checker.robot().variables()[static_cast<std::size_t>(variable)].name);
-  if (trajectory.variables != names)
-    throw std::invalid_argument("the variables of a trajectory are not " + joined(names) +
-                                ", those of the group in its order, but " +
-                                joined(trajectory.variables));
-}
-
 void requireProofFile(const std::filesystem::path& file, const std::string& where,
                       const Checker& checker) {
   requireWritable(file);
@@ -68,32 +46,8 @@ WrittenProof writtenProof(const std::filesystem::path& file, const Checker& chec
                           const PathRecord& record, const Certificate& found,
                           const std::string& where) {
   if (!found.missing.empty()) return {.missing = found.missing};
-  writeWholeFile(file, pathJsonText(checker, record, found, true, where));
+  writeWholeFile(file, pathText(pathJson(checker, record, found, true, where), where));
   return {};
-}
-
-std::map<std::string, JointTolerance> tubeOf(const verify::Summary& summary) {
-  std::map<std::string, JointTolerance> tube;
-  for (const auto& [joint, tolerance] : summary.tube)
-    tube[joint] = {.rotation = tolerance.rotation.value_or(0.0),
-                   .translation = tolerance.translation.value_or(0.0)};
-  return tube;
-}
-
-CheckedProof checkedProof(const VerifyOutcome& outcome) {
-  if (!outcome.holds()) return {.refusal = outcome.refusal, .notChecked = {}};
-  return {.refusal = {},
-          .segments = outcome.summary.segments,
-          .pairs = outcome.summary.pairs,
-          .intervals = outcome.summary.intervals,
-          .planes = outcome.summary.planes,
-          .clearance = outcome.summary.clearance,
-          .clearanceWorld = outcome.summary.clearanceWorld,
-          .clearanceSelf = outcome.summary.clearanceSelf,
-          .notChecked = outcome.summary.allowed,
-          .duration = outcome.summary.duration,
-          .tube = tubeOf(outcome.summary),
-          .constraints = outcome.summary.constraints};
 }
 
 }  // namespace
@@ -126,18 +80,11 @@ WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Check
   }
   const std::string where = "'" + file.string() + "'";
   requireJson(file, where);
-  requireVariables(trajectory, checker);
-  controllerCurve(trajectory);  // sizes, times and values are what they have to be
-  const ProvenPath path = provenPath(trajectory, certificate);
-  requireFree(where, certificate);
-  requireProofFile(file, where, checker);
-  const PathRecord record{.states = path.states,
-                          .segments = path.segments,
-                          .inputs = nullptr,
-                          .warnings = warnings,
-                          .trajectory = &trajectory};
-  return writtenProof(file, checker, record,
-                      certificateOf(checker, trajectory, path.segments.front().clearance), where);
+  requireWritable(file);
+  const TrajectoryProof found = trajectoryProof(checker, trajectory, certificate, warnings, where);
+  if (!found.missing.empty()) return {.missing = found.missing};
+  writeWholeFile(file, pathText(found.path, where));
+  return {};
 }
 
 CheckedProof verifyProof(const std::filesystem::path& file) {

@@ -22,7 +22,7 @@ struct ProvenGraphData;
 /// States, and straight motions between them, each with what is proven of it: the edges of a
 /// roadmap. When the world changes, only motions that the change can reach are asked about again.
 ///
-/// Of each motion it keeps boxes around what each piece of the robot sweeps in each eighth of it,
+/// Of each motion it keeps boxes around what each piece of the robot sweeps in each sixteenth of it,
 /// and the bodies of the world that it is not proven to keep its margin from. A motion is Free if
 /// there are none. So the verdict is known body by body:
 /// * a body that is gone blocks nothing any more, and proves nothing wrong;

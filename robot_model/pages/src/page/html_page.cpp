@@ -35,11 +35,16 @@ std::string harmless(const Json& data) {
   return text;
 }
 
-}  // namespace
+bool isOfTask(const PageFile& file) {
+  return file.name.starts_with("task.");
+}
 
-std::string htmlOf(const Json& data) {
+/// The page without its data, whose place the comment `data` keeps. `ofTask`: that around the pages
+/// of phases.
+std::string templateOf(bool ofTask) {
   std::string page, styles, licences, scripts;
   for (const PageFile& file : pageFiles()) {
+    if (isOfTask(file) != ofTask) continue;
     const std::string text(file.text);
     if (file.name.ends_with(".html"))
       page = text;
@@ -51,11 +56,30 @@ std::string htmlOf(const Json& data) {
       scripts += "<script>\n" + text + "\n</script>\n";
   }
   fill(page, "styles", styles);
-  // The data goes in last, so that its text is not searched for marks.
-  fill(page, "scripts", "<script>\n" + licences + "</script>\n" + scripts);
-  fill(page, "data",
-       "<script id=\"data\" type=\"application/json\">" + harmless(data) + "</script>\n");
+  if (!licences.empty()) scripts = "<script>\n" + licences + "</script>\n" + scripts;
+  fill(page, "scripts", scripts);
   return page;
+}
+
+const std::string kDataBegins = "<script id=\"data\" type=\"application/json\">";
+const std::string kDataEnds = "</script>\n";
+
+}  // namespace
+
+std::string htmlOf(const Json& data) {
+  std::string page = templateOf(false);
+  // The data goes in last, so that its text is not searched for marks.
+  fill(page, "data", kDataBegins + harmless(data) + kDataEnds);
+  return page;
+}
+
+std::string taskHtmlOf(Json task) {
+  const std::string page = templateOf(false), mark = "<!-- data -->";
+  const std::size_t at = page.find(mark);
+  task["page"] = {page.substr(0, at) + kDataBegins, kDataEnds + page.substr(at + mark.size())};
+  std::string whole = templateOf(true);
+  fill(whole, "data", kDataBegins + harmless(task) + kDataEnds);
+  return whole;
 }
 
 }  // namespace swept

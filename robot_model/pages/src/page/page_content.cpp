@@ -19,20 +19,6 @@
 namespace swept {
 namespace {
 
-std::string_view toString(PageContent::Tone tone) {
-  switch (tone) {
-    case PageContent::Tone::Good:
-      return "good";
-    case PageContent::Tone::Bad:
-      return "bad";
-    case PageContent::Tone::Unsure:
-      return "unsure";
-    case PageContent::Tone::Plain:
-      break;
-  }
-  return "plain";
-}
-
 std::string_view toString(PageBody::Kind kind) {
   switch (kind) {
     case PageBody::Kind::Link:
@@ -225,6 +211,20 @@ Json factsJson(const Robot& robot, const World& world, const Checker* checker,
 }
 
 }  // namespace
+
+std::string_view toString(PageContent::Tone tone) {
+  switch (tone) {
+    case PageContent::Tone::Good:
+      return "good";
+    case PageContent::Tone::Bad:
+      return "bad";
+    case PageContent::Tone::Unsure:
+      return "unsure";
+    case PageContent::Tone::Plain:
+      break;
+  }
+  return "plain";
+}
 
 Json pageJson(const Robot& robot, const World& world, const Checker* checker,
               const PageContent& content, const VisualModel& visuals) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct PageContent {
 };
 
 PageContent::Tone toneOf(Verdict verdict);
+/// `good`, `bad`, `unsure` or `plain`.
+std::string_view toString(PageContent::Tone tone);
 
 /// The verdict on a state, a motion or a path.
 struct Finding {
@@ -98,5 +101,9 @@ Json pageJson(const Robot& robot, const World& world, const Checker* checker,
 
 /// The whole file. No text in `data` can end the element that holds it.
 std::string htmlOf(const Json& data);
+
+/// The whole file of a task: what robot_model/pages/page/task.js reads, but for the page of a
+/// phase, which is added.
+std::string taskHtmlOf(Json task);
 
 }  // namespace swept

@@ -24,34 +24,6 @@ std::string itemLines(const Json& list) {
   return text + "]";
 }
 
-/// Writes each member of the first two levels, each point of a trajectory and each pair of a proof
-/// on a line of its own. The lines are short enough to read and to compare.
-std::string linesOf(const Json& json) {
-  std::string text = "{";
-  for (const auto& [key, value] : json.items()) {
-    text += (text.size() > 1 ? ",\n " : "\n ") + Json(key).dump() + ": ";
-    if (key == "proof" && !value.is_null()) {
-      text += "{\n  \"digests\": " + value["digests"].dump() + ",\n  \"segments\": [";
-      for (const Json& segment : value["segments"]) {
-        text += (text.back() == '[' ? "\n   " : ",\n   ");
-        text += "{\"states_digest\": " + segment["states_digest"].dump() + ", \"pairs\": [";
-        for (const Json& pair : segment["pairs"])
-          text += (text.back() == '[' ? "\n    " : ",\n    ") + pair.dump();
-        text += "]}";
-      }
-      text += "]}";
-    } else if (key == "trajectory") {
-      text += "{\"variables\": " + value["variables"].dump() +
-              ", \"points\": " + itemLines(value["points"]) + "}";
-    } else if (value.is_array()) {
-      text += itemLines(value);
-    } else {
-      text += value.dump();
-    }
-  }
-  return text + "\n}\n";
-}
-
 std::vector<std::string> jointNames(const Checker& checker) {
   std::vector<std::string> names;
   for (const int variable : checker.group().variables)
@@ -112,8 +84,36 @@ ProvenPath provenPath(const JointTrajectory& trajectory, const TrajectoryCertifi
   return path;
 }
 
-std::string pathJsonText(const Checker& checker, const PathRecord& record,
-                         const Certificate& certificate, bool embed, const std::string& where) {
+// Writes each member of the first two levels, each point of a trajectory and each pair of a proof
+// on a line of its own.
+std::string pathLines(const Json& path) {
+  std::string text = "{";
+  for (const auto& [key, value] : path.items()) {
+    text += (text.size() > 1 ? ",\n " : "\n ") + Json(key).dump() + ": ";
+    if (key == "proof" && !value.is_null()) {
+      text += "{\n  \"digests\": " + value["digests"].dump() + ",\n  \"segments\": [";
+      for (const Json& segment : value["segments"]) {
+        text += (text.back() == '[' ? "\n   " : ",\n   ");
+        text += "{\"states_digest\": " + segment["states_digest"].dump() + ", \"pairs\": [";
+        for (const Json& pair : segment["pairs"])
+          text += (text.back() == '[' ? "\n    " : ",\n    ") + pair.dump();
+        text += "]}";
+      }
+      text += "]}";
+    } else if (key == "trajectory") {
+      text += "{\"variables\": " + value["variables"].dump() +
+              ", \"points\": " + itemLines(value["points"]) + "}";
+    } else if (value.is_array()) {
+      text += itemLines(value);
+    } else {
+      text += value.dump();
+    }
+  }
+  return text + "\n}\n";
+}
+
+Json pathJson(const Checker& checker, const PathRecord& record, const Certificate& certificate,
+              bool embed, const std::string& where) {
   Json json = {{"robot", checker.robot().name()}, {"group", checker.group().name}};
   json.update(record.maker);
   json["margin"] = checker.options().margin;
@@ -138,7 +138,11 @@ std::string pathJsonText(const Checker& checker, const PathRecord& record,
   if (embed) json["model"] = certificate.model;
   json["proof"] = certificate.proof;
   if (!certificate.proof.is_null()) json["proof"]["digests"]["claims"] = verify::claimDigests(json);
-  std::string text = linesOf(json);
+  return json;
+}
+
+std::string pathText(const Json& path, const std::string& where) {
+  std::string text = pathLines(path);
   if (text.size() > kMaxTextBytes)
     throw UsageError(where + ": with its proof the path takes " + std::to_string(text.size()) +
                      " bytes, and files of more than " + std::to_string(kMaxTextBytes) +

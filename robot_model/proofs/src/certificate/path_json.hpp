@@ -50,9 +50,13 @@ ProvenPath provenPath(const ConfigurationList& states, const PathCertificate& ce
 ProvenPath provenPath(const JointTrajectory& trajectory, const TrajectoryCertificate& certificate);
 
 /// The path file that robot_model/verify and readPath() read. `embed`: with the robot and the
-/// world. Throws UsageError, beginning with `where`, for names that are not UTF-8, and for a file
-/// larger than the reader accepts.
-std::string pathJsonText(const Checker& checker, const PathRecord& record,
-                         const Certificate& certificate, bool embed, const std::string& where);
+/// world. Throws UsageError, beginning with `where`, for names that are not UTF-8.
+Json pathJson(const Checker& checker, const PathRecord& record, const Certificate& certificate,
+              bool embed, const std::string& where);
+
+/// Its text, in lines that are short enough to read and to compare.
+std::string pathLines(const Json& path);
+/// The same. Throws UsageError, beginning with `where`, for a file larger than the reader accepts.
+std::string pathText(const Json& path, const std::string& where);
 
 }  // namespace swept

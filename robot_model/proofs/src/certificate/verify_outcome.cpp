@@ -7,10 +7,14 @@
 
 namespace swept {
 
-Json pathWithProof(const std::string& file) {
-  Json path = parseOrderedJson(file);
+void requireProof(const Json& path, const std::string& file) {
   if (!path.is_object() || !path.contains("proof") || path["proof"].is_null())
     throw InputError(file, 0, "there is no proof in it");
+}
+
+Json pathWithProof(const std::string& file) {
+  Json path = parseOrderedJson(file);
+  requireProof(path, file);
   return path;
 }
 

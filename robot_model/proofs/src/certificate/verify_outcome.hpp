@@ -16,7 +16,9 @@ struct VerifyOutcome {
   bool holds() const { return refusal.empty(); }
 };
 
-/// Reads a path file that has a `proof`. Throws InputError for any other file.
+/// Throws InputError unless what a file has is a path with a `proof`.
+void requireProof(const Json& path, const std::string& file);
+/// Reads such a file. Throws InputError for any other one.
 Json pathWithProof(const std::string& file);
 
 /// Verifies the proof of a path against the model in its file, where there is one, and against

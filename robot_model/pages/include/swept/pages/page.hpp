@@ -69,6 +69,7 @@ class Page {
   void write(const std::filesystem::path& file) const;
 
  private:
+  friend class TaskPage;
   struct Data;
   std::unique_ptr<Data> data_;
 };
