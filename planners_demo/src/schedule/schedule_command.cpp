@@ -54,8 +54,8 @@ const Command kScheduleCommand{
     .name = "schedule",
     .summary = "Do these trajectories of several robots keep apart, and how late may one be?",
     .example =
-        "swept schedule models/cells/two_rooks.yaml left/arm=models/trajectories/rook7_reach.yaml "
-        "right/arm=models/trajectories/rook7_reach.yaml --at right/arm=2 --late left/arm=3",
+        "swept schedule models/cells/two_rooks.yaml left/arm=models/trajectories/rook7_reach.csv "
+        "right/arm=models/trajectories/rook7_reach.csv --at right/arm=4 --late left/arm=1",
     .exitCodes =
         "Exit codes: 0 free with all delays that were asked about, 1 there is a conflict or a "
         "limit is left,\n2 undecided, 3 bad input or usage.",

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "swept/core/enclosing_shapes.hpp"
+#include "swept/core/enclosing_spheres.hpp"
+#include "swept/robot_model/input.hpp"
+#include "swept/robot_model/robot.hpp"
 #include "swept/robot_model/sphere_model.hpp"
 
 /// Models of a robot that consist of few capsules, boxes or convex hulls, beside those of spheres.
