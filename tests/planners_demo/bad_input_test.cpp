@@ -89,14 +89,14 @@ const Case kOptions[] = {
      {},
      kError +
          "a subcommand is required; there are info, check, motion, certify, plan, line, roadmap, "
-         "verify, trajectory, acm, cover, "
+         "verify, trajectory, schedule, acm, cover, "
          "replay, " +
          (programHasPages() ? "view, " : "") + "bench, report, completion (try --help)"},
     {"UnknownSubcommand",
      {"verfy"},
      kError +
          "no subcommand 'verfy'; there are info, check, motion, certify, plan, line, roadmap, "
-         "verify, trajectory, "
+         "verify, trajectory, schedule, "
          "acm, cover, "
          "replay, " +
          (programHasPages() ? "view, " : "") +

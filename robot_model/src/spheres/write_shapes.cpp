@@ -104,6 +104,8 @@ std::string structName(const std::string& name) {
 
 ShapedUrdf urdfWithShapes(const ShapeModel& model, const std::string& urdfText,
                           const std::string& name, const std::string& prefix) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return urdfWithShapes(model, urdfText, name, prefix); });
   const detail::InputSource source(name, {});
   detail::XmlFile xml(urdfText, source);
   ShapedUrdf shaped;
@@ -145,6 +147,8 @@ ShapedUrdf urdfWithShapes(const ShapeModel& model, const std::string& urdfText,
 
 std::string shapeModelJson(const ShapeModel& model, const std::string& robot,
                            const std::vector<LinkSphereReport>& reports) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return shapeModelJson(model, robot, reports); });
   Json json = {{"robot", robot}, {"shapes", model.count()}, {"links", Json::array()}};
   for (const LinkShapes& link : model.links) {
     Json entry = {{"link", link.link}, {"shapes", Json::array()}};

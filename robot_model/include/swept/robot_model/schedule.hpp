@@ -24,7 +24,7 @@ namespace swept {
 /// it ends.
 struct ScheduledCurve {
   std::vector<std::string> variables;  ///< names, one for each value of the curve
-  PiecewisePolynomial curve;
+  PiecewisePolynomial curve;           ///< in a time of its own
   double start = 0.0;     ///< s, 0 or later: what the clock shows at the curve's time 0
   double slowdown = 1.0;  ///< positive; twice as long: 2
 };
@@ -72,9 +72,9 @@ struct DelayQuery {
 
 /// A contact of a schedule in which a curve is late.
 struct DelayContact {
-  double delay = 0.0;     ///< s
-  double slowdown = 1.0;  ///< factor on the curve's own one
-  TrajectoryContact contact;
+  double delay = 0.0;         ///< s
+  double slowdown = 1.0;      ///< factor on the curve's own one
+  TrajectoryContact contact;  ///< its time is the clock's
 };
 
 /// By how much a curve may be late.
@@ -88,7 +88,7 @@ struct DelayCertificate {
   /// Beyond `proven`: by the resolution at most, where a contact is found so near, otherwise by
   /// less than twice what it takes to find one.
   std::optional<DelayContact> contact;
-  std::size_t curves = 0;               ///< combined curves that were certified
+  std::size_t curves = 0;  ///< combined curves that were certified
 };
 
 /// Proves a schedule free for a range of delays. The schedule itself is proven first. Then what

@@ -40,7 +40,7 @@ std::optional<SphereModel> sphereModelOf(const ShapeModel& model);
 
 /// How a model is searched for. Exactly one of `shapes` and `excess` is set.
 struct ShapeModelOptions {
-  EnclosingKind kind = EnclosingKind::Box;
+  EnclosingKind kind = EnclosingKind::Box;  ///< of all shapes
   /// Of all links together; at least one for each link with collision geometry. They are divided so
   /// that the largest reach of all links (EnclosingShapes::reach) is small.
   std::optional<int> shapes;
@@ -69,7 +69,7 @@ ShapeModel readShapeModel(const std::filesystem::path& file, const Robot& robot,
 
 /// A URDF with the meshes that it names.
 struct ShapedUrdf {
-  std::string text;
+  std::string text;                                         ///< of the URDF
   std::vector<std::pair<std::string, std::string>> meshes;  ///< file name and text (OBJ)
 };
 
