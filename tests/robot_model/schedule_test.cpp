@@ -114,6 +114,26 @@ TEST(Schedule, SlowdownsAreProvenWithDelays) {
   EXPECT_LE(*both.proven, 0.2);
 }
 
+TEST(Schedule, ObstaclesMoveOnWhileACurveIsLate) {
+  // Both have come to rest at 3 s, and the one at (0, 1, 0) is hit after 3.81 s, unless all has
+  // ended.
+  const auto at = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 1.0, z)); };
+  const Checker checker =
+      checkerOf(crossing())
+          .withObstacle({.name = "hammer",
+                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
+                         .waypoints = {{0.0, at(4.2)}, {4.0, at(0.0)}}});
+  std::vector<ScheduledCurve> curves = passes(1.0);
+  std::swap(curves[0].start, curves[1].start);  // `north` rests from 2 s on, `east` from 3 s on
+  EXPECT_EQ(certifySchedule(checker, curves).verdict, Verdict::Free);
+  const DelayCertificate found = certifyDelays(checker, curves, {.curve = 0, .latest = 2.0});
+  EXPECT_EQ(found.verdict, Verdict::Collision);
+  ASSERT_TRUE(found.proven);
+  const double hit = 4.0 / 1.05;  // s; it is then 0.2 m above
+  EXPECT_LE(*found.proven, hit - 3.0);
+  EXPECT_GE(*found.proven, hit - 3.0 - 4e-3);
+}
+
 TEST(Schedule, AContactWithoutADelayLeavesNothing) {
   const Checker checker = checkerOf(crossing());
   const DelayCertificate found = certifyDelays(checker, passes(0.1), {.curve = 1, .latest = 5.0});

@@ -75,6 +75,17 @@ void dropResting(const PiecewisePolynomial& curve, std::vector<double>& off) {
   }
 }
 
+/// A curve that rests at its end until a time (s), if that is later.
+PiecewisePolynomial restedUntil(double time, const PiecewisePolynomial& curve) {
+  if (!(time > curve.end())) return curve;
+  std::vector<double> knots = curve.knots();
+  std::vector<Eigen::MatrixXd> pieces;
+  for (std::size_t i = 0; i < curve.pieces(); ++i) pieces.push_back(curve.coefficients(i));
+  knots.push_back(time);
+  pieces.push_back(pieces.back().rightCols<1>().replicate(1, 2));
+  return {std::move(knots), std::move(pieces)};
+}
+
 /// Delays and slowdowns, as factors.
 struct DelayBox {
   double begin = 0.0, end = 0.0;        ///< s
@@ -163,7 +174,9 @@ class DelaySearch {
   /// planned.
   bool isFree(const DelayBox& box) {
     ++found_.curves;
-    const CombinedCurve middle = combined(box.delay(), box.slowdown());
+    CombinedCurve middle = combined(box.delay(), box.slowdown());
+    // Moving obstacles go on until the latest of the box has ended.
+    middle.curve = restedUntil(combined(box.end, box.slowest).curve.end(), middle.curve);
     std::vector<double> off = middle.rounding;
     const double time = (box.halfDelay() / (planned_.slowdown * box.fastest) +
                          planned_.curve.end() * box.halfSlowdown() / box.slowdown()) *

@@ -98,9 +98,6 @@ Checker delayedPairs(const Checker& checker, std::span<const std::string> delaye
     worldMatters = worldMatters || bodies.toWorld(a).both();
     for (std::size_t b = a + 1; b < bodies.size(); ++b)
       if (!bodies.between(a, b).both()) rules.allow(bodies.name(a), bodies.name(b), kReason);
-    if (bodies.toWorld(a).delayed) continue;
-    for (const MovingObstacle& obstacle : checker.world().obstacles())
-      rules.allow(bodies.name(a), obstacle.name, kReason);
   }
   Checker left = checker;
   if (!worldMatters)

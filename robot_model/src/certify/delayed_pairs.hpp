@@ -9,9 +9,10 @@
 namespace swept::detail {
 
 /// A checker of those pairs that a delay moves against each other: between the two are a variable
-/// of the delayed curve, and one of another curve. It keeps pairs of moving obstacles and what the
-/// delayed curve moves, and all constraints. Every other pair is free with every delay if it is
-/// free without one: it passes the same relative poses, at other times.
+/// of the delayed curve, and one of another curve. It keeps all pairs with moving obstacles, which
+/// go on beside what rests while the delayed curve still moves, and all constraints. Every other
+/// pair is free with every delay if it is free without one: it passes the same relative poses, at
+/// other times.
 ///
 /// `delayed`, `others`: names of variables. What no curve moves is at rest.
 Checker delayedPairs(const Checker& checker, std::span<const std::string> delayed,
