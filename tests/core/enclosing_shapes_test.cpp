@@ -194,6 +194,33 @@ TEST(EnclosingShapes, AreJudged) {
   EXPECT_NEAR(shapesExcess(body, hull, 0.05).largestSeen, std::sqrt(3.0) * 0.05, 0.03);
 }
 
+TEST(EnclosingShapes, ReachToTheTipsOfAStar) {
+  // A cube with a spike of 0.8 m on each face: seen whole from its middle, and not convex.
+  std::vector<Vector3d> vertices;
+  for (int k = 0; k < 8; ++k)
+    vertices.emplace_back(0.2 * Vector3d((k & 1) != 0 ? 1.0 : -1.0, (k & 2) != 0 ? 1.0 : -1.0,
+                                         (k & 4) != 0 ? 1.0 : -1.0));
+  std::vector<Eigen::Vector3i> triangles;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, 1}) {
+      const int tip = static_cast<int>(vertices.size());
+      vertices.emplace_back((side == 1 ? 1.0 : -1.0) * Vector3d::Unit(axis));
+      const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, base = side << axis;
+      const std::vector<int> around{base, base | u, base | u | v, base | v};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const int a = around[i], b = around[(i + 1) % 4];
+        triangles.emplace_back(side == 1 ? a : b, side == 1 ? b : a, tip);
+      }
+    }
+  const std::vector<PosedShape> star{
+      {TriangleMesh::build(vertices, triangles, MeshInterior::Solid)}};
+  const std::vector<PosedShape> body{{Sphere{0.05}}};
+  EXPECT_LE(outsideShapes(body, star).upper, 0.0);
+  const SphereExcess excess = shapesExcess(body, star);
+  EXPECT_GE(excess.largest, 0.95);
+  EXPECT_LE(excess.largest, 1.1);
+}
+
 TEST(EnclosingShapes, ContainNothingWithoutAnInside) {
   const std::vector<PosedShape> body{standing(Box{{0.1, 0.1, 0.1}}, {0, 0, 0})};
   const std::vector<Vector3d> flat{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};

@@ -123,11 +123,23 @@ void ConvexField::useFaces(std::span<const Vector3d> vertices,
     least = std::min(least, faces_.back().offset - growth - rounding - normal.dot(center_));
   }
   closed_ = closed_ && !faces_.empty() && least > 0.0;
+  beyond_ = mostBeyond(growth);
   if (!closed_ || growth == 0.0) return;
   // What is grown is in what is scaled about the centre: n . (x - c) <= h + g <= h (1 + g / least).
   const double scale = 1.0 + growth / least;
   reach_ *= scale;
   box_ = {center_ + scale * (box_.min() - center_), center_ + scale * (box_.max() - center_)};
+}
+
+/// m. What is enclosed is in the hull of the vertices, so no more beyond a plane than these.
+double ConvexField::mostBeyond(double growth) const {
+  constexpr std::size_t kMostProducts = 100'000'000;
+  if (vertices_.size() * faces_.size() > kMostProducts) return 2.0 * reach_;
+  double most = 0.0;
+  for (const Vector3d& vertex : vertices_)
+    for (const Face& face : faces_)
+      most = std::max(most, face.normal.dot(vertex) - (face.offset - growth));
+  return most;
 }
 
 double ConvexField::value(const Vector3d& p) const {
@@ -225,7 +237,7 @@ bool ConvexField::containsCube(const Vector3d& middle, double half) const {
 
 bool ConvexField::missesCube(const Vector3d& middle, double half) const {
   const double here = value(middle);
-  return std::isfinite(here) && here - std::numbers::sqrt3 * half > 1e-12 * size_;
+  return std::isfinite(here) && here - std::numbers::sqrt3 * half > beyond_ + 1e-12 * size_;
 }
 
 Vector3d ConvexField::pointOfSurface(std::mt19937& random) const {

@@ -24,7 +24,8 @@ namespace swept::detail {
 /// triangles, x is inside. The computed normal of a triangle with the longest side L and area A is
 /// off by less than 8 u L^2 / (2 A), so n . y differs from n . v by up to that times L over the
 /// triangle: each plane is moved inward by it. If some triangle is then not turned away from c,
-/// nothing is known to be inside, and the function is infinite.
+/// nothing is known to be inside, and the function is infinite. What is enclosed may reach beyond
+/// the planes, by that and, unless it is convex, by as much as its vertices do (missesCube()).
 class ConvexField {
  public:
   explicit ConvexField(const EnclosingSphere& sphere);
@@ -58,6 +59,7 @@ class ConvexField {
   };
   void useFaces(std::span<const Eigen::Vector3d> vertices,
                 std::span<const Eigen::Vector3i> triangles, double growth);
+  double mostBeyond(double growth) const;
   Eigen::Vector3d local(const Eigen::Vector3d& p) const { return shape_from_body_ * p; }
 
   Kind kind_ = Kind::Ball;
@@ -67,6 +69,7 @@ class ConvexField {
   double radius_ = 0.0;                             ///< m
   double growth_ = 0.0;                             ///< m
   std::vector<Face> faces_;
+  double beyond_ = 0.0;                    ///< m; no vertex is farther in front of a plane
   std::vector<Eigen::Vector3d> vertices_;  ///< m, body frame
   std::vector<Eigen::Vector3i> triangles_;
   std::vector<double> areas_;  ///< m^2, up to each triangle
