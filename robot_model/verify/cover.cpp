@@ -23,9 +23,10 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
 constexpr std::size_t kMostCells = 10'000'000;
-/// Relative to the coordinates: a point goes through a pose (at most 6 roundings of 1.1e-16), a
-/// clipping (8), and a distance (10).
-constexpr double kCoverRounding = 8e-15;
+/// Relative to the coordinates: a point goes through a pose (at most 6 roundings of 1.1e-16), as
+/// many clippings as a cell is deep (kDepth, of 4 each, as a clipped corner may be clipped again),
+/// and a distance (10).
+constexpr double kCoverRounding = 1e-13;
 
 /// A convex shape of the model: a box with rounded edges, or a ball or cylinder.
 struct Container {
