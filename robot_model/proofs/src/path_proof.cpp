@@ -81,9 +81,11 @@ WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Check
   const std::string where = "'" + file.string() + "'";
   requireJson(file, where);
   requireWritable(file);
-  const TrajectoryProof found = trajectoryProof(checker, trajectory, certificate, warnings, where);
-  if (!found.missing.empty()) return {.missing = found.missing};
-  writeWholeFile(file, pathText(found.path, where));
+  WrittenProof written;
+  const Json path =
+      trajectoryProof(checker, trajectory, certificate, warnings, where, written.missing);
+  if (!written.missing.empty()) return written;
+  writeWholeFile(file, pathText(path, where));
   return {};
 }
 

@@ -118,12 +118,13 @@ WrittenProof writeTask(const std::filesystem::path& file, std::span<const TaskPh
     const TaskPhase& phase = phases[i];
     const std::string number = "phase " + std::to_string(i + 1) + " (" + phase.name + ")";
     if (phase.checker == nullptr) throw std::invalid_argument(number + " has no checker");
-    TrajectoryProof found = trajectoryProof(*phase.checker, phase.trajectory, phase.certificate,
-                                            phase.warnings, where + ", " + number);
-    if (!found.missing.empty()) return {.missing = number + ", " + found.missing};
+    std::string missing;
+    Json path = trajectoryProof(*phase.checker, phase.trajectory, phase.certificate, phase.warnings,
+                                where + ", " + number, missing);
+    if (!missing.empty()) return {.missing = number + ", " + missing};
     requireUtf8({phase.name, changesJson(phase.changes)}, where);
-    if (i == 0) task["robot"] = found.path["robot"];
-    task["phases"].push_back(phaseJson(phase, std::move(found.path)));
+    if (i == 0) task["robot"] = path["robot"];
+    task["phases"].push_back(phaseJson(phase, std::move(path)));
   }
   task["digest"] = verify::taskDigest(task);
   try {

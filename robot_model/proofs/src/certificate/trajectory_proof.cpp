@@ -35,10 +35,10 @@ void requireVariables(const JointTrajectory& trajectory, const Checker& checker)
 
 }  // namespace
 
-TrajectoryProof trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
-                                const TrajectoryCertificate& certificate,
-                                const std::vector<std::string>& warnings,
-                                const std::string& where) {
+Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
+                     const TrajectoryCertificate& certificate,
+                     const std::vector<std::string>& warnings, const std::string& where,
+                     std::string& missing) {
   requireVariables(trajectory, checker);
   controllerCurve(trajectory);  // sizes, times and values are what they have to be
   const ProvenPath path = provenPath(trajectory, certificate);
@@ -50,8 +50,8 @@ TrajectoryProof trajectoryProof(const Checker& checker, const JointTrajectory& t
                           .warnings = warnings,
                           .trajectory = &trajectory};
   const Certificate found = certificateOf(checker, trajectory, path.segments.front().clearance);
-  if (!found.missing.empty()) return {.path = nullptr, .missing = found.missing};
-  return {.path = pathJson(checker, record, found, true, where), .missing = {}};
+  missing = found.missing;
+  return missing.empty() ? pathJson(checker, record, found, true, where) : Json();
 }
 
 }  // namespace swept

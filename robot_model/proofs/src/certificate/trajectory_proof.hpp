@@ -11,16 +11,12 @@
 
 namespace swept {
 
-/// A path file with the proof of a trajectory, or why there is none.
-// NOLINTNEXTLINE(bugprone-exception-escape): Json's move is noexcept, which is not believed of it.
-struct TrajectoryProof {
-  Json path;            ///< see pathJson(), with robot and world
-  std::string missing;  ///< see WrittenProof
-};
-
-/// Finds it. Throws as writeTrajectoryProof() does, UsageError beginning with `where`.
-TrajectoryProof trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
-                                const TrajectoryCertificate& certificate,
-                                const std::vector<std::string>& warnings, const std::string& where);
+/// A path file with the proof of a trajectory, with robot and world: see pathJson(). Null if there
+/// is no proof; `missing` then says why, as WrittenProof does. Throws as writeTrajectoryProof()
+/// does, UsageError beginning with `where`.
+Json trajectoryProof(const Checker& checker, const JointTrajectory& trajectory,
+                     const TrajectoryCertificate& certificate,
+                     const std::vector<std::string>& warnings, const std::string& where,
+                     std::string& missing);
 
 }  // namespace swept
