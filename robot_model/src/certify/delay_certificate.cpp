@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "certify/delayed_pairs.hpp"
-#include "robot/joint_types.hpp"
+#include "certify/moved_pairs.hpp"
+#include "certify/schedule_tube.hpp"
 #include "rounding/error_model.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/robot_model/schedule.hpp"
@@ -38,41 +38,6 @@ void requireQuery(const DelayQuery& query, std::size_t curves) {
   requireDelay(std::isfinite(query.resolution) && query.resolution > 0.0,
                "the resolution is " + detail::formatNumber(query.resolution) +
                    " s; allowed are positive numbers");
-}
-
-/// The group's values may each be off by so much: what the checker's tube becomes with it. Throws
-/// std::invalid_argument for an orientation of a floating joint that is off.
-TrackingTolerance widened(const Checker& checker, const std::vector<double>& off) {
-  TrackingTolerance tracking = checker.options().tracking;
-  const Robot& robot = checker.robot();
-  const Group& group = checker.group();
-  for (std::size_t v = 0; v < off.size(); ++v) {
-    if (off[v] == 0.0) continue;
-    const int variable = group.variables[v];
-    const Joint& joint =
-        robot.joints()[static_cast<std::size_t>(robot.variables()[variable].joint)];
-    const int place = variable - joint.firstVariable;
-    const std::optional<int> quaternion = detail::quaternionPlace(joint.type);
-    if (quaternion && place >= *quaternion)
-      throw std::invalid_argument("certifySchedule: the orientation of the floating joint '" +
-                                  joint.name + "' changes, which has no bound here");
-    JointTolerance& own =
-        tracking.joints.try_emplace(joint.name, static_cast<const JointTolerance&>(tracking))
-            .first->second;
-    (detail::isLength(joint.type, place) ? own.translation : own.rotation) += off[v];
-  }
-  return tracking;
-}
-
-/// A constant quaternion is copied, and rounds by nothing.
-void dropResting(const PiecewisePolynomial& curve, std::vector<double>& off) {
-  for (std::size_t v = 0; v < off.size(); ++v) {
-    const auto row = static_cast<Eigen::Index>(v);
-    bool rests = true;
-    for (std::size_t i = 0; i < curve.pieces() && rests; ++i)
-      rests = (curve.coefficients(i).row(row).array() == curve.coefficients(0)(row, 0)).all();
-    if (rests) off[v] = 0.0;
-  }
 }
 
 /// A curve that rests at its end until a time (s), if that is later.
@@ -183,7 +148,7 @@ class DelaySearch {
                         detail::kArithmeticOutward;
     for (std::size_t v = 0; v < places_.size(); ++v)
       off[static_cast<std::size_t>(places_[v])] += time * rates_[v] * detail::kArithmeticOutward;
-    dropResting(middle.curve, off);
+    detail::dropResting(middle.curve, off);
     const Checker& tube = inTube(box, off);
     Workspace workspace(tube);
     return tube.certifyTrajectory(middle.curve, workspace, {.contact = MotionQuery::VerdictOnly})
@@ -205,7 +170,7 @@ class DelaySearch {
 
   Checker inTubeOf(const std::vector<double>& off) const {
     CheckerOptions options = pairs_.options();
-    options.tracking = widened(pairs_, off);
+    options.tracking = detail::widened(pairs_, off);
     const double width = std::accumulate(off.begin(), off.end(), 0.0);
     options.tolerance = std::max(options.tolerance, kToleranceShare * width);
     // Both live as long as the checker that has them.
@@ -273,8 +238,8 @@ TrajectoryCertificate certifySchedule(const Checker& checker,
         [&, curves, still] { return certifySchedule(checker, curves, query, still); });
   }
   CombinedCurve combined = combinedCurve(checker.robot(), checker.group(), curves, still);
-  dropResting(combined.curve, combined.rounding);
-  const Checker tube = checker.withTracking(widened(checker, combined.rounding));
+  detail::dropResting(combined.curve, combined.rounding);
+  const Checker tube = checker.withTracking(detail::widened(checker, combined.rounding));
   Workspace workspace(tube);
   return tube.certifyTrajectory(combined.curve, workspace, query);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "certify/delayed_pairs.hpp"
+#include "certify/moved_pairs.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,28 +10,27 @@ namespace swept::detail {
 
 namespace {
 
-constexpr const char* kReason = "a delay does not move them against each other";
-
-/// Which curves move a joint, or what is between two bodies.
+/// Which of two sets of variables move a joint, or what is between two bodies.
 struct MovedBy {
-  bool delayed = false, others = false;
+  bool first = false, second = false;
 
   MovedBy operator|(const MovedBy& more) const {
-    return {delayed || more.delayed, others || more.others};
+    return {first || more.first, second || more.second};
   }
-  bool both() const { return delayed && others; }
+  bool both() const { return first && second; }
+  bool firstAlone() const { return first && !second; }
 };
 
 /// Bodies of the robot, and the joints from the model frame to each.
-class DelayedBodies {
+class MovedBodies {
  public:
-  DelayedBodies(const Checker& checker, std::span<const std::string> delayed,
-                std::span<const std::string> others)
+  MovedBodies(const Checker& checker, std::span<const std::string> first,
+              std::span<const std::string> second)
       : robot_(checker.robot()) {
     for (const Joint& joint : robot_.joints()) {
       const Joint& master =
           joint.mimic ? robot_.joints()[static_cast<std::size_t>(joint.mimic->master)] : joint;
-      moved_.push_back({isAmong(delayed, master), isAmong(others, master)});
+      moved_.push_back({isAmong(first, master), isAmong(second, master)});
     }
     for (std::size_t link = 0; link < robot_.links().size(); ++link)
       bodies_.push_back({robot_.links()[link].name, pathTo(link)});
@@ -91,18 +90,37 @@ class DelayedBodies {
 
 Checker delayedPairs(const Checker& checker, std::span<const std::string> delayed,
                      std::span<const std::string> others) {
-  const DelayedBodies bodies(checker, delayed, others);
+  const MovedBodies bodies(checker, delayed, others);
   CollisionRules rules;
   bool worldMatters = false;
   for (std::size_t a = 0; a < bodies.size(); ++a) {
     worldMatters = worldMatters || bodies.toWorld(a).both();
     for (std::size_t b = a + 1; b < bodies.size(); ++b)
-      if (!bodies.between(a, b).both()) rules.allow(bodies.name(a), bodies.name(b), kReason);
+      if (!bodies.between(a, b).both())
+        rules.allow(bodies.name(a), bodies.name(b),
+                    "a delay does not move them against each other");
   }
   Checker left = checker;
   if (!worldMatters)
     for (const WorldBody& body : checker.world().bodies()) left = left.withoutBody(body.name);
   return left.withRules(rules.over(left.options().rules));
+}
+
+Checker pairsMovedBy(const Checker& checker, std::span<const std::string> own,
+                     std::span<const std::string> ignored) {
+  constexpr const char* kReason = "the planned robot does not move them against each other";
+  const MovedBodies bodies(checker, own, ignored);
+  CollisionRules rules;
+  for (std::size_t a = 0; a < bodies.size(); ++a) {
+    for (std::size_t b = a + 1; b < bodies.size(); ++b)
+      if (!bodies.between(a, b).firstAlone()) rules.allow(bodies.name(a), bodies.name(b), kReason);
+    if (bodies.toWorld(a).firstAlone()) continue;
+    for (const WorldBody& body : checker.world().bodies())
+      rules.allow(bodies.name(a), body.name, kReason);
+    for (const MovingObstacle& obstacle : checker.world().obstacles())
+      rules.allow(bodies.name(a), obstacle.name, kReason);
+  }
+  return checker.withRules(rules.over(checker.options().rules));
 }
 
 }  // namespace swept::detail

@@ -18,4 +18,11 @@ namespace swept::detail {
 Checker delayedPairs(const Checker& checker, std::span<const std::string> delayed,
                      std::span<const std::string> others);
 
+/// A checker of those pairs that the own variables move against each other, or against the world,
+/// unless an ignored variable is between the two as well. It keeps all constraints.
+///
+/// `own`, `ignored`: names of variables.
+Checker pairsMovedBy(const Checker& checker, std::span<const std::string> own,
+                     std::span<const std::string> ignored);
+
 }  // namespace swept::detail

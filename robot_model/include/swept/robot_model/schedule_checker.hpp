@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "swept/robot_model/checker.hpp"
+#include "swept/robot_model/checker_results.hpp"
+#include "swept/robot_model/configuration.hpp"
+#include "swept/robot_model/piecewise_polynomial.hpp"
+#include "swept/robot_model/schedule.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
+
+namespace swept {
+
+/// Proofs about curves of some variables while others move on known curves: what a planner asks
+/// that looks for one robot's way beside those of other robots. It asks about any number of curves
+/// without putting the whole schedule together again.
+///
+/// It asks about the pairs that the own variables move, and about no others: those of the other
+/// curves among themselves are proven once, where these were made. At the end certifySchedule()
+/// proves the whole schedule. Immutable: any number of threads may use one, each with its own
+/// Workspace.
+class ScheduleChecker {
+ public:
+  /// `checker`: of a group that has all variables. `variables`: names of the own ones. `others`:
+  /// the curves of others, none of an own variable. `still`: a configuration of the group, for
+  /// variables that no curve moves; empty: there are none. `ignored`: names of variables about
+  /// which nothing is known yet. Pairs with such a variable between the two bodies are left out.
+  ///
+  /// Throws std::invalid_argument as combinedCurve() does, without an own variable, for an own one
+  /// that is of the orientation of a floating joint, and for a name that the robot does not have.
+  ScheduleChecker(const Checker& checker, std::vector<std::string> variables,
+                  std::vector<ScheduledCurve> others = {}, ConfigurationView still = {},
+                  const std::vector<std::string>& ignored = {});
+
+  /// What is proven about the group's curve from the begin to the end of `own`, whose time is the
+  /// clock's and whose values are those of `variables()`. As in certifySchedule(), the roundings of
+  /// combinedCurve() are in the tube. A curve that is faster than 100 rad/s or m/s, farther away
+  /// than 1000 rad or m, or ends later than 600 s after end(), is Undecided. Throws
+  /// std::invalid_argument for another number of values, and for a curve that begins before the
+  /// clock's time 0.
+  TrajectoryCertificate certify(const PiecewisePolynomial& own, Workspace& workspace,
+                                MotionQuery query = MotionQuery::FirstContact) const;
+
+  /// s. From here on nothing but the own variables moves: no curve, and no moving obstacle.
+  double end() const;
+  /// As given.
+  const std::vector<std::string>& variables() const;
+  /// As given.
+  const std::vector<ScheduledCurve>& others() const;
+  /// The checker of the pairs that are asked about, in the tube of the roundings.
+  const Checker& checker() const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace swept

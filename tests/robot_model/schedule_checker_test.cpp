@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One robot's curve beside those of others: against the whole schedule, and truths by hand.
+#include "swept/robot_model/schedule_checker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "message_of.hpp"
+#include "models_dir.hpp"
+#include "swept/robot_model/joint_trajectory.hpp"
+#include "swept/robot_model/work_cell.hpp"
+
+namespace swept {
+namespace {
+
+using test::messageOf;
+
+/// Cubes of 0.2 m that slide: `east` along x, `north` along y, `up` along z, all through the
+/// origin.
+std::shared_ptr<const Robot> crossing() {
+  const auto slide = [](const std::string& name, const std::string& axis) {
+    return "<link name='" + name +
+           "_cube'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>"
+           "<joint name='" +
+           name + "' type='prismatic'><parent link='base'/><child link='" + name +
+           "_cube'/><axis xyz='" + axis +
+           "'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>";
+  };
+  return Robot::parse("<robot name='crossing'><link name='base'/>" + slide("east", "1 0 0") +
+                          slide("north", "0 1 0") + slide("up", "0 0 1") + "</robot>",
+                      "crossing.urdf");
+}
+
+/// From -1 m to 1 m at 1 m/s, begun at a time (s).
+PiecewisePolynomial pass(double begin = 0.0) {
+  Eigen::MatrixXd way(1, 2);
+  way << -1.0, 1.0;
+  return {{begin, begin + 2.0}, {way}};
+}
+
+Checker checkerOf(const std::shared_ptr<const Robot>& robot) {
+  return {robot, "all", std::make_shared<World>()};
+}
+
+const std::vector<double> kAway{0.0, 0.0, 3.0};  // `up` is far above
+
+TEST(ScheduleChecker, WhoMeetsAtACrossingIsKnownByHand) {
+  const ScheduleChecker beside(checkerOf(crossing()), {"east"},
+                               {{.variables = {"north"}, .curve = pass()}}, kAway);
+  EXPECT_EQ(beside.end(), 2.0);
+  EXPECT_EQ(beside.variables(), std::vector<std::string>{"east"});
+  EXPECT_EQ(beside.others().size(), 1U);
+  Workspace workspace(beside.checker());
+  for (const double begin : {0.0, 0.2, 0.39, 0.41, 0.5, 3.0}) {
+    const TrajectoryCertificate found = beside.certify(pass(begin), workspace);
+    EXPECT_EQ(found.verdict, begin < 0.4 ? Verdict::Collision : Verdict::Free) << begin;
+    if (begin >= 0.4) continue;
+    ASSERT_TRUE(found.contact);
+    EXPECT_NEAR(found.contact->time, 0.8 + begin, 1e-3);
+    EXPECT_NEAR(found.freeUntil, 0.8 + begin, 5e-3);
+  }
+  // Before the other begins and after it has ended, it rests.
+  const Eigen::MatrixXd origin = Eigen::MatrixXd::Zero(1, 2);
+  EXPECT_EQ(beside.certify({{0.0, 0.7}, {origin}}, workspace).verdict, Verdict::Free);
+  EXPECT_EQ(beside.certify({{0.7, 0.9}, {origin}}, workspace).verdict, Verdict::Collision);
+  EXPECT_EQ(beside.certify({{1.3, 50.0}, {origin}}, workspace).verdict, Verdict::Free);
+}
+
+TEST(ScheduleChecker, OthersAmongThemselvesAreNotAskedAbout) {
+  // `north` and `up` meet, and `east` is away from both.
+  const std::vector<ScheduledCurve> others{{.variables = {"north"}, .curve = pass()},
+                                           {.variables = {"up"}, .curve = pass()}};
+  const Checker checker = checkerOf(crossing());
+  const ScheduleChecker beside(checker, {"east"}, others);
+  Workspace workspace(beside.checker());
+  const Eigen::MatrixXd away = Eigen::MatrixXd::Constant(1, 2, 2.0);
+  EXPECT_EQ(beside.certify({{0.0, 3.0}, {away}}, workspace).verdict, Verdict::Free);
+  std::vector<ScheduledCurve> all = others;
+  all.push_back({.variables = {"east"}, .curve = {{0.0, 3.0}, {away}}});
+  EXPECT_EQ(certifySchedule(checker, all).verdict, Verdict::Collision);
+}
+
+TEST(ScheduleChecker, IgnoredVariablesAreLeftOut) {
+  const std::vector<double> still{0.0, 0.0, 0.0};  // both others are at the origin
+  const Checker checker = checkerOf(crossing());
+  const auto verdict = [&](const std::vector<std::string>& ignored) {
+    const ScheduleChecker beside(checker, {"east"}, {}, still, ignored);
+    Workspace workspace(beside.checker());
+    return beside.certify(pass(), workspace).verdict;
+  };
+  EXPECT_EQ(verdict({}), Verdict::Collision);
+  EXPECT_EQ(verdict({"north"}), Verdict::Collision);
+  EXPECT_EQ(verdict({"north", "up"}), Verdict::Free);
+}
+
+TEST(ScheduleChecker, ObstaclesAreOnTheSameClock) {
+  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
+  const Checker checker =
+      checkerOf(crossing())
+          .withObstacle({.name = "cart",
+                         .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
+                         .waypoints = {{0.0, at(-1.0)}, {2.0, at(1.0)}, {7.0, at(1.0)}}});
+  const std::vector<double> still{0.0, 3.0, 3.0};
+  const ScheduleChecker beside(checker, {"east"}, {}, still);
+  EXPECT_EQ(beside.end(), 7.0);
+  Workspace workspace(beside.checker());
+  EXPECT_EQ(beside.certify(pass(0.3), workspace).verdict, Verdict::Collision);
+  EXPECT_EQ(beside.certify(pass(0.5), workspace).verdict, Verdict::Free);
+}
+
+TEST(ScheduleChecker, CurvesThatItsTubeHasNoRoomForAreUndecided) {
+  const ScheduleChecker beside(checkerOf(crossing()), {"east"}, {}, kAway);
+  Workspace workspace(beside.checker());
+  Eigen::MatrixXd way(1, 2);
+  way << 1.0, 1.5;
+  EXPECT_EQ(beside.certify({{0.0, 1.0}, {way}}, workspace).verdict, Verdict::Free);
+  const TrajectoryCertificate fast = beside.certify({{0.0, 0.004}, {way}}, workspace);
+  EXPECT_EQ(fast.verdict, Verdict::Undecided);
+  EXPECT_TRUE(fast.undecided);
+  EXPECT_EQ(beside.certify({{0.0, 700.0}, {way}}, workspace).verdict, Verdict::Undecided);
+}
+
+TEST(ScheduleChecker, TwoArmsGetTheVerdictsOfTheWholeSchedule) {
+  const auto robot = loadWorkCell(WorkCell::read(modelsDir() + "/cells/two_rooks.yaml"));
+  const Checker checker(robot, "both", std::make_shared<World>());
+  std::mt19937 random(3);
+  const auto curveOf = [&](const Group& group, double begin) {
+    JointTrajectory trajectory;
+    for (const int variable : group.variables)
+      trajectory.variables.push_back(robot->variables()[static_cast<std::size_t>(variable)].name);
+    for (int k = 0; k < 3; ++k) {
+      TrajectoryPoint point{
+          .time = begin + k, .positions = {}, .velocities = {}, .accelerations = {}};
+      for (std::size_t v = 0; v < 7; ++v) {
+        const double share = static_cast<double>(random()) * 0x1p-32;
+        point.positions.push_back((v == 1 ? 1.0 : v == 3 ? 0.6 : 0.0) + 0.8 * (share - 0.5));
+        point.velocities.push_back(0.4 * (share - 0.5));
+      }
+      trajectory.points.push_back(std::move(point));
+    }
+    return ScheduledCurve{trajectory.variables, controllerCurve(trajectory)};
+  };
+  const Checker right(robot, "right/arm", std::make_shared<World>());
+  Workspace workspaceOfRight(right);
+  std::array<int, 2> count{};  // colliding, free
+  for (int i = 0; i < 6; ++i) {
+    const ScheduledCurve other = curveOf(right.group(), 0.0);
+    if (right.certifyTrajectory(other.curve, workspaceOfRight).verdict != Verdict::Free) continue;
+    const ScheduledCurve sample = curveOf(*robot->findGroup("left/arm"), 0.0);
+    const ScheduleChecker beside(checker, sample.variables, {other});
+    Workspace workspace(beside.checker());
+    for (int k = 0; k < 5; ++k) {
+      const ScheduledCurve left = curveOf(*robot->findGroup("left/arm"), 0.0);
+      const Verdict own = beside.certify(left.curve, workspace).verdict;
+      EXPECT_EQ(own, certifySchedule(checker, std::vector{left, other}).verdict) << i << ' ' << k;
+      if (own != Verdict::Undecided) ++count[own == Verdict::Free ? 1 : 0];
+    }
+  }
+  EXPECT_GE(count[0], 5);
+  EXPECT_GE(count[1], 5);
+}
+
+TEST(ScheduleChecker, WhatIsNotAllowedIsNamed) {
+  const Checker checker = checkerOf(crossing());
+  EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {}, {}, kAway); }),
+            "ScheduleChecker: there is no own variable");
+  EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {"west"}, {}, kAway); }),
+            "combinedCurve: group 'all' has no variable 'west'");
+  EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {"east"}); }),
+            "combinedCurve: no curve moves 'north'");
+  EXPECT_EQ(messageOf([&] {
+              ScheduleChecker(checker, {"east"}, {{.variables = {"east"}, .curve = pass()}}, kAway);
+            }),
+            "combinedCurve: two curves move 'east'");
+  EXPECT_EQ(messageOf([&] { ScheduleChecker(checker, {"east"}, {}, kAway, {"west"}); }),
+            "ScheduleChecker: the robot has no variable 'west'");
+  const ScheduleChecker beside(checker, {"east"}, {}, kAway);
+  Workspace workspace(beside.checker());
+  EXPECT_EQ(messageOf([&] {
+              beside.certify({{0.0, 1.0}, {Eigen::MatrixXd::Zero(2, 2)}}, workspace);
+            }),
+            "ScheduleChecker: the curve has 2 values, expected 1");
+  EXPECT_EQ(messageOf([&] { beside.certify(pass(-1.0), workspace); }),
+            "ScheduleChecker: the curve begins at -1 s; allowed are 0 and later");
+}
+
+}  // namespace
+}  // namespace swept
