@@ -10,6 +10,7 @@
 #include "swept/ompl_bridge/paths.hpp"
 #include "swept/ompl_bridge/planners.hpp"
 #include "swept/ompl_bridge/pose_goal.hpp"
+#include "swept/ompl_bridge/schedule_plan.hpp"
 #include "swept/ompl_bridge/setup.hpp"
 #include "swept/ompl_bridge/state_space.hpp"
 #include "swept/ompl_bridge/trajectory.hpp"

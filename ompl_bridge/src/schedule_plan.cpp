@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "swept/ompl_bridge/schedule_plan.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "number_text.hpp"
+#include "space_time_improvement.hpp"
+#include "space_time_search.hpp"
+#include "swept/core/floating_point_environment.hpp"
+#include "swept/core/verdict.hpp"
+#include "swept/robot_model/limits.hpp"
+#include "swept/robot_model/schedule_checker.hpp"
+#include "timed_polyline.hpp"
+
+namespace swept {
+
+namespace {
+
+using Status = PlannedSchedule::Status;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kTurnRange = 0.8;   // rad, of a tree's longest step
+constexpr double kSlideShare = 0.2;  // of the way of a joint that slides, likewise
+/// Of the limit of acceleration, in the search: blends of the final curve then fit between its
+/// straight motions.
+constexpr double kPlannedShare = 0.998;
+constexpr double kRestResolution = 1e-3;    // s
+constexpr double kRatesShare = 1.0 - 1e-6;  // of the limits, for the rounding of times
+
+void requirePlan(bool holds, const std::string& message) {
+  if (!holds) throw std::invalid_argument("planSchedule: " + message);
+}
+
+Eigen::VectorXd vectorOf(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+}
+
+/// A robot that stays where it is.
+PiecewisePolynomial resting(const Eigen::VectorXd& q) {
+  return {{0.0, kRestResolution}, {q.replicate(1, 2)}};
+}
+
+/// A task as the search needs it.
+struct Own {
+  std::vector<std::string> names;
+  detail::OwnSpace space;
+  Eigen::VectorXd start;
+  std::vector<Eigen::VectorXd> goals;
+};
+
+class TaskReader {
+ public:
+  TaskReader(const Checker& checker, const ScheduleTask& task, std::size_t index)
+      : robot_(checker.robot()), task_(task), of_("task " + std::to_string(index + 1)) {}
+
+  Own read() {
+    const Group* group = robot_.findGroup(task_.group);
+    requirePlan(group != nullptr, of_ + ": there is no group '" + task_.group + "'");
+    const auto size = static_cast<Eigen::Index>(group->variables.size());
+    requireCount(task_.limits.velocity.size(), group->variables.size(), "limits of velocity");
+    requireCount(task_.limits.acceleration.size(), group->variables.size(),
+                 "limits of acceleration");
+    requirePlan(!task_.goals.empty(), of_ + " has no goal");
+    Own own;
+    detail::OwnSpace& space = own.space;
+    space.lower.resize(size);
+    space.upper.resize(size);
+    space.cyclic.resize(size);
+    space.range.resize(size);
+    space.bounds = {Eigen::ArrayXd(size), Eigen::ArrayXd(size)};
+    for (Eigen::Index v = 0; v < size; ++v) {
+      const Variable& variable =
+          robot_
+              .variables()[static_cast<std::size_t>(group->variables[static_cast<std::size_t>(v)])];
+      own.names.push_back(variable.name);
+      addVariable(variable, v, space);
+    }
+    space.planned = {kRatesShare * space.bounds.velocity,
+                     kPlannedShare * space.bounds.acceleration};
+    own.start = configuration(task_.start, *group, "start");
+    for (const std::vector<double>& goal : task_.goals)
+      own.goals.push_back(configuration(goal, *group, "goal"));
+    return own;
+  }
+
+ private:
+  void requireCount(std::size_t count, std::size_t expected, const std::string& what) const {
+    requirePlan(count == expected, of_ + " has " + std::to_string(count) + " " + what +
+                                       ", expected " + std::to_string(expected));
+  }
+
+  double rateOf(const std::string& name, double limit, const std::string& what) const {
+    requirePlan(std::isfinite(limit) && limit > 0.0,
+                of_ + ": the limit of " + what + " of '" + name + "' is " +
+                    detail::numberText(limit) + "; allowed are finite numbers above 0");
+    return limit;
+  }
+
+  void addVariable(const Variable& variable, Eigen::Index v, detail::OwnSpace& space) const {
+    const auto i = static_cast<std::size_t>(v);
+    requirePlan(!isOrientation(robot_, variable), of_ + ": '" + variable.name +
+                                                      "' is of an orientation, which is not "
+                                                      "planned in time");
+    const double way = variable.upper - variable.lower;
+    requirePlan(variable.cyclic || std::isfinite(way),
+                of_ + ": '" + variable.name + "' has no limits of position to plan between");
+    space.cyclic[v] = variable.cyclic;
+    space.lower[v] = variable.cyclic ? -std::numbers::pi : variable.lower;
+    space.upper[v] = variable.cyclic ? std::numbers::pi : variable.upper;
+    space.range[v] = unitOf(robot_, variable) == "rad" ? kTurnRange : kSlideShare * way;
+    space.bounds.velocity[v] =
+        kRatesShare * rateOf(variable.name, task_.limits.velocity[i], "velocity");
+    space.bounds.acceleration[v] =
+        kRatesShare * rateOf(variable.name, task_.limits.acceleration[i], "acceleration");
+  }
+
+  Eigen::VectorXd configuration(const std::vector<double>& values, const Group& group,
+                                const std::string& which) const {
+    requireCount(values.size(), group.variables.size(), "values of a " + which);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Variable& variable = robot_.variables()[static_cast<std::size_t>(group.variables[i])];
+      requirePlan(std::isfinite(values[i]),
+                  of_ + ": the " + which + "'s value of '" + variable.name + "' is not finite");
+      requirePlan(variable.cyclic || isWithin(values[i], variable.lower, variable.upper),
+                  of_ + ": the " + which + "'s " +
+                      outsideText(variable.name, values[i], variable.lower, variable.upper,
+                                  unitOf(robot_, variable)));
+    }
+    return vectorOf(values);
+  }
+
+  const Robot& robot_;
+  const ScheduleTask& task_;
+  const std::string of_;
+};
+
+/// What one attempt for one robot gave.
+struct Way {
+  Status status = Status::NotFound;
+  std::optional<Witness> contact = {};
+  std::optional<JointTrajectory> trajectory = {};
+};
+
+/// Finds the way of one robot beside curves that are known.
+class WaySearch {
+ public:
+  WaySearch(const ScheduleChecker& checker, const Own& own, const SchedulePlanOptions& options,
+            std::function<bool()> stop)
+      : checker_(checker),
+        own_(own),
+        options_(options),
+        stop_(std::move(stop)),
+        workspace_(checker.checker()) {}
+
+  Way run() {
+    const TrajectoryCertificate start = rest(own_.start, 0.0, kRestResolution);
+    if (start.verdict != Verdict::Free) return {Status::StartNotFree, witnessOf(start)};
+    std::vector<detail::TimedGoal> goals;
+    std::optional<Witness> contact;
+    for (const Eigen::VectorXd& goal : own_.goals) {
+      if (const std::optional<double> from = restFrom(goal, contact)) {
+        if (*from <= options_.latest) goals.push_back({goal, *from});
+      }
+    }
+    if (goals.empty())
+      return {contact ? Status::GoalNotFree : Status::NotFound, std::move(contact)};
+    return search(goals);
+  }
+
+ private:
+  static std::optional<Witness> witnessOf(const TrajectoryCertificate& certificate) {
+    if (!certificate.contact) return std::nullopt;
+    return certificate.contact->witness;
+  }
+
+  TrajectoryCertificate rest(const Eigen::VectorXd& q, double from, double to) {
+    return checker_.certify({{from, to}, {q.replicate(1, 2)}}, workspace_);
+  }
+
+  /// s, since when the robot may stay there. No value, and a contact: not even at the end.
+  std::optional<double> restFrom(const Eigen::VectorXd& goal, std::optional<Witness>& contact) {
+    const double end = std::max(checker_.end(), kRestResolution);
+    const auto staysFree = [&](double from) {
+      return rest(goal, from, end + kRestResolution).verdict == Verdict::Free;
+    };
+    const TrajectoryCertificate last = rest(goal, end, end + kRestResolution);
+    if (last.verdict != Verdict::Free) {
+      contact = witnessOf(last);
+      return std::nullopt;
+    }
+    if (staysFree(0.0)) return 0.0;
+    double blocked = 0.0, free = end;
+    while (free - blocked > kRestResolution) {
+      const double middle = 0.5 * (blocked + free);
+      (staysFree(middle) ? free : blocked) = middle;
+    }
+    return free;
+  }
+
+  Way search(const std::vector<detail::TimedGoal>& goals) {
+    detail::SpaceTimeSearch trees(checker_, own_.space, options_.seed);
+    std::vector<detail::TimedKnot> knots =
+        trees.run({own_.start, 0.0}, goals, options_.latest, stop_);
+    if (knots.empty()) return {};
+    knots = detail::improved(
+        checker_, own_.space, std::move(knots),
+        {.begin = 0.0, .restFrom = goals[trees.goal()].restFrom, .attempts = options_.improvements},
+        options_.seed, stop_);
+    // A robot that is at its goal stays there.
+    const std::optional<PiecewisePolynomial> curve =
+        knots.size() == 1 ? resting(knots.front().q)
+                          : detail::blended(knots, 0.0, own_.space.bounds);
+    if (!curve) return {};
+    return {.status = Status::Found, .trajectory = controllerTrajectory(*curve, own_.names)};
+  }
+
+  const ScheduleChecker& checker_;
+  const Own& own_;
+  const SchedulePlanOptions& options_;
+  const std::function<bool()> stop_;
+  Workspace workspace_;
+};
+
+/// Plans all tasks, in changing orders.
+class PriorityPlanner {
+ public:
+  PriorityPlanner(const Checker& checker, std::span<const ScheduleTask> tasks,
+                  std::span<const ScheduledCurve> known, ConfigurationView still,
+                  const SchedulePlanOptions& options)
+      : checker_(checker),
+        known_(known),
+        options_(options),
+        deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(options.seconds))),
+        slice_(tasks.size() == 1 ? options.seconds
+                                 : options.seconds / (4.0 * static_cast<double>(tasks.size()))) {
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      own_.push_back(TaskReader(checker, tasks[i], i).read());
+    still_.assign(still.begin(), still.end());
+    requireEachOnce(!still.empty());
+  }
+
+  PlannedSchedule run() {
+    std::vector<std::size_t> order(own_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    while (true) {
+      ways_.assign(own_.size(), std::nullopt);
+      const std::optional<std::size_t> failed = planInOrder(order);
+      if (!failed) return finish(std::move(order));
+      if (isLate() || own_.size() == 1 || isHopeless_) return std::move(found_);
+      if (!goalsAreApart_ && goalsMeet(order)) return std::move(found_);
+      if (failed == order.front()) slice_ *= 2.0;
+      order.erase(std::ranges::find(order, *failed));
+      order.insert(failed == found_.order.front() ? order.end() : order.begin(), *failed);
+    }
+  }
+
+ private:
+  bool isLate() const { return options_.stop.stop_requested() || Clock::now() >= deadline_; }
+
+  /// Variables of tasks are in the checker's group, and in one task only. Others have a curve or
+  /// stand still.
+  void requireEachOnce(bool hasStill) {
+    const Robot& robot = checker_.robot();
+    const std::vector<int>& all = checker_.group().variables;
+    if (!hasStill) still_.assign(all.size(), 0.0);
+    requirePlan(still_.size() == all.size(), "the configuration has " +
+                                                 std::to_string(still_.size()) +
+                                                 " values, expected " + std::to_string(all.size()));
+    std::set<std::string> taken;
+    for (const Own& own : own_) {
+      for (std::size_t v = 0; v < own.names.size(); ++v) {
+        const auto at = std::ranges::find(all, *robot.findVariable(own.names[v]));
+        requirePlan(at != all.end(),
+                    "group '" + checker_.group().name + "' has no variable '" + own.names[v] + "'");
+        requirePlan(taken.insert(own.names[v]).second, "two tasks move '" + own.names[v] + "'");
+        still_[static_cast<std::size_t>(at - all.begin())] =
+            own.start[static_cast<Eigen::Index>(v)];
+      }
+    }
+    for (const ScheduledCurve& curve : known_)
+      taken.insert(curve.variables.begin(), curve.variables.end());
+    for (const int variable : all) {
+      const std::string& name = robot.variables()[static_cast<std::size_t>(variable)].name;
+      requirePlan(hasStill || taken.contains(name), "nothing says where '" + name + "' is");
+    }
+  }
+
+  /// The task that found no way, if one did not.
+  std::optional<std::size_t> planInOrder(const std::vector<std::size_t>& order) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::size_t task = order[i];
+      const std::span later(order.begin() + static_cast<std::ptrdiff_t>(i) + 1, order.end());
+      Way way = planOne(task, {});
+      if (!way.trajectory && !later.empty() && !isLate()) {
+        std::vector<std::string> ignored;
+        for (const std::size_t other : later)
+          ignored.insert(ignored.end(), own_[other].names.begin(), own_[other].names.end());
+        Way without = planOne(task, ignored);
+        isHopeless_ = i == 0 && without.status == Status::GoalNotFree;
+        if (without.trajectory || isHopeless_) way = std::move(without);
+      }
+      isHopeless_ = isHopeless_ || way.status == Status::StartNotFree;
+      if (!way.trajectory) {
+        found_ = {
+            .status = way.status, .task = task, .contact = std::move(way.contact), .order = order};
+        return task;
+      }
+      ways_[task] = std::move(way.trajectory);
+    }
+    return std::nullopt;
+  }
+
+  /// Whether two goals, each the only one of its task, cannot be taken at once. Says so.
+  bool goalsMeet(const std::vector<std::size_t>& order) {
+    for (std::size_t a = 0; a < own_.size(); ++a) {
+      for (std::size_t b = a + 1; b < own_.size(); ++b) {
+        if (own_[a].goals.size() > 1 || own_[b].goals.size() > 1) continue;
+        std::vector<std::string> ignored;
+        for (std::size_t other = 0; other < own_.size(); ++other)
+          if (other != a && other != b)
+            ignored.insert(ignored.end(), own_[other].names.begin(), own_[other].names.end());
+        const ScheduledCurve there{.variables = own_[a].names, .curve = resting(own_[a].goals[0])};
+        const ScheduleChecker beside(checker_, own_[b].names, {there}, still_, ignored);
+        Workspace workspace(beside.checker());
+        const TrajectoryCertificate found = beside.certify(resting(own_[b].goals[0]), workspace);
+        if (found.verdict != Verdict::Collision) continue;
+        found_ = {.status = Status::GoalNotFree,
+                  .task = b,
+                  .contact = found.contact->witness,
+                  .order = order};
+        return true;
+      }
+    }
+    goalsAreApart_ = true;
+    return false;
+  }
+
+  std::vector<ScheduledCurve> curves() const {
+    std::vector<ScheduledCurve> all(known_.begin(), known_.end());
+    for (const std::optional<JointTrajectory>& way : ways_)
+      if (way) all.push_back({.variables = way->variables, .curve = controllerCurve(*way)});
+    return all;
+  }
+
+  Way planOne(std::size_t task, const std::vector<std::string>& ignored) {
+    const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored);
+    const auto end = std::min(deadline_, Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                            std::chrono::duration<double>(slice_)));
+    const auto stop = [this, end] { return options_.stop.stop_requested() || Clock::now() >= end; };
+    return WaySearch(beside, own_[task], options_, stop).run();
+  }
+
+  PlannedSchedule finish(std::vector<std::size_t> order) {
+    const std::vector<ScheduledCurve> all = curves();
+    PlannedSchedule result;
+    result.curves.assign(all.begin() + std::ssize(known_), all.end());
+    for (std::optional<JointTrajectory>& way : ways_)
+      result.trajectories.push_back(*std::move(way));
+    result.order = std::move(order);
+    result.certificate = certifySchedule(checker_, all, {}, still_);
+    result.status =
+        result.certificate->verdict == Verdict::Free ? Status::Found : Status::NotProven;
+    return result;
+  }
+
+  const Checker& checker_;
+  const std::span<const ScheduledCurve> known_;
+  const SchedulePlanOptions& options_;
+  const Clock::time_point deadline_;
+  double slice_;  ///< s, for one robot
+  std::vector<Own> own_;
+  std::vector<double> still_;
+  std::vector<std::optional<JointTrajectory>> ways_;  ///< by task
+  PlannedSchedule found_;                             ///< of the last failure
+  bool isHopeless_ = false;                           ///< no other order can help
+  bool goalsAreApart_ = false;                        ///< as far as is known: goalsMeet()
+};
+
+}  // namespace
+
+PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTask> tasks,
+                             std::span<const ScheduledCurve> known, ConfigurationView still,
+                             const SchedulePlanOptions& options) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, tasks, known, still] { return planSchedule(checker, tasks, known, still, options); });
+  }
+  requirePlan(!tasks.empty(), "there is no task");
+  requirePlan(
+      std::isfinite(options.seconds) && options.seconds > 0.0,
+      "seconds is " + detail::numberText(options.seconds) + "; allowed are finite numbers above 0");
+  requirePlan(options.latest > 0.0, "latest is " + detail::numberText(options.latest) +
+                                        " s; allowed are numbers above 0");
+  requirePlan(options.improvements >= 0, "improvements is " + std::to_string(options.improvements) +
+                                             "; allowed are 0 and more");
+  return PriorityPlanner(checker, tasks, known, still, options).run();
+}
+
+const char* toString(PlannedSchedule::Status status) {
+  switch (status) {
+    case Status::Found:
+      return "found";
+    case Status::StartNotFree:
+      return "start not free";
+    case Status::GoalNotFree:
+      return "goal not free";
+    case Status::NotFound:
+      return "not found";
+    case Status::NotProven:
+      return "not proven";
+  }
+  return "";
+}
+
+}  // namespace swept

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Schedules that are planned: truths by hand for sliding cubes, samples that refute, and messages.
+#include "swept/ompl_bridge/schedule_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "message_of.hpp"
+#include "models_dir.hpp"
+#include "swept/robot_model/named_states.hpp"
+#include "swept/robot_model/work_cell.hpp"
+
+namespace swept {
+namespace {
+
+using test::messageOf;
+using Status = PlannedSchedule::Status;
+
+constexpr double kFast = 1.0;    // m/s
+constexpr double kQuick = 10.0;  // m/s^2
+
+std::string slide(const std::string& name, const std::string& parent, const std::string& child,
+                  const std::string& axis) {
+  return "<joint name='" + name + "' type='prismatic'><parent link='" + parent +
+         "'/><child link='" + child + "'/><axis xyz='" + axis +
+         "'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>";
+}
+
+std::string cube(const std::string& name) {
+  return "<link name='" + name +
+         "'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>";
+}
+
+std::string group(const std::string& name, const std::vector<std::string>& joints) {
+  std::string text = "<group name='" + name + "'>";
+  for (const std::string& joint : joints) text += "<joint name='" + joint + "'/>";
+  return text + "</group>";
+}
+
+/// Cubes of 0.2 m: `east` slides along x, `north` along y, through one another at the origin.
+std::shared_ptr<const Robot> crossing() {
+  return Robot::parse("<robot name='crossing'><link name='base'/>" + cube("e") + cube("n") +
+                          slide("east", "base", "e", "1 0 0") +
+                          slide("north", "base", "n", "0 1 0") + "</robot>",
+                      "crossing.urdf",
+                      "<robot name='crossing'>" + group("east", {"east"}) +
+                          group("north", {"north"}) + group("both", {"east", "north"}) + "</robot>",
+                      "crossing.srdf");
+}
+
+/// Two such cubes on one plane, each of which slides along x and y.
+std::shared_ptr<const Robot> plane() {
+  std::string links = "<link name='base'/>", joints, groups;
+  for (const std::string one : {"a", "b"}) {
+    links += "<link name='" + one + "_rail'/>" + cube(one);
+    joints += slide(one + "_x", "base", one + "_rail", "1 0 0") +
+              slide(one + "_y", one + "_rail", one, "0 1 0");
+    groups += group(one, {one + "_x", one + "_y"});
+  }
+  groups += group("both", {"a_x", "a_y", "b_x", "b_y"});
+  return Robot::parse("<robot name='plane'>" + links + joints + "</robot>", "plane.urdf",
+                      "<robot name='plane'>" + groups + "</robot>", "plane.srdf");
+}
+
+Checker checkerOf(const std::shared_ptr<const Robot>& robot, World world = {}) {
+  return {robot, "both", std::make_shared<World>(std::move(world))};
+}
+
+RateLimits limits(std::size_t size, double velocity = kFast, double acceleration = kQuick) {
+  return {std::vector<double>(size, velocity), std::vector<double>(size, acceleration),
+          std::vector<double>(size, std::numeric_limits<double>::infinity())};
+}
+
+ScheduleTask pass(const std::string& name) {
+  return {.group = name, .start = {-1.0}, .goals = {{1.0}}, .limits = limits(1)};
+}
+
+/// A schedule is what it should be: proven, within limits, and it begins and ends where it should.
+void expectSound(const Checker& checker, const std::vector<ScheduleTask>& tasks,
+                 const PlannedSchedule& found) {
+  ASSERT_EQ(found.status, Status::Found) << toString(found.status);
+  ASSERT_EQ(found.curves.size(), tasks.size());
+  ASSERT_TRUE(found.certificate);
+  EXPECT_EQ(found.certificate->verdict, Verdict::Free);
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const PiecewisePolynomial& curve = found.curves[i].curve;
+    const auto size = static_cast<Eigen::Index>(tasks[i].start.size());
+    EXPECT_EQ(curve.begin(), 0.0);
+    for (Eigen::Index v = 0; v < size; ++v) {
+      EXPECT_NEAR(curve.position(0.0)[v], tasks[i].start[static_cast<std::size_t>(v)], 1e-12);
+      EXPECT_NEAR(curve.velocity(0.0)[v], 0.0, 1e-9);
+      EXPECT_NEAR(curve.velocity(curve.end())[v], 0.0, 1e-7);
+    }
+    const Eigen::VectorXd end = curve.position(curve.end());
+    EXPECT_TRUE(std::ranges::any_of(tasks[i].goals, [&](const std::vector<double>& goal) {
+      return (end - Eigen::Map<const Eigen::VectorXd>(goal.data(), size)).norm() < 1e-9;
+    }));
+    const Group& own = *checker.robot().findGroup(tasks[i].group);
+    const Checker alone(std::shared_ptr<const Robot>(std::shared_ptr<void>(), &checker.robot()),
+                        own.name, std::make_shared<World>());
+    Workspace workspace(alone);
+    EXPECT_TRUE(
+        alone.certifyTrajectory(curve, workspace, {.limits = tasks[i].limits}).violations.empty());
+  }
+}
+
+double arrival(const PlannedSchedule& found, std::size_t task) {
+  return found.curves[task].curve.end();
+}
+
+Eigen::VectorXd at(const ScheduledCurve& curve, double time) {
+  return curve.curve.position(time);
+}
+
+double lastArrival(const PlannedSchedule& found) {
+  double last = 0.0;
+  for (const ScheduledCurve& curve : found.curves) last = std::max(last, curve.curve.end());
+  return last;
+}
+
+TEST(SchedulePlan, WhoWaitsAtACrossingIsKnownByHand) {
+  const Checker checker = checkerOf(crossing());
+  const std::vector<ScheduleTask> tasks{pass("east"), pass("north")};
+  const PlannedSchedule found = planSchedule(checker, tasks);
+  expectSound(checker, tasks, found);
+  EXPECT_EQ(found.order, (std::vector<std::size_t>{0, 1}));
+  // Alone: 2 m at 1 m/s, and 0.1 s to reach this speed and to stop.
+  EXPECT_GE(arrival(found, 0), 2.1);
+  EXPECT_LE(arrival(found, 0), 2.15);
+  // The first leaves the crossing, 0.2 m behind the origin, 0.9 m before its goal, which takes it
+  // 0.95 s. The second needs as long from 0.2 m before the origin, and the 0.3 m between.
+  EXPECT_GE(arrival(found, 1), arrival(found, 0) + 0.4 - 1e-3);
+  EXPECT_LE(arrival(found, 1), arrival(found, 0) + 0.7);
+  for (double time = 0.0; time < lastArrival(found); time += 1e-3) {
+    const bool both = std::abs(at(found.curves[0], time)[0]) < 0.2 &&
+                      std::abs(at(found.curves[1], time)[0]) < 0.2;
+    ASSERT_FALSE(both) << time;
+  }
+}
+
+TEST(SchedulePlan, ARobotIsPlannedBesideAKnownCurve) {
+  const Checker checker = checkerOf(crossing());
+  // It comes to the origin at 0.9 s, stays there until 5 s, and goes back.
+  const JointTrajectory north{.variables = {"north"},
+                              .points = {{0.0, {-1.0}, {0.0}, {}},
+                                         {0.9, {0.0}, {0.0}, {}},
+                                         {5.0, {0.0}, {0.0}, {}},
+                                         {6.0, {-1.0}, {0.0}, {}}}};
+  const std::vector<ScheduledCurve> known{
+      {.variables = {"north"}, .curve = controllerCurve(north)}};
+  const std::vector<ScheduleTask> tasks{pass("east")};
+  const PlannedSchedule found = planSchedule(checker, tasks, known);
+  expectSound(checker, tasks, found);
+  // Nothing passes before 5 s, from 0.2 m before the origin; 1.25 s remain from there.
+  EXPECT_GE(arrival(found, 0), 5.0 + 1.2);
+  EXPECT_LE(arrival(found, 0), 6.0 + 1.5);
+  EXPECT_LE(at(found.curves[0], 5.0)[0], -0.2);
+
+  const PlannedSchedule late =
+      planSchedule(checker, tasks, known, {}, {.seconds = 0.3, .latest = 6.0});
+  EXPECT_EQ(late.status, Status::NotFound);
+  EXPECT_FALSE(late.found());
+}
+
+TEST(SchedulePlan, AGoalIsReachedOnceAnObstacleHasLeftIt) {
+  const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(1.0, y, 0.0)); };
+  World world;
+  world.add({.name = "cart",
+             .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
+             .waypoints = {{0.0, at(0.0)}, {4.0, at(0.0)}, {5.0, at(1.0)}}});
+  const Checker checker = checkerOf(crossing(), std::move(world));
+  const std::vector<double> still{0.0, -3.0};
+  const std::vector<ScheduleTask> tasks{pass("east")};
+  const PlannedSchedule found = planSchedule(checker, tasks, {}, still);
+  expectSound(checker, tasks, found);
+  EXPECT_GE(arrival(found, 0), 4.2);  // when it is 0.2 m away
+  EXPECT_LE(arrival(found, 0), 5.0);
+}
+
+TEST(SchedulePlan, TwoRobotsExchangeTheirPlaces) {
+  const Checker checker = checkerOf(plane());
+  const std::vector<ScheduleTask> tasks{
+      {.group = "a", .start = {-0.5, 0.0}, .goals = {{0.5, 0.0}}, .limits = limits(2)},
+      {.group = "b", .start = {0.5, 0.0}, .goals = {{-0.5, 0.0}}, .limits = limits(2)}};
+  const PlannedSchedule found = planSchedule(checker, tasks);
+  expectSound(checker, tasks, found);
+  for (double time = 0.0; time < lastArrival(found); time += 1e-3) {
+    const Eigen::VectorXd apart = at(found.curves[0], time) - at(found.curves[1], time);
+    ASSERT_GE(apart.array().abs().maxCoeff(), 0.2) << time;
+  }
+  // Each goes a metre; one of them around the other.
+  EXPECT_LE(lastArrival(found), 3.0);
+}
+
+TEST(SchedulePlan, ManyOnOnePlaneAreProvenAndTheirSamplesApart) {
+  const Checker checker = checkerOf(plane());
+  std::mt19937 random(7);
+  const auto coordinate = [&] { return 0.1 * static_cast<double>(random() % 13) - 0.6; };
+  int solved = 0, together = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<ScheduleTask> tasks;
+    for (const char* name : {"a", "b"}) {
+      tasks.push_back({.group = name,
+                       .start = {coordinate(), coordinate()},
+                       .goals = {{coordinate(), coordinate()}},
+                       .limits = limits(2, 0.5 + 0.1 * static_cast<double>(random() % 10), 5.0)});
+    }
+    const PlannedSchedule found =
+        planSchedule(checker, tasks, {}, {}, {.seconds = 1.0, .improvements = 200});
+    const auto apart = [](const std::vector<double>& p, const std::vector<double>& q) {
+      return std::max(std::abs(p[0] - q[0]), std::abs(p[1] - q[1]));
+    };
+    if (apart(tasks[0].start, tasks[1].start) < 0.2 - 1e-9) {
+      EXPECT_EQ(found.status, Status::StartNotFree);
+      continue;
+    }
+    if (apart(tasks[0].goals[0], tasks[1].goals[0]) < 0.2 - 1e-9) {
+      EXPECT_EQ(found.status, Status::GoalNotFree);
+      continue;
+    }
+    if (!found.found()) continue;  // touching
+    ++solved;
+    expectSound(checker, tasks, found);
+    double least = 10.0;
+    for (double time = 0.0; time < lastArrival(found); time += 1e-3) {
+      const Eigen::VectorXd way = at(found.curves[0], time) - at(found.curves[1], time);
+      least = std::min(least, way.array().abs().maxCoeff());
+    }
+    EXPECT_GE(least, 0.2 - 1e-9) << i;
+    together += least < 0.3 ? 1 : 0;
+  }
+  EXPECT_GE(solved, 25);
+  EXPECT_GE(together, 5);
+}
+
+TEST(SchedulePlan, TwoArmsReachOverOneTable) {
+  const auto robot = loadWorkCell(WorkCell::read(modelsDir() + "/cells/two_rooks.yaml"));
+  const Checker checker(robot, "both", std::make_shared<World>());
+  const std::vector<double> reaching{0, 1.3, 0, 0.3, 0, 0, 0};
+  std::vector<ScheduleTask> tasks;
+  for (const char* arm : {"left/arm", "right/arm"}) {
+    const Group& group = *robot->findGroup(arm);
+    const std::vector<double> tucked = namedConfiguration(*robot, group, "tucked");
+    const bool reaches = tasks.empty();
+    tasks.push_back({.group = arm,
+                     .start = reaches ? tucked : reaching,
+                     .goals = {reaches ? reaching : tucked},
+                     .limits = limits(7, 2.0, 5.0)});
+  }
+  const PlannedSchedule found = planSchedule(checker, tasks, {}, {}, {.improvements = 300});
+  expectSound(checker, tasks, found);
+  const Group& both = checker.group();
+  Workspace workspace(checker);
+  for (double time = 0.0; time < lastArrival(found); time += 1e-2) {
+    std::vector<double> q;
+    for (const int variable : both.variables) {
+      const std::string& name = robot->variables()[static_cast<std::size_t>(variable)].name;
+      for (const ScheduledCurve& curve : found.curves) {
+        const auto own = std::ranges::find(curve.variables, name);
+        if (own != curve.variables.end())
+          q.push_back(at(curve, time)[own - curve.variables.begin()]);
+      }
+    }
+    ASSERT_EQ(checker.checkState(q, workspace), Verdict::Free) << time;
+  }
+}
+
+TEST(SchedulePlan, TheSameSeedGivesTheSameSchedule) {
+  const Checker checker = checkerOf(plane());
+  const std::vector<ScheduleTask> tasks{
+      {.group = "a", .start = {-0.5, 0.0}, .goals = {{0.5, 0.1}}, .limits = limits(2)},
+      {.group = "b", .start = {0.5, 0.0}, .goals = {{-0.5, 0.1}}, .limits = limits(2)}};
+  const PlannedSchedule one = planSchedule(checker, tasks, {}, {}, {.improvements = 100});
+  const PlannedSchedule two = planSchedule(checker, tasks, {}, {}, {.improvements = 100});
+  ASSERT_TRUE(one.found() && two.found());
+  EXPECT_EQ(one.curves[0].curve.knots(), two.curves[0].curve.knots());
+  EXPECT_EQ(one.curves[1].curve.knots(), two.curves[1].curve.knots());
+  const PlannedSchedule other =
+      planSchedule(checker, tasks, {}, {}, {.improvements = 100, .seed = 5});
+  ASSERT_TRUE(other.found());
+  EXPECT_NE(one.curves[1].curve.knots(), other.curves[1].curve.knots());
+}
+
+TEST(SchedulePlan, ItSaysWhatIsNotFree) {
+  World world;
+  world.add("post", makeBox({0.2, 0.2, 0.2}),
+            Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)));
+  const Checker checker = checkerOf(crossing(), std::move(world));
+  const std::vector<double> still{0.0, -3.0};
+  const std::vector<ScheduleTask> blocked{pass("east")};
+  const PlannedSchedule goal = planSchedule(checker, blocked, {}, still);
+  EXPECT_EQ(goal.status, Status::GoalNotFree);
+  ASSERT_TRUE(goal.contact);
+  EXPECT_EQ(goal.contact->bodyB.str(), "post");
+  EXPECT_TRUE(goal.curves.empty());
+
+  std::vector<ScheduleTask> inside{pass("north"), pass("east")};
+  inside[1].start = {1.0};
+  inside[1].goals = {{-1.0}};
+  const PlannedSchedule start = planSchedule(checker, inside);
+  EXPECT_EQ(start.status, Status::StartNotFree);
+  EXPECT_EQ(start.task, 1U);
+
+  std::stop_source stop;
+  stop.request_stop();
+  const std::vector<ScheduleTask> north{pass("north")};
+  const PlannedSchedule stopped =
+      planSchedule(checker, north, {}, std::vector{-2.0, 0.0}, {.stop = stop.get_token()});
+  EXPECT_EQ(stopped.status, Status::NotFound);
+}
+
+TEST(SchedulePlan, WhatIsNotAllowedIsNamed) {
+  const Checker checker = checkerOf(crossing());
+  const std::vector<double> still{0.0, -3.0};
+  const auto message = [&](const ScheduleTask& task, const SchedulePlanOptions& options = {}) {
+    return messageOf([&] { planSchedule(checker, std::vector{task}, {}, still, options); });
+  };
+  ScheduleTask task = pass("east");
+  EXPECT_EQ(messageOf([&] { planSchedule(checker, {}, {}, still); }),
+            "planSchedule: there is no task");
+  EXPECT_EQ(messageOf([&] { planSchedule(checker, std::vector{task}); }),
+            "planSchedule: nothing says where 'north' is");
+  EXPECT_EQ(messageOf([&] {
+              planSchedule(checker, std::vector{task, task}, {}, still);
+            }),
+            "planSchedule: two tasks move 'east'");
+  EXPECT_EQ(messageOf([&] { planSchedule(checker, std::vector{task}, {}, std::vector{1.0}); }),
+            "planSchedule: the configuration has 1 values, expected 2");
+  task.group = "west";
+  EXPECT_EQ(message(task), "planSchedule: task 1: there is no group 'west'");
+  task = pass("east");
+  task.start = {0.0, 1.0};
+  EXPECT_EQ(message(task), "planSchedule: task 1 has 2 values of a start, expected 1");
+  task.start = {3.5};
+  EXPECT_EQ(message(task), "planSchedule: task 1: the start's east is 3.5, allowed is -3 to 3 m");
+  task.start = {std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_EQ(message(task), "planSchedule: task 1: the start's value of 'east' is not finite");
+  task = pass("east");
+  task.goals = {};
+  EXPECT_EQ(message(task), "planSchedule: task 1 has no goal");
+  task = pass("east");
+  task.limits.acceleration = {std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(message(task),
+            "planSchedule: task 1: the limit of acceleration of 'east' is inf; allowed are finite "
+            "numbers above 0");
+  task.limits.acceleration = {};
+  EXPECT_EQ(message(task), "planSchedule: task 1 has 0 limits of acceleration, expected 1");
+  task = pass("east");
+  EXPECT_EQ(message(task, {.seconds = 0.0}),
+            "planSchedule: seconds is 0; allowed are finite numbers above 0");
+  EXPECT_EQ(message(task, {.latest = -1.0}),
+            "planSchedule: latest is -1 s; allowed are numbers above 0");
+  EXPECT_EQ(message(task, {.improvements = -1}),
+            "planSchedule: improvements is -1; allowed are 0 and more");
+}
+
+}  // namespace
+}  // namespace swept
