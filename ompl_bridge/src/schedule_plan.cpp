@@ -300,7 +300,8 @@ class PriorityPlanner {
       const std::size_t task = order[i];
       const std::span later(order.begin() + static_cast<std::ptrdiff_t>(i) + 1, order.end());
       Way way = planOne(task, {});
-      if (!way.trajectory && !later.empty() && !isLate()) {
+      const bool startsApart = way.status != Status::StartNotFree;
+      if (!way.trajectory && startsApart && !later.empty() && !isLate()) {
         std::vector<std::string> ignored;
         for (const std::size_t other : later)
           ignored.insert(ignored.end(), own_[other].names.begin(), own_[other].names.end());
@@ -308,7 +309,7 @@ class PriorityPlanner {
         isHopeless_ = i == 0 && without.status == Status::GoalNotFree;
         if (without.trajectory || isHopeless_) way = std::move(without);
       }
-      isHopeless_ = isHopeless_ || way.status == Status::StartNotFree;
+      isHopeless_ = isHopeless_ || !startsApart;
       if (!way.trajectory) {
         found_ = {
             .status = way.status, .task = task, .contact = std::move(way.contact), .order = order};

@@ -312,6 +312,12 @@ TEST(SchedulePlan, ItSaysWhatIsNotFree) {
   EXPECT_EQ(start.status, Status::StartNotFree);
   EXPECT_EQ(start.task, 1U);
 
+  std::vector<ScheduleTask> together{pass("north"), pass("east")};
+  for (ScheduleTask& task : together) task.start = {0.0};
+  const PlannedSchedule meet = planSchedule(checker, together);
+  EXPECT_EQ(meet.status, Status::StartNotFree);
+  EXPECT_EQ(meet.task, 0U);
+
   std::stop_source stop;
   stop.request_stop();
   const std::vector<ScheduleTask> north{pass("north")};

@@ -34,6 +34,7 @@ class ScheduleProgram : public testing::Test {
     // Through the crossing, within 0.2 m of it from 0.8 s to 1.2 s.
     write("pass.csv", "time,slide\n0,-1\n2,1\n");
     write("smooth.csv", "time,slide,slide_velocity\n0,-1,0\n2,1,0\n");
+    write("stays.csv", "time,slide\n0,0\n1,0\n");
     write("corner.csv", "time,slide,slide_velocity\n0,-1,0\n1,0,1\n2,1,0\n");
   }
 
@@ -126,6 +127,64 @@ TEST_F(ScheduleProgram, SaysWhyNothingIsWritten) {
   EXPECT_FALSE(std::ifstream(out).good());
 }
 
+TEST_F(ScheduleProgram, PlansBesideATrajectory) {
+  const auto arrival = [&](const std::string& speed) {
+    const Outcome run = schedule({"east=" + file("pass.csv"), "--plan", "north=-1..1",
+                                  "--max-acceleration", "10", "--speed", speed, "--json"});
+    EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
+    const auto found = nlohmann::json::parse(run.out);
+    EXPECT_EQ(found["schedule"]["verdict"], "free");
+    EXPECT_EQ(found["parts"][0]["planned"], false);
+    EXPECT_EQ(found["parts"][1]["planned"], true);
+    EXPECT_EQ(found["parts"][1]["file"], nullptr);
+    return found["parts"][1]["end"].get<double>();
+  };
+  // At 2 m/s it has left the crossing by 0.7 s, before the other arrives; it takes 1.2 s.
+  EXPECT_GE(arrival("1"), 1.2);
+  EXPECT_LE(arrival("1"), 1.25);
+  // At half of that it would be there from 1 s on, and has to wait until 1.2 s.
+  EXPECT_GE(arrival("0.5"), 2.4 + 0.1);
+  EXPECT_LE(arrival("0.5"), 2.4 + 0.6);
+
+  const std::string out = folder_.path("planned.json");
+  const Outcome run = schedule({"east=" + file("smooth.csv"), "--at", "east=0.2", "--plan",
+                                "north=-1..1", "--max-acceleration", "10", "-o", out});
+  EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("part        east, 0.2 to 2.2 s\n"),
+                             HasSubstr("part        north, 0 to 1.2"), HasSubstr(" s, planned")));
+  const Outcome verified = runSwept({"verify", out});
+  EXPECT_EQ(verified.exitCode, 0) << verified.out << verified.err;
+}
+
+TEST_F(ScheduleProgram, PlansSeveralGroups) {
+  const Outcome run = schedule({"--plan", "east=-1..1", "--plan", "north=-1..1",
+                                "--max-acceleration", "10", "--seed", "3", "--late", "north=0.5"});
+  EXPECT_NE(run.exitCode, 3) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("schedule: free"), HasSubstr("part        east, 0 to 1.2"),
+                             HasSubstr("late          north: ")));
+
+  const Outcome meet =
+      schedule({"--plan", "east=-1..0", "--plan", "north=-1..0.1", "--max-acceleration", "10"});
+  EXPECT_EQ(meet.exitCode, 1) << meet.err;
+  EXPECT_THAT(meet.out,
+              AllOf(HasSubstr("schedule      not found: north: the goal is not free, even when all "
+                              "others have come to rest: "),
+                    HasSubstr("east/cube - north/cube")));
+  const Outcome start = schedule(
+      {"--plan", "east=0..1", "--plan", "north=0.1..1", "--max-acceleration", "10", "--json"});
+  EXPECT_EQ(start.exitCode, 1) << start.err;
+  const auto found = nlohmann::json::parse(start.out);
+  EXPECT_EQ(found["schedule"], nullptr);
+  EXPECT_EQ(found["status"], "start not free");
+  EXPECT_EQ(found["not_found"], "east");
+  EXPECT_EQ(found["contact"]["body_a"], "east/cube");
+  // Nothing leads around a cube that stands in the crossing.
+  const Outcome blocked = schedule({"east=" + file("stays.csv"), "--plan", "north=-1..1",
+                                    "--max-acceleration", "10", "--time", "0.2"});
+  EXPECT_EQ(blocked.exitCode, 1) << blocked.err;
+  EXPECT_THAT(blocked.out, HasSubstr("not found: north: no way was found in 0.2 s"));
+}
+
 TEST_F(ScheduleProgram, RefusesWhatIsNoSchedule) {
   const std::string pass = file("pass.csv");
   const auto err = [&](const std::vector<std::string>& more) {
@@ -149,7 +208,8 @@ TEST_F(ScheduleProgram, RefusesWhatIsNoSchedule) {
               HasSubstr("--at 'east=2': group 'east' has one already"));
   EXPECT_THAT(err({"east=" + pass, "--group", "all"}),
               HasSubstr("the group of a schedule is that of its parts: leave out --group"));
-  EXPECT_THAT(err({"east=" + pass, "all=" + pass}), HasSubstr("'slide', which is no joint of robot 'cell'; group 'all' has"));
+  EXPECT_THAT(err({"east=" + pass, "all=" + pass}),
+              HasSubstr("'slide', which is no joint of robot 'cell'; group 'all' has"));
   write("two.yaml",
         "joint_names: [slide]\npoints:\n- positions: [0]\n  time_from_start: {sec: 0, nanosec: 0}\n"
         "- positions: [1]\n  time_from_start: {sec: 1, nanosec: 0}\n---\n"
@@ -163,6 +223,24 @@ TEST_F(ScheduleProgram, RefusesWhatIsNoSchedule) {
   write("twice.csv", "time,slide,east/slide\n0,1,1\n1,1,1\n");
   EXPECT_THAT(err({"east=" + file("twice.csv")}), HasSubstr("a second time"));
   EXPECT_THAT(err({"east=" + pass, "-o", pass}), HasSubstr("pass.csv"));
+  const std::string form = "': must be GROUP=START..GOAL";
+  EXPECT_THAT(err({"--plan", "north"}), HasSubstr("--plan 'north" + form));
+  EXPECT_THAT(err({"--plan", "north=-1"}), HasSubstr("--plan 'north=-1" + form));
+  EXPECT_THAT(err({"--plan", "north=..1"}), HasSubstr("--plan 'north=..1" + form));
+  EXPECT_THAT(err({}), HasSubstr("there is no trajectory: GROUP=FILE names one, --plan "
+                                 "GROUP=START..GOAL plans one"));
+  EXPECT_THAT(err({"east=" + pass, "--plan", "east=0..1"}),
+              HasSubstr("--plan 'east=0..1': group 'east' has a trajectory already"));
+  EXPECT_THAT(err({"--plan", "east=0..1", "--plan", "east=0..2"}),
+              HasSubstr("--plan 'east=0..2': group 'east' is planned already"));
+  EXPECT_THAT(err({"--plan", "east=0..1"}),
+              HasSubstr("--plan: joint east/slide has no limit of acceleration, which its times "
+                        "depend on; --limits or --max-acceleration gives one"));
+  EXPECT_THAT(err({"--plan", "east=0..9", "--max-acceleration", "1"}),
+              HasSubstr("--plan east: goal: east/slide is 9, allowed is -3 to 3 m"));
+  EXPECT_THAT(err({"--plan", "east=0..1", "--at", "east=1", "--max-acceleration", "1"}),
+              HasSubstr("--at: group 'east' is planned, and may move from 0 s on"));
+  EXPECT_THAT(err({"east=" + pass, "--time", "1"}), HasSubstr("--time requires --plan"));
 }
 
 }  // namespace

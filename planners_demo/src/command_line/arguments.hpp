@@ -137,6 +137,7 @@ struct Arguments {
     std::vector<std::string> starts;  ///< GROUP=S
     std::vector<std::string> late;    ///< GROUP=S
     std::vector<std::string> slow;    ///< GROUP=PERCENT
+    std::vector<std::string> plans;   ///< GROUP=START..GOAL
   } schedule;
 
   std::int64_t budget = 20'000'000;  ///< per pair of links

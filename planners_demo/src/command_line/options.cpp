@@ -216,7 +216,7 @@ CLI::Option* addLimitsOption(CLI::App& app, Arguments& args) {
       ->type_name("FILE.yaml");
 }
 
-void addTimingOptions(CLI::App& app, Arguments& args, CLI::Option* user) {
+void addSpeedOptions(CLI::App& app, Arguments& args, CLI::Option* user) {
   app.add_option("--max-acceleration", args.timing.maxAcceleration,
                  "rad/s^2 or m/s^2; of joints without a limit of their own")
       ->type_name("A")
@@ -229,6 +229,10 @@ void addTimingOptions(CLI::App& app, Arguments& args, CLI::Option* user) {
       ->type_name("S")
       ->check(within(1e-3, 1.0, "between 0.001 and 1"))
       ->needs(user);
+}
+
+void addTimingOptions(CLI::App& app, Arguments& args, CLI::Option* user) {
+  addSpeedOptions(app, args, user);
   app.add_flag("--jerk-limited", args.timing.jerkLimited,
                "accelerations are continuous and keep limits of jerk, which --limits has to give")
       ->needs(user);

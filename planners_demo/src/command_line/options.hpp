@@ -36,7 +36,9 @@ void addTrackingOptions(CLI::App& app, Arguments& args);
 void addConstraintOptions(CLI::App& app, Arguments& args);
 /// --limits.
 CLI::Option* addLimitsOption(CLI::App& app, Arguments& args);
-/// How a path is timed, for `user`: the option without which nothing is.
+/// --max-acceleration and --speed, for `user`: the option without which nothing is timed.
+void addSpeedOptions(CLI::App& app, Arguments& args, CLI::Option* user);
+/// How a path is timed, likewise.
 void addTimingOptions(CLI::App& app, Arguments& args, CLI::Option* user);
 /// Whether the file of -o needs others to be verified.
 void addEmbedOption(CLI::App& app, Arguments& args);

@@ -15,12 +15,15 @@
 #include "input/constraints.hpp"
 #include "input/groups.hpp"
 #include "input/inputs.hpp"
+#include "input/states.hpp"
 #include "input/task.hpp"
 #include "input/unchecked.hpp"
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/text_output.hpp"
 #include "page/pages.hpp"
+#include "schedule/schedule_parts.hpp"
+#include "swept/ompl_bridge/schedule_plan.hpp"
 #include "swept/robot_model/trajectory_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
 #include "text/numbers.hpp"
@@ -29,54 +32,6 @@
 
 namespace swept {
 namespace {
-
-/// `left/arm` and `left.yaml` of `left/arm=left.yaml`.
-std::pair<std::string, std::string> splitAtEqual(const std::string& option, const std::string& text,
-                                                 const std::string& form) {
-  const auto at = text.find('=');
-  if (at == std::string::npos || at == 0 || at + 1 == text.size())
-    throw UsageError(option + " '" + text + "': must be " + form);
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
-struct SchedulePart {
-  std::string group, file;
-};
-
-std::vector<SchedulePart> partsOf(const Arguments& args) {
-  std::vector<SchedulePart> parts;
-  for (const std::string& text : args.schedule.parts) {
-    auto [group, file] = splitAtEqual("part", text, "GROUP=FILE");
-    if (std::ranges::find(parts, group, &SchedulePart::group) != parts.end())
-      throw UsageError("part '" + text + "': group '" + group + "' has a trajectory already");
-    parts.push_back({std::move(group), std::move(file)});
-  }
-  return parts;
-}
-
-/// What an option says of some of the parts: by part, in the unit of the option.
-std::map<std::size_t, double> numbersOf(const std::string& option,
-                                        const std::vector<std::string>& texts,
-                                        const std::vector<SchedulePart>& parts,
-                                        const std::string& unit) {
-  std::map<std::size_t, double> numbers;
-  for (const std::string& text : texts) {
-    const auto [group, value] = splitAtEqual(option, text, "GROUP=" + unit);
-    const auto part = std::ranges::find(parts, group, &SchedulePart::group);
-    std::vector<std::string> known;
-    for (const SchedulePart& one : parts) known.push_back(one.group);
-    if (part == parts.end())
-      throw UsageError(option + " '" + text + "': no part is of group '" + group + "'; there are " +
-                       joined(known));
-    const std::optional<double> number = detail::parseNumber(value);
-    if (!number || !(*number >= 0.0) || *number > 1e6)
-      throw UsageError(option + " '" + text + "': '" + value +
-                       "' is no number from 0 to 1000000 (" + unit + ")");
-    if (!numbers.emplace(part - parts.begin(), *number).second)
-      throw UsageError(option + " '" + text + "': group '" + group + "' has one already");
-  }
-  return numbers;
-}
 
 /// The command line as it would be for the sum of the parts' groups.
 Arguments ofSum(const Arguments& args, const std::vector<SchedulePart>& parts) {
@@ -87,13 +42,6 @@ Arguments ofSum(const Arguments& args, const std::vector<SchedulePart>& parts) {
   Arguments sum = args;
   for (const SchedulePart& part : parts) sum.group += (sum.group.empty() ? "" : "+") + part.group;
   return sum;
-}
-
-std::vector<std::string> namesOf(const Robot& robot, const Group& group) {
-  std::vector<std::string> names;
-  for (const int variable : group.variables)
-    names.push_back(robot.variables()[static_cast<std::size_t>(variable)].name);
-  return names;
 }
 
 /// What may happen to one part.
@@ -113,7 +61,7 @@ class ScheduleRun {
   explicit ScheduleRun(const Arguments& args)
       : parts_(partsOf(args)),
         args_(ofSum(args, parts_)),
-        starts_(numbersOf("--at", args.schedule.starts, parts_, "S")),
+        starts_(startsOf(args, parts_)),
         late_(numbersOf("--late", args.schedule.late, parts_, "S")),
         slow_(numbersOf("--slow", args.schedule.slow, parts_, "PERCENT")),
         warnings_(args.quiet),
@@ -128,9 +76,12 @@ class ScheduleRun {
     if (!args_.output.empty())
       file_.emplace(args_.output, *model_.robot, group, PathFile::Content::Trajectory);
     readParts();
+    checker_ = withConstraintsOf(args_, checker_, startOfAll());
+    if (!tasks_.empty() && !plan()) {
+      printFailure();
+      return ExitCode::Collision;
+    }
     const CombinedCurve combined = combine();
-    const std::vector<double> start = positionOf(combined.curve, combined.curve.begin());
-    checker_ = withConstraintsOf(args_, checker_, start);
     Progress progress("certifying", args_.quiet);
     certify(combined);
     for (Delay& delay : delays_) certify(delay);
@@ -148,24 +99,95 @@ class ScheduleRun {
 
   void readParts() {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (late_.contains(i) || slow_.contains(i))
+        delays_.push_back({.part = i,
+                           .latest = late_.contains(i) ? late_.at(i) : 0.0,
+                           .percent = slow_.contains(i) ? slow_.at(i) : 0.0});
       const Group& group = chooseGroup(*model_.robot, parts_[i].group);
+      if (parts_[i].isPlanned()) {
+        tasks_.push_back(taskOf(args_, model_, group, parts_[i], warnings_));
+        continue;
+      }
       const std::vector<JointTrajectory> read =
           readTrajectories(parts_[i].file, *model_.robot, group, model_.reference, model_.options);
       if (read.size() > 1)
         throw UsageError("part '" + parts_[i].group + "=" + parts_[i].file + "': the file has " +
                          std::to_string(read.size()) + " trajectories, and a part is one");
       try {
-        curves_.push_back({.variables = namesOf(*model_.robot, group),
+        curves_.push_back({.variables = variableNames(*model_.robot, group),
                            .curve = controllerCurve(read.front()),
                            .start = starts_.contains(i) ? starts_.at(i) : 0.0});
       } catch (const std::invalid_argument& error) {
         throw InputError(parts_[i].file, 0, error.what());
       }
-      if (late_.contains(i) || slow_.contains(i))
-        delays_.push_back({.part = i,
-                           .latest = late_.contains(i) ? late_.at(i) : 0.0,
-                           .percent = slow_.contains(i) ? slow_.at(i) : 0.0});
     }
+  }
+
+  /// The configuration of all groups at the clock's time 0.
+  std::vector<double> startOfAll() const {
+    const Group& all = checker_->group();
+    std::vector<double> start(all.variables.size(), 0.0);
+    const auto put = [&](const std::vector<std::string>& names, const auto& values) {
+      for (std::size_t v = 0; v < names.size(); ++v) {
+        const auto at = std::ranges::find(all.variables, *model_.robot->findVariable(names[v]));
+        start[static_cast<std::size_t>(at - all.variables.begin())] = values[v];
+      }
+    };
+    for (const ScheduledCurve& curve : curves_)
+      put(curve.variables, positionOf(curve.curve, curve.curve.begin()));
+    for (const ScheduleTask& task : tasks_)
+      put(variableNames(*model_.robot, *model_.robot->findGroup(task.group)), task.start);
+    return start;
+  }
+
+  /// Whether there is a schedule of the groups that have none yet.
+  bool plan() {
+    Progress progress("planning", args_.quiet);
+    try {
+      plan_ =
+          planSchedule(*checker_, tasks_, curves_, {}, {.seconds = args_.time, .seed = args_.seed});
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("--plan: ") + error.what());
+    }
+    curves_.insert(curves_.end(), plan_.curves.begin(), plan_.curves.end());
+    return !plan_.curves.empty();
+  }
+
+  /// The group that has no trajectory, and why.
+  std::string failureText() const {
+    std::string text = tasks_[plan_.task].group + ": ";
+    switch (plan_.status) {
+      case PlannedSchedule::Status::StartNotFree:
+        text += "the start is not free";
+        break;
+      case PlannedSchedule::Status::GoalNotFree:
+        text += "the goal is not free, even when all others have come to rest";
+        break;
+      case PlannedSchedule::Status::NotFound:
+        text += "no way was found in " + shortNumber(args_.time) + " s";
+        break;
+      case PlannedSchedule::Status::Found:
+      case PlannedSchedule::Status::NotProven:
+        break;
+    }
+    return plan_.contact ? text + ": " + witnessText(*plan_.contact) : text;
+  }
+
+  void printFailure() const {
+    if (!args_.json) {
+      printText("schedule      not found: " + escapedLine(failureText()) + "\n" +
+                uncheckedText(*checker_));
+      return;
+    }
+    Json json = {{"robot", model_.robot->name()},
+                 {"group", checker_->group().name},
+                 {"parts", partsJson()},
+                 {"schedule", nullptr},
+                 {"status", toString(plan_.status)},
+                 {"not_found", tasks_[plan_.task].group},
+                 {"contact", plan_.contact ? toJson(*plan_.contact) : Json(nullptr)}};
+    addUnchecked(json, *checker_, warnings_);
+    std::cout << dumped(json) << '\n';
   }
 
   /// Groups that share a joint cannot be combined.
@@ -207,7 +229,8 @@ class ScheduleRun {
 
   /// Empty, or why there is no file.
   std::string writeTrajectoryOf(const PiecewisePolynomial& curve) {
-    const auto trajectory = controllerTrajectory(curve, namesOf(*model_.robot, checker_->group()));
+    const auto trajectory =
+        controllerTrajectory(curve, variableNames(*model_.robot, checker_->group()));
     if (!trajectory)
       return "no one trajectory has the curves of all parts: velocities or accelerations of one "
              "jump where those of another do not";
@@ -232,11 +255,15 @@ class ScheduleRun {
     return {};
   }
 
+  static double endOf(const ScheduledCurve& part) {
+    return part.start + part.slowdown * part.curve.end();
+  }
+
   std::string partText(std::size_t i) const {
     const ScheduledCurve& part = curves_[i];
     return "  part        " + escapedLine(parts_[i].group) + ", " +
-           shortNumber(part.start + part.curve.begin()) + " to " +
-           shortNumber(part.start + part.curve.end()) + " s\n";
+           shortNumber(part.start + part.curve.begin()) + " to " + shortNumber(endOf(part)) + " s" +
+           (parts_[i].isPlanned() ? ", planned\n" : "\n");
   }
 
   std::string delayText(const Delay& delay) const {
@@ -278,17 +305,26 @@ class ScheduleRun {
     return json;
   }
 
+  Json partsJson() const {
+    Json parts = Json::array();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const bool isPlanned = parts_[i].isPlanned();
+      parts.push_back({{"group", parts_[i].group},
+                       {"file", isPlanned ? Json(nullptr) : Json(parts_[i].file)},
+                       {"planned", isPlanned},
+                       {"start", isPlanned ? 0.0 : curves_[i].start}});
+      if (i < curves_.size()) parts.back()["end"] = endOf(curves_[i]);
+    }
+    return parts;
+  }
+
   void print() const {
     if (args_.json) {
-      Json parts = Json::array();
-      for (std::size_t i = 0; i < parts_.size(); ++i)
-        parts.push_back(
-            {{"group", parts_[i].group}, {"file", parts_[i].file}, {"start", curves_[i].start}});
       Json delays = Json::array();
       for (const Delay& delay : delays_) delays.push_back(delayJson(delay));
       Json json = {{"robot", model_.robot->name()},
                    {"group", checker_->group().name},
-                   {"parts", parts},
+                   {"parts", partsJson()},
                    {"schedule", trajectoryJson(report_)},
                    {"delays", delays}};
       if (file_) json["trajectory_file"] = notWritten_.empty() ? Json(args_.output) : Json(nullptr);
@@ -316,7 +352,9 @@ class ScheduleRun {
   std::optional<PathFile> file_;
   TrajectoryQuery query_;
   std::shared_ptr<const Checker> checker_;
-  std::vector<ScheduledCurve> curves_;
+  std::vector<ScheduledCurve> curves_;  ///< of the parts, in their order: files first
+  std::vector<ScheduleTask> tasks_;     ///< of those to plan
+  PlannedSchedule plan_;
   std::vector<Delay> delays_;
   TrajectoryReport report_;
   std::string notWritten_;  ///< why; empty: it is
