@@ -353,7 +353,8 @@ class PriorityPlanner {
   }
 
   Way planOne(std::size_t task, const std::vector<std::string>& ignored) {
-    const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored);
+    const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored,
+                                 options_.delay);
     const auto end = std::min(deadline_, Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                             std::chrono::duration<double>(slice_)));
     const auto stop = [this, end] { return options_.stop.stop_requested() || Clock::now() >= end; };
@@ -368,8 +369,13 @@ class PriorityPlanner {
       result.trajectories.push_back(*std::move(way));
     result.order = std::move(order);
     result.certificate = certifySchedule(checker_, all, {}, still_);
-    result.status =
-        result.certificate->verdict == Verdict::Free ? Status::Found : Status::NotProven;
+    bool isFree = result.certificate->verdict == Verdict::Free;
+    for (std::size_t i = 0; isFree && options_.delay > 0.0 && i < all.size(); ++i) {
+      result.delays.push_back(
+          certifyDelays(checker_, all, {.curve = i, .latest = options_.delay}, still_));
+      isFree = result.delays.back().verdict == Verdict::Free;
+    }
+    result.status = isFree ? Status::Found : Status::NotProven;
     return result;
   }
 
@@ -401,6 +407,9 @@ PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTas
       "seconds is " + detail::numberText(options.seconds) + "; allowed are finite numbers above 0");
   requirePlan(options.latest > 0.0, "latest is " + detail::numberText(options.latest) +
                                         " s; allowed are numbers above 0");
+  requirePlan(
+      std::isfinite(options.delay) && options.delay >= 0.0,
+      "delay is " + detail::numberText(options.delay) + " s; allowed are finite numbers from 0 on");
   requirePlan(options.improvements >= 0, "improvements is " + std::to_string(options.improvements) +
                                              "; allowed are 0 and more");
   return PriorityPlanner(checker, tasks, known, still, options).run();

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTimeWeight = 0.2;   // of waiting, in the distance of two knots
 constexpr double kWaitShare = 0.1;    // of extensions that wait where a node is
+constexpr int kWaits = 5;             // nodes that wait at the start, to begin with
 constexpr int kRootEvery = 8;         // extensions, for another arrival
 constexpr int kWiderEvery = 256;      // extensions, for later arrivals
 constexpr int kMostSteps = 64;        // of one connection
@@ -189,6 +190,11 @@ std::vector<TimedKnot> SpaceTimeSearch::run(const TimedKnot& start, std::vector<
   arrival_.first += kSpare;
   const double width = std::max(shortest, kLeastWindow);
   arrival_.last = std::min(latest, std::max(arrival_.first, checker_.end()) + width);
+  for (int i = 0; i < kWaits && !stop(); ++i) {
+    TimedKnot later = start;
+    later.time += std::ldexp(std::max(checker_.end() - start.time, kLeastWindow), -i);
+    step(forward_, 0, later, true);
+  }
   for (int i = 0; !stop(); ++i) {
     if (i % kRootEvery == 0 || backward_.nodes.empty()) addRoot();
     if (i > 0 && i % kWiderEvery == 0) arrival_.last = std::min(latest, arrival_.last + width);

@@ -173,6 +173,32 @@ TEST(SchedulePlan, ARobotIsPlannedBesideAKnownCurve) {
   EXPECT_FALSE(late.found());
 }
 
+TEST(SchedulePlan, EachMayBeLateByTheDelay) {
+  const Checker checker = checkerOf(crossing());
+  const std::vector<ScheduleTask> tasks{pass("east"), pass("north")};
+  constexpr double kDelay = 0.5;
+  const PlannedSchedule found = planSchedule(checker, tasks, {}, {}, {.delay = kDelay});
+  expectSound(checker, tasks, found);
+  ASSERT_EQ(found.delays.size(), 2U);
+  for (const DelayCertificate& delay : found.delays) {
+    EXPECT_EQ(delay.verdict, Verdict::Free);
+    EXPECT_EQ(delay.proven, kDelay);
+  }
+  // Without one, the second arrives 0.4 s after the first; a tube needs a little more.
+  EXPECT_GE(arrival(found, 1), arrival(found, 0) + 0.4 + kDelay - 1e-3);
+  EXPECT_LE(arrival(found, 1), arrival(found, 0) + 0.7 + kDelay);
+  for (double late = 0.0; late <= kDelay; late += 0.05) {
+    for (std::size_t who = 0; who < 2; ++who) {
+      std::vector<ScheduledCurve> curves = found.curves;
+      curves[who].start += late;
+      EXPECT_EQ(certifySchedule(checker, curves).verdict, Verdict::Free) << who << ' ' << late;
+    }
+  }
+  std::vector<ScheduledCurve> later = found.curves;
+  later[0].start += kDelay + 0.4;
+  EXPECT_EQ(certifySchedule(checker, later).verdict, Verdict::Collision);
+}
+
 TEST(SchedulePlan, AGoalIsReachedOnceAnObstacleHasLeftIt) {
   const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(1.0, y, 0.0)); };
   World world;
@@ -369,6 +395,15 @@ TEST(SchedulePlan, WhatIsNotAllowedIsNamed) {
             "planSchedule: latest is -1 s; allowed are numbers above 0");
   EXPECT_EQ(message(task, {.improvements = -1}),
             "planSchedule: improvements is -1; allowed are 0 and more");
+  EXPECT_EQ(message(task, {.delay = -1.0}),
+            "planSchedule: delay is -1 s; allowed are finite numbers from 0 on");
+  const Checker beside = checker.withObstacle(
+      {.name = "cart",
+       .parts = {{makeBox({0.2, 0.2, 0.2}), Eigen::Isometry3d::Identity()}},
+       .waypoints = {{0.0, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 2.0))}}});
+  EXPECT_EQ(messageOf([&] { planSchedule(beside, std::vector{task}, {}, still, {.delay = 1.0}); }),
+            "ScheduleChecker: the world has moving obstacles, which are never late: only a delay "
+            "of 0 is allowed");
 }
 
 }  // namespace

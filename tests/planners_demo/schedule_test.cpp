@@ -159,9 +159,12 @@ TEST_F(ScheduleProgram, PlansBesideATrajectory) {
 TEST_F(ScheduleProgram, PlansSeveralGroups) {
   const Outcome run = schedule({"--plan", "east=-1..1", "--plan", "north=-1..1",
                                 "--max-acceleration", "10", "--seed", "3", "--late", "north=0.5"});
-  EXPECT_NE(run.exitCode, 3) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("schedule: free"), HasSubstr("part        east, 0 to 1.2"),
-                             HasSubstr("late          north: ")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("schedule: free"), HasSubstr("part        east, 0 to 1.2")))
+      << run.err;
+
+  // What is planned leaves room for the delays that are asked about.
+  EXPECT_EQ(run.exitCode, 0) << run.out;
+  EXPECT_THAT(run.out, HasSubstr("late          north: free up to 0.5 s"));
 
   const Outcome meet =
       schedule({"--plan", "east=-1..0", "--plan", "north=-1..0.1", "--max-acceleration", "10"});

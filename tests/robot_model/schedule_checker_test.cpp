@@ -115,6 +115,22 @@ TEST(ScheduleChecker, ObstaclesAreOnTheSameClock) {
   EXPECT_EQ(beside.certify(pass(0.5), workspace).verdict, Verdict::Free);
 }
 
+TEST(ScheduleChecker, DelaysAreProvenUpToTheTruth) {
+  const Checker checker = checkerOf(crossing());
+  const std::vector<ScheduledCurve> others{{.variables = {"north"}, .curve = pass()}};
+  for (const double delay : {0.1, 0.5, 1.0}) {
+    const ScheduleChecker beside(checker, {"east"}, others, kAway, {}, delay);
+    EXPECT_EQ(beside.end(), 2.0 + delay);
+    Workspace workspace(beside.checker());
+    // Without a delay they meet if they are less than 0.4 s apart.
+    for (const double begin : {0.1, 0.3 + delay, 0.39 + delay})
+      EXPECT_NE(beside.certify(pass(begin), workspace).verdict, Verdict::Free) << delay << begin;
+    // The tubes need up to 0.02 m more, on either side.
+    for (const double begin : {0.45 + delay, 1.0 + 2.0 * delay})
+      EXPECT_EQ(beside.certify(pass(begin), workspace).verdict, Verdict::Free) << delay << begin;
+  }
+}
+
 TEST(ScheduleChecker, CurvesThatItsTubeHasNoRoomForAreUndecided) {
   const ScheduleChecker beside(checkerOf(crossing()), {"east"}, {}, kAway);
   Workspace workspace(beside.checker());

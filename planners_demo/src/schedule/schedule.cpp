@@ -140,12 +140,19 @@ class ScheduleRun {
     return start;
   }
 
+  /// s. What is planned leaves room for all delays that are asked about.
+  double longestDelay() const {
+    double longest = 0.0;
+    for (const auto& [part, delay] : late_) longest = std::max(longest, delay);
+    return longest;
+  }
+
   /// Whether there is a schedule of the groups that have none yet.
   bool plan() {
     Progress progress("planning", args_.quiet);
     try {
-      plan_ =
-          planSchedule(*checker_, tasks_, curves_, {}, {.seconds = args_.time, .seed = args_.seed});
+      plan_ = planSchedule(*checker_, tasks_, curves_, {},
+                           {.seconds = args_.time, .delay = longestDelay(), .seed = args_.seed});
     } catch (const std::invalid_argument& error) {
       throw UsageError(std::string("--plan: ") + error.what());
     }

@@ -2,11 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -163,22 +160,9 @@ class DelaySearch {
     if (!kept.checker || !std::ranges::equal(off, kept.off, fits)) {
       kept.off = off;
       for (double& value : kept.off) value *= kSpare;
-      kept.checker.emplace(inTubeOf(kept.off));
+      kept.checker.emplace(detail::inTube(pairs_, kept.off));
     }
     return *kept.checker;
-  }
-
-  Checker inTubeOf(const std::vector<double>& off) const {
-    CheckerOptions options = pairs_.options();
-    options.tracking = detail::widened(pairs_, off);
-    const double width = std::accumulate(off.begin(), off.end(), 0.0);
-    options.tolerance = std::max(options.tolerance, kToleranceShare * width);
-    // Both live as long as the checker that has them.
-    const auto borrowed = [](const auto& owned) {
-      return std::shared_ptr<std::remove_reference_t<decltype(owned)>>(std::shared_ptr<void>(),
-                                                                       &owned);
-    };
-    return {borrowed(pairs_.robot()), pairs_.group().name, borrowed(pairs_.world()), options};
   }
 
   /// What is the matter with a box that is not proven: a contact of one of its corners, or of a
@@ -207,9 +191,6 @@ class DelaySearch {
   }
 
   static constexpr double kSpare = 1.0 + 1e-6;
-  /// m per rad and m that all values may be off together. What a wide tube does not prove soon, it
-  /// rarely proves later, and half of it does.
-  static constexpr double kToleranceShare = 0.25;
 
   struct Tube {
     std::vector<double> off;

@@ -3,7 +3,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -57,28 +60,46 @@ void requireNames(const Checker& checker, const std::vector<std::string>& variab
 constexpr double kMostRate = 100.0;    // rad/s or m/s
 constexpr double kMostValue = 1000.0;  // rad or m
 constexpr double kLongest = 600.0;     // s, beyond the end of all others
+/// rad or m, of the value that moves fastest. Ranges of delays with a wider tube are divided before
+/// they are asked about, since they are hardly ever free. Those with a narrower one are not
+/// divided.
+constexpr double kWidest = 0.2;
+constexpr double kNarrowest = 0.02;
 
 }  // namespace
 
 struct ScheduleChecker::Data {
+  /// A checker that has room for others that are early or late by up to `half` (s).
+  struct Tube {
+    double half = 0.0;
+    Checker checker;
+  };
+
   Data(const Checker& whole, std::vector<std::string> ownNames, std::vector<ScheduledCurve> curves,
-       ConfigurationView still, const std::vector<std::string>& ignored)
+       ConfigurationView still, const std::vector<std::string>& ignored, double delayed)
       : variables(std::move(ownNames)),
         places(placesIn(whole, variables)),
         others(std::move(curves)),
+        delay(delayed),
+        pairs(detail::pairsMovedBy(whole, variables, ignored)),
         rest(Eigen::VectorXd::Zero(std::ssize(whole.group().variables))) {
     for (std::size_t v = 0; v < still.size(); ++v) rest[static_cast<Eigen::Index>(v)] = still[v];
-    placesOfOthers.reserve(others.size());
     for (const ScheduledCurve& curve : others) {
       placesOfOthers.push_back(placesIn(whole, curve.variables));
-      parts.emplace_back(curve, placesOfOthers.back());
-      end = std::max(end, parts.back().end());
+      firstMove = std::min(firstMove, curve.start + curve.slowdown * curve.curve.begin());
+      lastMove = std::max(lastMove, curve.start + curve.slowdown * curve.curve.end());
     }
+    end = lastMove + delay;
     for (const MovingObstacle& obstacle : whole.world().obstacles())
       end = std::max(end, obstacle.waypoints.back().time);
-    const Checker pairs = detail::pairsMovedBy(whole, variables, ignored);
-    checker =
-        std::make_unique<const Checker>(pairs.withTracking(detail::widened(pairs, rounding())));
+    tubes.push_back({0.0, pairs.withTracking(detail::widened(pairs, offBy(0.0)))});
+    if (delay == 0.0) return;
+    for (double half = delay;; half *= 0.5) {
+      const std::vector<double> off = offBy(half);
+      const double widest = std::ranges::max(off);
+      if (widest <= kWidest) tubes.push_back({half, detail::inTube(pairs, off)});
+      if (widest <= kNarrowest) break;
+    }
   }
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
@@ -86,8 +107,9 @@ struct ScheduleChecker::Data {
 
   double latest() const { return end + kLongest; }
 
-  /// rad or m. By how much each value of the group may be off what the curves say: L19.
-  std::vector<double> rounding() const {
+  /// rad or m. By how much each value may be off, where others are early or late by up to `half`
+  /// (s), with all roundings (L19).
+  std::vector<double> offBy(double half) const {
     std::vector<double> off(static_cast<std::size_t>(rest.size()), 0.0);
     for (const Eigen::Index place : places)
       off[static_cast<std::size_t>(place)] =
@@ -96,8 +118,11 @@ struct ScheduleChecker::Data {
       const std::vector<double> rates = detail::largestRates(others[i].curve);
       const std::vector<double> values = detail::largestValues(others[i].curve);
       std::vector<double> own(rates.size());
-      for (std::size_t v = 0; v < own.size(); ++v)
-        own[v] = detail::combinedRounding(values[v], rates[v] / others[i].slowdown, latest());
+      for (std::size_t v = 0; v < own.size(); ++v) {
+        const double rate = rates[v] / others[i].slowdown;
+        own[v] = (detail::combinedRounding(values[v], rate, latest()) + half * rate) *
+                 detail::kArithmeticOutward;
+      }
       detail::dropResting(others[i].curve, own);
       for (std::size_t v = 0; v < own.size(); ++v)
         off[static_cast<std::size_t>(placesOfOthers[i][v])] = own[v];
@@ -110,28 +135,76 @@ struct ScheduleChecker::Data {
            std::ranges::max(detail::largestValues(own)) <= kMostValue;
   }
 
+  /// What is proven in one of the tubes from one time to another (s), where all others are late by
+  /// so much (s).
+  TrajectoryCertificate certify(const PiecewisePolynomial& own, double begin, double until,
+                                double late, const Tube& tube, Workspace& workspace,
+                                MotionQuery query) const {
+    std::vector<detail::CurveOnClock> parts;
+    for (std::size_t i = 0; i < others.size(); ++i)
+      parts.emplace_back(others[i].curve, others[i].start + late, others[i].slowdown,
+                         placesOfOthers[i]);
+    parts.emplace_back(own, 0.0, 1.0, places);
+    return tube.checker.certifyTrajectory(detail::combined(parts, rest, begin, until), workspace,
+                                          {.contact = query});
+  }
+
+  /// The first certificate that is not Free where the others are late by `late`, give or take what
+  /// the tube has room for. Ranges without a proof are halved.
+  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, double late,
+                                               std::size_t tube, Workspace& workspace,
+                                               MotionQuery query) const {
+    // While all others rest, a delay changes nothing.
+    const double half = tubes[tube].half;
+    const double begin = std::max(own.begin(), firstMove + late - half);
+    const double until = std::min(own.end(), lastMove + late + half);
+    if (!(begin < until)) return std::nullopt;
+    TrajectoryCertificate found = certify(own, begin, until, late, tubes[tube], workspace, query);
+    if (found.verdict == Verdict::Free) return std::nullopt;
+    if (tube + 1 == tubes.size()) return found;
+    if (auto earlier = notFree(own, late - 0.5 * half, tube + 1, workspace, query)) return earlier;
+    return notFree(own, late + 0.5 * half, tube + 1, workspace, query);
+  }
+
+  /// The same for all delays.
+  std::optional<TrajectoryCertificate> notFree(const PiecewisePolynomial& own, Workspace& workspace,
+                                               MotionQuery query) const {
+    const double half = tubes[1].half;
+    for (double late = half - delay; late < delay; late += 2.0 * half)
+      if (auto found = notFree(own, late, 1, workspace, query)) return found;
+    return std::nullopt;
+  }
+
   const std::vector<std::string> variables;
   const std::vector<Eigen::Index> places;
   const std::vector<ScheduledCurve> others;
+  const double delay;    ///< s
+  const Checker pairs;   ///< those that are asked about
   Eigen::VectorXd rest;  ///< a configuration of the group
   std::vector<std::vector<Eigen::Index>> placesOfOthers;
-  std::vector<detail::CurveOnClock> parts;  ///< of others
-  double end = 0.0;                         ///< s
-  std::unique_ptr<const Checker> checker;   ///< of the pairs that are asked about, in the tube
+  double firstMove = std::numeric_limits<double>::infinity();  ///< s, of others on time
+  double lastMove = 0.0;                                       ///< s, likewise
+  double end = 0.0;                                            ///< s
+  std::vector<Tube> tubes;  ///< without a delay, then each for half the delay of that before
 };
 
 ScheduleChecker::ScheduleChecker(const Checker& checker, std::vector<std::string> variables,
                                  std::vector<ScheduledCurve> others, ConfigurationView still,
-                                 const std::vector<std::string>& ignored) {
+                                 const std::vector<std::string>& ignored, double delay) {
   if (detail::inForeignEnvironment()) {
     inDefaultEnvironment([&, still] {
-      *this = ScheduleChecker(checker, std::move(variables), std::move(others), still, ignored);
+      *this =
+          ScheduleChecker(checker, std::move(variables), std::move(others), still, ignored, delay);
     });
     return;
   }
   requireNames(checker, variables, others, still, ignored);
+  requireOwn(std::isfinite(delay) && delay >= 0.0, "the delay is " + detail::formatNumber(delay) +
+                                                       " s; allowed are finite numbers from 0 on");
+  requireOwn(delay == 0.0 || checker.world().obstacles().empty(),
+             "the world has moving obstacles, which are never late: only a delay of 0 is allowed");
   data_ = std::make_shared<const Data>(checker, std::move(variables), std::move(others), still,
-                                       ignored);
+                                       ignored, delay);
 }
 
 TrajectoryCertificate ScheduleChecker::certify(const PiecewisePolynomial& own, Workspace& workspace,
@@ -149,10 +222,11 @@ TrajectoryCertificate ScheduleChecker::certify(const PiecewisePolynomial& own, W
     tooFar.undecided = TrajectoryPlace{.time = own.begin()};
     return tooFar;
   }
-  std::vector<detail::CurveOnClock> parts = data_->parts;
-  parts.emplace_back(own, 0.0, 1.0, data_->places);
-  return data_->checker->certifyTrajectory(
-      detail::combined(parts, data_->rest, own.begin(), own.end()), workspace, {.contact = query});
+  TrajectoryCertificate found =
+      data_->certify(own, own.begin(), own.end(), 0.0, data_->tubes.front(), workspace, query);
+  if (data_->delay == 0.0 || found.verdict != Verdict::Free) return found;
+  if (auto late = data_->notFree(own, workspace, query)) return *std::move(late);
+  return found;
 }
 
 double ScheduleChecker::end() const {
@@ -168,7 +242,7 @@ const std::vector<ScheduledCurve>& ScheduleChecker::others() const {
 }
 
 const Checker& ScheduleChecker::checker() const {
-  return *data_->checker;
+  return data_->tubes.front().checker;
 }
 
 }  // namespace swept

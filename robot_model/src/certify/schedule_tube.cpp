@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certify/schedule_tube.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "robot/joint_types.hpp"
 
@@ -29,6 +33,19 @@ TrackingTolerance widened(const Checker& checker, const std::vector<double>& off
     (isLength(joint.type, place) ? own.translation : own.rotation) += off[v];
   }
   return tracking;
+}
+
+Checker inTube(const Checker& checker, const std::vector<double>& off) {
+  constexpr double kToleranceShare = 0.25;  // m per rad and m that all values may be off together
+  CheckerOptions options = checker.options();
+  options.tracking = widened(checker, off);
+  const double width = std::accumulate(off.begin(), off.end(), 0.0);
+  options.tolerance = std::max(options.tolerance, kToleranceShare * width);
+  const auto borrowed = [](const auto& owned) {
+    return std::shared_ptr<std::remove_reference_t<decltype(owned)>>(std::shared_ptr<void>(),
+                                                                     &owned);
+  };
+  return {borrowed(checker.robot()), checker.group().name, borrowed(checker.world()), options};
 }
 
 void dropResting(const PiecewisePolynomial& curve, std::vector<double>& off) {

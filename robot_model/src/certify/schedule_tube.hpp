@@ -13,6 +13,11 @@ namespace swept::detail {
 /// std::invalid_argument for an orientation of a floating joint that is off.
 TrackingTolerance widened(const Checker& checker, const std::vector<double>& off);
 
+/// The checker in this tube, with a tolerance in proportion to it: what a wide tube does not prove
+/// soon, it rarely proves later, and half of it does. It uses robot and world of `checker`, which
+/// must outlive it. Throws likewise.
+Checker inTube(const Checker& checker, const std::vector<double>& off);
+
 /// A constant quaternion is copied, and rounds by nothing.
 void dropResting(const PiecewisePolynomial& curve, std::vector<double>& off);
 

@@ -34,6 +34,9 @@ struct SchedulePlanOptions {
   double seconds = 10.0;  ///< s, about, until a schedule is found
   /// s, on the clock: when the last robot rests at its goal.
   double latest = std::numeric_limits<double>::infinity();
+  /// s. Each curve, known or planned, may start late by up to so much, one at a time, and still
+  /// nothing touches: PlannedSchedule::delays has the proofs.
+  double delay = 0.0;
   int improvements = 2000;    ///< changes of each robot's way that are tried
   std::uint32_t seed = 1;     ///< of all random numbers
   std::stop_token stop = {};  ///< ends the search soon once it is requested
@@ -63,6 +66,9 @@ struct PlannedSchedule {
   std::vector<std::size_t> order = {};  ///< indices of the tasks, in the order of their priority
   /// Found, NotProven: of all curves, the known ones too: certifySchedule().
   std::optional<TrajectoryCertificate> certificate = {};
+  /// Likewise, if SchedulePlanOptions::delay is above 0: certifyDelays() of each known curve, then
+  /// of those of the tasks.
+  std::vector<DelayCertificate> delays = {};
 
   bool found() const { return status == Status::Found; }  ///< whether it is there and proven
 };
@@ -89,7 +95,7 @@ struct PlannedSchedule {
 /// variables beyond the checker's group or of another task; for another number of values or limits
 /// than variables; for values that are not finite or beyond the limits of positions; for a variable
 /// that has no limits of position and is not cyclic, and for one without limits of velocity and
-/// acceleration; and for options that are not allowed.
+/// acceleration; for options that are not allowed; and for a delay beside moving obstacles.
 PlannedSchedule planSchedule(const Checker& checker, std::span<const ScheduleTask> tasks,
                              std::span<const ScheduledCurve> known = {},
                              ConfigurationView still = {}, const SchedulePlanOptions& options = {});

@@ -28,12 +28,16 @@ class ScheduleChecker {
   /// the curves of others, none of an own variable. `still`: a configuration of the group, for
   /// variables that no curve moves; empty: there are none. `ignored`: names of variables about
   /// which nothing is known yet. Pairs with such a variable between the two bodies are left out.
+  /// `delay` (s): what is proven holds also if the own curve, or one or all of the others, start
+  /// late by up to so much. More is needed for that than the delay itself: ranges of delays are
+  /// proven in tubes, down to a width of 0.02 rad or m.
   ///
   /// Throws std::invalid_argument as combinedCurve() does, without an own variable, for an own one
-  /// that is of the orientation of a floating joint, and for a name that the robot does not have.
+  /// that is of the orientation of a floating joint, for a name that the robot does not have, for a
+  /// delay that is negative or not finite, and one above 0 if the world has moving obstacles.
   ScheduleChecker(const Checker& checker, std::vector<std::string> variables,
                   std::vector<ScheduledCurve> others = {}, ConfigurationView still = {},
-                  const std::vector<std::string>& ignored = {});
+                  const std::vector<std::string>& ignored = {}, double delay = 0.0);
 
   /// What is proven about the group's curve from the begin to the end of `own`, whose time is the
   /// clock's and whose values are those of `variables()`. As in certifySchedule(), the roundings of
@@ -41,10 +45,14 @@ class ScheduleChecker {
   /// than 1000 rad or m, or ends later than 600 s after end(), is Undecided. Throws
   /// std::invalid_argument for another number of values, and for a curve that begins before the
   /// clock's time 0.
+  ///
+  /// With a delay, the certificate is that of a range of delays that is not Free, on the clock of
+  /// the own curve.
   TrajectoryCertificate certify(const PiecewisePolynomial& own, Workspace& workspace,
                                 MotionQuery query = MotionQuery::FirstContact) const;
 
-  /// s. From here on nothing but the own variables moves: no curve, and no moving obstacle.
+  /// s. From here on nothing but the own variables moves: no curve, with a delay, and no moving
+  /// obstacle.
   double end() const;
   /// As given.
   const std::vector<std::string>& variables() const;
