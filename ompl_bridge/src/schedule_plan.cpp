@@ -6,17 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "number_text.hpp"
+#include "schedule_task.hpp"
 #include "space_time_improvement.hpp"
 #include "space_time_search.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/core/verdict.hpp"
-#include "swept/robot_model/limits.hpp"
 #include "swept/robot_model/schedule_checker.hpp"
 #include "timed_polyline.hpp"
 
@@ -24,123 +23,17 @@ namespace swept {
 
 namespace {
 
+using detail::OwnTask;
+using detail::requirePlan;
 using Status = PlannedSchedule::Status;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kTurnRange = 0.8;   // rad, of a tree's longest step
-constexpr double kSlideShare = 0.2;  // of the way of a joint that slides, likewise
-/// Of the limit of acceleration, in the search: blends of the final curve then fit between its
-/// straight motions.
-constexpr double kPlannedShare = 0.998;
-constexpr double kRestResolution = 1e-3;    // s
-constexpr double kRatesShare = 1.0 - 1e-6;  // of the limits, for the rounding of times
-
-void requirePlan(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("planSchedule: " + message);
-}
-
-Eigen::VectorXd vectorOf(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
-}
+constexpr double kRestResolution = 1e-3;  // s
 
 /// A robot that stays where it is.
 PiecewisePolynomial resting(const Eigen::VectorXd& q) {
   return {{0.0, kRestResolution}, {q.replicate(1, 2)}};
 }
-
-/// A task as the search needs it.
-struct Own {
-  std::vector<std::string> names;
-  detail::OwnSpace space;
-  Eigen::VectorXd start;
-  std::vector<Eigen::VectorXd> goals;
-};
-
-class TaskReader {
- public:
-  TaskReader(const Checker& checker, const ScheduleTask& task, std::size_t index)
-      : robot_(checker.robot()), task_(task), of_("task " + std::to_string(index + 1)) {}
-
-  Own read() {
-    const Group* group = robot_.findGroup(task_.group);
-    requirePlan(group != nullptr, of_ + ": there is no group '" + task_.group + "'");
-    const auto size = static_cast<Eigen::Index>(group->variables.size());
-    requireCount(task_.limits.velocity.size(), group->variables.size(), "limits of velocity");
-    requireCount(task_.limits.acceleration.size(), group->variables.size(),
-                 "limits of acceleration");
-    requirePlan(!task_.goals.empty(), of_ + " has no goal");
-    Own own;
-    detail::OwnSpace& space = own.space;
-    space.lower.resize(size);
-    space.upper.resize(size);
-    space.cyclic.resize(size);
-    space.range.resize(size);
-    space.bounds = {Eigen::ArrayXd(size), Eigen::ArrayXd(size)};
-    for (Eigen::Index v = 0; v < size; ++v) {
-      const Variable& variable =
-          robot_
-              .variables()[static_cast<std::size_t>(group->variables[static_cast<std::size_t>(v)])];
-      own.names.push_back(variable.name);
-      addVariable(variable, v, space);
-    }
-    space.planned = {kRatesShare * space.bounds.velocity,
-                     kPlannedShare * space.bounds.acceleration};
-    own.start = configuration(task_.start, *group, "start");
-    for (const std::vector<double>& goal : task_.goals)
-      own.goals.push_back(configuration(goal, *group, "goal"));
-    return own;
-  }
-
- private:
-  void requireCount(std::size_t count, std::size_t expected, const std::string& what) const {
-    requirePlan(count == expected, of_ + " has " + std::to_string(count) + " " + what +
-                                       ", expected " + std::to_string(expected));
-  }
-
-  double rateOf(const std::string& name, double limit, const std::string& what) const {
-    requirePlan(std::isfinite(limit) && limit > 0.0,
-                of_ + ": the limit of " + what + " of '" + name + "' is " +
-                    detail::numberText(limit) + "; allowed are finite numbers above 0");
-    return limit;
-  }
-
-  void addVariable(const Variable& variable, Eigen::Index v, detail::OwnSpace& space) const {
-    const auto i = static_cast<std::size_t>(v);
-    requirePlan(!isOrientation(robot_, variable), of_ + ": '" + variable.name +
-                                                      "' is of an orientation, which is not "
-                                                      "planned in time");
-    const double way = variable.upper - variable.lower;
-    requirePlan(variable.cyclic || std::isfinite(way),
-                of_ + ": '" + variable.name + "' has no limits of position to plan between");
-    space.cyclic[v] = variable.cyclic;
-    space.lower[v] = variable.cyclic ? -std::numbers::pi : variable.lower;
-    space.upper[v] = variable.cyclic ? std::numbers::pi : variable.upper;
-    space.range[v] = unitOf(robot_, variable) == "rad" ? kTurnRange : kSlideShare * way;
-    space.bounds.velocity[v] =
-        kRatesShare * rateOf(variable.name, task_.limits.velocity[i], "velocity");
-    space.bounds.acceleration[v] =
-        kRatesShare * rateOf(variable.name, task_.limits.acceleration[i], "acceleration");
-  }
-
-  Eigen::VectorXd configuration(const std::vector<double>& values, const Group& group,
-                                const std::string& which) const {
-    requireCount(values.size(), group.variables.size(), "values of a " + which);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const Variable& variable = robot_.variables()[static_cast<std::size_t>(group.variables[i])];
-      requirePlan(std::isfinite(values[i]),
-                  of_ + ": the " + which + "'s value of '" + variable.name + "' is not finite");
-      requirePlan(variable.cyclic || isWithin(values[i], variable.lower, variable.upper),
-                  of_ + ": the " + which + "'s " +
-                      outsideText(variable.name, values[i], variable.lower, variable.upper,
-                                  unitOf(robot_, variable)));
-    }
-    return vectorOf(values);
-  }
-
-  const Robot& robot_;
-  const ScheduleTask& task_;
-  const std::string of_;
-};
 
 /// What one attempt for one robot gave.
 struct Way {
@@ -152,7 +45,7 @@ struct Way {
 /// Finds the way of one robot beside curves that are known.
 class WaySearch {
  public:
-  WaySearch(const ScheduleChecker& checker, const Own& own, const SchedulePlanOptions& options,
+  WaySearch(const ScheduleChecker& checker, const OwnTask& own, const SchedulePlanOptions& options,
             std::function<bool()> stop)
       : checker_(checker),
         own_(own),
@@ -223,7 +116,7 @@ class WaySearch {
   }
 
   const ScheduleChecker& checker_;
-  const Own& own_;
+  const OwnTask& own_;
   const SchedulePlanOptions& options_;
   const std::function<bool()> stop_;
   Workspace workspace_;
@@ -243,7 +136,7 @@ class PriorityPlanner {
         slice_(tasks.size() == 1 ? options.seconds
                                  : options.seconds / (4.0 * static_cast<double>(tasks.size()))) {
     for (std::size_t i = 0; i < tasks.size(); ++i)
-      own_.push_back(TaskReader(checker, tasks[i], i).read());
+      own_.push_back(detail::readTask(checker, tasks[i], i));
     still_.assign(still.begin(), still.end());
     requireEachOnce(!still.empty());
   }
@@ -276,7 +169,7 @@ class PriorityPlanner {
                                                  std::to_string(still_.size()) +
                                                  " values, expected " + std::to_string(all.size()));
     std::set<std::string> taken;
-    for (const Own& own : own_) {
+    for (const OwnTask& own : own_) {
       for (std::size_t v = 0; v < own.names.size(); ++v) {
         const auto at = std::ranges::find(all, *robot.findVariable(own.names[v]));
         requirePlan(at != all.end(),
@@ -384,7 +277,7 @@ class PriorityPlanner {
   const SchedulePlanOptions& options_;
   const Clock::time_point deadline_;
   double slice_;  ///< s, for one robot
-  std::vector<Own> own_;
+  std::vector<OwnTask> own_;
   std::vector<double> still_;
   std::vector<std::optional<JointTrajectory>> ways_;  ///< by task
   PlannedSchedule found_;                             ///< of the last failure

@@ -119,6 +119,8 @@ std::optional<std::size_t> SpaceTimeSearch::step(Tree& tree, std::size_t from, c
     next.q = node.at.q + part;
     next.time =
         node.at.time + tree.direction * std::max(duration / steps, space_.planned.restToRest(part));
+    // Stopping on the way may take longer than there is time.
+    if (tree.direction * (to.time - next.time) < 0.0) return std::nullopt;
   } else if (duration < space_.planned.restToRest(way)) {
     return std::nullopt;
   }
