@@ -65,10 +65,11 @@ class BrowserTest(unittest.TestCase):
             self.assertTrue(file.exists(), self.made[name].stderr)
         return file, self.made[name]
 
-    def open(self, name, arguments, width=800, height=500, phone=False, at="#shadows=on"):
+    def open(self, name, arguments, width=800, height=500, phone=False, at="#shadows=off"):
         """Opens a page, at what follows its name; what the browser logged so far is forgotten.
 
-        A page leaves shadows out where they take too long: pictures of one test would differ.
+        Shadows double the time that a page takes to open; left to itself it may leave them out later, and pictures of
+        one test would differ.
         """
         file, run = self.make(name, arguments)
         self.tell("Emulation.setDeviceMetricsOverride",

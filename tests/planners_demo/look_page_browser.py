@@ -92,7 +92,7 @@ class LookPage(BrowserTest):
         self.assert_quiet()
 
     def test_what_is_not_checked_is_not_picked(self):
-        self.open("arm", self.arm(), at="#shadows=on&look=visual")
+        self.open("arm", self.arm(), at="#shadows=off&look=visual")
         found = self.js(
             "const c = swept.scene.canvas;"
             "for (let y = 4; y < c.clientHeight; y += 6) for (let x = 4; x < c.clientWidth; x += 6) {"
@@ -126,7 +126,7 @@ class LookPage(BrowserTest):
             self.assertAlmostEqual(self.js("return Math.atan2(arguments[1], arguments[0])", *at), angle, delta=1e-5)
 
     def test_contacts_and_picks_are_shown_in_both(self):
-        self.open("check", CHECK, at="#shadows=on&t=1")
+        self.open("check", CHECK, at="#shadows=off&t=1")
         for mode in ("proven", "visual"):
             self.assertEqual([label.text for label in self.find(".contact-label")], ["link5 – plate_left"], mode)
             before = self.picture()
@@ -140,7 +140,7 @@ class LookPage(BrowserTest):
         self.assert_quiet()
 
     def test_address_leads_back_to_what_it_looks_like(self):
-        self.open("plan", PLAN, at="#shadows=on&t=0.3")
+        self.open("plan", PLAN, at="#shadows=off&t=0.3")
         self.press("v", "g")
         self.press("l")
         hash_, seen = self.js("return location.hash"), self.drawn_shapes()

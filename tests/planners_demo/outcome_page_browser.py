@@ -48,7 +48,7 @@ class OutcomePage(BrowserTest):
         self.open("bad_start", ["plan", ROOK, HIT, "home", *SLOT])
         self.assertEqual(self.text("#verdict"), "not solved: start is in collision")
         self.assert_opens_at(0, "link5 – plate_left")
-        self.open("bad_start", [], at="#t=1&shadows=on")  # the address has the last word
+        self.open("bad_start", [], at="#t=1&shadows=off")  # the address has the last word
         self.assertEqual(self.now(), 1)
 
     def test_failed_plan_with_both_ends_bad_says_so_in_a_line(self):

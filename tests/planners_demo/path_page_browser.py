@@ -87,7 +87,7 @@ class PathPage(BrowserTest):
         self.assert_quiet()
 
     def test_address_says_when(self):
-        self.open("plan", PLAN, at="#t=0.25&shadows=on")
+        self.open("plan", PLAN, at="#t=0.25&shadows=off")
         self.assertAlmostEqual(self.now(), 0.25 * self.js("return swept.data.duration"))
 
     def test_click_on_the_timeline_goes_there(self):

@@ -57,7 +57,7 @@ class TrajectoryPage(TrajectoryTest):
             self.assertGreaterEqual(worst[2], 193 * 7)
 
     def test_clock_is_real_time(self):
-        self.page("two", at="#t=0&shadows=on")
+        self.page("two", at="#t=0&shadows=off")
         self.assertEqual(self.js("return swept.data.duration"), 2)
         self.assertEqual(self.js("return [...document.getElementById('speed').options].map((o) => Number(o.value))"),
                          [0.1, 0.25, 0.5, 1, 2, 4])
