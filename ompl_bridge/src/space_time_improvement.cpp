@@ -18,6 +18,8 @@ namespace {
 
 /// s of arrival that a s of motion at full speed is worth.
 constexpr double kLengthWeight = 0.1;
+/// s of arrival that a s of changing the velocity is worth.
+constexpr double kChangeWeight = 0.1;
 
 using Knots = std::vector<TimedKnot>;
 
@@ -71,10 +73,18 @@ class Improvement {
   }
 
   double costOf(const Knots& knots, const PiecewisePolynomial& curve) const {
-    double length = 0.0;
-    for (std::size_t k = 0; k + 1 < knots.size(); ++k)
-      length += ((knots[k + 1].q - knots[k].q).array().abs() / bounds_.velocity).maxCoeff();
-    return curve.end() + kLengthWeight * length;
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(knots.front().q.size());
+    double length = 0.0, changes = 0.0;
+    Eigen::VectorXd before = rest;
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+      const Eigen::VectorXd way = knots[k + 1].q - knots[k].q;
+      const Eigen::VectorXd after = way / (knots[k + 1].time - knots[k].time);
+      length += (way.array().abs() / bounds_.velocity).maxCoeff();
+      changes += bounds_.change(before, after);
+      before = after;
+    }
+    changes += bounds_.change(before, rest);
+    return curve.end() + kLengthWeight * length + kChangeWeight * changes;
   }
 
   void tryWith(Knots candidate) {
