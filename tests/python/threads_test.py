@@ -60,10 +60,19 @@ robot = swept.Robot.load("models/robots/rook7/rook7.urdf")
 checker = swept.Checker(robot, "arm", swept.World.load("models/scenes/narrow_slot.yaml"))
 home, ready = checker.named_state("home"), checker.named_state("ready")
 many = np.random.default_rng(1).uniform(-2, 2, (3_000_000, 7))
+def late():
+    arms = swept.WorkCell.load("models/cells/two_rooks.yaml").robot()
+    both, curves = swept.Checker(arms, "both"), []
+    for arm in ("left/arm", "right/arm"):
+        path = arms.named_state(arm, "tucked") + 0.2 * np.random.default_rng(2).uniform(-1, 1, (1000, 7))
+        trajectory = swept.Trajectory(arms.group(arm).variable_names, 0.2 * np.arange(1000), path)
+        curves.append(swept.ScheduledCurve(trajectory))
+    swept.certify_delays(both, curves, 0, latest=150.0, resolution=1e-6)
 work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seconds=120),
         "states": lambda: checker.check_states(many, threads=1),
         "motions": lambda: checker.certify_motions(many[:-1], many[1:], threads=1),
-        "path": lambda: swept.certify_path(checker, many, threads=1)}[sys.argv[1]]
+        "path": lambda: swept.certify_path(checker, many, threads=1),
+        "delays": late}[sys.argv[1]]
 sent = []
 def send():
     sent.append(time.monotonic())
@@ -76,7 +85,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["plan", "states", "motions", "path"])
+@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "delays"])
 def test_ctrl_c_ends_work(work):
     result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
     assert result.stdout.startswith("ended"), result.stdout + result.stderr
@@ -157,6 +166,49 @@ def test_constraints_lines_covers_and_cells_leak_nothing(checker, home, states):
     assert grown(lambda: arms.standing({"left/arm": "ready"}), 2000) < 4000
     assert grown(lambda: problems.problem("shelf", problems.indices("shelf")[0]).world, 1000) < 4000
     assert grown(refused, 20_000) < 4000
+
+
+def crossing_schedule(arms):
+    """Two arms that meet."""
+    ends = np.array([arms.named_state("left/arm", "tucked"), [0, 1.3, 0, 0.3, 0, 0, 0]])
+    return [swept.ScheduledCurve(swept.Trajectory(arms.group(arm).variable_names, [0.0, 1.0], ends), start=start)
+            for arm, start in (("left/arm", 0.0), ("right/arm", 0.1))]
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_schedules_leak_nothing():
+    arms = swept.WorkCell.load("models/cells/two_rooks.yaml").robot()
+    both = swept.Checker(arms, "both")
+    curves = crossing_schedule(arms)
+
+    def refused():
+        with pytest.raises(swept.ArgumentError):
+            swept.combined_curve(both, curves[:1])
+
+    names = both.group.variable_names
+    before = sys.getrefcount(curves[0]), sys.getrefcount(curves), sys.getrefcount(both), sys.getrefcount(names)
+    assert grown(lambda: crossing_schedule(arms)[0].curve.knots, 2000) < 4000
+    assert grown(lambda: swept.combined_curve(both, curves).rounding, 5000) < 4000
+    assert grown(lambda: swept.controller_trajectory(swept.combined_curve(both, curves).curve, names), 2000) < 4000
+    assert grown(lambda: swept.certify_schedule(both, curves).witness.point_a, 50) < 8000
+    assert grown(lambda: swept.certify_delays(both, curves, 0).contact.configuration, 20) < 8000
+    assert grown(refused, 5000) < 4000
+    after = sys.getrefcount(curves[0]), sys.getrefcount(curves), sys.getrefcount(both), sys.getrefcount(names)
+    assert before == after
+
+
+def test_what_schedules_are_made_of_may_go():
+    """Objects outlive what they were made of."""
+    def make():
+        arms = swept.WorkCell.load("models/cells/two_rooks.yaml").robot()
+        both, curves = swept.Checker(arms, "both"), crossing_schedule(arms)
+        combined = swept.combined_curve(both, curves)
+        return combined.curve, curves[1].curve, swept.certify_delays(both, curves, 0).contact
+
+    curve, own, contact = make()
+    gc.collect()
+    assert curve.position(0.5).shape == (14,) and own.duration == 1.0
+    assert contact.configuration.shape == (14,) and "/" in contact.witness.body_a
 
 
 def test_constraints_and_lines_keep_what_they_need(robot):

@@ -25,6 +25,7 @@ void bindSphereModels(pybind11::module_& module);
 void bindCells(pybind11::module_& module);
 void bindProblems(pybind11::module_& module);
 void bindTrajectories(pybind11::module_& module);
+void bindSchedules(pybind11::module_& module);
 void bindPaths(pybind11::module_& module);
 void bindPlanning(pybind11::module_& module);
 void bindPages(pybind11::module_& module);

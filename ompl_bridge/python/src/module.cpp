@@ -27,6 +27,7 @@ PYBIND11_MODULE(_swept, module) {
   bindCovers(module);
   bindSphereModels(module);
   bindTrajectories(module);
+  bindSchedules(module);
   bindPaths(module);
   bindPlanning(module);
   bindProblems(module);
