@@ -42,5 +42,8 @@ class Answer {
 /// Schedules of the two halves of the checker's group. False: the question is another.
 bool askSchedules(Answer& answer, const std::string& question, const Checker& checker,
                   ConfigurationView q, std::span<const double> more);
+/// Likewise, roadmaps.
+bool askRoadmaps(Answer& answer, const std::string& question, const Checker& checker,
+                 ConfigurationView q, std::span<const double> more);
 
 }  // namespace swept::test

@@ -70,7 +70,8 @@ class Oracle {
         numbers.size() >= 2 * size ? swept::ConfigurationView(numbers.subspan(size, size)) : q;
     if (!(askStates(answer, question, q) || askMotions(answer, question, q, to) ||
           askMore(answer, question, q, numbers.subspan(size)) ||
-          swept::test::askSchedules(answer, question, checker_, q, numbers.subspan(size))))
+          swept::test::askSchedules(answer, question, checker_, q, numbers.subspan(size)) ||
+          swept::test::askRoadmaps(answer, question, checker_, q, numbers.subspan(size))))
       throw std::invalid_argument("no question " + question);
     return answer.str();
   }

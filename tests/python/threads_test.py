@@ -72,6 +72,7 @@ work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seco
         "states": lambda: checker.check_states(many, threads=1),
         "motions": lambda: checker.certify_motions(many[:-1], many[1:], threads=1),
         "path": lambda: swept.certify_path(checker, many, threads=1),
+        "roadmap": lambda: swept.CertifiedRoadmap(checker, states=500_000, neighbours=40, threads=1),
         "delays": late}[sys.argv[1]]
 sent = []
 def send():
@@ -85,7 +86,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "delays"])
+@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "delays"])
 def test_ctrl_c_ends_work(work):
     result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
     assert result.stdout.startswith("ended"), result.stdout + result.stderr
@@ -194,6 +195,29 @@ def test_schedules_leak_nothing():
     assert grown(lambda: swept.certify_delays(both, curves, 0).contact.configuration, 20) < 8000
     assert grown(refused, 5000) < 4000
     after = sys.getrefcount(curves[0]), sys.getrefcount(curves), sys.getrefcount(both), sys.getrefcount(names)
+    assert before == after
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_roadmaps_leak_nothing(checker, home):
+    roadmap, ready = swept.CertifiedRoadmap(checker, states=60, neighbours=4), checker.named_state("ready")
+    crated = checker.with_body("crate", swept.Shape.box([0.2, 0.2, 0.2]))
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            roadmap.graph.add_motions(home)
+
+    before = sys.getrefcount(home), sys.getrefcount(crated), sys.getrefcount(checker), sys.getrefcount(roadmap)
+    assert grown(lambda: (roadmap.states, roadmap.motions, roadmap.verdicts), 5000) < 4000
+    assert grown(lambda: roadmap.path(home, ready), 300) < 4000
+    assert grown(lambda: roadmap.blocked_by(0), 10_000) < 4000
+    assert grown(lambda: (roadmap.update(crated).blocked, roadmap.update(checker).freed), 200) < 8000
+    assert grown(lambda: roadmap.checker.world, 2000) < 8000
+    assert grown(lambda: roadmap.graph.motions, 500) < 8000
+    assert grown(lambda: swept.CertifiedRoadmap.of(roadmap.graph).components, 200) < 8000
+    assert grown(lambda: roadmap.plan(home, ready), 50) < 16000
+    assert grown(refused, 500) < 8000
+    after = sys.getrefcount(home), sys.getrefcount(crated), sys.getrefcount(checker), sys.getrefcount(roadmap)
     assert before == after
 
 
