@@ -221,6 +221,50 @@ def test_roadmaps_leak_nothing(checker, home):
     assert before == after
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_tasks_leak_nothing(checker, home, tmp_path):
+    def task():
+        ends = np.array([home, home + 0.01])
+        there = swept.Trajectory(checker.group.variable_names, [0.0, 1.0], ends)
+        back = swept.Trajectory(checker.group.variable_names, [0.0, 1.0], ends[::-1].copy())
+        change = swept.TaskChange(swept.ChangeKind.SENSED, "shelf")
+        return [swept.TaskPhase("there", checker, there), swept.TaskPhase("back", checker, back.delayed(1.0)),
+                swept.TaskPhase("never", checker, back, [change])]
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            swept.TaskChange("sensed", "shelf")
+        with pytest.raises(swept.UsageError):
+            swept.write_task(tmp_path / "task.json", [])
+
+    file, phases = tmp_path / "task.json", task()
+    swept.write_task(file, phases[:2])
+    page = swept.show_task(phases[:2]).html
+    before = [sys.getrefcount(one) for one in (home, checker, phases, *phases, swept.ChangeKind.SENSED)]
+    assert grown(lambda: task()[2].changes[0].kind, 5000) < 4000
+    assert grown(lambda: phases[0].checker.world, 2000) < 8000
+    assert grown(lambda: swept.write_task(file, phases[:2]), 30) < 8000
+    assert grown(lambda: swept.verify_task(file).phases[0].proof, 60) < 8000
+    assert grown(lambda: swept.read_task(file)[1].trajectory.times, 60) < 8000
+    assert grown(lambda: swept.show_task(phases[:2]).html, 10) < 16000 and len(page) > 1000
+    assert grown(refused, 5000) < 4000
+    assert before == [sys.getrefcount(one) for one in (home, checker, phases, *phases, swept.ChangeKind.SENSED)]
+
+
+def test_what_tasks_are_made_of_may_go(robot, tmp_path):
+    """Objects outlive what they were made of."""
+    def make():
+        checker, home = swept.Checker(robot, "arm"), robot.named_state("arm", "home")
+        ends = np.array([home, home + 0.01])
+        phase = swept.TaskPhase("there", checker, swept.Trajectory(checker.group.variable_names, [0.0, 1.0], ends))
+        swept.write_task(tmp_path / "task.json", [phase])
+        return phase.checker, swept.verify_task(tmp_path / "task.json").phases[0].proof, swept.show_task([phase])
+
+    checker, proof, page = make()
+    gc.collect()
+    assert checker.check_state(robot.named_state("arm", "home")) and proof and "there" in page.html
+
+
 def test_what_schedules_are_made_of_may_go():
     """Objects outlive what they were made of."""
     def make():

@@ -29,6 +29,7 @@ PYBIND11_MODULE(_swept, module) {
   bindTrajectories(module);
   bindSchedules(module);
   bindPaths(module);
+  bindTasks(module);
   bindRoadmaps(module);
   bindPlanning(module);
   bindProblems(module);

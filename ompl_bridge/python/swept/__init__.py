@@ -7,7 +7,7 @@
 
 Lengths are in m, angles in rad, poses are (4, 4) arrays in the robot's model frame.
 """
-from .enums import ClearanceQuery, ConstraintKind, LimitKind, LineStop, MotionQuery, Verdict
+from .enums import ChangeKind, ClearanceQuery, ConstraintKind, LimitKind, LineStop, MotionQuery, Verdict
 from .errors import (
     ArgumentError,
     ArgumentTypeError,
@@ -23,7 +23,9 @@ from ._swept import (
     CancellationToken,
     CellRobot,
     CertifiedRoadmap,
+    CheckedPhase,
     CheckedProof,
+    CheckedTask,
     Checker,
     ClearanceInterval,
     CollisionRules,
@@ -70,7 +72,11 @@ from ._swept import (
     SphereExcess,
     SphereModel,
     StateReport,
+    TaskChange,
     TaskConstraint,
+    TaskPage,
+    TaskPhase,
+    TaskStep,
     TimedCorner,
     ToolLine,
     ToolLinePlanner,
@@ -94,14 +100,17 @@ from ._swept import (
     planner_names,
     proven_trajectory,
     read_path,
+    read_task,
     shorten_path,
     simplify_path,
     sphere_excess,
     verify,
+    verify_task,
     write_proof,
+    write_task,
     write_trajectory_proof,
 )
-from .pages import show
+from .pages import show, show_task
 from .planning import PlannedTrajectory, plan_trajectory
 
 __all__ = [
@@ -113,7 +122,10 @@ __all__ = [
     "Cancelled",
     "CellRobot",
     "CertifiedRoadmap",
+    "ChangeKind",
+    "CheckedPhase",
     "CheckedProof",
+    "CheckedTask",
     "Checker",
     "ClearanceInterval",
     "ClearanceQuery",
@@ -169,7 +181,11 @@ __all__ = [
     "SphereExcess",
     "SphereModel",
     "StateReport",
+    "TaskChange",
     "TaskConstraint",
+    "TaskPage",
+    "TaskPhase",
+    "TaskStep",
     "TimedCorner",
     "ToolLine",
     "ToolLinePlanner",
@@ -196,11 +212,15 @@ __all__ = [
     "planner_names",
     "proven_trajectory",
     "read_path",
+    "read_task",
     "shorten_path",
     "show",
+    "show_task",
     "simplify_path",
     "sphere_excess",
     "verify",
+    "verify_task",
     "write_proof",
+    "write_task",
     "write_trajectory_proof",
 ]
