@@ -73,6 +73,8 @@ work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seco
         "motions": lambda: checker.certify_motions(many[:-1], many[1:], threads=1),
         "path": lambda: swept.certify_path(checker, many, threads=1),
         "roadmap": lambda: swept.CertifiedRoadmap(checker, states=500_000, neighbours=40, threads=1),
+        "line": lambda: swept.ToolLinePlanner(swept.Checker(robot, "arm"), "hand").plan_by(
+            ready, [0.0, 0.3, -0.3], position=1e-12, angle=4.0, least_step=1e-9, max_way_points=10**9),
         "delays": late}[sys.argv[1]]
 sent = []
 def send():
@@ -86,7 +88,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "delays"])
+@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "line", "delays"])
 def test_ctrl_c_ends_work(work):
     result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
     assert result.stdout.startswith("ended"), result.stdout + result.stderr

@@ -650,6 +650,8 @@ class ToolLinePlanner:
         angle: float = ...,
         least_step: float = ...,
         max_way_points: int = ...,
+        seconds: Optional[float] = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> ToolLine: ...
     def plan_by(
         self,
@@ -661,6 +663,8 @@ class ToolLinePlanner:
         angle: float = ...,
         least_step: float = ...,
         max_way_points: int = ...,
+        seconds: Optional[float] = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> ToolLine: ...
 
 class OutsideSpheres:
