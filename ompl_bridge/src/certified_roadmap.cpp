@@ -137,7 +137,8 @@ CertifiedRoadmap::CertifiedRoadmap(std::shared_ptr<const Checker> checker,
   Workspace workspace(*checker);
   ob::State* const state = places->space->allocState();
   for (std::size_t drawn = 0;
-       graph_.states() < options.states && drawn < kMostSamples * options.states;
+       graph_.states() < options.states && drawn < kMostSamples * options.states &&
+       !options.stop.stop_requested();
        drawn += kSamplesAtOnce) {
     for (std::size_t i = 0; i < kSamplesAtOnce; ++i) {
       sampler.sample(state);
@@ -153,13 +154,14 @@ CertifiedRoadmap::CertifiedRoadmap(std::shared_ptr<const Checker> checker,
     }
   }
   places->space->freeState(state);
-  if (graph_.states() == 0)
+  if (graph_.states() == 0 && !options.stop.stop_requested())
     throw std::invalid_argument("CertifiedRoadmap: none of " +
                                 std::to_string(kMostSamples * options.states) +
                                 " states is proven free");
   std::vector<ProvenGraph::Motion> motions;
   std::vector<Node*> near;
   for (const auto& node : places->nodes) {
+    if (options.stop.stop_requested()) break;
     places->near.nearestK(node.get(), options.neighbours + 1, near);
     for (const Node* other : near)
       if (other != node.get())
@@ -172,7 +174,7 @@ CertifiedRoadmap::CertifiedRoadmap(std::shared_ptr<const Checker> checker,
   std::ranges::sort(motions, {}, ends);
   const auto doubles = std::ranges::unique(motions, {}, ends);
   motions.erase(doubles.begin(), doubles.end());
-  graph_.addMotions(motions, options.threads);
+  graph_.addMotions(motions, options.threads, options.stop);
   places_ = places;
   makeLinks();
 }
@@ -234,8 +236,9 @@ void CertifiedRoadmap::findComponents() {
 }
 
 ProvenGraph::Change CertifiedRoadmap::update(std::shared_ptr<const Checker> changed,
-                                             unsigned threads) {
-  const ProvenGraph::Change change = graph_.update(std::move(changed), threads);
+                                             unsigned threads, const std::stop_token& stop) {
+  const ProvenGraph::Change change = graph_.update(std::move(changed), threads, stop);
+  if (change.stopped) return change;
   change.everything ? makeLinks() : findComponents();
   return change;
 }

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 #include <ompl/util/Console.h>
 
+#include <chrono>
 #include <random>
+#include <stop_token>
+#include <thread>
 
 #include "fixtures.hpp"
 #include "message_of.hpp"
@@ -173,6 +176,46 @@ TEST_F(CertifiedRoadmapTest, AnswersProblemsOfOmpl) {
   ob::PlannerData data(setup->getSpaceInformation());
   setup->getPlannerData(data);
   EXPECT_EQ(data.numEdges(), 2 * roadmap->freeMotions());
+}
+
+TEST_F(CertifiedRoadmapTest, WhoeverStopsItGetsWhatIsProvenByThen) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  const CertifiedRoadmap empty(checker_, {.states = 3000, .stop = stopped.get_token()});
+  EXPECT_EQ(empty.graph().states(), 0U);
+  EXPECT_EQ(empty.components(), 0U);
+  expectPaths(empty, false);
+  const CertifiedRoadmap whole(checker_, {.states = 3000, .neighbours = 8});
+  int partly = 0;
+  for (int i = 0; i < 400 && partly < 3; ++i) {
+    std::stop_source own;
+    const std::jthread stopper([&own, i] {
+      std::this_thread::sleep_for(std::chrono::microseconds(250 * i));
+      own.request_stop();
+    });
+    const CertifiedRoadmap some(checker_,
+                                {.states = 3000, .neighbours = 8, .stop = own.get_token()});
+    if (some.graph().motions() == 0 || some.graph().motions() >= whole.graph().motions()) continue;
+    ++partly;
+    Workspace workspace(*checker_);
+    for (std::size_t k = 0; k < some.graph().motions(); ++k) {
+      const auto [from, to] = some.graph().motion(k);
+      if (!some.graph().isFree(k)) continue;
+      EXPECT_EQ(checker_->certifyMotion(some.graph().state(from), some.graph().state(to), workspace)
+                    .verdict,
+                Verdict::Free);
+    }
+  }
+  EXPECT_EQ(partly, 3);
+
+  CertifiedRoadmap roadmap = whole;
+  const auto shut = std::make_shared<const Checker>(checker_->withBody(
+      "shutter", makeBox({0.02, 0.5, 0.5}), Eigen::Isometry3d(Eigen::Translation3d(0, 0.5, 0.5))));
+  EXPECT_TRUE(roadmap.update(shut, 1, stopped.get_token()).stopped);
+  EXPECT_EQ(roadmap.freeMotions(), whole.freeMotions());
+  expectPaths(roadmap, true);
+  EXPECT_FALSE(roadmap.update(shut, 1, std::stop_source().get_token()).stopped);
+  expectPaths(roadmap, false);
 }
 
 TEST_F(CertifiedRoadmapTest, RefusesWhatIsNoRoadmap) {

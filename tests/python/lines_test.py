@@ -110,6 +110,18 @@ def test_turns_and_options(alone):
     assert copy.copy(beyond) is beyond and copy.deepcopy(planner) is planner
 
 
+def test_lines_end_with_their_token(planner, home):
+    """And after their time; Ctrl-C is in threads_test.py."""
+    token, goal = swept.CancellationToken(), planner.pose(home)
+    token.cancel()
+    for call in (lambda **how: planner.plan(home, goal, **how), lambda **how: planner.plan_by(home, [0, 0, 0.1], **how)):
+        with pytest.raises(swept.Cancelled, match="^cancelled by its token$"):
+            call(cancel=token)
+        with pytest.raises(swept.Cancelled, match="^the time was up before the work was done$"):
+            call(seconds=0.0)
+        call(seconds=100.0, cancel=swept.CancellationToken())
+
+
 def test_what_lines_refuse(checker, planner, home):
     goal = planner.pose(home)
     with pytest.raises(swept.ArgumentError, match="nose"):

@@ -3,7 +3,6 @@
 //   swept_python_oracle ROBOT.urdf|CELL.yaml GROUP SCENE < questions
 // A question is a line of a word and numbers in hexadecimal; so is an answer, bit for bit.
 #include <cstdlib>
-#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -11,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "answer.hpp"
 #include "swept/robot_model/checker.hpp"
 #include "swept/robot_model/constraint_projection.hpp"
 #include "swept/robot_model/inverse_kinematics.hpp"
@@ -25,29 +25,7 @@
 
 namespace {
 
-class Answer {
- public:
-  Answer() { text_ << std::hexfloat; }
-  Answer& operator<<(double value) {
-    text_ << value << ' ';
-    return *this;
-  }
-  Answer& operator<<(std::string_view word) {
-    text_ << word << ' ';
-    return *this;
-  }
-  Answer& operator<<(const Eigen::Vector3d& point) {
-    return *this << point.x() << point.y() << point.z();
-  }
-  Answer& operator<<(const char* word) { return *this << std::string_view(word); }
-  Answer& operator<<(const swept::BodyName& name) {
-    return *this << std::string_view(name.empty() ? "None" : name.str());
-  }
-  std::string str() const { return text_.str(); }
-
- private:
-  std::ostringstream text_;
-};
+using swept::test::Answer;
 
 std::shared_ptr<const swept::Robot> robotOf(const std::string& file) {
   if (file.ends_with(".yaml")) return swept::loadWorkCell(swept::WorkCell::read(file));
@@ -91,7 +69,9 @@ class Oracle {
     const swept::ConfigurationView to =
         numbers.size() >= 2 * size ? swept::ConfigurationView(numbers.subspan(size, size)) : q;
     if (!(askStates(answer, question, q) || askMotions(answer, question, q, to) ||
-          askMore(answer, question, q, numbers.subspan(size))))
+          askMore(answer, question, q, numbers.subspan(size)) ||
+          swept::test::askSchedules(answer, question, checker_, q, numbers.subspan(size)) ||
+          swept::test::askRoadmaps(answer, question, checker_, q, numbers.subspan(size))))
       throw std::invalid_argument("no question " + question);
     return answer.str();
   }

@@ -60,10 +60,22 @@ robot = swept.Robot.load("models/robots/rook7/rook7.urdf")
 checker = swept.Checker(robot, "arm", swept.World.load("models/scenes/narrow_slot.yaml"))
 home, ready = checker.named_state("home"), checker.named_state("ready")
 many = np.random.default_rng(1).uniform(-2, 2, (3_000_000, 7))
+def late():
+    arms = swept.WorkCell.load("models/cells/two_rooks.yaml").robot()
+    both, curves = swept.Checker(arms, "both"), []
+    for arm in ("left/arm", "right/arm"):
+        path = arms.named_state(arm, "tucked") + 0.2 * np.random.default_rng(2).uniform(-1, 1, (1000, 7))
+        trajectory = swept.Trajectory(arms.group(arm).variable_names, 0.2 * np.arange(1000), path)
+        curves.append(swept.ScheduledCurve(trajectory))
+    swept.certify_delays(both, curves, 0, latest=150.0, resolution=1e-6)
 work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seconds=120),
         "states": lambda: checker.check_states(many, threads=1),
         "motions": lambda: checker.certify_motions(many[:-1], many[1:], threads=1),
-        "path": lambda: swept.certify_path(checker, many, threads=1)}[sys.argv[1]]
+        "path": lambda: swept.certify_path(checker, many, threads=1),
+        "roadmap": lambda: swept.CertifiedRoadmap(checker, states=500_000, neighbours=40, threads=1),
+        "line": lambda: swept.ToolLinePlanner(swept.Checker(robot, "arm"), "hand").plan_by(
+            ready, [0.0, 0.3, -0.3], position=1e-12, angle=4.0, least_step=1e-9, max_way_points=10**9),
+        "delays": late}[sys.argv[1]]
 sent = []
 def send():
     sent.append(time.monotonic())
@@ -76,7 +88,7 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["plan", "states", "motions", "path"])
+@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "line", "delays"])
 def test_ctrl_c_ends_work(work):
     result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
     assert result.stdout.startswith("ended"), result.stdout + result.stderr
@@ -157,6 +169,116 @@ def test_constraints_lines_covers_and_cells_leak_nothing(checker, home, states):
     assert grown(lambda: arms.standing({"left/arm": "ready"}), 2000) < 4000
     assert grown(lambda: problems.problem("shelf", problems.indices("shelf")[0]).world, 1000) < 4000
     assert grown(refused, 20_000) < 4000
+
+
+def crossing_schedule(arms):
+    """Two arms that meet."""
+    ends = np.array([arms.named_state("left/arm", "tucked"), [0, 1.3, 0, 0.3, 0, 0, 0]])
+    return [swept.ScheduledCurve(swept.Trajectory(arms.group(arm).variable_names, [0.0, 1.0], ends), start=start)
+            for arm, start in (("left/arm", 0.0), ("right/arm", 0.1))]
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_schedules_leak_nothing():
+    arms = swept.WorkCell.load("models/cells/two_rooks.yaml").robot()
+    both = swept.Checker(arms, "both")
+    curves = crossing_schedule(arms)
+
+    def refused():
+        with pytest.raises(swept.ArgumentError):
+            swept.combined_curve(both, curves[:1])
+
+    names = both.group.variable_names
+    before = sys.getrefcount(curves[0]), sys.getrefcount(curves), sys.getrefcount(both), sys.getrefcount(names)
+    assert grown(lambda: crossing_schedule(arms)[0].curve.knots, 2000) < 4000
+    assert grown(lambda: swept.combined_curve(both, curves).rounding, 5000) < 4000
+    assert grown(lambda: swept.controller_trajectory(swept.combined_curve(both, curves).curve, names), 2000) < 4000
+    assert grown(lambda: swept.certify_schedule(both, curves).witness.point_a, 50) < 8000
+    assert grown(lambda: swept.certify_delays(both, curves, 0).contact.configuration, 20) < 8000
+    assert grown(refused, 5000) < 4000
+    after = sys.getrefcount(curves[0]), sys.getrefcount(curves), sys.getrefcount(both), sys.getrefcount(names)
+    assert before == after
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_roadmaps_leak_nothing(checker, home):
+    roadmap, ready = swept.CertifiedRoadmap(checker, states=60, neighbours=4), checker.named_state("ready")
+    crated = checker.with_body("crate", swept.Shape.box([0.2, 0.2, 0.2]))
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            roadmap.graph.add_motions(home)
+
+    before = sys.getrefcount(home), sys.getrefcount(crated), sys.getrefcount(checker), sys.getrefcount(roadmap)
+    assert grown(lambda: (roadmap.states, roadmap.motions, roadmap.verdicts), 5000) < 4000
+    assert grown(lambda: roadmap.path(home, ready), 300) < 4000
+    assert grown(lambda: roadmap.blocked_by(0), 10_000) < 4000
+    assert grown(lambda: (roadmap.update(crated).blocked, roadmap.update(checker).freed), 200) < 8000
+    assert grown(lambda: roadmap.checker.world, 2000) < 8000
+    assert grown(lambda: roadmap.graph.motions, 500) < 8000
+    assert grown(lambda: swept.CertifiedRoadmap.of(roadmap.graph).components, 200) < 8000
+    assert grown(lambda: roadmap.plan(home, ready), 50) < 16000
+    assert grown(refused, 500) < 8000
+    after = sys.getrefcount(home), sys.getrefcount(crated), sys.getrefcount(checker), sys.getrefcount(roadmap)
+    assert before == after
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_tasks_leak_nothing(checker, home, tmp_path):
+    def task():
+        ends = np.array([home, home + 0.01])
+        there = swept.Trajectory(checker.group.variable_names, [0.0, 1.0], ends)
+        back = swept.Trajectory(checker.group.variable_names, [0.0, 1.0], ends[::-1].copy())
+        change = swept.TaskChange(swept.ChangeKind.SENSED, "shelf")
+        return [swept.TaskPhase("there", checker, there), swept.TaskPhase("back", checker, back.delayed(1.0)),
+                swept.TaskPhase("never", checker, back, [change])]
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            swept.TaskChange("sensed", "shelf")
+        with pytest.raises(swept.UsageError):
+            swept.write_task(tmp_path / "task.json", [])
+
+    file, phases = tmp_path / "task.json", task()
+    swept.write_task(file, phases[:2])
+    page = swept.show_task(phases[:2]).html
+    before = [sys.getrefcount(one) for one in (home, checker, phases, *phases, swept.ChangeKind.SENSED)]
+    assert grown(lambda: task()[2].changes[0].kind, 5000) < 4000
+    assert grown(lambda: phases[0].checker.world, 2000) < 8000
+    assert grown(lambda: swept.write_task(file, phases[:2]), 30) < 8000
+    assert grown(lambda: swept.verify_task(file).phases[0].proof, 60) < 8000
+    assert grown(lambda: swept.read_task(file)[1].trajectory.times, 60) < 8000
+    assert grown(lambda: swept.show_task(phases[:2]).html, 10) < 16000 and len(page) > 1000
+    assert grown(refused, 5000) < 4000
+    assert before == [sys.getrefcount(one) for one in (home, checker, phases, *phases, swept.ChangeKind.SENSED)]
+
+
+def test_what_tasks_are_made_of_may_go(robot, tmp_path):
+    """Objects outlive what they were made of."""
+    def make():
+        checker, home = swept.Checker(robot, "arm"), robot.named_state("arm", "home")
+        ends = np.array([home, home + 0.01])
+        phase = swept.TaskPhase("there", checker, swept.Trajectory(checker.group.variable_names, [0.0, 1.0], ends))
+        swept.write_task(tmp_path / "task.json", [phase])
+        return phase.checker, swept.verify_task(tmp_path / "task.json").phases[0].proof, swept.show_task([phase])
+
+    checker, proof, page = make()
+    gc.collect()
+    assert checker.check_state(robot.named_state("arm", "home")) and proof and "there" in page.html
+
+
+def test_what_schedules_are_made_of_may_go():
+    """Objects outlive what they were made of."""
+    def make():
+        arms = swept.WorkCell.load("models/cells/two_rooks.yaml").robot()
+        both, curves = swept.Checker(arms, "both"), crossing_schedule(arms)
+        combined = swept.combined_curve(both, curves)
+        return combined.curve, curves[1].curve, swept.certify_delays(both, curves, 0).contact
+
+    curve, own, contact = make()
+    gc.collect()
+    assert curve.position(0.5).shape == (14,) and own.duration == 1.0
+    assert contact.configuration.shape == (14,) and "/" in contact.witness.body_a
 
 
 def test_constraints_and_lines_keep_what_they_need(robot):

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <numbers>
 #include <random>
 #include <set>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "models_dir.hpp"
 #include "version_arms.hpp"
@@ -309,6 +312,63 @@ TEST(ProvenGraph, LeavesOutWhatNoWorldAllows) {
   motions = {{graph.addState({-half, 0.0}), graph.addState({half, 0.0})},
              {graph.addState({-half, 0.0}), graph.addState({half - 1e-6, 0.0})}};
   EXPECT_EQ(graph.addMotions(motions), 1U);
+}
+
+TEST(ProvenGraph, WhoeverStopsItGetsWhatIsProvenByThen) {
+  const auto robot = test::parseArm(test::armUrdf({}));
+  World world;
+  world.add("wall", makeBox({2.0, 0.05, 2.0}), at(0.0, 0.4, 0.8));
+  const auto checker = std::make_shared<const Checker>(robot, "all", test::shared(world));
+  std::mt19937 random(10);
+  ProvenGraph whole(checker);
+  std::vector<ProvenGraph::Motion> motions;
+  for (int i = 0; i < 3000; ++i) {
+    const std::vector<double> q = test::randomConfiguration(*checker, random);
+    const std::uint32_t from = whole.addState(q);
+    motions.push_back({from, whole.addState(nearTo(*checker, q, 0.4, random))});
+  }
+  const ProvenGraph none = whole;
+  const std::size_t all = whole.addMotions(motions);
+
+  std::stop_source stopped;
+  stopped.request_stop();
+  ProvenGraph graph = none;
+  EXPECT_EQ(graph.addMotions(motions, 1, stopped.get_token()), 0U);
+  Tally tally;
+  int partly = 0;
+  for (int i = 0; i < 200 && partly < 3; ++i) {
+    graph = none;
+    std::stop_source own;
+    const std::jthread stopper([&own, i] {
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
+      own.request_stop();
+    });
+    const std::size_t added = graph.addMotions(motions, 1, own.get_token());
+    EXPECT_EQ(added, graph.motions());
+    EXPECT_LE(added, all);
+    if (added == 0 || added == all) continue;
+    ++partly;
+    compareWithRecheck(graph, robot, tally);
+  }
+  EXPECT_EQ(partly, 3);
+  EXPECT_GT(tally.compared, 10U);
+
+  // An update changes nothing then, be it of the world or of everything.
+  const auto walled = std::make_shared<const Checker>(
+      checker->withBody("post", makeBox({0.3, 0.3, 3.0}), at(0.0, -0.5, 0.8)));
+  CheckerOptions wide = checker->options();
+  wide.margin = 0.03;
+  const auto everything = std::make_shared<const Checker>(robot, "all", test::shared(world), wide);
+  for (const auto& changed : {walled, everything}) {
+    graph = whole;
+    EXPECT_TRUE(graph.update(changed, 1, stopped.get_token()).stopped);
+    EXPECT_EQ(graph.checker(), checker);
+    ASSERT_EQ(graph.motions(), whole.motions());
+    for (std::size_t i = 0; i < graph.motions(); ++i)
+      EXPECT_EQ(graph.blockedBy(i), whole.blockedBy(i));
+    EXPECT_FALSE(graph.update(changed).stopped);
+    EXPECT_EQ(graph.checker(), changed);
+  }
 }
 
 TEST(ProvenGraph, RefusesWhatItCannotHold) {

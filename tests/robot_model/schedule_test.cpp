@@ -6,13 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <random>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "message_of.hpp"
@@ -141,6 +144,36 @@ TEST(Schedule, AContactWithoutADelayLeavesNothing) {
   EXPECT_FALSE(found.proven);
   ASSERT_TRUE(found.contact);
   EXPECT_EQ(found.contact->delay, 0.0);
+}
+
+TEST(Schedule, WhoeverStopsGetsWhatIsProvenByThen) {
+  const Checker checker = checkerOf(crossing());
+  std::stop_source stop;
+  const DelayQuery query{.curve = 0, .latest = 0.55};
+  EXPECT_EQ(certifyDelays(checker, passes(1.0), query, {}, stop.get_token()).verdict,
+            Verdict::Free);
+  stop.request_stop();
+  const DelayCertificate none = certifyDelays(checker, passes(1.0), query, {}, stop.get_token());
+  EXPECT_EQ(none.verdict, Verdict::Undecided);
+  EXPECT_FALSE(none.proven || none.contact);
+  EXPECT_EQ(none.curves, 0U);
+  // While it works: neither more than the truth, nor all of the work.
+  const DelayQuery fine{.curve = 0, .latest = 2.0, .resolution = 1e-9};
+  const std::size_t all = certifyDelays(checker, passes(1.0), fine).curves;
+  std::size_t ended = 0;
+  for (int i = 0; i < 200 && ended < 5; ++i) {
+    std::stop_source own;
+    std::jthread stopper([&own, i] {
+      std::this_thread::sleep_for(std::chrono::microseconds(50 * i));
+      own.request_stop();
+    });
+    const DelayCertificate some = certifyDelays(checker, passes(1.0), fine, {}, own.get_token());
+    EXPECT_LE(some.curves, all);
+    EXPECT_LE(some.proven.value_or(0.0), 0.6);
+    EXPECT_NE(some.verdict, Verdict::Free);
+    ended += some.proven && some.verdict == Verdict::Undecided && some.curves < all ? 1 : 0;
+  }
+  EXPECT_EQ(ended, 5U);
 }
 
 // ---------------------------------------------------------------------------- random curves

@@ -7,12 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <map>
 #include <numbers>
 #include <random>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "message_of.hpp"
@@ -112,6 +115,38 @@ TEST_F(PlanarLine, ReachesItsGoal) {
   EXPECT_TRUE(fine.complete());
   EXPECT_LE(sampled(fine), 1e-4);
   EXPECT_LT(fine.wayPoints.size(), 6 * line.wayPoints.size());
+}
+
+TEST_F(PlanarLine, WhoeverStopsItGetsWhatIsProvenByThen) {
+  std::stop_source stopped;
+  EXPECT_TRUE(along(0.7, -3.0, 3.0, {}, {.angle = kPi, .stop = stopped.get_token()}).complete());
+  stopped.request_stop();
+  const ToolLine none = along(0.7, -3.0, 3.0, {}, {.angle = kPi, .stop = stopped.get_token()});
+  ASSERT_TRUE(none.stop);
+  EXPECT_EQ(none.stop->reason, Reason::Undecided);
+  EXPECT_EQ(none.share, 0.0);
+  EXPECT_EQ(none.wayPoints.size(), 1U);
+  const ToolLine whole = along(0.7, -3.0, 3.0, {}, {.position = 1e-8, .angle = kPi});
+  ASSERT_TRUE(whole.complete());
+  int partly = 0;
+  for (int i = 0; i < 400 && partly < 3; ++i) {
+    std::stop_source own;
+    const std::jthread stopper([&own, i] {
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
+      own.request_stop();
+    });
+    const ToolLine some =
+        along(0.7, -3.0, 3.0, {}, {.position = 1e-8, .angle = kPi, .stop = own.get_token()});
+    if (some.share == 0.0 || some.complete()) continue;
+    ++partly;
+    EXPECT_EQ(some.stop->reason, Reason::Undecided);
+    EXPECT_EQ(some.stop->share, some.share);
+    // The same way points as without a stop, but fewer.
+    ASSERT_LT(some.wayPoints.size(), whole.wayPoints.size());
+    for (std::size_t k = 0; k < some.wayPoints.size(); ++k)
+      EXPECT_EQ(some.wayPoints[k], whole.wayPoints[k]);
+  }
+  EXPECT_EQ(partly, 3);
 }
 
 TEST_F(PlanarLine, EndsWhereTheArmIsStretched) {

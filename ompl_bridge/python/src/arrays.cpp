@@ -205,10 +205,10 @@ ConfigurationView readConfiguration(PyObject* value, const char* argument, std::
   return copy;
 }
 
-std::vector<Eigen::Vector3i> readTriangles(py::handle value, const char* argument,
-                                           std::size_t end) {
-  const std::string expected =
-      std::string(argument) + ": expected integers of shape (m, 3), C-contiguous; got ";
+std::vector<std::uint32_t> readIndices(py::handle value, const char* argument, std::size_t columns,
+                                       std::size_t end) {
+  const std::string expected = std::string(argument) + ": expected integers of shape (m, " +
+                               std::to_string(columns) + "), C-contiguous; got ";
   py::object owner = py::reinterpret_borrow<py::object>(value);
   if (isList(value.ptr())) {
     owner = py::reinterpret_steal<py::object>(
@@ -223,20 +223,30 @@ std::vector<Eigen::Vector3i> readTriangles(py::handle value, const char* argumen
   auto* array = reinterpret_cast<PyArrayObject*>(owner.ptr());
   const std::string got = expected + typeOf(array) + " of shape " + shapeOf(array);
   if (!PyArray_ISINTEGER(array)) throw ArgumentTypeError(got);
-  if (PyArray_NDIM(array) != 2 || PyArray_DIM(array, 1) != 3) throw std::invalid_argument(got);
+  if (PyArray_NDIM(array) != 2 || PyArray_DIM(array, 1) != static_cast<npy_intp>(columns))
+    throw std::invalid_argument(got);
   const py::object wide = py::reinterpret_steal<py::object>(
       PyArray_FROM_OTF(owner.ptr(), NPY_INT64, NPY_ARRAY_CARRAY_RO | NPY_ARRAY_FORCECAST));
   if (!wide) throw py::error_already_set();
-  const auto* indices = static_cast<const std::int64_t*>(memoryOf(wide));
-  std::vector<Eigen::Vector3i> triangles(static_cast<std::size_t>(PyArray_DIM(array, 0)));
-  for (std::size_t i = 0; i < 3 * triangles.size(); ++i) {
-    if (indices[i] < 0 || static_cast<std::uint64_t>(indices[i]) >= end)
+  const auto* given = static_cast<const std::int64_t*>(memoryOf(wide));
+  std::vector<std::uint32_t> indices(static_cast<std::size_t>(PyArray_DIM(array, 0)) * columns);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (given[i] < 0 || static_cast<std::uint64_t>(given[i]) >= end)
       throw std::invalid_argument(std::string(argument) + ": expected indices from 0 to " +
-                                  std::to_string(end) + " - 1; got " + std::to_string(indices[i]) +
-                                  " at [" + std::to_string(i / 3) + ", " + std::to_string(i % 3) +
-                                  "]");
-    triangles[i / 3][static_cast<Eigen::Index>(i % 3)] = static_cast<int>(indices[i]);
+                                  std::to_string(end) + " - 1; got " + std::to_string(given[i]) +
+                                  " at [" + std::to_string(i / columns) + ", " +
+                                  std::to_string(i % columns) + "]");
+    indices[i] = static_cast<std::uint32_t>(given[i]);
   }
+  return indices;
+}
+
+std::vector<Eigen::Vector3i> readTriangles(py::handle value, const char* argument,
+                                           std::size_t end) {
+  const std::vector<std::uint32_t> indices = readIndices(value, argument, 3, end);
+  std::vector<Eigen::Vector3i> triangles(indices.size() / 3);
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    triangles[i / 3][static_cast<Eigen::Index>(i % 3)] = static_cast<int>(indices[i]);
   return triangles;
 }
 
@@ -268,6 +278,14 @@ py::object makeBytes(std::size_t size, std::uint8_t*& memory) {
   npy_intp shape = static_cast<npy_intp>(size);
   py::object array = newArray(1, &shape, NPY_UINT8);
   memory = static_cast<std::uint8_t*>(memoryOf(array));
+  return array;
+}
+
+py::object makeIndices(std::span<const std::uint32_t> values, std::size_t columns) {
+  npy_intp shape[] = {static_cast<npy_intp>(values.size() / columns),
+                      static_cast<npy_intp>(columns)};
+  py::object array = newArray(2, shape, NPY_UINT32);
+  std::ranges::copy(values, static_cast<std::uint32_t*>(memoryOf(array)));
   return array;
 }
 

@@ -55,7 +55,10 @@ Table readTable(pybind11::handle value, const char* argument, std::size_t column
 /// borrowed from the caller, and a list is copied to `copy`.
 ConfigurationView readConfiguration(PyObject* value, const char* argument, std::size_t size,
                                     std::vector<double>& copy);
-/// (m, 3) indices, of any integer type, each from 0 to `end` - 1.
+/// (m, columns) indices, of any integer type, each from 0 to `end` - 1: row after row.
+std::vector<std::uint32_t> readIndices(pybind11::handle value, const char* argument,
+                                       std::size_t columns, std::size_t end);
+/// The same of (m, 3).
 std::vector<Eigen::Vector3i> readTriangles(pybind11::handle value, const char* argument,
                                            std::size_t end);
 /// A point or direction (m): (3,).
@@ -77,6 +80,8 @@ pybind11::object makeArray(std::span<const Eigen::Vector3d> points);
 pybind11::object makeDoubles(std::size_t size, double*& memory);
 /// The same of uint8.
 pybind11::object makeBytes(std::size_t size, std::uint8_t*& memory);
+/// A new array of uint32, (m, columns).
+pybind11::object makeIndices(std::span<const std::uint32_t> values, std::size_t columns);
 ///@{
 /// A read-only view (n,) of numbers in memory of `owner`, which lives as long as the view; `stride`
 /// bytes from one to the next.

@@ -25,7 +25,10 @@ void bindSphereModels(pybind11::module_& module);
 void bindCells(pybind11::module_& module);
 void bindProblems(pybind11::module_& module);
 void bindTrajectories(pybind11::module_& module);
+void bindSchedules(pybind11::module_& module);
 void bindPaths(pybind11::module_& module);
+void bindRoadmaps(pybind11::module_& module);
+void bindTasks(pybind11::module_& module);
 void bindPlanning(pybind11::module_& module);
 void bindPages(pybind11::module_& module);
 

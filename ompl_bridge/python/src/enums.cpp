@@ -43,6 +43,11 @@ const Enumeration<4>& clearanceQueries() {
   return found;
 }
 
+const Enumeration<3>& changeKinds() {
+  static const Enumeration<3> found("ChangeKind");
+  return found;
+}
+
 }  // namespace
 
 py::object toPython(Verdict verdict) {
@@ -65,12 +70,20 @@ py::object toPython(ToolLineStop::Reason reason) {
   return found.member(static_cast<std::size_t>(reason));
 }
 
+py::object toPython(TaskChange::Kind kind) {
+  return changeKinds().member(static_cast<std::size_t>(kind));
+}
+
 MotionQuery motionQueryOf(py::handle value, const char* argument) {
   return static_cast<MotionQuery>(motionQueries().valueOf(value, argument));
 }
 
 ClearanceQuery clearanceQueryOf(py::handle value, const char* argument) {
   return static_cast<ClearanceQuery>(clearanceQueries().valueOf(value, argument));
+}
+
+TaskChange::Kind changeKindOf(py::handle value, const char* argument) {
+  return static_cast<TaskChange::Kind>(changeKinds().valueOf(value, argument));
 }
 
 }  // namespace swept::python

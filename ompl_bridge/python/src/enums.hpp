@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "swept/core/verdict.hpp"
+#include "swept/proofs/task_proof.hpp"
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/task_constraint.hpp"
 #include "swept/robot_model/tool_line.hpp"
@@ -18,11 +19,13 @@ pybind11::object toPython(Verdict verdict);
 pybind11::object toPython(LimitKind kind);
 pybind11::object toPython(ConstraintViolation::Kind kind);
 pybind11::object toPython(ToolLineStop::Reason reason);
+pybind11::object toPython(TaskChange::Kind kind);
 ///@}
 ///@{
 /// The value of a member; throws ArgumentTypeError, naming the argument, for all else.
 MotionQuery motionQueryOf(pybind11::handle value, const char* argument);
 ClearanceQuery clearanceQueryOf(pybind11::handle value, const char* argument);
+TaskChange::Kind changeKindOf(pybind11::handle value, const char* argument);
 ///@}
 
 }  // namespace swept::python

@@ -27,7 +27,10 @@ PYBIND11_MODULE(_swept, module) {
   bindCovers(module);
   bindSphereModels(module);
   bindTrajectories(module);
+  bindSchedules(module);
   bindPaths(module);
+  bindTasks(module);
+  bindRoadmaps(module);
   bindPlanning(module);
   bindProblems(module);
   bindPages(module);

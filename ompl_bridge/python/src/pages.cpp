@@ -9,6 +9,8 @@
 #include "binding.hpp"
 #include "handles.hpp"
 #include "swept/pages/page.hpp"
+#include "swept/pages/task_page.hpp"
+#include "tasks.hpp"
 #include "trajectories.hpp"
 
 namespace py = pybind11;
@@ -25,22 +27,70 @@ struct PageHandle {
   std::size_t dimension;
 };
 
-PageHandle make(const CheckerHandle& checker, const std::string& title, const std::string& headline,
-                const Facts& facts) {
+PageOptions optionsOf(const RobotHandle& robot, const std::string& title,
+                      const std::string& headline, const Facts& facts) {
   PageOptions options{.title = title, .headline = headline, .facts = facts};
-  const Source& source = checker.robot().source;
+  const Source& source = robot.source;
   if (source.cell != nullptr) {
     const ComposedRobot composed = compose(*source.cell);
     options.visuals = VisualModel::parse(composed.urdf, composed.name);
   } else if (!source.file.empty()) {
     options.visuals = VisualModel::load(source.file);
   }
-  return {Page(checker.shared(), std::move(options)), checker.dimension()};
+  return options;
+}
+
+PageHandle make(const CheckerHandle& checker, const std::string& title, const std::string& headline,
+                const Facts& facts) {
+  return {Page(checker.shared(), optionsOf(checker.robot(), title, headline, facts)),
+          checker.dimension()};
+}
+
+/// `cup attached to hand`.
+std::string wordsOf(const TaskChange& change, const Checker& checker) {
+  if (change.kind == TaskChange::Kind::Sensed) return change.body + " sensed";
+  if (change.kind == TaskChange::Kind::Placed) return change.body + " placed";
+  for (const AttachedBody& attached : checker.options().attached)
+    if (attached.name == change.body) return change.body + " attached to " + attached.link;
+  return change.body + " attached";
+}
+
+void addPhase(TaskPage& page, const PhaseHandle& handle, const RateLimits* limits) {
+  const TaskPhase& phase = handle.phase;
+  std::vector<std::string> changes;
+  for (const TaskChange& change : phase.changes) changes.push_back(wordsOf(change, *phase.checker));
+  TrajectoryQuery query;
+  if (limits != nullptr) query.limits = *limits;
+  page.addPhase(phase.name, phase.checker, controllerCurve(phase.trajectory), query, changes);
+}
+
+void bindTaskPage(py::module_& module) {
+  py::class_<TaskPage>(
+      module, "TaskPage",
+      "An HTML page that plays the phases of a task on one clock, each with what its checker says. "
+      "It does not say whether they join: verify_task\ndoes. Jupyter shows it. See `show_task`.")
+      .def(py::init([](const RobotHandle& robot, const std::string& title,
+                       const std::string& headline, const Facts& facts) {
+             return TaskPage(optionsOf(robot, title, headline, facts));
+           }),
+           py::arg("robot"), py::kw_only(), py::arg("title") = "swept", py::arg("headline") = "",
+           py::arg("facts") = Facts(),
+           "`robot`: of all phases. `headline`: by default how many of the phases are free. "
+           "`facts`: pairs of a name and a value.")
+      .def("add_phase", &addPhase, py::arg("phase"), py::arg("limits") = nullptr,
+           "Adds a TaskPhase, which begins where the one before ends, with RateLimits. Raises "
+           "ArgumentError for one that begins earlier, and for\nmoving obstacles.")
+      .def_property_readonly("html", &TaskPage::html,
+                             "The whole page: one file that any browser opens from disk. Raises "
+                             "ArgumentError without a phase.")
+      .def("write", &TaskPage::write, py::arg("file"),
+           "Writes the page to a .html file. Raises UsageError.");
 }
 
 }  // namespace
 
 void bindPages(py::module_& module) {
+  bindTaskPage(module);
   py::class_<PageHandle>(
       module, "Page",
       "An HTML page with a robot, its world, and what is proven about its states, "

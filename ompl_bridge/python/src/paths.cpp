@@ -17,7 +17,6 @@
 #include "errors.hpp"
 #include "handles.hpp"
 #include "loading.hpp"
-#include "swept/proofs/path_proof.hpp"
 #include "swept/robot_model/path_clearance.hpp"
 #include "swept/robot_model/path_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
@@ -92,10 +91,6 @@ PathClearance clearanceOf(const CheckerHandle& checker, const py::object& path, 
   const py::gil_scoped_release others;
   Workspace workspace(checker.checker());
   return pathClearance(checker.checker(), states.list(), accuracy, workspace, how);
-}
-
-void requireWritten(const WrittenProof& written) {
-  if (!written.isWritten()) throw UsageError("no proof was found for " + written.missing);
 }
 
 void write(const std::filesystem::path& file, const CheckerHandle& checker, const py::object& path,
@@ -188,6 +183,10 @@ PathCertificate certifyTable(const Checker& checker, const Table& states, bool c
     std::ranges::move(part.segments, std::back_inserter(certificate.segments));
   });
   return certificate;
+}
+
+void requireWritten(const WrittenProof& written) {
+  if (!written.isWritten()) throw UsageError("no proof was found for " + written.missing);
 }
 
 void bindPaths(py::module_& module) {

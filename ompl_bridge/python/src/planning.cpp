@@ -20,8 +20,10 @@
 #include "errors.hpp"
 #include "goals.hpp"
 #include "handles.hpp"
+#include "roadmaps.hpp"
 #include "swept/core/floating_point_environment.hpp"
 #include "swept/ompl_bridge/certified_connect.hpp"
+#include "swept/ompl_bridge/certified_roadmap.hpp"
 #include "swept/ompl_bridge/paths.hpp"
 #include "swept/ompl_bridge/planners.hpp"
 #include "swept/ompl_bridge/pose_goal.hpp"
@@ -59,6 +61,14 @@ struct PlanOptions {
   std::optional<double> range;
   bool shorten;
   std::optional<double> simplifySeconds;
+  /// In place of a planner of that name; null: none.
+  const CertifiedRoadmap* roadmap = nullptr;
+};
+
+/// What a plan leads to: states, or a pose.
+struct Goals {
+  States states;
+  std::optional<PoseTarget> pose;
 };
 
 States statesOf(const Table& table) {
@@ -122,6 +132,11 @@ bool setPoseGoal(og::SimpleSetup& setup, const std::shared_ptr<const Checker>& c
 }
 
 ob::PlannerPtr plannerOf(const og::SimpleSetup& setup, const PlanOptions& options) {
+  if (options.roadmap != nullptr) {
+    // Whoever plans on a roadmap keeps it as long as the planner.
+    const std::shared_ptr<const CertifiedRoadmap> kept(std::shared_ptr<void>(), options.roadmap);
+    return std::make_shared<RoadmapPlanner>(setup.getSpaceInformation(), kept);
+  }
   ob::PlannerPtr planner = makePlanner(options.planner, setup.getSpaceInformation());
   if (auto* own = dynamic_cast<CertifiedConnect*>(planner.get())) own->setSeed(options.seed);
   if (options.range && !(planner->params().hasParam("range") &&
@@ -138,23 +153,22 @@ void shorten(og::SimpleSetup& setup, const Checker& checker, const PlanOptions& 
 }
 
 Plan solve(const std::shared_ptr<const Checker>& checker, const std::vector<double>& start,
-           const States& goals, const std::optional<PoseTarget>& pose, const PlanOptions& options,
-           const std::stop_token& stop) {
+           const Goals& goals, const PlanOptions& options, const std::stop_token& stop) {
   Plan plan{.planner = options.planner,
             .status = {},
             .dimension = static_cast<std::size_t>(checker->dimension())};
   const auto begin = Watch::Clock::now();
   seed(options.seed);
-  States ends = goals;
+  States ends = goals.states;
   ends.push_back(start);
   const og::SimpleSetupPtr setup = setupFor(checker, ends);
   const StateConversion conversion(checker->robot(), checker->group());
   ob::ScopedState<> state(setup->getStateSpace());
   conversion.toState(start, state.get());
   setup->setStartState(state);
-  if (!pose) {
-    setGoals(*setup, conversion, goals);
-  } else if (!setPoseGoal(*setup, checker, *pose, options.seed, stop)) {
+  if (!goals.pose) {
+    setGoals(*setup, conversion, goals.states);
+  } else if (!setPoseGoal(*setup, checker, *goals.pose, options.seed, stop)) {
     plan.status = "no free state reaches the goal pose";
     plan.seconds = secondsSince(begin);
     return plan;
@@ -180,16 +194,22 @@ Plan solve(const std::shared_ptr<const Checker>& checker, const std::vector<doub
   return plan;
 }
 
-/// One state or several: (n,) or (k, n).
-States readGoals(const py::object& goal, std::size_t dimension) {
+/// One state or several, (n,) or (k, n), or a pose.
+Goals readGoals(const py::object& goal, std::size_t dimension) {
+  if (py::isinstance<PoseTarget>(goal)) return {{}, goal.cast<const PoseTarget&>()};
   const bool isTable = py::hasattr(goal, "ndim")
                            ? goal.attr("ndim").cast<int>() == 2
                            : py::isinstance<py::sequence>(goal) && py::len(goal) > 0 &&
                                  py::isinstance<py::sequence>(py::object(goal[py::int_(0)]));
-  const States goals =
+  const States states =
       statesOf(isTable ? readTable(goal, "goal", dimension) : readVector(goal, "goal", dimension));
-  if (goals.empty()) throw std::invalid_argument("goal: expected one state at least");
-  return goals;
+  if (states.empty()) throw std::invalid_argument("goal: expected one state at least");
+  return {states, {}};
+}
+
+void requireOptions(const PlanOptions& options) {
+  if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds: expected a positive number");
+  if (options.seed == 0) throw std::invalid_argument("seed: expected a number above 0");
 }
 
 Plan plan(const CheckerHandle& checker, const py::object& start, const py::object& goal,
@@ -202,20 +222,35 @@ Plan plan(const CheckerHandle& checker, const py::object& start, const py::objec
                             .range = range,
                             .shorten = shortens,
                             .simplifySeconds = simplifySeconds};
-  if (!(seconds > 0.0)) throw std::invalid_argument("seconds: expected a positive number");
-  if (seedValue == 0) throw std::invalid_argument("seed: expected a number above 0");
-  const std::size_t dimension = checker.dimension();
-  const Table first = readVector(start, "start", dimension);
-  std::optional<PoseTarget> pose;
-  States goals;
-  if (py::isinstance<PoseTarget>(goal))
-    pose = goal.cast<const PoseTarget&>();
-  else
-    goals = readGoals(goal, dimension);
+  requireOptions(options);
+  const States first = statesOf(readVector(start, "start", checker.dimension()));
+  const Goals goals = readGoals(goal, checker.dimension());
   Plan found;
   runWatched(Watch(std::nullopt, cancel), [&](const std::stop_token& stop) {
-    found = inDefaultEnvironment([&] {
-      return solve(checker.shared(), statesOf(first).front(), goals, pose, options, stop);
+    found = inDefaultEnvironment(
+        [&] { return solve(checker.shared(), first.front(), goals, options, stop); });
+  });
+  return found;
+}
+
+Plan planOnRoadmap(const RoadmapHandle& self, const py::object& start, const py::object& goal,
+                   double seconds, std::uint32_t seedValue, bool shortens,
+                   std::optional<double> simplifySeconds, const Token& cancel) {
+  PlanOptions options{.planner = "RoadmapPlanner",
+                      .seconds = seconds,
+                      .seed = seedValue,
+                      .range = {},
+                      .shorten = shortens,
+                      .simplifySeconds = simplifySeconds};
+  requireOptions(options);
+  const States first = statesOf(readVector(start, "start", self.dimension()));
+  const Goals goals = readGoals(goal, self.dimension());
+  Plan found;
+  runWatched(Watch(std::nullopt, cancel), [&](const std::stop_token& stop) {
+    found = self.read([&](const CertifiedRoadmap& roadmap) {
+      options.roadmap = &roadmap;
+      return inDefaultEnvironment(
+          [&] { return solve(roadmap.graph().checker(), first.front(), goals, options, stop); });
     });
   });
   return found;
@@ -380,6 +415,12 @@ void bindPlanning(py::module_& module) {
       "path is shortened by a few tens of motions, or by OMPL's simplifier for\n"
       "`simplify_seconds`. The same seed gives the same path, if no other thread plans with a "
       "planner of OMPL's. Ctrl-C and `cancel`\nend it: KeyboardInterrupt, Cancelled.");
+  py::class_<RoadmapHandle>(module.attr("CertifiedRoadmap"))
+      .def("plan", &planOnRoadmap, py::arg("start"), py::arg("goal"), py::kw_only(),
+           py::arg("seconds") = 5.0, py::arg("seed") = 1, py::arg("shorten") = true,
+           py::arg("simplify_seconds") = py::none(), py::arg("cancel") = py::none(),
+           "Plan of a path in the roadmap's current world; arguments as `plan`. `seed`: of the "
+           "samples of a PoseGoal.");
   module.def(
       "shorten_path",
       [](const CheckerHandle& checker, const py::object& path, int rounds, double leastGain) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "arrays.hpp"
@@ -10,11 +11,14 @@
 #include "enums.hpp"
 #include "handles.hpp"
 #include "swept/robot_model/tool_line.hpp"
+#include "watch.hpp"
 
 namespace py = pybind11;
 
 namespace swept::python {
 namespace {
+
+using Token = std::shared_ptr<CancellationToken>;
 
 /// swept.ToolLineStop.
 struct StopHandle {
@@ -42,11 +46,14 @@ PlannerHandle makePlanner(const CheckerHandle& checker, const std::string& link,
 }
 
 LineHandle follow(const PlannerHandle& self, const Table& start, const Eigen::Isometry3d& goal,
-                  const ToolLineOptions& options) {
+                  ToolLineOptions options, const Watch& watch) {
   const Checker& checker = self.planner.checker();
   LineHandle found{{}, self.dimension(), {}};
-  Workspace workspace(checker);
-  found.line = self.planner.plan(start.row(0), goal, workspace, options);
+  runWatched(watch, [&](const std::stop_token& stop) {
+    options.stop = stop;
+    Workspace workspace(checker);
+    found.line = self.planner.plan(start.row(0), goal, workspace, options);
+  });
   if (found.line.stop)
     found.stop =
         StopHandle{*found.line.stop, describe(*found.line.stop, checker.options().constraints)};
@@ -54,22 +61,24 @@ LineHandle follow(const PlannerHandle& self, const Table& start, const Eigen::Is
 }
 
 LineHandle planTo(const PlannerHandle& self, const py::object& start, const py::object& goal,
-                  double position, double angle, double leastStep, int maxWayPoints) {
+                  double position, double angle, double leastStep, int maxWayPoints,
+                  std::optional<double> seconds, const Token& cancel) {
+  const Watch watch(seconds, cancel);
   const Table from = readVector(start, "start", self.dimension());
-  const Eigen::Isometry3d model_from_tool = readPose(goal, "goal");
-  const py::gil_scoped_release others;
-  return follow(self, from, model_from_tool, {position, angle, leastStep, maxWayPoints});
+  return follow(self, from, readPose(goal, "goal"), {position, angle, leastStep, maxWayPoints},
+                watch);
 }
 
 LineHandle planBy(const PlannerHandle& self, const py::object& start,
                   const py::object& displacement, bool inTool, double position, double angle,
-                  double leastStep, int maxWayPoints) {
+                  double leastStep, int maxWayPoints, std::optional<double> seconds,
+                  const Token& cancel) {
+  const Watch watch(seconds, cancel);
   const Table from = readVector(start, "start", self.dimension());
   const Eigen::Vector3d by = readPoint(displacement, "displacement");
-  const py::gil_scoped_release others;
   Eigen::Isometry3d model_from_tool = self.planner.pose(from.row(0));
   model_from_tool.translation() += inTool ? Eigen::Vector3d(model_from_tool.linear() * by) : by;
-  return follow(self, from, model_from_tool, {position, angle, leastStep, maxWayPoints});
+  return follow(self, from, model_from_tool, {position, angle, leastStep, maxWayPoints}, watch);
 }
 
 void bindStop(py::module_& module) {
@@ -201,16 +210,19 @@ void bindToolLines(py::module_& module) {
       .def("plan", &planTo, py::arg("start"), py::arg("goal"), py::kw_only(),
            py::arg("position") = usual.position, py::arg("angle") = usual.angle,
            py::arg("least_step") = usual.leastStep, py::arg("max_way_points") = usual.maxWayPoints,
+           py::arg("seconds") = py::none(), py::arg("cancel") = py::none(),
            "ToolLine from the tool's pose at `start` (n,) to `goal` (4, 4), model_from_tool. "
            "`position` (m) and `angle` (rad; pi and more: any\norientation): how far the tool may "
            "be off the line. `least_step`: m along the line, or rad of its turn if that is more; a "
            "chord so short\nthat cannot be proven ends the path. `max_way_points`: a longer path "
-           "ends as UNDECIDED. Raises ArgumentError for a goal that is not\nrigid and values out "
-           "of range. A start in contact is no error: the share is then 0.")
+           "ends as UNDECIDED. Raises Cancelled after `seconds`, or\nwhen the token `cancel` is "
+           "cancelled; Ctrl-C ends it, too. Raises ArgumentError for a goal that is not rigid and "
+           "values out of range. A start in contact is no error: the share is then 0.")
       .def("plan_by", &planBy, py::arg("start"), py::arg("displacement"), py::kw_only(),
            py::arg("in_tool") = false, py::arg("position") = usual.position,
            py::arg("angle") = usual.angle, py::arg("least_step") = usual.leastStep,
-           py::arg("max_way_points") = usual.maxWayPoints,
+           py::arg("max_way_points") = usual.maxWayPoints, py::arg("seconds") = py::none(),
+           py::arg("cancel") = py::none(),
            "The same by a displacement (3,) m without a turn, along the axes of the model frame; "
            "`in_tool`: of the tool at the start.")
       .def("__repr__", [](const PlannerHandle& self) {

@@ -300,12 +300,7 @@ TrajectoryCertificate certify(const CheckerHandle& self, const py::object& traje
                               const RateLimits* limits, double clock, bool clearances,
                               const py::object& query) {
   const PiecewisePolynomial curve = curveOf(trajectory, "trajectory");
-  TrajectoryQuery how{
-      .contact = query.is_none() ? MotionQuery::FirstContact : motionQueryOf(query, "query"),
-      .clock = clock,
-      .limits = {},
-      .clearances = clearances};
-  if (limits != nullptr) how.limits = *limits;
+  const TrajectoryQuery how = queryOf(limits, clock, clearances, query);
   const py::gil_scoped_release others;
   Workspace workspace(self.checker());
   return self.checker().certifyTrajectory(curve, workspace, how);
@@ -361,6 +356,17 @@ PiecewisePolynomial curveOf(const py::object& trajectory, const char* argument) 
   throw ArgumentTypeError(std::string(argument) +
                           ": expected a swept.Trajectory or a swept.Curve, got " +
                           std::string(py::repr(trajectory)));
+}
+
+TrajectoryQuery queryOf(const RateLimits* limits, double clock, bool clearances,
+                        const py::object& contact) {
+  TrajectoryQuery query{
+      .contact = contact.is_none() ? MotionQuery::FirstContact : motionQueryOf(contact, "query"),
+      .clock = clock,
+      .limits = {},
+      .clearances = clearances};
+  if (limits != nullptr) query.limits = *limits;
+  return query;
 }
 
 RateLimits limitsOf(RateLimits limits, const py::object& velocity, const py::object& acceleration,

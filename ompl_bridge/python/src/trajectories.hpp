@@ -8,11 +8,17 @@
 #include "swept/robot_model/joint_trajectory.hpp"
 #include "swept/robot_model/piecewise_polynomial.hpp"
 #include "swept/robot_model/rate_limits.hpp"
+#include "swept/robot_model/trajectory_certificate.hpp"
 
 namespace swept::python {
 
 /// The curve of a swept.Trajectory or a swept.Curve. Throws ArgumentTypeError for all else.
 PiecewisePolynomial curveOf(const pybind11::object& trajectory, const char* argument);
+
+/// What to find out about a curve, from the arguments of Python. `limits` may be null; `contact`:
+/// swept.MotionQuery or None.
+TrajectoryQuery queryOf(const RateLimits* limits, double clock, bool clearances,
+                        const pybind11::object& contact);
 
 /// Limits of a group from the arguments of Python: each a number for all values, an array (n,), or
 /// None, which leaves those of `limits`.

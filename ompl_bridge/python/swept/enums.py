@@ -59,6 +59,14 @@ class ConstraintKind(_Named):
     AXIS = 3  #: `axes`
 
 
+class ChangeKind(_Named):
+    """What has happened to a body since the phase of a task before."""
+
+    ATTACHED = 0  #: a link carries it now: it has the same shapes, where they were
+    PLACED = 1  #: it is in the world now, likewise
+    SENSED = 2  #: a body of the world that was sensed again, is new or is gone: any other shape
+
+
 class LineStop(_Named):
     """Why a path does not follow its line to the end."""
 

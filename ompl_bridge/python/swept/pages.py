@@ -2,9 +2,9 @@
 """Pages that show robots and what is proven about their motions."""
 import html
 import os
-from typing import Any, Optional, Union
+from typing import Any, Optional, Sequence, Union
 
-from ._swept import Checker, Curve, Page, Plan, ProvenTrajectory, RateLimits, Trajectory
+from ._swept import Checker, Curve, Page, Plan, ProvenTrajectory, RateLimits, TaskPage, TaskPhase, Trajectory
 from .errors import UsageError
 
 _HEIGHT = 640  # pixels, of the frame in a notebook
@@ -41,7 +41,29 @@ def show(
     return page
 
 
-def _repr_html_(page: Page) -> str:
+def show_task(
+    phases: Sequence[TaskPhase],
+    *,
+    limits: Optional[RateLimits] = None,
+    file: Optional[Union[str, "os.PathLike[str]"]] = None,
+    title: str = "swept",
+) -> TaskPage:
+    """A page that plays a task, a list of TaskPhase, on one clock.
+
+    Jupyter shows it. `limits`, of phases that all move one group, and `file`: as `show`. Whether the phases join it
+    does not say: `verify_task` does, of a file of `write_task`.
+    """
+    if not phases:
+        raise UsageError("a task without a phase cannot be shown")
+    page = TaskPage(phases[0].checker.robot, title=title)
+    for phase in phases:
+        page.add_phase(phase, limits)
+    if file is not None:
+        page.write(file)
+    return page
+
+
+def _repr_html_(page: Union[Page, TaskPage]) -> str:
     """A frame of its own, which keeps the page's scripts and styles from those of the notebook."""
     return (
         f'<iframe srcdoc="{html.escape(page.html)}" width="100%" height="{_HEIGHT}" '
@@ -50,3 +72,4 @@ def _repr_html_(page: Page) -> str:
 
 
 setattr(Page, "_repr_html_", _repr_html_)
+setattr(TaskPage, "_repr_html_", _repr_html_)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,11 +64,12 @@ struct DelayBox {
 class DelaySearch {
  public:
   DelaySearch(const Checker& checker, std::span<const ScheduledCurve> curves,
-              const DelayQuery& query, ConfigurationView still)
+              const DelayQuery& query, ConfigurationView still, const std::stop_token& stop)
       : checker_(checker),
         curves_(curves.begin(), curves.end()),
         query_(query),
         still_(still),
+        stop_(stop),
         planned_(curves_[query.curve]),
         pairs_(detail::delayedPairs(checker, planned_.variables, namesOfOthers())),
         rates_(detail::largestRates(planned_.curve)) {
@@ -81,9 +83,7 @@ class DelaySearch {
     const DelayBox all{
         .begin = 0.0, .end = query_.latest, .fastest = 1.0, .slowest = query_.slowest};
     found_.verdict = Verdict::Free;
-    ++found_.curves;
-    if (certifySchedule(checker_, curves_, {.contact = MotionQuery::VerdictOnly}, still_).verdict ==
-        Verdict::Free) {
+    if (isFreeAsPlanned()) {
       const double proven = provenUntil(all);
       // That nothing is proven from 0 on says nothing of 0 itself with all slowdowns.
       if (query_.slowest == 1.0 || proven > 0.0 || found_.verdict == Verdict::Free)
@@ -97,6 +97,10 @@ class DelaySearch {
  private:
   /// The first delay of a box that is not proven with all of its slowdowns; its end if all are.
   double provenUntil(const DelayBox& box) {
+    if (stop_.stop_requested()) {
+      if (found_.verdict == Verdict::Free) found_.verdict = Verdict::Undecided;
+      return box.begin;
+    }
     if (isFree(box)) return box.end;
     const double bySlowdown = planned_.slowdown * planned_.curve.end() * 2.0 * box.halfSlowdown();
     const double byDelay = 2.0 * box.halfDelay();
@@ -115,6 +119,13 @@ class DelaySearch {
     rest.end = provenUntil(first);
     // Of no delay is left anything to ask about where not even the first one is proven.
     return rest.end > box.begin || found_.verdict == Verdict::Free ? provenUntil(rest) : box.begin;
+  }
+
+  bool isFreeAsPlanned() {
+    if (stop_.stop_requested()) return false;
+    ++found_.curves;
+    return certifySchedule(checker_, curves_, {.contact = MotionQuery::VerdictOnly}, still_)
+               .verdict == Verdict::Free;
   }
 
   std::vector<std::string> namesOfOthers() const {
@@ -146,10 +157,21 @@ class DelaySearch {
     for (std::size_t v = 0; v < places_.size(); ++v)
       off[static_cast<std::size_t>(places_[v])] += time * rates_[v] * detail::kArithmeticOutward;
     detail::dropResting(middle.curve, off);
-    const Checker& tube = inTube(box, off);
+    return isFree(inTube(box, off), middle.curve);
+  }
+
+  /// Piece by piece: the first one that is not proven, or a stop, ends it.
+  bool isFree(const Checker& tube, const PiecewisePolynomial& curve) const {
     Workspace workspace(tube);
-    return tube.certifyTrajectory(middle.curve, workspace, {.contact = MotionQuery::VerdictOnly})
-               .verdict == Verdict::Free;
+    for (std::size_t i = 0; i < curve.pieces(); ++i) {
+      if (stop_.stop_requested()) return false;
+      const PiecewisePolynomial piece({curve.knots()[i], curve.knots()[i + 1]},
+                                      {curve.coefficients(i)});
+      if (tube.certifyTrajectory(piece, workspace, {.contact = MotionQuery::VerdictOnly}).verdict !=
+          Verdict::Free)
+        return false;
+    }
+    return true;
   }
 
   /// Boxes of one width have tubes of nearly one width: that of the first is kept while it is wide
@@ -181,6 +203,7 @@ class DelaySearch {
 
   /// Whether the schedule is in contact, and which.
   bool meets(double delay, double slowdown) {
+    if (stop_.stop_requested()) return false;
     const CombinedCurve late = combined(delay, slowdown);
     Workspace workspace(checker_);
     TrajectoryCertificate certificate = checker_.certifyTrajectory(late.curve, workspace);
@@ -201,6 +224,7 @@ class DelaySearch {
   std::vector<ScheduledCurve> curves_;
   const DelayQuery query_;
   const ConfigurationView still_;
+  const std::stop_token stop_;
   const ScheduledCurve planned_;
   const Checker pairs_;
   const std::vector<double> rates_;  ///< per s of the curve's own time
@@ -226,14 +250,15 @@ TrajectoryCertificate certifySchedule(const Checker& checker,
 }
 
 DelayCertificate certifyDelays(const Checker& checker, std::span<const ScheduledCurve> curves,
-                               const DelayQuery& query, ConfigurationView still) {
+                               const DelayQuery& query, ConfigurationView still,
+                               const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment(
-        [&, curves, still] { return certifyDelays(checker, curves, query, still); });
+        [&, curves, still] { return certifyDelays(checker, curves, query, still, stop); });
   }
   requireQuery(query, curves.size());
   combinedCurve(checker.robot(), checker.group(), curves, still);  // throws for what is not allowed
-  return DelaySearch(checker, curves, query, still).run();
+  return DelaySearch(checker, curves, query, still, stop).run();
 }
 
 }  // namespace swept

@@ -59,18 +59,26 @@ bool touches(const ProvenGraphData& graph, std::size_t motion, const BodySpace& 
   return false;
 }
 
-/// The verdicts of one checker on some motions of a graph.
+/// How questions are asked: on how many threads, and until when.
+struct Asking {
+  unsigned threads = 1;
+  std::stop_token stop;
+};
+
+/// The verdicts of one checker on some motions of a graph. Those that are left when it is stopped
+/// stay as they are.
 void ask(const ProvenGraphData& graph, const Checker& checker,
-         std::span<const std::uint32_t> motions, unsigned threads, std::span<Verdict> verdicts) {
+         std::span<const std::uint32_t> motions, const Asking& how, std::span<Verdict> verdicts) {
   const std::size_t batches = (motions.size() + kBatch - 1) / kBatch;
   if (batches == 0) return;
-  const std::size_t most = threads > 0 ? threads : 256;
+  const std::size_t most = how.threads > 0 ? how.threads : 256;
   const std::size_t shares = std::min<std::size_t>(batches, most);
-  forEachIndex(shares, threads, [&](std::size_t share) {
+  forEachIndex(shares, how.threads, [&](std::size_t share) {
     Workspace workspace(checker);
     for (std::size_t batch = share; batch < batches; batch += shares)
       for (std::size_t i = batch * kBatch; i < std::min((batch + 1) * kBatch, motions.size());
            ++i) {
+        if (how.stop.stop_requested()) return;
         const ProvenGraph::Motion& motion = graph.motions[motions[i]];
         verdicts[i] = checker
                           .certifyMotion(graph.state(motion.from), graph.state(motion.to),
@@ -92,6 +100,7 @@ std::uint32_t ProvenGraphData::numberOf(const std::string& name) {
 
 namespace {
 
+using detail::Asking;
 using detail::BodySpace;
 using detail::LoneChecker;
 using detail::MotionBlock;
@@ -108,7 +117,7 @@ struct BodyAnswer {
 
 BodyAnswer askBody(const ProvenGraphData& graph, const Checker& checker, const LoneChecker& lone,
                    const WorldBody& body, std::span<const std::uint32_t> motions,
-                   unsigned threads) {
+                   const Asking& how) {
   BodyAnswer answer;
   const BodySpace space = detail::spaceOf(*graph.boxesOf, lone, checker, body);
   for (const std::uint32_t motion : motions)
@@ -116,7 +125,7 @@ BodyAnswer askBody(const ProvenGraphData& graph, const Checker& checker, const L
   answer.byArithmetic = motions.size() - answer.asked.size();
   answer.verdicts.resize(answer.asked.size());
   if (!answer.asked.empty())
-    detail::ask(graph, lone.with(body), answer.asked, threads, answer.verdicts);
+    detail::ask(graph, lone.with(body), answer.asked, how, answer.verdicts);
   return answer;
 }
 
@@ -211,10 +220,12 @@ std::uint32_t ProvenGraph::addState(ConfigurationView q) {
   return static_cast<std::uint32_t>(data_->stateCount++);
 }
 
-std::size_t ProvenGraph::addMotions(std::span<const Motion> motions, unsigned threads) {
+std::size_t ProvenGraph::addMotions(std::span<const Motion> motions, unsigned threads,
+                                    const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return addMotions(motions, threads); });
+    return inDefaultEnvironment([&] { return addMotions(motions, threads, stop); });
   }
+  const Asking how{threads, stop};
   ProvenGraphData& graph = *data_;
   const Checker& checker = *graph.checker;
   for (const Motion& motion : motions)
@@ -230,12 +241,12 @@ std::size_t ProvenGraph::addMotions(std::span<const Motion> motions, unsigned th
       graph.motions.push_back(motion);
   const std::vector<std::uint32_t> all = firstNumbers(before, graph.motions.size());
   std::vector<Verdict> verdicts(all.size());
-  detail::ask(graph, checker, all, threads, verdicts);
+  detail::ask(graph, checker, all, how, verdicts);
   std::vector<std::uint32_t> open;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (verdicts[i] != Verdict::Free) open.push_back(all[i]);
   std::vector<Verdict> alone(open.size());
-  detail::ask(graph, checker.withWorld(std::make_shared<const World>()), open, threads, alone);
+  detail::ask(graph, checker.withWorld(std::make_shared<const World>()), open, how, alone);
   std::vector<char> stays(graph.motions.size(), 1);
   for (std::size_t i = 0; i < open.size(); ++i) stays[open[i]] = alone[i] == Verdict::Free;
   std::vector<char> isOpen(graph.motions.size(), 0);
@@ -252,14 +263,14 @@ std::size_t ProvenGraph::addMotions(std::span<const Motion> motions, unsigned th
 
   graph.findBoxes(before, threads);
   for (const WorldBody& body : checker.world().bodies())
-    takeBlocks(askBody(graph, checker, lone, body, open, threads), graph.numberOf(body.name),
-               graph);
+    takeBlocks(askBody(graph, checker, lone, body, open, how), graph.numberOf(body.name), graph);
   return kept - before;
 }
 
-ProvenGraph::Change ProvenGraph::update(std::shared_ptr<const Checker> changed, unsigned threads) {
+ProvenGraph::Change ProvenGraph::update(std::shared_ptr<const Checker> changed, unsigned threads,
+                                        const std::stop_token& stop) {
   if (detail::inForeignEnvironment()) {
-    return inDefaultEnvironment([&] { return update(std::move(changed), threads); });
+    return inDefaultEnvironment([&] { return update(std::move(changed), threads, stop); });
   }
   detail::requireStaticWorld(changed);
   ProvenGraphData& graph = *data_;
@@ -275,7 +286,8 @@ ProvenGraph::Change ProvenGraph::update(std::shared_ptr<const Checker> changed, 
     ProvenGraph again(changed);
     again.data_->values = graph.values;
     again.data_->stateCount = graph.stateCount;
-    again.addMotions(graph.motions, threads);
+    again.addMotions(graph.motions, threads, stop);
+    if (stop.stop_requested()) return {.stopped = true};
     change.bodiesGone = checker.world().bodies().size();
     change.bodiesNew = changed->world().bodies().size();
     change.asked = change.motionsAsked = graph.motions.size();
@@ -293,7 +305,7 @@ ProvenGraph::Change ProvenGraph::update(std::shared_ptr<const Checker> changed, 
     const WorldBody* const now = changed->world().find(body.name);
     if (now == nullptr || std::ranges::find(added, now) != added.end()) gone.push_back(body.name);
   }
-  return graph.change(std::move(changed), gone, added, threads);
+  return graph.change(std::move(changed), gone, added, threads, stop);
 }
 
 void detail::ProvenGraphData::findBoxes(std::size_t first, unsigned threads) {
@@ -314,14 +326,15 @@ void detail::ProvenGraphData::findBoxes(std::size_t first, unsigned threads) {
 ProvenGraph::Change detail::ProvenGraphData::change(std::shared_ptr<const Checker> changed,
                                                     std::span<const std::string> gone,
                                                     std::span<const WorldBody* const> added,
-                                                    unsigned threads) {
+                                                    unsigned threads, const std::stop_token& stop) {
   std::vector<BodyAnswer> answers;
   if (!added.empty()) {
     const LoneChecker lone(*changed);
     const std::vector<std::uint32_t> all = firstNumbers(0, motions.size());
     for (const WorldBody* body : added)
-      answers.push_back(askBody(*this, *changed, lone, *body, all, threads));
+      answers.push_back(askBody(*this, *changed, lone, *body, all, {threads, stop}));
   }
+  if (stop.stop_requested()) return {.stopped = true};
 
   // What can fail is done.
   ProvenGraph::Change change{.bodiesGone = gone.size(), .bodiesNew = added.size()};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -40,9 +41,11 @@ struct ProvenGraphData {
   /// Boxes of the motions from `first` on.
   void findBoxes(std::size_t first, unsigned threads);
   /// To the world of another checker, in which bodies of these names are gone, and these are new.
+  /// If it was stopped, nothing changes.
   ProvenGraph::Change change(std::shared_ptr<const Checker> changed,
                              std::span<const std::string> gone,
-                             std::span<const WorldBody* const> added, unsigned threads);
+                             std::span<const WorldBody* const> added, unsigned threads,
+                             const std::stop_token& stop = {});
 };
 
 }  // namespace swept::detail

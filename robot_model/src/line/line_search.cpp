@@ -92,7 +92,8 @@ void LineSearch::follow() {
   if (path_.length > 0.0) step = std::min(step, kFirstLength / path_.length);
   if (path_.turn > 0.0) step = std::min(step, kFirstTurn / path_.turn);
   while (last() < 1.0) {
-    if (static_cast<int>(path_.wayPoints.size()) >= options_.maxWayPoints) {
+    if (static_cast<int>(path_.wayPoints.size()) >= options_.maxWayPoints ||
+        options_.stop.stop_requested()) {
       path_.stop = ToolLineStop{.reason = ToolLineStop::Reason::Undecided, .share = last()};
       return;
     }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "swept/ompl_bridge/state_space.hpp"
@@ -24,6 +25,9 @@ struct RoadmapOptions {
   std::uint32_t seed = 1;        ///< where the sequence of samples begins
   unsigned threads = 1;          ///< that ask; 0: as many as processors. No result depends on it
   StateSpaceOptions space = {};  ///< limits and weights
+  /// Once it is requested, by any thread, nothing more is sampled or asked: the roadmap has the
+  /// states and motions that are proven by then, or none.
+  std::stop_token stop = {};
 };
 
 /// A probabilistic roadmap (L. Kavraki et al., 1996) whose motions are all proven, for many queries
@@ -48,7 +52,8 @@ class CertifiedRoadmap {
   std::size_t components() const { return components_; }
 
   /// As ProvenGraph::update().
-  ProvenGraph::Change update(std::shared_ptr<const Checker> changed, unsigned threads = 1);
+  ProvenGraph::Change update(std::shared_ptr<const Checker> changed, unsigned threads = 1,
+                             const std::stop_token& stop = {});
 
   /// A path from start to goal (rad, m) in the current world: the motions between consecutive way
   /// points are proven, by graph().checker() or by arithmetic from what that has proven before.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,9 @@ struct ProvenGraphData;
 /// States, and straight motions between them, each with what is proven of it: the edges of a
 /// roadmap. When the world changes, only motions that the change can reach are asked about again.
 ///
-/// Of each motion it keeps boxes around what each piece of the robot sweeps in each sixteenth of it,
-/// and the bodies of the world that it is not proven to keep its margin from. A motion is Free if
-/// there are none. So the verdict is known body by body:
+/// Of each motion it keeps boxes around what each piece of the robot sweeps in each sixteenth of
+/// it, and the bodies of the world that it is not proven to keep its margin from. A motion is Free
+/// if there are none. So the verdict is known body by body:
 /// * a body that is gone blocks nothing any more, and proves nothing wrong;
 /// * a new body changes nothing where it touches no box of a motion, grown by the margin and by
 ///   all roundings: they are proven to stay apart by comparing numbers;
@@ -51,6 +52,7 @@ class ProvenGraph {
     std::size_t blocked = 0;       ///< motions that were Free and are not
     /// More than the world has changed, so all motions were asked about anew.
     bool everything = false;
+    bool stopped = false;  ///< before it was done: nothing has changed
   };
 
   /// Without states. Throws std::invalid_argument for null and for a world with moving obstacles,
@@ -84,17 +86,20 @@ class ProvenGraph {
   std::uint32_t addState(ConfigurationView q);
   /// Asks about these motions, on up to `threads` threads (0: as many as processors), and adds
   /// those that are Free in a world without bodies, in this order. Left out are also motions of a
-  /// cyclic value by half a turn, which do not go the same way back. Returns how many were added.
-  /// Throws std::invalid_argument for an index that is no state's.
-  std::size_t addMotions(std::span<const Motion> motions, unsigned threads = 1);
+  /// cyclic value by half a turn, which do not go the same way back. Once `stop` is requested, by
+  /// any thread, it asks nothing more, and adds those that are proven by then. Returns how many
+  /// were added. Throws std::invalid_argument for an index that is no state's.
+  std::size_t addMotions(std::span<const Motion> motions, unsigned threads = 1,
+                         const std::stop_token& stop = {});
 
   /// Takes a checker of the same robot in another world: the verdicts are then those in that world.
   /// Which bodies have changed it finds by itself. If anything else differs (margins, rules that
   /// name none of the bodies, what is attached, the constraints), it asks about everything, and
-  /// motions are left out that are no longer Free in a world without bodies. Throws
-  /// std::invalid_argument for another robot or group, and as the constructor does; then nothing
-  /// has changed.
-  Change update(std::shared_ptr<const Checker> changed, unsigned threads = 1);
+  /// motions are left out that are no longer Free in a world without bodies. Once `stop` is
+  /// requested, by any thread, it asks nothing more (Change::stopped). Throws std::invalid_argument
+  /// for another robot or group, and as the constructor does; then nothing has changed.
+  Change update(std::shared_ptr<const Checker> changed, unsigned threads = 1,
+                const std::stop_token& stop = {});
 
   /// Writes a file (JSON): states, motions, what blocks them, and hashes of the robot, of the
   /// checker's options, and of each body of the world. Throws UsageError if it cannot be written,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -96,9 +97,11 @@ struct DelayCertificate {
 /// relative poses, at other times. A curve that is late by d, within h of a delay m,
 /// is at every time within h times its largest velocities of the curve that is late by m. So one
 /// proof of that curve in a tube of this width holds for all of them, and ranges without a proof
-/// are divided. Throws std::invalid_argument as certifySchedule() does, and for a query that is not
-/// allowed.
+/// are divided. Once `stop` is requested, by any thread, it begins with no other proof and returns
+/// what is known by then: Undecided if neither all is proven nor a contact is found. Throws
+/// std::invalid_argument as certifySchedule() does, and for a query that is not allowed.
 DelayCertificate certifyDelays(const Checker& checker, std::span<const ScheduledCurve> curves,
-                               const DelayQuery& query, ConfigurationView still = {});
+                               const DelayQuery& query, ConfigurationView still = {},
+                               const std::stop_token& stop = {});
 
 }  // namespace swept

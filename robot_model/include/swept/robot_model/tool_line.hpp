@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct ToolLineOptions {
   /// proven ends the path.
   double leastStep = 1e-5;
   int maxWayPoints = 10'000;  ///< a longer path ends as Undecided; 2 at least
+  /// Once it is requested, by any thread, the path ends as Undecided, with what is proven by then.
+  std::stop_token stop = {};
 };
 
 /// Why a path does not follow its line to the end.
@@ -52,7 +55,8 @@ struct ToolLineStop {
     Unreachable,  ///< the group cannot move the tool in this direction at all
     Contact,      ///< with a witness
     Violation,    ///< of CheckerOptions::constraints
-    Undecided,    ///< freedom, or these constraints, could not be proven; or too many way points
+    Undecided,  ///< freedom, or these constraints, could not be proven; or too many way points, or
+                ///< ToolLineOptions::stop
   };
   Reason reason = Reason::Undecided;  ///< see there
   double share = 0.0;  ///< of the line, in [0, 1]: where that is, at or beyond ToolLine::share
