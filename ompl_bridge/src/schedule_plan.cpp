@@ -202,7 +202,7 @@ class PriorityPlanner {
         isHopeless_ = i == 0 && without.status == Status::GoalNotFree;
         if (without.trajectory || isHopeless_) way = std::move(without);
       }
-      isHopeless_ = isHopeless_ || !startsApart;
+      isHopeless_ = isHopeless_ || (!startsApart && (i == 0 || startMeets(task)));
       if (!way.trajectory) {
         found_ = {
             .status = way.status, .task = task, .contact = std::move(way.contact), .order = order};
@@ -211,6 +211,14 @@ class PriorityPlanner {
       ways_[task] = std::move(way.trajectory);
     }
     return std::nullopt;
+  }
+
+  /// Whether a task cannot even begin, whatever the other tasks do.
+  bool startMeets(std::size_t task) const {
+    const ScheduleChecker beside(checker_, own_[task].names, {known_.begin(), known_.end()},
+                                 still_);
+    Workspace workspace(beside.checker());
+    return beside.certify(resting(own_[task].start), workspace).verdict == Verdict::Collision;
   }
 
   /// Whether two goals, each the only one of its task, cannot be taken at once. Says so.
@@ -245,9 +253,12 @@ class PriorityPlanner {
     return all;
   }
 
+  /// s. With something to spare: at the end, certifyDelays() divides delays otherwise.
+  double plannedDelay() const { return options_.delay > 0.0 ? 1.02 * options_.delay + 2e-3 : 0.0; }
+
   Way planOne(std::size_t task, const std::vector<std::string>& ignored) {
     const ScheduleChecker beside(checker_, own_[task].names, curves(), still_, ignored,
-                                 options_.delay);
+                                 plannedDelay());
     const auto end = std::min(deadline_, Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                             std::chrono::duration<double>(slice_)));
     const auto stop = [this, end] { return options_.stop.stop_requested() || Clock::now() >= end; };
@@ -264,8 +275,8 @@ class PriorityPlanner {
     result.certificate = certifySchedule(checker_, all, {}, still_);
     bool isFree = result.certificate->verdict == Verdict::Free;
     for (std::size_t i = 0; isFree && options_.delay > 0.0 && i < all.size(); ++i) {
-      result.delays.push_back(
-          certifyDelays(checker_, all, {.curve = i, .latest = options_.delay}, still_));
+      result.delays.push_back(certifyDelays(checker_, all, {.curve = i, .latest = options_.delay},
+                                            still_, options_.stop));
       isFree = result.delays.back().verdict == Verdict::Free;
     }
     result.status = isFree ? Status::Found : Status::NotProven;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two arms on one clock, each from rest to rest within 1 s of its own: schedules_test.py has the
-// same. A question has both ends, starts (s) and slowdowns; one about delays more.
+// same. A question has both ends, starts (s) and slowdowns; one about delays more. And what is
+// planned for both.
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "answer.hpp"
+#include "swept/ompl_bridge/schedule_plan.hpp"
 #include "swept/robot_model/schedule.hpp"
 
 namespace swept::test {
@@ -45,6 +49,35 @@ void addCombined(Answer& answer, const Checker& checker,
   }
 }
 
+/// Both arms from q to the goals in `more`, and then a seed and a delay.
+void addPlan(Answer& answer, const Checker& checker, ConfigurationView q,
+             std::span<const double> more) {
+  const std::size_t half = q.size() / 2;
+  std::vector<ScheduleTask> tasks;
+  for (const std::string group : {"left/arm", "right/arm"}) {
+    const auto part = [&](std::span<const double> all) {
+      const std::span<const double> own = all.subspan(tasks.size() * half, half);
+      return std::vector<double>(own.begin(), own.end());
+    };
+    RateLimits limits = RateLimits::of(checker.robot(), *checker.robot().findGroup(group));
+    limits.acceleration.assign(half, 5.0);
+    tasks.push_back({.group = group, .start = part(q), .goals = {part(more)}, .limits = limits});
+  }
+  const PlannedSchedule found = planSchedule(checker, tasks, {}, {},
+                                             {.seconds = 600.0,
+                                              .delay = more[q.size() + 1],
+                                              .improvements = 100,
+                                              .seed = static_cast<std::uint32_t>(more[q.size()])});
+  std::string status = toString(found.status);
+  std::ranges::replace(status, ' ', '_');
+  answer << status;
+  for (const JointTrajectory& trajectory : found.trajectories)
+    for (const TrajectoryPoint& point : trajectory.points) {
+      answer << point.time;
+      for (const double value : point.positions) answer << value;
+    }
+}
+
 }  // namespace
 
 bool askSchedules(Answer& answer, const std::string& question, const Checker& checker,
@@ -56,6 +89,8 @@ bool askSchedules(Answer& answer, const std::string& question, const Checker& ch
     answer << toString(found.verdict) << found.freeUntil;
     if (found.contact)
       answer << found.contact->time << found.contact->witness.bodyA << found.contact->witness.bodyB;
+  } else if (question == "plan_schedule") {
+    addPlan(answer, checker, q, more);
   } else if (question == "delays") {
     const std::span<const double> query = more.subspan(q.size() + 4);
     const DelayCertificate found = certifyDelays(checker, halves(checker, q, more),

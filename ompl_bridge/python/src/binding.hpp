@@ -26,6 +26,7 @@ void bindCells(pybind11::module_& module);
 void bindProblems(pybind11::module_& module);
 void bindTrajectories(pybind11::module_& module);
 void bindSchedules(pybind11::module_& module);
+void bindSchedulePlans(pybind11::module_& module);
 void bindPaths(pybind11::module_& module);
 void bindRoadmaps(pybind11::module_& module);
 void bindTasks(pybind11::module_& module);

@@ -74,6 +74,11 @@ py::object toPython(TaskChange::Kind kind) {
   return changeKinds().member(static_cast<std::size_t>(kind));
 }
 
+py::object toPython(PlannedSchedule::Status status) {
+  static const Enumeration<5> found("ScheduleStatus");
+  return found.member(static_cast<std::size_t>(status));
+}
+
 MotionQuery motionQueryOf(py::handle value, const char* argument) {
   return static_cast<MotionQuery>(motionQueries().valueOf(value, argument));
 }

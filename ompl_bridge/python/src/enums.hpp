@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "swept/core/verdict.hpp"
+#include "swept/ompl_bridge/schedule_plan.hpp"
 #include "swept/proofs/task_proof.hpp"
 #include "swept/robot_model/checker_results.hpp"
 #include "swept/robot_model/task_constraint.hpp"
@@ -20,6 +21,7 @@ pybind11::object toPython(LimitKind kind);
 pybind11::object toPython(ConstraintViolation::Kind kind);
 pybind11::object toPython(ToolLineStop::Reason reason);
 pybind11::object toPython(TaskChange::Kind kind);
+pybind11::object toPython(PlannedSchedule::Status status);
 ///@}
 ///@{
 /// The value of a member; throws ArgumentTypeError, naming the argument, for all else.

@@ -28,6 +28,7 @@ PYBIND11_MODULE(_swept, module) {
   bindSphereModels(module);
   bindTrajectories(module);
   bindSchedules(module);
+  bindSchedulePlans(module);
   bindPaths(module);
   bindTasks(module);
   bindRoadmaps(module);

@@ -7,7 +7,16 @@
 
 Lengths are in m, angles in rad, poses are (4, 4) arrays in the robot's model frame.
 """
-from .enums import ChangeKind, ClearanceQuery, ConstraintKind, LimitKind, LineStop, MotionQuery, Verdict
+from .enums import (
+    ChangeKind,
+    ClearanceQuery,
+    ConstraintKind,
+    LimitKind,
+    LineStop,
+    MotionQuery,
+    ScheduleStatus,
+    Verdict,
+)
 from .errors import (
     ArgumentError,
     ArgumentTypeError,
@@ -57,6 +66,7 @@ from ._swept import (
     PathClearance,
     PathClearanceInterval,
     Plan,
+    PlannedSchedule,
     PlanningProblem,
     PlanningRequest,
     PoseGoal,
@@ -66,6 +76,8 @@ from ._swept import (
     ProvenTrajectory,
     RateLimits,
     Robot,
+    ScheduleChecker,
+    ScheduleTask,
     ScheduledCurve,
     Shape,
     SignedClearance,
@@ -97,6 +109,7 @@ from ._swept import (
     outside_spheres,
     path_clearance,
     plan,
+    plan_schedule,
     planner_names,
     proven_trajectory,
     read_path,
@@ -165,6 +178,7 @@ __all__ = [
     "PathClearance",
     "PathClearanceInterval",
     "Plan",
+    "PlannedSchedule",
     "PlannedTrajectory",
     "PlanningProblem",
     "PlanningRequest",
@@ -175,6 +189,9 @@ __all__ = [
     "ProvenTrajectory",
     "RateLimits",
     "Robot",
+    "ScheduleChecker",
+    "ScheduleStatus",
+    "ScheduleTask",
     "ScheduledCurve",
     "Shape",
     "SignedClearance",
@@ -208,6 +225,7 @@ __all__ = [
     "outside_spheres",
     "path_clearance",
     "plan",
+    "plan_schedule",
     "plan_trajectory",
     "planner_names",
     "proven_trajectory",

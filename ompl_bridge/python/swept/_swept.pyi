@@ -7,7 +7,16 @@ from typing import Any, Dict, Iterator, List, Literal, Mapping, Optional, Sequen
 import numpy as np
 import numpy.typing as npt
 
-from .enums import ChangeKind, ClearanceQuery, ConstraintKind, LimitKind, LineStop, MotionQuery, Verdict
+from .enums import (
+    ChangeKind,
+    ClearanceQuery,
+    ConstraintKind,
+    LimitKind,
+    LineStop,
+    MotionQuery,
+    ScheduleStatus,
+    Verdict,
+)
 
 _Path = Union[str, "os.PathLike[str]"]
 _Array = npt.NDArray[np.float64]
@@ -951,6 +960,71 @@ def certify_delays(
     seconds: Optional[float] = ...,
     cancel: Optional[CancellationToken] = ...,
 ) -> DelayCertificate: ...
+
+class ScheduleChecker:
+    def __init__(
+        self,
+        checker: Checker,
+        variable_names: Sequence[str],
+        others: Sequence[ScheduledCurve] = ...,
+        *,
+        still: Optional[_Vector] = ...,
+        ignored: Sequence[str] = ...,
+        delay: float = ...,
+    ) -> None: ...
+    def certify(
+        self, curve: Union[Curve, Trajectory], query: Optional[MotionQuery] = ...
+    ) -> TrajectoryCertificate: ...
+    @property
+    def variable_names(self) -> Tuple[str, ...]: ...
+    @property
+    def end(self) -> float: ...
+
+class ScheduleTask:
+    def __init__(
+        self, group: str, start: _Vector, goals: Sequence[_Vector], limits: RateLimits
+    ) -> None: ...
+    @property
+    def group(self) -> str: ...
+    @property
+    def start(self) -> _Array: ...
+    @property
+    def goals(self) -> Tuple[_Array, ...]: ...
+    @property
+    def limits(self) -> RateLimits: ...
+
+class PlannedSchedule:
+    def __bool__(self) -> bool: ...
+    @property
+    def status(self) -> ScheduleStatus: ...
+    @property
+    def task(self) -> Optional[int]: ...
+    @property
+    def contact(self) -> Optional[Witness]: ...
+    @property
+    def curves(self) -> Tuple[ScheduledCurve, ...]: ...
+    @property
+    def trajectories(self) -> Tuple[Trajectory, ...]: ...
+    @property
+    def order(self) -> Tuple[int, ...]: ...
+    @property
+    def certificate(self) -> Optional[TrajectoryCertificate]: ...
+    @property
+    def delays(self) -> Tuple[DelayCertificate, ...]: ...
+
+def plan_schedule(
+    checker: Checker,
+    tasks: Sequence[ScheduleTask],
+    known: Sequence[ScheduledCurve] = ...,
+    *,
+    still: Optional[_Vector] = ...,
+    seconds: float = ...,
+    latest: float = ...,
+    delay: float = ...,
+    improvements: int = ...,
+    seed: int = ...,
+    cancel: Optional[CancellationToken] = ...,
+) -> PlannedSchedule: ...
 
 class PathCertificate:
     def __bool__(self) -> bool: ...

@@ -77,3 +77,13 @@ class LineStop(_Named):
     CONTACT = 4  #: with a witness
     VIOLATION = 5  #: of the checker's constraints
     UNDECIDED = 6  #: freedom, or the constraints, could not be proven; or too many way points
+
+
+class ScheduleStatus(_Named):
+    """What came of planning a schedule."""
+
+    FOUND = 0  #: and proven
+    START_NOT_FREE = 1  #: of a task, at the clock's time 0
+    GOAL_NOT_FREE = 2  #: of a task: none of its goals is, even after all others have come to rest
+    NOT_FOUND = 3  #: in the time given
+    NOT_PROVEN = 4  #: a schedule was found, and some certificate of it is not FREE
