@@ -66,7 +66,7 @@ void addPlan(Answer& answer, const Checker& checker, ConfigurationView q,
   const PlannedSchedule found = planSchedule(checker, tasks, {}, {},
                                              {.seconds = 600.0,
                                               .delay = more[q.size() + 1],
-                                              .improvements = 100,
+                                              .improvements = 30,
                                               .seed = static_cast<std::uint32_t>(more[q.size()])});
   std::string status = toString(found.status);
   std::ranges::replace(status, ' ', '_');

@@ -43,12 +43,12 @@ def test_plans_against_cpp(arms, both):
     random = np.random.default_rng(5)
     reach, tuck = np.array(REACHING, float), tucked(arms, "left/arm")
     rows = []
-    for seed, delay in ((1, 0.0), (2, 0.0), (3, 0.2)):
+    for seed, delay in ((1, 0.0), (3, 0.1)):
         near = random.uniform(-0.1, 0.1, (4, 7))
         rows.append(np.hstack([tuck + near[0], reach + near[1], reach + near[2], tuck + near[3], [seed, delay]]))
     for words, row in zip(asked.ask("plan_schedule", rows), rows):
         tasks = tasks_of(arms, (row[:7], row[7:14]), (row[14:21], row[21:28]))
-        found = swept.plan_schedule(both, tasks, seconds=600, improvements=100, seed=int(row[28]), delay=row[29])
+        found = swept.plan_schedule(both, tasks, seconds=600, improvements=30, seed=int(row[28]), delay=row[29])
         assert found and found.status is ScheduleStatus.FOUND and found.task is None
         assert str(found.status).replace(" ", "_") == words[0]
         expected = [value for trajectory in found.trajectories
