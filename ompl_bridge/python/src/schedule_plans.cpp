@@ -141,18 +141,17 @@ void bindScheduleChecker(py::module_& module) {
       "Proofs about curves of some variables while others move on known curves, for planners. It "
       "asks about the pairs that the own variables\nmove, and about no others. Any number of "
       "threads may use one.");
-  type.def(
-          py::init(&makeChecker), py::arg("checker"), py::arg("variable_names"),
-          py::arg("others") = Curves(), py::kw_only(), py::arg("still") = py::none(),
-          py::arg("ignored") = Names(), py::arg("delay") = 0.0,
-          "`checker`: of a group that has all variables. `variable_names`: the own ones. "
-          "`others`: a list of ScheduledCurve, none of an own\nvariable. `still`: (n,) "
-          "configuration of the group, for variables that no curve moves. `ignored`: names of "
-          "variables about which nothing is\nknown yet: pairs that they move against the own ones "
-          "are left out. `delay`: s; what is proven holds also if the own curve, or one or all\nof "
-          "the others, start late by up to so much. Raises ArgumentError for names that are "
-          "unknown or have no value, and for a delay that is\nnegative or beside moving "
-          "obstacles.")
+  type.def(py::init(&makeChecker), py::arg("checker"), py::arg("variable_names"),
+           py::arg("others") = Curves(), py::kw_only(), py::arg("still") = py::none(),
+           py::arg("ignored") = Names(), py::arg("delay") = 0.0,
+           "`checker`: of a group that has all variables. `variable_names`: the own ones. "
+           "`others`: a list of ScheduledCurve, none of an own\nvariable. `still`: (n,) "
+           "configuration of the group, for variables that no curve moves. `ignored`: names of "
+           "variables about which nothing is\nknown yet: pairs that they move against the own ones "
+           "are left out. `delay`: s; what is proven holds also if the own curve, or all of the\n"
+           "others, start late by up to so much. Raises ArgumentError for names that are "
+           "unknown or have no value, and for a delay that is\nnegative or beside moving "
+           "obstacles.")
       .def(
           "certify",
           [](const ScheduleChecker& self, const py::object& curve, const py::object& query) {

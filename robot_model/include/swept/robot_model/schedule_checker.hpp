@@ -28,10 +28,10 @@ class ScheduleChecker {
   /// the curves of others, none of an own variable. `still`: a configuration of the group, for
   /// variables that no curve moves; empty: there are none. `ignored`: names of variables about
   /// which nothing is known yet. Pairs with such a variable between the two bodies are left out.
-  /// `delay` (s): what is proven holds also if the own curve, or all of the others, start late by up
-  /// to so much; or each of the others by itself, where none carries another. More room is needed
-  /// for that than the delay takes: ranges of delays are proven in tubes, down to a width of 0.02
-  /// rad or m.
+  /// `delay` (s): what is proven holds also if the own curve, or all of the others, start late by
+  /// up to so much; or each of the others by itself, where none carries another. More room is
+  /// needed for that than the delay takes: ranges of delays are proven in tubes, down to a width of
+  /// 0.02 rad or m.
   ///
   /// Throws std::invalid_argument as combinedCurve() does, without an own variable, for an own one
   /// that is of the orientation of a floating joint, for a name that the robot does not have, for a
