@@ -27,6 +27,7 @@ void bindProblems(pybind11::module_& module);
 void bindTrajectories(pybind11::module_& module);
 void bindSchedules(pybind11::module_& module);
 void bindPaths(pybind11::module_& module);
+void bindProvenGraphs(pybind11::module_& module);
 void bindRoadmaps(pybind11::module_& module);
 void bindTasks(pybind11::module_& module);
 void bindPlanning(pybind11::module_& module);

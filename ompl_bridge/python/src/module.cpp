@@ -30,6 +30,7 @@ PYBIND11_MODULE(_swept, module) {
   bindSchedules(module);
   bindPaths(module);
   bindTasks(module);
+  bindProvenGraphs(module);
   bindRoadmaps(module);
   bindPlanning(module);
   bindProblems(module);
