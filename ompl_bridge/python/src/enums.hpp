@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/proofs/task_proof.hpp"
 #include "swept/robot_model/checker_results.hpp"
@@ -25,6 +26,7 @@ pybind11::object toPython(TaskChange::Kind kind);
 /// The value of a member; throws ArgumentTypeError, naming the argument, for all else.
 MotionQuery motionQueryOf(pybind11::handle value, const char* argument);
 ClearanceQuery clearanceQueryOf(pybind11::handle value, const char* argument);
+EnclosingKind enclosingKindOf(pybind11::handle value, const char* argument);
 TaskChange::Kind changeKindOf(pybind11::handle value, const char* argument);
 ///@}
 

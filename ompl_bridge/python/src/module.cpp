@@ -25,7 +25,9 @@ PYBIND11_MODULE(_swept, module) {
   bindKinematics(module);
   bindToolLines(module);
   bindCovers(module);
+  bindShapeCovers(module);
   bindSphereModels(module);
+  bindShapeModels(module);
   bindTrajectories(module);
   bindSchedules(module);
   bindPaths(module);
