@@ -45,5 +45,8 @@ bool askSchedules(Answer& answer, const std::string& question, const Checker& ch
 /// Likewise, roadmaps.
 bool askRoadmaps(Answer& answer, const std::string& question, const Checker& checker,
                  ConfigurationView q, std::span<const double> more);
+/// Likewise, shapes around a link.
+bool askShapes(Answer& answer, const std::string& question, const Checker& checker,
+               std::span<const double> more);
 
 }  // namespace swept::test

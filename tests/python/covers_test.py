@@ -118,7 +118,7 @@ def test_models_contain_the_robot(robot, model):
     assert not judged["hand"] and judged["hand"].outside.lower > 0.0 and judged["link1"].outside.upper == math.inf
 
 
-@pytest.mark.parametrize("ending", ["json", "yaml", "yml", "srdf", "urdf"])
+@pytest.mark.parametrize("ending", ["json", "yaml", "yml", "xrdf", "srdf", "urdf"])
 def test_models_in_files(robot, model, tmp_path, ending):
     file = tmp_path / f"spheres.{ending}"
     model.save(file, robot)

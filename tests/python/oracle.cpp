@@ -71,7 +71,8 @@ class Oracle {
     if (!(askStates(answer, question, q) || askMotions(answer, question, q, to) ||
           askMore(answer, question, q, numbers.subspan(size)) ||
           swept::test::askSchedules(answer, question, checker_, q, numbers.subspan(size)) ||
-          swept::test::askRoadmaps(answer, question, checker_, q, numbers.subspan(size))))
+          swept::test::askRoadmaps(answer, question, checker_, q, numbers.subspan(size)) ||
+          swept::test::askShapes(answer, question, checker_, numbers.subspan(size))))
       throw std::invalid_argument("no question " + question);
     return answer.str();
   }

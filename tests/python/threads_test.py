@@ -253,6 +253,28 @@ def test_tasks_leak_nothing(checker, home, tmp_path):
     assert before == [sys.getrefcount(one) for one in (home, checker, phases, *phases, swept.ChangeKind.SENSED)]
 
 
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="reads /proc")
+def test_shapes_leak_nothing(robot):
+    hand, kind = robot.link_shapes("hand"), swept.EnclosingKind.CAPSULE
+    search = swept.EnclosingShapesSearch(hand, kind, pieces=20)
+    found = search.at_most(3)
+    mesh = swept.Shape.mesh(np.eye(3), [[0, 1, 2]], solid=False)
+
+    def refused():
+        with pytest.raises(swept.ArgumentTypeError):
+            swept.EnclosingShapesSearch(hand, 1)
+
+    before = [sys.getrefcount(one) for one in (hand, hand[0][0], kind, found, mesh)]
+    assert grown(lambda: found.shapes[0][0].parameters["radius"], 10_000) < 4000
+    assert grown(lambda: mesh.parameters["triangles"], 10_000) < 4000
+    assert grown(lambda: search.at_most(3).reach, 100) < 8000
+    assert grown(lambda: swept.EnclosingShapesSearch(hand, kind, pieces=20).count_for(0.01), 30) < 8000
+    assert grown(lambda: swept.outside_shapes(hand, found.shapes, samples=100).point, 50) < 8000
+    assert grown(lambda: swept.ShapeModel({"hand": found.shapes})["hand"], 5000) < 4000
+    assert grown(refused, 5000) < 4000
+    assert before == [sys.getrefcount(one) for one in (hand, hand[0][0], kind, found, mesh)]
+
+
 def test_what_tasks_are_made_of_may_go(robot, tmp_path):
     """Objects outlive what they were made of."""
     def make():

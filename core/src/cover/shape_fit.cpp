@@ -520,7 +520,6 @@ EnclosingShapes ShapeFit::within(double reach) {
 bool ShapeFit::divideFurther() {
   const std::size_t count = pieces_.size();
   pieces_.clear();
-  divided_.clear();
   nodes_.clear();
   divide(static_cast<int>(2 * count));
   agglomerate();
@@ -584,7 +583,7 @@ PosedShape ShapeFit::roomyAround(const Pieces& pieces) const {
 }
 
 /// Gives pieces, or parts of them, to other shapes that contain them.
-bool ShapeFit::shrink(Shaped& shaped, std::vector<Shaped>& all) {
+bool ShapeFit::shrink(Shaped& shaped, std::vector<Shaped>& all, std::deque<BodyPiece>& divided) {
   const double least = std::max(0.2 * shaped.reach, 5e-3 * size_);
   std::vector<std::pair<const Shaped*, ConvexField>> others;
   for (const Shaped& other : all)
@@ -609,8 +608,8 @@ bool ShapeFit::shrink(Shaped& shaped, std::vector<Shaped>& all) {
       halves.clear();
       body_.split(piece, halves);
       for (BodyPiece& half : halves) {
-        divided_.push_back(std::move(half));
-        pending.push_back(&divided_.back());
+        divided.push_back(std::move(half));
+        pending.push_back(&divided.back());
       }
     } else {
       kept.push_back(&piece);
@@ -628,6 +627,7 @@ bool ShapeFit::shrink(Shaped& shaped, std::vector<Shaped>& all) {
 
 EnclosingShapes ShapeFit::finished(const std::vector<int>& nodes) {
   constexpr int kPasses = 2;
+  std::deque<BodyPiece> divided;  // as long as the shapes have their pieces
   std::vector<Shaped> all;
   for (const int index : nodes) {
     const Node& node = nodes_[static_cast<std::size_t>(index)];
@@ -636,7 +636,7 @@ EnclosingShapes ShapeFit::finished(const std::vector<int>& nodes) {
   for (int pass = 0; pass < kPasses; ++pass) {
     std::ranges::stable_sort(all, std::ranges::greater{}, &Shaped::reach);
     bool isChanged = false;
-    for (Shaped& shaped : all) isChanged = shrink(shaped, all) || isChanged;
+    for (Shaped& shaped : all) isChanged = shrink(shaped, all, divided) || isChanged;
     std::erase_if(all, [](const Shaped& shaped) { return shaped.pieces.empty(); });
     if (!isChanged) break;
   }

@@ -55,7 +55,8 @@ class ShapeFit {
   std::vector<int> cut(double reach) const;
   Shaped measured(const Eigen::Matrix3d& axes, Pieces pieces) const;
   PosedShape roomyAround(const Pieces& pieces) const;
-  bool shrink(Shaped& shaped, std::vector<Shaped>& all);
+  /// `divided` keeps the parts of pieces that it makes.
+  bool shrink(Shaped& shaped, std::vector<Shaped>& all, std::deque<BodyPiece>& divided);
   EnclosingShapes finished(const std::vector<int>& nodes);
 
   std::vector<PosedShape> source_;
@@ -63,7 +64,6 @@ class ShapeFit {
   PosedBody body_;
   double size_ = 0.0;  ///< m
   std::deque<BodyPiece> pieces_;
-  std::deque<BodyPiece> divided_;
   std::vector<Eigen::Matrix3d> frames_;  ///< of the body's shapes and axes
   std::vector<Node> nodes_;              ///< the last one has all pieces
 };

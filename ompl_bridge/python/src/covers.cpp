@@ -36,13 +36,6 @@ class SearchHandle {
   EnclosingSpheresSearch search_;
 };
 
-std::vector<PosedShape> posedOf(const py::object& shape) {
-  std::vector<PosedShape> body;
-  for (auto& [piece, body_from_shape] : piecesOf(shape, py::none()))
-    body.push_back({std::move(piece), body_from_shape});
-  return body;
-}
-
 void bindOutside(py::module_& module) {
   py::class_<OutsideSpheres> outside(
       module, "OutsideSpheres",
@@ -146,6 +139,20 @@ py::object arrayOf(const std::vector<EnclosingSphere>& spheres) {
   for (const EnclosingSphere& sphere : spheres)
     rows.push_back({sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
   return makeArray(rows, 4);
+}
+
+std::vector<PosedShape> posedOf(const py::object& shape) {
+  std::vector<PosedShape> body;
+  for (auto& [piece, body_from_shape] : piecesOf(shape, py::none()))
+    body.push_back({std::move(piece), body_from_shape});
+  return body;
+}
+
+py::list listOf(const std::vector<PosedShape>& shapes) {
+  py::list list;
+  for (const PosedShape& posed : shapes)
+    list.append(py::make_tuple(ShapeHandle{posed.shape}, makeArray(posed.body_from_shape)));
+  return list;
 }
 
 void bindCovers(py::module_& module) {

@@ -87,6 +87,11 @@ ClearanceQuery clearanceQueryOf(py::handle value, const char* argument) {
   return static_cast<ClearanceQuery>(clearanceQueries().valueOf(value, argument));
 }
 
+EnclosingKind enclosingKindOf(py::handle value, const char* argument) {
+  static const Enumeration<3> found("EnclosingKind");
+  return static_cast<EnclosingKind>(found.valueOf(value, argument));
+}
+
 TaskChange::Kind changeKindOf(py::handle value, const char* argument) {
   return static_cast<TaskChange::Kind>(changeKinds().valueOf(value, argument));
 }

@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/verdict.hpp"
 #include "swept/ompl_bridge/schedule_plan.hpp"
 #include "swept/proofs/task_proof.hpp"
@@ -27,6 +28,7 @@ pybind11::object toPython(PlannedSchedule::Status status);
 /// The value of a member; throws ArgumentTypeError, naming the argument, for all else.
 MotionQuery motionQueryOf(pybind11::handle value, const char* argument);
 ClearanceQuery clearanceQueryOf(pybind11::handle value, const char* argument);
+EnclosingKind enclosingKindOf(pybind11::handle value, const char* argument);
 TaskChange::Kind changeKindOf(pybind11::handle value, const char* argument);
 ///@}
 

@@ -4,7 +4,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+#include <cctype>
+#include <fstream>
 #include <map>
+
+#include "swept/robot_model/usage_error.hpp"
 
 namespace py = pybind11;
 
@@ -56,6 +61,27 @@ py::object toPython(const std::filesystem::path& file) {
 std::filesystem::path pathOf(const py::handle& value) {
   if (value.is_none()) return {};
   return value.cast<std::filesystem::path>();
+}
+
+std::string endingOf(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+void writeText(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream output(file, std::ios::binary);
+  output << text;
+  output.close();
+  if (!output) throw UsageError("'" + file.string() + "' cannot be written");
+}
+
+const std::filesystem::path& urdfOf(const RobotHandle& robot) {
+  if (robot.source.file.empty())
+    throw UsageError("robot '" + robot.robot->name() +
+                     "' has no URDF of its own, whose other elements a .urdf "
+                     "would keep: write another format");
+  return robot.source.file;
 }
 
 }  // namespace swept::python

@@ -33,6 +33,13 @@ Source sourceOf(const std::filesystem::path& file, const pybind11::object& srdf,
                 const pybind11::object& packages, const pybind11::object& cache,
                 const std::string& modelFrame, bool childProcess);
 
+/// The ending in lower case: `.json`.
+std::string endingOf(const std::filesystem::path& file);
+/// Writes a file. Throws UsageError if it cannot be written.
+void writeText(const std::filesystem::path& file, const std::string& text);
+/// The robot's URDF. Throws UsageError for one that has none of its own, such as that of a cell.
+const std::filesystem::path& urdfOf(const RobotHandle& robot);
+
 ///@{
 /// A path as pathlib has it, and back. The empty path, which pathlib turns into `.`, is None.
 pybind11::object toPython(const std::filesystem::path& file);

@@ -25,12 +25,15 @@ PYBIND11_MODULE(_swept, module) {
   bindKinematics(module);
   bindToolLines(module);
   bindCovers(module);
+  bindShapeCovers(module);
   bindSphereModels(module);
+  bindShapeModels(module);
   bindTrajectories(module);
   bindSchedules(module);
   bindSchedulePlans(module);
   bindPaths(module);
   bindTasks(module);
+  bindProvenGraphs(module);
   bindRoadmaps(module);
   bindPlanning(module);
   bindProblems(module);

@@ -11,7 +11,7 @@
 #include "handles.hpp"
 #include "loading.hpp"
 #include "robots.hpp"
-#include "shapes.hpp"
+#include "spheres.hpp"
 #include "swept/robot_model/link_motion.hpp"
 #include "swept/robot_model/named_states.hpp"
 #include "swept/robot_model/sphere_model.hpp"
@@ -106,11 +106,7 @@ py::object sphereCover(const RobotHandle& self, const std::string& name, std::op
 py::list linkShapes(const RobotHandle& self, const std::string& name) {
   const std::optional<int> index = self.robot->findLink(name);
   if (!index) throw std::invalid_argument("the robot has no link '" + name + "'");
-  py::list pieces;
-  for (PosedShape& piece : bodyOf(self.robot->links()[static_cast<std::size_t>(*index)]))
-    pieces.append(
-        py::make_tuple(ShapeHandle{std::move(piece.shape)}, makeArray(piece.body_from_shape)));
-  return pieces;
+  return listOf(bodyOf(self.robot->links()[static_cast<std::size_t>(*index)]));
 }
 
 /// All variables, where some groups have postures: the name of a state, or values.

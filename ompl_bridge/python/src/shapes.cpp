@@ -4,9 +4,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "arrays.hpp"
 #include "binding.hpp"
@@ -26,6 +29,60 @@ const char* kindOf(const Shape& shape) {
   static_assert(std::variant_size_v<Shape> == kNames.size());
   return kNames[shape.index()];
 }
+
+/// The arguments of the function that makes a shape of this type.
+struct Parameters {
+  py::dict operator()(const Sphere& shape) const { return with("radius", shape.radius); }
+  py::dict operator()(const Box& shape) const {
+    return with("size", makeArray(Eigen::Vector3d(2.0 * shape.halfExtents)));
+  }
+  py::dict operator()(const Ellipsoid& shape) const {
+    return with("semi_axes", makeArray(shape.semiAxes));
+  }
+  py::dict operator()(const ConvexHull& shape) const {
+    return with("points", makeArray(shape.vertices()));
+  }
+  py::dict operator()(const Triangle& shape) const {
+    return with("corners", makeArray(std::span<const Eigen::Vector3d>(shape.corners)));
+  }
+  py::dict operator()(const TriangleMesh& shape) const {
+    std::vector<std::uint32_t> corners;
+    for (const TriangleMesh::Triangle& triangle : shape.triangles())
+      for (const int corner : triangle) corners.push_back(static_cast<std::uint32_t>(corner));
+    py::dict all = with("vertices", makeArray(shape.vertices()));
+    all["triangles"] = makeIndices(corners, 3);
+    all["solid"] = shape.interior() == MeshInterior::Solid;
+    return all;
+  }
+  py::dict operator()(const PointCloud& shape) const {
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < shape.points().size(); ++i) radii.push_back(shape.radius(i));
+    py::dict all = with("points", makeArray(shape.points()));
+    all["radius"] = makeArray(radii);
+    return all;
+  }
+  /// Cylinders, capsules and cones; planes and half-spaces.
+  template <typename Other>
+  py::dict operator()(const Other& shape) const {
+    if constexpr (requires { shape.normal; }) {
+      py::dict all = with("normal", makeArray(shape.normal));
+      all["offset"] = shape.offset;
+      return all;
+    } else {
+      py::dict all = with("radius", shape.radius);
+      all["length"] = 2.0 * shape.halfLength;
+      return all;
+    }
+  }
+
+ private:
+  static py::dict with(const char* name, const py::object& value) {
+    py::dict all;
+    all[name] = value;
+    return all;
+  }
+  static py::dict with(const char* name, double value) { return with(name, py::float_(value)); }
+};
 
 ShapeHandle mesh(const py::object& vertices, const py::object& triangles, bool solid) {
   const std::vector<Eigen::Vector3d> points = readTable(vertices, "vertices", 3).points();
@@ -182,6 +239,13 @@ void bindShapes(py::module_& module) {
       .def_property_readonly(
           "kind", [](const ShapeHandle& self) { return kindOf(self.shape); },
           "`sphere`, `box`, ..., the name of the function that makes it.")
+      .def_property_readonly(
+          "parameters",
+          [](const ShapeHandle& self) { return std::visit(Parameters(), self.shape); },
+          "The arguments of the function that makes it, by name, as arrays and numbers: "
+          "`getattr(Shape, kind)(**parameters)` is the same shape. Points of\na hull are its "
+          "corners; those of meshes and clouds are in an order of their own. Of a `triangle` of a "
+          "file: `corners` (3, 3).")
       .def("__repr__", [](const ShapeHandle& self) {
         return std::string("<swept.Shape ") + kindOf(self.shape) + ">";
       });

@@ -4,9 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
-#include <cctype>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,6 +14,7 @@
 #include "handles.hpp"
 #include "loading.hpp"
 #include "spheres.hpp"
+#include "swept/robot_model/shape_model.hpp"
 #include "swept/robot_model/text_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
 
@@ -75,10 +73,10 @@ Reports judge(const SphereModel& self, const RobotHandle& robot, double toleranc
 std::string textOf(const SphereModel& self, const std::filesystem::path& file,
                    const RobotHandle& robot) {
   const std::string& name = robot.robot->name();
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = endingOf(file);
   if (ending == ".json") return sphereModelJson(self, name, judgeSphereModel(*robot.robot, self));
   if (ending == ".yaml" || ending == ".yml") return curoboSpheres(self, name);
+  if (ending == ".xrdf") return xrdfSpheres(self);
   const Source& source = robot.source;
   if (ending == ".srdf") {
     const std::string srdf = source.srdf.empty() ? "" : readTextFile(source.srdf.string());
@@ -86,28 +84,22 @@ std::string textOf(const SphereModel& self, const std::filesystem::path& file,
   }
   if (ending != ".urdf")
     throw UsageError("'" + file.string() + "' ends in '" + ending +
-                     "'; allowed: .urdf, .yaml, .yml (cuRobo), .srdf, .json");
-  if (source.file.empty())
-    throw UsageError("robot '" + name +
-                     "' has no URDF of its own, whose other elements a .urdf "
-                     "would keep: write another format");
-  return spherizedUrdf(self, readTextFile(source.file.string()), source.file.string());
+                     "'; allowed: .urdf, .yaml, .yml (cuRobo), .xrdf (cuMotion), .srdf, .json");
+  const std::string urdf = urdfOf(robot).string();
+  return spherizedUrdf(self, readTextFile(urdf), urdf);
 }
 
 void save(const SphereModel& self, const std::filesystem::path& file, const RobotHandle& robot) {
   const py::gil_scoped_release others;
-  const std::string text = textOf(self, file, robot);
-  std::ofstream output(file, std::ios::binary);
-  output << text;
-  output.close();
-  if (!output) throw UsageError("'" + file.string() + "' cannot be written");
+  writeText(file, textOf(self, file, robot));
 }
 
 void bindReport(py::module_& module) {
   using Report = LinkSphereReport;
-  py::class_<Report> type(module, "LinkSphereReport",
-                          "What is to be said about one link of a sphere model. True if its "
-                          "spheres contain the link, proven.");
+  py::class_<Report> type(
+      module, "LinkSphereReport",
+      "What is to be said about one link of a sphere or shape model. True if its "
+      "spheres or shapes contain the link, proven.");
   type.def_readonly("link", &Report::link, "Its name.")
       .def_readonly("spheres", &Report::spheres, "How many it has.")
       .def_readonly("outside", &Report::outside, "OutsideSpheres: what of the link is in none.")
@@ -141,10 +133,12 @@ void bindSphereModels(py::module_& module) {
           "Takes seconds to minutes. Raises ArgumentError, and UsageError for fewer\nspheres than "
           "links with geometry.")
       .def_static("load", &load, py::arg("file"), py::arg("robot"),
-                  "Reads spheres for a Robot: of `save`; .yaml of cuRobo; .srdf with MoveIt's "
+                  "Reads spheres for a Robot: of `save`; .yaml of cuRobo; .xrdf of cuMotion; .srdf "
+                  "with MoveIt's "
                   "sphere approximations; .urdf with spheres alone. Raises InputError.")
       .def("save", &save, py::arg("file"), py::arg("robot"),
-           "Writes a .json; .yaml, .yml of cuRobo; .srdf, the robot's with these sphere "
+           "Writes a .json; .yaml, .yml of cuRobo; .xrdf of cuMotion; .srdf, the robot's with "
+           "these sphere "
            "approximations; or .urdf, the robot's with these for `<collision>`.\nNumbers read back "
            "to the same. Raises UsageError for another ending and a file that cannot be written.")
       .def(

@@ -14,5 +14,10 @@ namespace swept::python {
 std::vector<EnclosingSphere> spheresOf(const pybind11::object& value, const char* argument);
 pybind11::object arrayOf(const std::vector<EnclosingSphere>& spheres);
 ///@}
+///@{
+/// A body, as piecesOf() reads it, and the list of pairs of a swept.Shape and its pose (4, 4).
+std::vector<PosedShape> posedOf(const pybind11::object& shape);
+pybind11::list listOf(const std::vector<PosedShape>& shapes);
+///@}
 
 }  // namespace swept::python

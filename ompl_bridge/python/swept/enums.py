@@ -67,6 +67,14 @@ class ChangeKind(_Named):
     SENSED = 2  #: a body of the world that was sensed again, is new or is gone: any other shape
 
 
+class EnclosingKind(_Named):
+    """Of what shapes a cover of a body consists."""
+
+    CAPSULE = 0  #: cylinders with round ends
+    BOX = 1  #: of any orientation
+    CONVEX = 2  #: convex hulls
+
+
 class LineStop(_Named):
     """Why a path does not follow its line to the end."""
 
