@@ -122,6 +122,20 @@ TEST_F(ViewProofs, ShowsAPathAsItsFilesDo) {
   EXPECT_EQ(own["bodies"].size(), files["bodies"].size());
 }
 
+TEST_F(ViewProofs, NamesTheLineOfATool) {
+  const std::string file = folder_.path("line.json");
+  ASSERT_EQ(test::runSwept({"line", kRook, "ready", "--group", "arm", "--by", "0,0,-0.05",
+                            "--keep-level", "hand:20", "--embed", "-o", file})
+                .exitCode,
+            0);
+  const json data = shown(file);
+  EXPECT_EQ(data["constraints"].size(), 1U);
+  EXPECT_EQ(data["facts"][2][0], "at every instant");
+  EXPECT_THAT(data["facts"][2][1].get<std::string>(),
+              HasSubstr(" of link7 within 0.001 m of the line"));
+  EXPECT_EQ(data["facts"][3][0], "robot");
+}
+
 TEST_F(ViewProofs, ShowsATrajectory) {
   const TaskPhase phase = phases().front();
   EXPECT_TRUE(writeTrajectoryProof(folder_.path("reach.json"), *phase.checker, phase.trajectory,

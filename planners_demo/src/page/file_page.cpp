@@ -66,8 +66,12 @@ std::function<std::string()> pathPage(const Arguments& args, const Json& path) {
   if (!outcome.holds()) refuse(args, outcome.refusal);
   CheckerReader reader;
   const auto checker = reader.read(path);
-  const auto page =
-      std::make_shared<Page>(checker, optionsOf(args, "verified: " + keptText(outcome.summary)));
+  PageOptions options = optionsOf(args, "verified: " + keptText(outcome.summary));
+  // The page itself has the checker's constraints; a line that a tool follows is none of them.
+  const std::vector<std::string>& kept = outcome.summary.constraints;
+  for (std::size_t i = checker->options().constraints.size(); i < kept.size(); ++i)
+    options.facts.emplace_back("at every instant", kept[i]);
+  const auto page = std::make_shared<Page>(checker, std::move(options));
   const std::string label = std::filesystem::path(args.robot).filename().string();
   if (path.contains("trajectory")) {
     const JointTrajectory trajectory = trajectoryIn(path, args.robot);
