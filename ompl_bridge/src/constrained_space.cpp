@@ -2,6 +2,7 @@
 #include "swept/ompl_bridge/constrained_space.hpp"
 
 #include <ompl/base/ConstrainedSpaceInformation.h>
+#include <ompl/base/Constraint.h>
 #include <ompl/base/spaces/constraint/AtlasStateSpace.h>
 #include <ompl/base/spaces/constraint/ConstrainedStateSpace.h>
 #include <ompl/base/spaces/constraint/ProjectedStateSpace.h>
@@ -55,6 +56,27 @@ double requireShare(double share) {
   return share;
 }
 
+/// See makeManifoldConstraint().
+class ManifoldConstraint : public ob::Constraint {
+ public:
+  ManifoldConstraint(const Checker& checker, double share)
+      : Constraint(static_cast<unsigned>(checker.dimension()), coDimension(checker),
+                   requireShare(share)),
+        values_(std::make_unique<detail::ConstraintValues>(checker)) {}
+
+  void function(const Eigen::Ref<const Eigen::VectorXd>& x,
+                Eigen::Ref<Eigen::VectorXd> out) const override {
+    values_->residuals(x, out);
+  }
+  void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x,
+                Eigen::Ref<Eigen::MatrixXd> out) const override {
+    values_->jacobian(x, out);
+  }
+
+ private:
+  std::unique_ptr<detail::ConstraintValues> values_;
+};
+
 const ob::ConstrainedStateSpace& constrainedSpaceOf(const ob::SpaceInformation& si) {
   const auto* space = dynamic_cast<const ob::ConstrainedStateSpace*>(si.getStateSpace().get());
   if (space == nullptr)
@@ -84,21 +106,10 @@ std::shared_ptr<ob::ConstrainedStateSpace> spaceOf(ConstrainedSpace kind,
 
 }  // namespace
 
-ManifoldConstraint::ManifoldConstraint(const Checker& checker, double share)
-    : Constraint(static_cast<unsigned>(checker.dimension()), coDimension(checker),
-                 requireShare(share)),
-      values_(std::make_unique<detail::ConstraintValues>(checker)) {}
-
-ManifoldConstraint::~ManifoldConstraint() = default;
-
-void ManifoldConstraint::function(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                  Eigen::Ref<Eigen::VectorXd> out) const {
-  values_->residuals(x, out);
-}
-
-void ManifoldConstraint::jacobian(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                  Eigen::Ref<Eigen::MatrixXd> out) const {
-  values_->jacobian(x, out);
+std::shared_ptr<ob::Constraint> makeManifoldConstraint(const Checker& checker, double share) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment([&] { return makeManifoldConstraint(checker, share); });
+  return std::make_shared<ManifoldConstraint>(checker, share);
 }
 
 ConstrainedValidityChecker::ConstrainedValidityChecker(const ob::SpaceInformationPtr& si,
@@ -119,8 +130,11 @@ bool ConstrainedValidityChecker::isValid(const ob::State* state) const {
 
 og::SimpleSetupPtr makeConstrainedSetup(std::shared_ptr<const Checker> checker,
                                         ConstrainedSpace space, double share) {
+  if (detail::inForeignEnvironment())
+    return inDefaultEnvironment(
+        [&] { return makeConstrainedSetup(std::move(checker), space, share); });
   if (!checker) refuseSpace("no checker given");
-  const auto constraint = std::make_shared<ManifoldConstraint>(*checker, share);
+  const auto constraint = makeManifoldConstraint(*checker, share);
   const auto ambient = makeStateSpace(checker->robot(), checker->group());
   const auto manifold = spaceOf(space, ambient, constraint);
   const auto si = std::make_shared<ob::ConstrainedSpaceInformation>(manifold);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "swept/core/floating_point_environment.hpp"
+
 namespace swept::detail {
 
 ConstraintValues::ConstraintValues(const Checker& checker) : projection_(checker) {
@@ -16,7 +18,8 @@ ConstraintValues::ConstraintValues(const Checker& checker) : projection_(checker
     const bool slides = joint.type == JointType::Prismatic;
     slides_.emplace_back(slides ? variable.lower : -kNone, slides ? variable.upper : kNone);
   }
-  rows_ = movedRows(checker);
+  const auto look = [&] { return movedRows(checker); };
+  rows_ = detail::inForeignEnvironment() ? inDefaultEnvironment(look) : look();
 }
 
 std::vector<Eigen::Index> ConstraintValues::movedRows(const Checker& checker) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ompl/base/Constraint.h>
 #include <ompl/base/spaces/constraint/ConstrainedStateSpace.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
 #include <ompl/geometric/planners/prm/PRM.h>
@@ -103,7 +104,8 @@ TEST_F(ConstrainedSpaces, FunctionsHaveTheirDerivatives) {
   TaskConstraint task = level(10.0);
   task.add(TaskConstraint::onPlane("link7", poseAt(start_).translation(), {0, 0, 1}, 0.05));
   const auto checker = with(task);
-  const ManifoldConstraint manifold(*checker);
+  const auto made = makeManifoldConstraint(*checker);
+  const ob::Constraint& manifold = *made;
   EXPECT_EQ(manifold.getAmbientDimension(), 7U);
   EXPECT_EQ(manifold.getCoDimension(), 3U);
   EXPECT_EQ(manifold.getTolerance(), 0.5);

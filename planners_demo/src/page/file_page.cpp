@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "page/file_page.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -8,10 +9,8 @@
 #include <vector>
 
 #include "certificate/read_checker.hpp"
-#include "certificate/summary_output.hpp"
 #include "certificate/trajectory_json.hpp"
 #include "certificate/verify_outcome.hpp"
-#include "certificate/verify_task.hpp"
 #include "input/task.hpp"
 #include "io/json_value.hpp"
 #include "output/progress.hpp"
@@ -20,6 +19,7 @@
 #include "swept/pages/task_page.hpp"
 #include "swept/robot_model/input.hpp"
 #include "swept/robot_model/joint_trajectory.hpp"
+#include "swept/robot_model/usage_error.hpp"
 #include "verify/task.hpp"
 
 namespace swept {
@@ -30,6 +30,18 @@ PageOptions optionsOf(const Arguments& args, const std::string& proof) {
   options.title = "swept view, " + std::filesystem::path(args.robot).filename().string();
   options.facts = {{"proof", proof}, {"command", args.page.commandLine}};
   return options;
+}
+
+std::string keptText(double clearance) {
+  return std::isinf(clearance) ? std::string("there is no pair to check")
+                               : "every pair keeps more than " + shortNumber(clearance) + " m";
+}
+
+/// What a path says that it is not about, where no files say it again.
+void sayWarningsOf(const Json& path, Warnings& warnings) {
+  if (!path.contains("warnings") || !path["warnings"].is_array()) return;
+  for (const Json& line : path["warnings"])
+    if (line.is_string()) warnings.ofUnchecked(line.get<std::string>());
 }
 
 [[noreturn]] void refuse(const Arguments& args, const std::string& refusal) {
@@ -66,7 +78,7 @@ std::function<std::string()> pathPage(const Arguments& args, const Json& path) {
   if (!outcome.holds()) refuse(args, outcome.refusal);
   CheckerReader reader;
   const auto checker = reader.read(path);
-  PageOptions options = optionsOf(args, "verified: " + keptText(outcome.summary));
+  PageOptions options = optionsOf(args, "verified: " + keptText(outcome.summary.clearance));
   // The page itself has the checker's constraints; a line that a tool follows is none of them.
   const std::vector<std::string>& kept = outcome.summary.constraints;
   for (std::size_t i = checker->options().constraints.size(); i < kept.size(); ++i)
@@ -96,12 +108,12 @@ std::function<std::string()> pageOfProof(const Arguments& args, Warnings& warnin
   const Json file = parseOrderedJson(args.robot);
   Progress progress("verifying", args.quiet);
   try {
-    if (!isTask(file)) {
-      repeatWarnings(file, warnings);
+    if (!file.is_object() || !file.contains("phases")) {
+      sayWarningsOf(file, warnings);
       return pathPage(args, file);
     }
     for (const Json& phase : file["phases"])
-      if (phase.contains("path")) repeatWarnings(phase["path"], warnings);
+      if (phase.contains("path")) sayWarningsOf(phase["path"], warnings);
     return taskPage(args, file);
   } catch (const verify::Refusal& refusal) {
     refuse(args, refusal.what());

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ompl/base/Constraint.h>
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
-#include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/SimpleSetup.h>
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -20,6 +17,10 @@
 /// OMPL's constrained spaces over CheckerOptions::constraints, for any of OMPL's planners. They
 /// keep states near a manifold, and say nothing of the motions between them: the validator here
 /// proves those.
+namespace ompl::base {
+class Constraint;
+}
+
 namespace swept {
 
 namespace detail {
@@ -29,32 +30,17 @@ class WorkspacePool;
 
 /// The constraints of a checker as OMPL takes them: a function that is 0 in the middle of all of
 /// them, with exact derivatives. Its values are those of ConstraintProjection::residuals, shares of
-/// tolerances. A state satisfies it if their norm is at most the share given: no constraint then
-/// uses more of its tolerance, and the rest is room for the motions between states. Any number of
-/// threads may call it.
-class ManifoldConstraint : public ompl::base::Constraint {
- public:
-  /// Keeps no reference to the checker. Throws std::invalid_argument for a share that is not in (0,
-  /// 1); a checker without constraints, or with as many limited values as variables or more, which
-  /// leave no manifold; and a group with other joints than such with limits of their own: cyclic,
-  /// planar and floating ones, of which OMPL's constrained spaces know nothing.
-  explicit ManifoldConstraint(const Checker& checker, double share = 0.5);
-  ~ManifoldConstraint() override;
-
-  using ompl::base::Constraint::function;
-  using ompl::base::Constraint::jacobian;
-  ///@{
-  /// Values and derivatives at a configuration, NaN if it is not finite. A sliding joint's value is
-  /// taken to its limits.
-  void function(const Eigen::Ref<const Eigen::VectorXd>& x,
-                Eigen::Ref<Eigen::VectorXd> out) const override;
-  void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x,
-                Eigen::Ref<Eigen::MatrixXd> out) const override;
-  ///@}
-
- private:
-  std::unique_ptr<detail::ConstraintValues> values_;
-};
+/// tolerances, but for those that no motion of the group changes. A state satisfies it if their
+/// norm is at most the share given: no constraint then uses more of its tolerance, and the rest is
+/// room for the motions between states. Values and derivatives of what is not finite are NaN, and a
+/// sliding joint's value is taken to its limits. Any number of threads may call it.
+///
+/// Keeps no reference to the checker. Throws std::invalid_argument for a share that is not in (0,
+/// 1); a checker without constraints, or with as many limited values as variables or more, which
+/// leave no manifold; and a group with other joints than such with limits of their own: cyclic,
+/// planar and floating ones, of which OMPL's constrained spaces know nothing.
+std::shared_ptr<ompl::base::Constraint> makeManifoldConstraint(const Checker& checker,
+                                                               double share = 0.5);
 
 /// isValid is true if a state of a constrained space is within its bounds, free, and within all
 /// constraints, proven. Any number of threads may call it.
@@ -112,9 +98,9 @@ enum class ConstrainedSpace : std::uint8_t {
   Atlas,      ///< AtlasStateSpace: covers the manifold with charts
 };
 
-/// Space, ManifoldConstraint, ConstrainedValidityChecker and CertifiedGeodesicValidator of a
+/// Space, makeManifoldConstraint(), ConstrainedValidityChecker and CertifiedGeodesicValidator of a
 /// checker's group in one call, ready for start, goal and planner. Throws std::invalid_argument for
-/// null, and as these do. `share`: of ManifoldConstraint.
+/// null, and as these do. `share`: of makeManifoldConstraint().
 ompl::geometric::SimpleSetupPtr makeConstrainedSetup(
     std::shared_ptr<const Checker> checker, ConstrainedSpace space = ConstrainedSpace::Projected,
     double share = 0.5);
