@@ -7,6 +7,7 @@
 #include "enclosed.hpp"
 #include "encoding.hpp"
 #include "environment.hpp"
+#include "line.hpp"
 #include "motion.hpp"
 #include "proof.hpp"
 #include "trajectory.hpp"
@@ -53,6 +54,7 @@ class ProofCheck {
       readStates();
     pairs_ = pairsToProve(model_);
     if (path.contains("constraints")) constraints_ = readConstraints(path["constraints"], model_);
+    if (path.contains("lines")) addLines(path["lines"]);
   }
 
   Summary run() {
@@ -112,6 +114,13 @@ class ProofCheck {
                       std::to_string(i + 1));
   }
 
+  void addLines(const Json& lines) {
+    if (!points_.empty())
+      throw Refusal("lines: they are of straight motions between states, and this is a trajectory");
+    lines_ = readLines(lines, model_, states_.size() - 1);
+    if (!lines_.empty()) still_ = withoutTolerances(model_);
+  }
+
   /// What each two of are a segment.
   const Json& knots() const {
     return points_.empty() ? path_["states"] : path_["trajectory"]["points"];
@@ -131,6 +140,7 @@ class ProofCheck {
     addTube();
     for (const Constraint& constraint : constraints_)
       summary_.constraints.push_back(constraint.text);
+    for (const Line& line : lines_) summary_.constraints.push_back(line.text);
   }
 
   /// Joints that follow others are off as far as these let them.
@@ -185,6 +195,10 @@ class ProofCheck {
     for (const Constraint& constraint : constraints_)
       summary_.intervals +=
           checkConstraint(model_, motion, constraint, where + ", " + constraint.name);
+    for (const Line& line : lines_)
+      if (line.has(i))
+        summary_.intervals += checkLine(Motion(still_, states_[i], states_[i + 1]), line, i,
+                                        where + ", " + line.name);
   }
 
   const Json& path_;
@@ -194,6 +208,8 @@ class ProofCheck {
   std::vector<Point> points_;                ///< of a trajectory
   std::vector<PairToProve> pairs_;
   std::vector<Constraint> constraints_;
+  std::vector<Line> lines_;
+  Model still_;  ///< without tolerances, for lines
   Summary summary_;
 };
 

@@ -69,6 +69,23 @@ struct Constraint {
 /// Reads `constraints` of a path file, a list. Throws Refusal.
 std::vector<Constraint> readConstraints(const Json& list, const Model& model);
 
+///@{
+/// Parts of a constraint, and of lines. They throw Refusal, which starts with `where`.
+///
+/// 0 or more; null: infinity.
+double readMost(const Json& json, const std::string& where);
+/// For other keys than these: what is not read seems to mean something.
+void requireKeys(const Json& json, const std::vector<std::string>& keys, const std::string& where);
+Frame readFrame(const Json& json, const char* key, const Model& model, const std::string& where);
+///@}
+
+///@{
+/// In words: with few digits and without a sign of zero; the link of a frame.
+std::string briefText(double number);
+std::string listText(const Eigen::Vector3d& numbers);
+std::string nameOf(const Frame& frame, const Model& model);
+///@}
+
 /// Shows that a constraint holds at all times of a motion and wherever tolerances let the joints
 /// be, and counts the intervals that it took. The file has no planes for it: intervals are halved
 /// until each is shown. Throws Refusal, which starts with `place`, where it does not hold in the

@@ -9,11 +9,8 @@
 #include "rounding.hpp"
 
 namespace swept::verify {
-namespace {
-
 using Eigen::Vector3d;
 
-/// Of few digits, and without a sign of zero.
 std::string briefText(double number) {
   return numberText(number == 0.0 ? 0.0 : number, 3);
 }
@@ -23,7 +20,6 @@ std::string listText(const Vector3d& numbers) {
          briefText(numbers.z()) + ")";
 }
 
-/// 0 or more; null: infinity.
 double readMost(const Json& json, const std::string& where) {
   if (json.is_null()) return std::numeric_limits<double>::infinity();
   const double most = readNumber(json, where);
@@ -31,13 +27,6 @@ double readMost(const Json& json, const std::string& where) {
   return most;
 }
 
-std::string readWord(const Json& json, const char* key, const std::string& where) {
-  const Json& value = at(json, key, where);
-  if (!value.is_string()) throw Refusal(where + ": " + key + " is not a text");
-  return value.get<std::string>();
-}
-
-/// What is not read seems to mean something.
 void requireKeys(const Json& json, const std::vector<std::string>& keys, const std::string& where) {
   if (!json.is_object()) throw Refusal(where + ": not an object");
   for (const auto& [key, value] : json.items())
@@ -64,6 +53,14 @@ Frame readFrame(const Json& json, const char* key, const Model& model, const std
 
 std::string nameOf(const Frame& frame, const Model& model) {
   return frame.link < 0 ? "the model frame" : model.links[static_cast<std::size_t>(frame.link)];
+}
+
+namespace {
+
+std::string readWord(const Json& json, const char* key, const std::string& where) {
+  const Json& value = at(json, key, where);
+  if (!value.is_string()) throw Refusal(where + ": " + key + " is not a text");
+  return value.get<std::string>();
 }
 
 /// ` of LINK`, where the place or direction before it is not one of the model frame.

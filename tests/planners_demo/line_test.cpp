@@ -62,7 +62,26 @@ TEST_F(LineProgram, GoesThereAndBack) {
   EXPECT_EQ(found["path_file"], out);
   // The path is one for the other subcommands.
   EXPECT_EQ(runSwept({"certify", urdf_, out, "--scene", wall_}).exitCode, 0);
+  const Outcome verified = runSwept({"verify", out});
+  EXPECT_EQ(verified.exitCode, 0) << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("at every instant: in segments 1 to "));
+  EXPECT_THAT(verified.out, HasSubstr(" point (0, 0, 0) of tip within 0.001 m of the line from (1, "
+                                      "1, 0) to (1.3, 1, 0)\n"));
+  EXPECT_THAT(verified.out, HasSubstr("of the line from (1.3, 1, 0) to (1, 1, 0)\n"));
+}
+
+/// Who says that the tool keeps to another line is not believed.
+TEST_F(LineProgram, ItsProofIsOfTheLine) {
+  const std::string out = folder_.path("line.json");
+  ASSERT_EQ(run({"--by", "0.3,0,0", "--deviation", "1,180", "--embed", "-o", out}).exitCode, 0);
   EXPECT_EQ(runSwept({"verify", out}).exitCode, 0);
+  auto path = nlohmann::ordered_json::parse(folder_.read("line.json"));
+  path["lines"][0]["position"] = 1e-6;
+  folder_.write("line.json", path.dump());
+  const Outcome changed = runSwept({"verify", out});
+  EXPECT_EQ(changed.exitCode, 1);
+  EXPECT_EQ(changed.out,
+            "refused: path file, lines: is not as it was when the path was certified\n");
 }
 
 TEST_F(LineProgram, SaysWhereALineEnds) {

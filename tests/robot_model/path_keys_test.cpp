@@ -61,6 +61,7 @@ TEST(PathKeys, OfJson) {
                           "tolerance",
                           "clouds",
                           "constraints",
+                          "lines",
                           "trajectory",
                           "segments",
                           "nothing_checked",

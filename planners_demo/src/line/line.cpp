@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "certificate/certificate.hpp"
+#include "certificate/lines_json.hpp"
 #include "certificate/path_files.hpp"
 #include "certificate/path_json.hpp"
 #include "command_line/commands.hpp"
@@ -170,8 +171,10 @@ std::string writeLines(const Arguments& args, const PathFile& file, const Checke
                        const LineTool& tool, const LinesFound& found, const Warnings& warnings) {
   Progress progress("writing " + args.output, args.quiet);
   const ProvenPath path = provenPath(found.states, certifyPath(checker, found.states));
+  const Json lines = linesJson(checker, tool.frame, found.lines, tool.options);
   Certificate certificate;
-  if (file.holdsProof()) certificate = certificateOf(checker, path.states, path.clearances());
+  if (file.holdsProof())
+    certificate = certificateOf(checker, path.states, path.clearances(), lines);
   file.write(checker,
              {.maker = {{"planner", "line"},
                         {"tool", tool.frame.body},
@@ -180,7 +183,8 @@ std::string writeLines(const Arguments& args, const PathFile& file, const Checke
               .states = path.states,
               .segments = path.segments,
               .inputs = inputsOfPath(args, args.output, path.states.front(), path.states.back()),
-              .warnings = warnings.unchecked()},
+              .warnings = warnings.unchecked(),
+              .lines = lines},
              certificate, args.embed);
   return certificate.missing;
 }

@@ -32,8 +32,9 @@ std::string outsideOf(const Checker& checker, const std::vector<double>& q) {
   return {};
 }
 
-/// Options whose values a path file has: a page of other rules would be about another question.
-void refuseRules(const Arguments& args) {
+}  // namespace
+
+void refuseRules(const Arguments& args, const std::string& why) {
   const Arguments none;
   const std::pair<const char*, bool> given[] = {
       {"--srdf", !args.srdf.empty()},
@@ -59,11 +60,10 @@ void refuseRules(const Arguments& args) {
       {"--tolerance", args.tolerance != none.tolerance},
       {"--problems", !args.problems.empty()}};
   for (const auto& [name, isGiven] : given)
-    if (isGiven)
-      throw UsageError(std::string(name) +
-                       ": a path is shown with what its file says; only --scene may be another "
-                       "file of the same scene");
+    if (isGiven) throw UsageError(name + why);
 }
+
+namespace {
 
 /// A path file and the files that it names, read.
 struct ReadPath {
@@ -165,7 +165,9 @@ bool namesPaths(const Arguments& args) {
 }
 
 PathsToView pathsToView(const Arguments& args, Warnings& warnings) {
-  refuseRules(args);
+  refuseRules(args,
+              ": a path is shown with what its file says; only --scene may be another file of the "
+              "same scene");
   PathsToView view;
   Json first;
   std::vector<Finding> findings;

@@ -24,6 +24,10 @@ struct PathsToView {
   PageContent content;
 };
 
+/// Throws UsageError, with `why` behind its name, for an option whose value a path file has: a page
+/// of other rules would be about another question.
+void refuseRules(const Arguments& args, const std::string& why);
+
 /// Whether the states of `view` are path files: `.json`. Throws UsageError when some are not, and
 /// for what is a path in another format.
 bool namesPaths(const Arguments& args);

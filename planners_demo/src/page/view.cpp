@@ -12,7 +12,9 @@
 #include <functional>
 #include <memory>
 
+#include "output/terminal_text.hpp"
 #include "output/whole_file.hpp"
+#include "page/file_page.hpp"
 #include "page/pages.hpp"
 #include "page/path_page.hpp"
 #include "page/program_page.hpp"
@@ -48,6 +50,12 @@ bool showsStates(const Arguments& args) {
 
 /// Reads what is to be seen, before there is a file for it. What it returns writes the page.
 std::function<void(const Arguments&)> readPage(const Arguments& args, Warnings& warnings) {
+  if (namesProof(args)) {
+    return [text = pageOfProof(args, warnings)](const Arguments& to) {
+      writeWholeFile(to.page.file, text());
+      printText("page written to " + escapedLine(to.page.file) + "\n");
+    };
+  }
   if (namesPaths(args)) {
     const auto view = std::make_shared<const PathsToView>(pathsToView(args, warnings));
     return [view](const Arguments& to) {

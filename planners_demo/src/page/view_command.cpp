@@ -7,6 +7,9 @@ namespace {
 
 void addViewOptions(CLI::App& app, Arguments& args) {
   addRobotOptions(app, args);
+  app.get_option("robot")->description(
+      "URDF file, a .yaml of several robots, or a .json that holds robot, world and a proof: a "
+      "task, a trajectory, or a path of --embed");
   addRuleOptions(app, args);
   addSceneOptions(app, args);
   addSelfFilterOption(app, args);
@@ -23,14 +26,15 @@ void addViewOptions(CLI::App& app, Arguments& args) {
 
 }  // namespace
 
-const Command kViewCommand{.name = "view",
-                           .summary = "Look at a robot, a scene, states and paths in a browser",
-                           .example =
-                               "swept view models/robots/rook7/rook7.urdf ready --group arm "
-                               "--scene models/scenes/shelf.yaml -o page.html",
-                           .exitCodes = kVerdictExitCodes,
-                           .addOptions = addViewOptions,
-                           .run = runView,
-                           .notes = stateNotes};
+const Command kViewCommand{
+    .name = "view",
+    .summary = "Look at a robot, a scene, states, paths and tasks in a browser",
+    .example =
+        "swept view models/robots/rook7/rook7.urdf ready --group arm "
+        "--scene models/scenes/shelf.yaml -o page.html",
+    .exitCodes = kVerdictExitCodes,
+    .addOptions = addViewOptions,
+    .run = runView,
+    .notes = stateNotes};
 
 }  // namespace swept

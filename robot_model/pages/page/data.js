@@ -174,7 +174,7 @@ swept.data = (function () {
   data.css = (rgb) => 'rgb(' + rgb.map(Math.round).join(',') + ')';
   data.tierNames = {
     lanes: 'free, proven in single precision', exact: 'free, proven on exact geometry',
-    undecided: 'undecided', collision: 'collision'
+    undecided: 'undecided', collision: 'collision', violation: 'off a constraint'
   };
   return data;
 })();

@@ -94,6 +94,7 @@ swept.joints = (function () {
     const at = data.locate(time), motion = data.motions[at.index], tiers = motion.pieces.tiers;
     const piece = Math.min(tiers.length - 1, Math.floor(at.t * tiers.length));
     if (tiers[piece] === 'collision') return 'in a part that is in collision';
+    if (tiers[piece] === 'violation') return 'in a part that is off a constraint';
     if (tiers[piece] === 'undecided') return 'undecided';
     const lower = motion.pieces.lower[piece];
     return 'free' + (lower === null ? ', no pair to check' : ', keeps ' + data.millimetres(lower) + ' or more');
@@ -109,7 +110,8 @@ swept.joints = (function () {
     const state = data.states[data.locate(time).index];
     const least = state.clearance === null || state.clearance === undefined
         ? '' : ', \u2265 ' + data.millimetres(state.clearance);
-    return state.label + ': ' + (state.verdict === 'free' ? 'free' + least : state.verdict || 'not judged');
+    return state.label + ': ' + (state.verdict === 'free' ? 'free' + least
+        : state.verdict === 'violation' ? 'off a constraint' : state.verdict || 'not judged');
   }
 
   function byHandText(values) {
@@ -124,7 +126,7 @@ swept.joints = (function () {
 
   function toneOf(text) {
     if (/^moved by hand/.test(text)) return 'plain';
-    if (/collision/.test(text.split(': ').pop())) return 'bad';
+    if (/collision|off a constraint/.test(text.split(': ').pop())) return 'bad';
     return /: free/.test(text) ? 'good' : /undecided/.test(text) ? 'unsure' : 'plain';
   }
 

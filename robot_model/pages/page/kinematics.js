@@ -131,5 +131,5 @@ swept.kinematics = (function () {
             variable.upper === null ? reach : variable.upper];
   }
 
-  return {valuesAt, onMotion, poses, whole, jointValue, nearestKnown, range, between};
+  return {valuesAt, onMotion, poses, whole, jointValue, cyclicDifference, nearestKnown, range, between};
 })();

@@ -188,6 +188,7 @@
   swept.timeline.build();
   swept.panel.build();
   swept.trajectory.build();
+  swept.constraints.build();
   playback.onChange(showMoment);
   wire();
   swept.paths.build();

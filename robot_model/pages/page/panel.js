@@ -27,7 +27,7 @@ swept.panel = (function () {
       return data.isPath ? 'free until ' + data.momentText(entry, entry.free_until) : 'collision';
     if (!entry.verdict) return '';
     const bound = data.isPath ? least(entry.pieces.lower) : entry.clearance;
-    return (entry.verdict === 'undecided' ? 'undecided, ' : '') +
+    return ({undecided: 'undecided, ', violation: 'off a constraint, '}[entry.verdict] || '') +
         (bound === null ? 'no pair to check' : '\u2265 ' + data.millimetres(bound));
   }
 

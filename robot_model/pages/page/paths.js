@@ -15,6 +15,7 @@ swept.paths = (function () {
     swept.timeline.rebuild();
     swept.panel.rebuild();
     swept.trajectory.rebuild();
+    swept.constraints.rebuild();
     if (swept.overlays.usePath) swept.overlays.usePath();
     buttons.forEach((button, i) => button.setAttribute('aria-current', i === path));
     playback.setTime(0);
@@ -33,7 +34,8 @@ swept.paths = (function () {
     name.textContent = path.label;
     amount.className = 'amount';
     const own = data.allMotions.filter((motion) => motion.path === index);
-    amount.textContent = path.tone === 'bad' ? 'collision' : path.tone === 'unsure' ? 'undecided'
+    const touches = own.some((motion) => motion.verdict === 'collision');
+    amount.textContent = path.tone === 'bad' ? (touches ? 'collision' : 'off a constraint') : path.tone === 'unsure' ? 'undecided'
         : '\u2265 ' + data.millimetres(least(own));
     if (own.some((motion) => motion.curve && motion.curve.violations.length > 0))
       amount.textContent += ', beyond limits';

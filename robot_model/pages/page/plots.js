@@ -152,10 +152,11 @@ swept.plots = (function () {
     });
   }
 
-  function listen(svg, order) {
+  // `point` is told what the pointer is at, {time, y}; null: it has left.
+  function listen(svg, plotOf, point) {
     const place = (event) => {
       const at = svg.getBoundingClientRect();
-      return {time: plots[order].timeAt(event.clientX - at.left), y: event.clientY - at.top};
+      return {time: plotOf().timeAt(event.clientX - at.left), y: event.clientY - at.top};
     };
     const seek = (event) => playback.setTime(place(event).time - motion().curve.knots[0]);
     let dragging = false;
@@ -166,19 +167,18 @@ swept.plots = (function () {
       svg.setPointerCapture(event.pointerId);
     });
     svg.addEventListener('pointermove', (event) => {
-      const at = place(event);
-      pointed = at.time;
-      hovered = plots[order].nearest(at.y, valuesAt(at.time, order));
+      point(place(event));
       if (dragging) seek(event);
-      else readOut();
     });
     for (const end of ['pointerup', 'pointercancel'])
       svg.addEventListener(end, () => { dragging = false; });
-    svg.addEventListener('pointerleave', () => {
-      pointed = null;
-      hovered = -1;
-      readOut();
-    });
+    svg.addEventListener('pointerleave', () => point(null));
+  }
+
+  function point(order, at) {
+    pointed = at === null ? null : at.time;
+    hovered = at === null ? -1 : plots[order].nearest(at.y, valuesAt(at.time, order));
+    readOut();
   }
 
   function redraw() {
@@ -212,10 +212,11 @@ swept.plots = (function () {
     const high = window.innerHeight >= kRoom || window.matchMedia('(max-width: 760px)').matches;
     byId('plots').hidden = !high;
     byId('tool-plots').setAttribute('aria-pressed', high);
-    kNames.forEach((name, order) => listen(byId('plot-' + name).querySelector('svg'), order));
+    kNames.forEach((name, order) =>
+        listen(byId('plot-' + name).querySelector('svg'), () => plots[order], (at) => point(order, at)));
     playback.onChange(show);
     new ResizeObserver(redraw).observe(byId('plots'));
   }
 
-  return {build, rebuild, toggle, pin, plots, variables};
+  return {build, rebuild, toggle, pin, listen, plots, variables};
 })();

@@ -113,7 +113,7 @@ swept.timeline = (function () {
 
   function addTierLegend() {
     const present = new Set([].concat(...data.motions.map((motion) => motion.pieces.tiers)));
-    for (const tier of ['lanes', 'exact', 'undecided', 'collision']) {
+    for (const tier of ['lanes', 'exact', 'undecided', 'violation', 'collision']) {
       if (!present.has(tier)) continue;
       const entry = make('span', '', byId('tiers'));
       make('i', tier, entry);

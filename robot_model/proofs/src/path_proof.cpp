@@ -7,6 +7,7 @@
 #include "certificate/certificate.hpp"
 #include "certificate/checked_proof.hpp"
 #include "certificate/constraints_json.hpp"
+#include "certificate/lines_json.hpp"
 #include "certificate/model_json.hpp"
 #include "certificate/path_json.hpp"
 #include "certificate/trajectory_proof.hpp"
@@ -68,6 +69,30 @@ WrittenProof writeProof(const std::filesystem::path& file, const Checker& checke
       .states = path.states, .segments = path.segments, .inputs = nullptr, .warnings = warnings};
   return writtenProof(file, checker, record, certificateOf(checker, path.states, path.clearances()),
                       where);
+}
+
+WrittenProof writeLineProof(const std::filesystem::path& file, const Checker& checker,
+                            const ConstraintFrame& tool, std::span<const ToolLine> lines,
+                            const ToolLineOptions& options,
+                            const std::vector<std::string>& warnings) {
+  if (detail::inForeignEnvironment()) {
+    return inDefaultEnvironment(
+        [&, lines] { return writeLineProof(file, checker, tool, lines, options, warnings); });
+  }
+  const std::string where = "'" + file.string() + "'";
+  requireJson(file, where);
+  const std::vector<std::vector<double>> states = statesOf(lines);
+  const PathCertificate certificate = certifyPath(checker, states);
+  const ProvenPath path = provenPath(states, certificate);
+  requireFree(where, certificate);
+  requireProofFile(file, where, checker);
+  const PathRecord record{.states = path.states,
+                          .segments = path.segments,
+                          .inputs = nullptr,
+                          .warnings = warnings,
+                          .lines = linesJson(checker, tool, lines, options)};
+  return writtenProof(file, checker, record,
+                      certificateOf(checker, path.states, path.clearances(), record.lines), where);
 }
 
 WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Checker& checker,

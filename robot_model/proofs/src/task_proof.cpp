@@ -7,6 +7,7 @@
 
 #include "certificate/checked_proof.hpp"
 #include "certificate/path_json.hpp"
+#include "certificate/trajectory_json.hpp"
 #include "certificate/trajectory_proof.hpp"
 #include "io/json_value.hpp"
 #include "output/text_output.hpp"
@@ -63,31 +64,6 @@ TaskChange changeOf(const JsonValue& json) {
   for (const auto& [kind, own] : kChanges)
     if (name == own) return {.kind = kind, .body = json.at("body").text()};
   json.at("change").refuse("attached, placed or sensed");
-}
-
-std::vector<double> numbersOf(const JsonValue& point, const char* key, std::size_t count) {
-  std::vector<double> numbers;
-  if (!point.has(key)) return numbers;
-  for (const JsonValue& number : point.at(key).elements(count)) numbers.push_back(number.number());
-  return numbers;
-}
-
-JointTrajectory trajectoryOf(const JsonValue& json) {
-  JointTrajectory trajectory;
-  for (const JsonValue& name : json.at("variables").elements())
-    trajectory.variables.push_back(name.text());
-  const std::size_t count = trajectory.variables.size();
-  for (const JsonValue& point : json.at("points").elements())
-    trajectory.points.push_back({.time = point.at("time").number(),
-                                 .positions = numbersOf(point, "positions", count),
-                                 .velocities = numbersOf(point, "velocities", count),
-                                 .accelerations = numbersOf(point, "accelerations", count)});
-  try {
-    static_cast<void>(controllerCurve(trajectory));
-  } catch (const std::invalid_argument& error) {
-    json.fail(std::string("is no trajectory: ") + error.what());
-  }
-  return trajectory;
 }
 
 Json taskOf(const std::filesystem::path& file) {

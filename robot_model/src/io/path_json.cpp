@@ -25,6 +25,7 @@ void readJsonPath(const std::string& text, const InputSource& source, PathRows& 
                                                           "clouds",
                                                           "joint_names",
                                                           "constraints",
+                                                          "lines",
                                                           "states",
                                                           "trajectory",
                                                           "segments",

@@ -5,6 +5,7 @@
 #include "swept/ompl_bridge/certified_connect.hpp"
 #include "swept/ompl_bridge/certified_roadmap.hpp"
 #include "swept/ompl_bridge/clearance_objective.hpp"
+#include "swept/ompl_bridge/constrained_space.hpp"
 #include "swept/ompl_bridge/motion_validator.hpp"
 #include "swept/ompl_bridge/nearest_states.hpp"
 #include "swept/ompl_bridge/paths.hpp"

@@ -8,6 +8,7 @@
 #include "page/packed.hpp"
 #include "page/page_bodies.hpp"
 #include "page/page_clearances.hpp"
+#include "page/page_constraints.hpp"
 #include "page/page_curve_json.hpp"
 #include "page/page_curves.hpp"
 #include "page/page_frames.hpp"
@@ -74,6 +75,11 @@ Json framesJson(const Robot& robot, const PageFrames& frames) {
           {"poses", packed<float>(numbers)}};
 }
 
+/// Where a constraint does not hold: the share of the motion, and in words.
+Json violationJson(const ConstraintViolation& violation, const Checker& checker) {
+  return {{"t", violation.t}, {"text", describe(violation, checker.options().constraints)}};
+}
+
 Json motionsJson(const Checker& checker, const PageContent& content,
                  const std::vector<PageSpan>& spans, const PageFrames& frames) {
   Json json = Json::array();
@@ -90,6 +96,8 @@ Json motionsJson(const Checker& checker, const PageContent& content,
                   {"steps", spans[i].steps}};
     entry["contacts"] = Json::array();
     if (certificate.witness) entry["contacts"].push_back(toJson(*certificate.witness));
+    entry["violation"] =
+        certificate.violation ? violationJson(*certificate.violation, checker) : Json(nullptr);
     entry["pieces"] = piecesJson(piecesOf(checker, spans[i]));
     json.push_back(std::move(entry));
   }
@@ -116,6 +124,9 @@ Json trajectoriesJson(const Checker& checker, const PageContent& content,
                   {"steps", spans[i].steps}};
     entry["contacts"] = Json::array();
     if (certificate.contact) entry["contacts"].push_back(toJson(certificate.contact->witness));
+    entry["violation"] = certificate.violation
+                             ? violationJson(certificate.violation->violation, checker)
+                             : Json(nullptr);
     entry["pieces"] = piecesJson(pieces.pieces);
     entry["curve"] = curveJson(checker, trajectory, pieces);
     json.push_back(std::move(entry));
@@ -127,6 +138,7 @@ Json stateJson(const PageContent::State& state, const Checker* checker) {
   Json json = {{"label", state.label}, {"values", toJson(state.q)}};
   json["verdict"] = nullptr;
   json["contacts"] = Json::array();
+  json["violations"] = Json::array();
   if (checker == nullptr) return json;
   Workspace workspace(*checker);
   const StateReport report = checker->reportState(state.q, workspace);
@@ -135,6 +147,8 @@ Json stateJson(const PageContent::State& state, const Checker* checker) {
   json["nearest"] = Json::array({report.nearestA, report.nearestB});
   addClearances(swept::clearancesOf(report), json);
   for (const Witness& contact : report.contacts) json["contacts"].push_back(toJson(contact));
+  for (const ConstraintViolation& violation : report.violations)
+    json["violations"].push_back(describe(violation, checker->options().constraints));
   return json;
 }
 
@@ -265,6 +279,7 @@ Json pageJson(const Robot& robot, const World& world, const Checker* checker,
   else
     for (const PageContent::State& state : content.states)
       json["states"].push_back(stateJson(state, checker));
+  json["constraints"] = checker == nullptr ? Json::array() : pageConstraintsJson(*checker);
   json["clearances"] =
       checker == nullptr ? Json(nullptr) : clearancesOf(*checker, bodies, frames).json();
   return json;

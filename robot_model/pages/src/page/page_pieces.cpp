@@ -47,6 +47,7 @@ std::string_view tierOf(const PagePiece& piece) {
     case Verdict::Collision:
       return "collision";
     case Verdict::Violation:
+      return "violation";
     case Verdict::Undecided:
       break;
   }

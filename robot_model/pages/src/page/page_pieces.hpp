@@ -26,7 +26,7 @@ struct PagePiece {
 std::vector<PagePiece> piecesOf(const Checker& checker, const PageSpan& span);
 
 /// `lanes`: proven in single precision alone; `exact`: exact geometry was asked too; `undecided`,
-/// `collision`.
+/// `collision`; `violation`: a constraint does not hold somewhere in it.
 std::string_view tierOf(const PagePiece& piece);
 
 /// Arrays `tiers`, `lower` and `upper` (m; null: no pairs), a value for each piece.

@@ -14,6 +14,7 @@
 #include "certificate/trajectory_json.hpp"
 #include "verify/check.hpp"
 #include "verify/constraint.hpp"
+#include "verify/line.hpp"
 #include "verify/trajectory.hpp"
 
 namespace swept {
@@ -129,18 +130,39 @@ Certificate certificateBetween(const Checker& checker, const Json& knots, const 
   return certificate;
 }
 
+/// The first place where verifying would not show a line; empty: there is none.
+std::string lineNotShown(const Json& modelOfProof, std::span<const std::vector<double>> states,
+                         const Json& lines) {
+  if (lines.empty()) return {};
+  const verify::Model model = verify::withoutTolerances(verify::readModel(modelOfProof));
+  for (const verify::Line& line : verify::readLines(lines, model, states.size() - 1))
+    for (std::size_t i = line.first; line.has(i); ++i) {
+      const std::string place = "segment " + std::to_string(i + 1) + ", " + line.name;
+      try {
+        verify::checkLine(verify::Motion(model, states[i], states[i + 1]), line, i, place);
+      } catch (const verify::Refusal&) {
+        return place;
+      }
+    }
+  return {};
+}
+
 }  // namespace
 
 Certificate certificateOf(const Checker& checker, std::span<const std::vector<double>> states,
-                          std::span<const double> clearances) {
+                          std::span<const double> clearances, const Json& lines) {
   Json knots = Json::array();
   for (const std::vector<double>& q : states) knots.push_back(toJson(q));
-  return certificateBetween(
+  Certificate certificate = certificateBetween(
       checker, knots,
       [&](const verify::Model& model, std::size_t i) {
         return verify::Motion(model, states[i], states[i + 1]);
       },
       [&](std::size_t i) { return clearances[i]; });
+  if (certificate.missing.empty())
+    certificate.missing = lineNotShown(certificate.model, states, lines);
+  if (!certificate.missing.empty()) certificate.proof = nullptr;
+  return certificate;
 }
 
 Certificate certificateOf(const Checker& checker, const JointTrajectory& trajectory,

@@ -11,7 +11,6 @@
 #include "swept/robot_model/task_constraint.hpp"
 
 namespace swept {
-namespace {
 
 Json frameJson(const ConstraintFrame& frame, const Checker& checker) {
   Json link = nullptr;
@@ -23,6 +22,8 @@ Json frameJson(const ConstraintFrame& frame, const Checker& checker) {
   }
   return {{"link", link}, {"pose", poseJson(detail::orthonormalized(frame.body_from_frame))}};
 }
+
+namespace {
 
 /// JSON has no infinity: null.
 Json sizesJson(const Eigen::VectorXd& sizes) {

@@ -10,4 +10,7 @@ namespace swept {
 /// none. Frames in attached bodies are those of the links that carry them.
 Json constraintsJson(const Checker& checker);
 
+/// A frame as in these: that of an attached body is in the link that carries it.
+Json frameJson(const ConstraintFrame& frame, const Checker& checker);
+
 }  // namespace swept

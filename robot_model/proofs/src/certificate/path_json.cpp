@@ -123,6 +123,7 @@ Json pathJson(const Checker& checker, const PathRecord& record, const Certificat
   json["clouds"] = cloudsJson(checker.world());
   json["joint_names"] = jointNames(checker);
   if (!checker.options().constraints.empty()) json["constraints"] = constraintsJson(checker);
+  if (!record.lines.empty()) json["lines"] = record.lines;
   json["states"] = Json::array();
   for (const std::vector<double>& q : record.states) json["states"].push_back(toJson(q));
   if (record.trajectory != nullptr) json["trajectory"] = trajectoryJson(*record.trajectory);

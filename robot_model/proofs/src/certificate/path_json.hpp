@@ -33,6 +33,7 @@ struct PathRecord {
   std::vector<std::string> warnings;  ///< on what is not checked
   /// That the states are the points of, if they are.
   const JointTrajectory* trajectory = nullptr;
+  Json lines = Json::array();  ///< that a tool follows: see linesJson()
 };
 
 /// A path whose segments were certified, as files have it.

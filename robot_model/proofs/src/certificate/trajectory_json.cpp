@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/trajectory_json.hpp"
 
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include "robot/joint_types.hpp"
 
 namespace swept {
+namespace {
+
+std::vector<double> numbersOf(const JsonValue& point, const char* key, std::size_t count) {
+  std::vector<double> numbers;
+  if (!point.has(key)) return numbers;
+  for (const JsonValue& number : point.at(key).elements(count)) numbers.push_back(number.number());
+  return numbers;
+}
+
+}  // namespace
 
 Json trajectoryJson(const JointTrajectory& trajectory) {
   Json json = {{"variables", trajectory.variables}, {"points", Json::array()}};
@@ -31,6 +45,24 @@ Json trackingJson(const Checker& checker) {
     if (!entry.empty()) json[joint.name] = std::move(entry);
   }
   return json;
+}
+
+JointTrajectory trajectoryOf(const JsonValue& json) {
+  JointTrajectory trajectory;
+  for (const JsonValue& name : json.at("variables").elements())
+    trajectory.variables.push_back(name.text());
+  const std::size_t count = trajectory.variables.size();
+  for (const JsonValue& point : json.at("points").elements())
+    trajectory.points.push_back({.time = point.at("time").number(),
+                                 .positions = numbersOf(point, "positions", count),
+                                 .velocities = numbersOf(point, "velocities", count),
+                                 .accelerations = numbersOf(point, "accelerations", count)});
+  try {
+    static_cast<void>(controllerCurve(trajectory));
+  } catch (const std::invalid_argument& error) {
+    json.fail(std::string("is no trajectory: ") + error.what());
+  }
+  return trajectory;
 }
 
 }  // namespace swept

@@ -27,8 +27,9 @@ struct PageOptions {
 
 /// A page: one HTML file that any browser opens from disk, without network. It shows states one at
 /// a time, or motions one after the other, or paths or trajectories one at a time. The checker
-/// judges each when it is added; verdicts, contacts and distances are the checker's. Poses are
-/// drawn in single precision.
+/// judges each when it is added; verdicts, contacts and distances are the checker's. Its
+/// constraints are named, with their values at the moment shown. Poses are drawn in single
+/// precision.
 ///
 /// Only one thread at a time may use a page.
 class Page {

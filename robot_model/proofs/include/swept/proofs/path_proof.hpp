@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "swept/robot_model/configuration.hpp"
 #include "swept/robot_model/joint_trajectory.hpp"
 #include "swept/robot_model/path_certificate.hpp"
+#include "swept/robot_model/task_constraint.hpp"
+#include "swept/robot_model/tool_line.hpp"
 #include "swept/robot_model/tracking_tolerance.hpp"
 #include "swept/robot_model/trajectory_certificate.hpp"
 
@@ -57,6 +60,19 @@ WrittenProof writeTrajectoryProof(const std::filesystem::path& file, const Check
                                   const JointTrajectory& trajectory,
                                   const TrajectoryCertificate& certificate,
                                   const std::vector<std::string>& warnings = {});
+
+/// The same for lines of a ToolLinePlanner, one after the other, each of which begins where the one
+/// before ends: for the straight motions between their way points. The file also says, and whoever
+/// checks it shows, that `tool` keeps within `options` of its lines at every instant, as
+/// ToolLineOptions says: of the motions themselves, without CheckerOptions::tracking. A line that
+/// is not complete is shown as far as its way points go.
+///
+/// Throws UsageError as writeProof() does; std::invalid_argument for no line, and for one that does
+/// not begin where the one before ends.
+WrittenProof writeLineProof(const std::filesystem::path& file, const Checker& checker,
+                            const ConstraintFrame& tool, std::span<const ToolLine> lines,
+                            const ToolLineOptions& options = {},
+                            const std::vector<std::string>& warnings = {});
 
 /// The result of checking a proof.
 struct CheckedProof {
