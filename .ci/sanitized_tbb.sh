@@ -2,7 +2,7 @@
 # Sourced by .ci/nightly.
 
 # Builds oneTBB with ThreadSanitizer, from the sources of the system's package: build_sanitized_tbb FOLDER. It is installed
-# in FOLDER/installed. Debian's lists of packages and those that apt-get keeps are not touched.
+# in FOLDER/installed. The system's own lists of packages are not touched.
 build_sanitized_tbb() {
   local folder="$1" codename
   codename="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")"
