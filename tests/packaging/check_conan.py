@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from cmake_facts import CMakeFacts
-from fake_conan import answers_of, load_recipe
+from fake_conan import answers_of, load_recipe, test_of
 
 # Names that differ, of CMake and Conan, and of Debian's packages with the headers.
 CONAN_NAMES = {"Eigen3": "eigen", "ccd": "libccd", "hwy": "highway", "TBB": "onetbb", "OpenSSL": "openssl",
@@ -141,6 +141,29 @@ def version_on_debian_12(package):
     return re.match(r"(?:\d+:)?(\d+(?:\.\d+)*)", said.stdout).group(1)
 
 
+def check_test(root, path, options):
+    """The program that tests a package takes no more of it than there is, and is there with its arguments."""
+    recipe = test_of(load_recipe(path).SweptTest, path, options)
+    if recipe.refused:
+        if options["ompl_bridge"] or not options["robot_model"]:
+            yield f"is refused: {recipe.refused}"
+        return
+    project = Path(recipe.project).resolve()
+    taken = "ompl_bridge" if options["ompl_bridge"] else "core"
+    text = (project / "CMakeLists.txt").read_text(encoding="utf-8") if project.is_dir() else ""
+    program = re.search(rf"target_link_libraries\((\w+) PRIVATE swept::{taken}\)", text)
+    if not program:
+        yield f"builds {project}, which is no program with {taken}"
+        return
+    (command, _), = recipe.commands
+    started, *arguments = command.split()
+    if Path(started) != Path("programs") / program.group(1):
+        yield f"runs {started}, and {project.name} has {program.group(1)}"
+    for argument in arguments:
+        if not Path(argument).is_relative_to(root) or not Path(argument).is_file():
+            yield f"{argument} is not there"
+
+
 def check(root, installed_version=version_on_debian_12):
     """One line for each fault."""
     facts = CMakeFacts(root)
@@ -160,6 +183,10 @@ def check(root, installed_version=version_on_debian_12):
     yield from check_versions(facts, whole.required, installed_version)
     if not answers_of(recipe_class, path, {part: True for part in parts}, os="Windows").refused:
         yield "is accepted on Windows"
+    for robot_model, ompl_bridge in ((False, False), (True, False), (True, True)):
+        options = {"robot_model": robot_model, "ompl_bridge": ompl_bridge}
+        for fault in check_test(Path(root).resolve(), path.resolve().parent / "test_package/conanfile.py", options):
+            yield f"test_package with {options}: {fault}"
 
 
 def main():

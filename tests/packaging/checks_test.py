@@ -14,6 +14,7 @@ import check_vcpkg
 import check_workflows
 
 CONAN = "tests/packaging/conan/conanfile.py"
+TESTED = "tests/packaging/conan/test_package/conanfile.py"
 PORT = "tests/packaging/vcpkg/swept/"
 BUILD = ".github/workflows/build.yml"
 NIGHTLY = ".github/workflows/nightly.yml"
@@ -57,6 +58,10 @@ FAULTS = [
     (conan, CONAN, "check_min_cppstd(self, 20)", "check_min_cppstd(self, 17)", "asks for C++17, and CMake for 20"),
     (conan, CONAN, '"swept_{part}"', '"swept-{part}"', "is ['swept-core']"),
     (conan, CONAN, 'os != "Linux"', 'os == "Macos"', "is accepted on Windows"),
+    (conan, TESTED, '"full" if', '"whole" if', "which is no program with ompl_bridge"),
+    (conan, TESTED, "programs / 'motion'", "programs / 'motions'", "runs programs/motions, and full has motion"),
+    (conan, TESTED, "rook7.urdf", "rook8.urdf", "rook8.urdf is not there"),
+    (conan, TESTED, 'if self._has("robot_model") and not', "if", "is refused: no program"),
     (vcpkg, "CMakeLists.txt", "VERSION 0.1.0", "VERSION 0.2.0", "is swept 0.1.0, and in CMake swept 0.2.0"),
     (vcpkg, "CMakeLists.txt", "if(TARGET swept_robot_model AND OPENSSL_FOUND)", "if(OPENSSL_FOUND)",
      "proofs is built on ['robot_model'], in CMake on ['core']"),
@@ -93,7 +98,9 @@ def copy_tree(root, to):
     ignored = shutil.ignore_patterns("*.cpp", "*.hpp", "*.js", "*.png", "__pycache__")
     for folder in (".ci", ".github", "core", "robot_model", "ompl_bridge", "planners_demo", "tests/packaging", "tests/fuzz"):
         shutil.copytree(root / folder, to / folder, ignore=ignored)
-    for file in ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "tests/run.sh"):
+    for file in ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "tests/run.sh",
+                 "models/robots/rook7/rook7.urdf", "models/scenes/narrow_slot.yaml"):
+        (to / file).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(root / file, to / file)
 
 

@@ -31,6 +31,20 @@ class ConanFile:
     def requires(self, reference, **traits):
         self.required[reference] = traits
 
+    def run(self, command, env):
+        self.commands.append((command, env))
+
+
+class CMake:
+    def __init__(self, recipe):
+        self.recipe = recipe
+
+    def configure(self, build_script_folder):
+        self.recipe.project = build_script_folder
+
+    def build(self):
+        pass
+
 
 class Toolchain:
     def __init__(self, recipe):
@@ -66,8 +80,8 @@ def load_recipe(path):
     _module("conan", ConanFile=ConanFile)
     _module("conan.errors", ConanInvalidConfiguration=ConanInvalidConfiguration)
     _module("conan.tools", __path__=[])
-    _module("conan.tools.build", check_min_cppstd=minimum, can_run=_unused)
-    _module("conan.tools.cmake", CMake=_unused, CMakeDeps=Deps, CMakeToolchain=Toolchain, cmake_layout=_unused)
+    _module("conan.tools.build", check_min_cppstd=minimum, can_run=lambda _: True)
+    _module("conan.tools.cmake", CMake=CMake, CMakeDeps=Deps, CMakeToolchain=Toolchain, cmake_layout=_unused)
     _module("conan.tools.files", rmdir=_unused, load=lambda _, path: Path(path).read_text(encoding="utf-8"),
             copy=lambda recipe, pattern, src, dst: recipe.copied.append((pattern, src, dst)))
     spec = util.spec_from_file_location("swept_recipe", path)
@@ -94,4 +108,23 @@ def answers_of(recipe_class, path, options, **settings):
         recipe.refused = str(reason)
     recipe.generate()
     recipe.package_info()
+    return recipe
+
+
+def test_of(test_class, path, options):
+    """The recipe that tests the package with these options; `refused` as above."""
+    recipe = test_class()
+    recipe.recipe_folder = str(Path(path).parent)
+    recipe.dependencies = {"swept": SimpleNamespace(options=Options(**options))}
+    recipe.tested_reference_str = "swept/tested"
+    recipe.cpp = SimpleNamespace(build=SimpleNamespace(bindir="programs"))
+    recipe.required, recipe.commands, recipe.refused = {}, [], None
+    recipe.requirements()
+    try:
+        recipe.validate()
+    except ConanInvalidConfiguration as reason:
+        recipe.refused = str(reason)
+        return recipe
+    recipe.build()
+    recipe.test()
     return recipe
