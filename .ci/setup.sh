@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Sourced by the scripts that build. Needs: root, the top folder of the tree.
 
-# Packages of a list that are not installed: missing_packages FILE.
+# Packages of a list, one a line: packages_of FILE.
+packages_of() { sed -e 's/[[:space:]]*#.*//' -e '/^[[:space:]]*$/d' "$1"; }
+
+# Packages of a list that are not installed, but for those that .ci/not-on-SYSTEM.txt names, where there is such a file:
+# missing_packages FILE [SYSTEM], which is this system's ID without one.
 missing_packages() {
-  local package
+  local package system absent=""
+  system="${2:-$(. /etc/os-release && echo "${ID:-}")}"
+  if [[ -f "$root/.ci/not-on-$system.txt" ]]; then absent="$(packages_of "$root/.ci/not-on-$system.txt")"; fi
   while read -r package; do
+    if grep -qxF "$package" <<<"$absent"; then continue; fi
     if [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]]; then
       echo "$package"
     fi
-  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$1")
+  done < <(packages_of "$1")
 }
 
 # Installs what is missing of a list, of .ci/apt-packages.txt without one, as root or with sudo; asks

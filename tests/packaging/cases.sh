@@ -284,6 +284,28 @@ case_arm_options() {
   refuses "error: no $temporary/tests/answers/swept_answers_record; build the targets" "$same" "$temporary" "$temporary" "$temporary/said_of"
 }
 
+# What .ci/nightly refuses before it installs anything, and what it would install where.
+case_ci_options() {
+  local all='error: usage: .ci/nightly WHAT, where WHAT is one of: asan clang fuzz tsan'
+  refuses "$all" "$root/.ci/nightly"
+  refuses "$all" "$root/.ci/nightly" msan
+  refuses "$all" "$root/.ci/nightly" asan tsan
+  mkdir -p "$temporary/tree/.ci"
+  printf 'swept-none # a comment\n\n# swept-said\nswept-less\nbash\n' >"$temporary/tree/.ci/list.txt"
+  printf '# why\nswept-less # here\n' >"$temporary/tree/.ci/not-on-less.txt"
+  missing_on less 'swept-none'
+  missing_on more 'swept-none swept-less'
+}
+
+# The packages that would be installed on a system: missing_on SYSTEM PACKAGES.
+missing_on() {
+  local said
+  if ! command -v dpkg-query >/dev/null; then return; fi
+  said="$(root="$temporary/tree" bash -euc 'source "$1"; missing_packages "$root/.ci/list.txt" "$2"' - \
+    "$root/.ci/setup.sh" "$1" | xargs)"
+  [[ "$said" == "$2" ]] || fail "on $1 '$said' would be installed, not '$2'"
+}
+
 # swept's sources in another build, by FetchContent: that is configured, and the program compiled. Compiling the core once
 # more takes minutes, so the finished one is put into the command that links the program.
 case_tree() {

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Stands in for vcpkg: runs a port and prints what it asks for, a line each, without building anything:
+#   cmake -D PORT=FOLDER -D FEATURES=LIST -D CURRENT_PACKAGES_DIR=FOLDER -P fake_vcpkg.cmake
+cmake_minimum_required(VERSION 3.22)
+set(CURRENT_PORT_DIR ${PORT})
+
+function(say)
+  list(JOIN ARGN " " words)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E echo ${words})
+endfunction()
+
+function(vcpkg_check_features)
+  cmake_parse_arguments(ASKED "" "OUT_FEATURE_OPTIONS" "FEATURES;INVERTED_FEATURES" ${ARGN})
+  set(options)
+  foreach(kind FEATURES INVERTED_FEATURES)
+    while(ASKED_${kind})
+      list(POP_FRONT ASKED_${kind} feature option)
+      say(feature ${feature})
+      set(value OFF)
+      if(feature IN_LIST FEATURES)
+        set(value ON)
+      endif()
+      if(kind STREQUAL "INVERTED_FEATURES" AND value)
+        set(value OFF)
+      elseif(kind STREQUAL "INVERTED_FEATURES")
+        set(value ON)
+      endif()
+      list(APPEND options -D${option}=${value})
+    endwhile()
+  endforeach()
+  set(${ASKED_OUT_FEATURE_OPTIONS} ${options} PARENT_SCOPE)
+endfunction()
+
+function(vcpkg_cmake_configure)
+  cmake_parse_arguments(ASKED "" "SOURCE_PATH" "OPTIONS;MAYBE_UNUSED_VARIABLES" ${ARGN})
+  say(source ${ASKED_SOURCE_PATH})
+  foreach(option IN LISTS ASKED_OPTIONS)
+    say(option ${option})
+  endforeach()
+  foreach(variable IN LISTS ASKED_MAYBE_UNUSED_VARIABLES)
+    say(unused ${variable})
+  endforeach()
+endfunction()
+
+function(vcpkg_cmake_config_fixup)
+  cmake_parse_arguments(ASKED "" "PACKAGE_NAME;CONFIG_PATH" "" ${ARGN})
+  say(config ${ASKED_PACKAGE_NAME} ${ASKED_CONFIG_PATH})
+endfunction()
+
+function(vcpkg_cmake_install)
+  say(install)
+endfunction()
+
+function(vcpkg_fixup_pkgconfig)
+endfunction()
+
+function(vcpkg_copy_tools)
+  cmake_parse_arguments(ASKED "AUTO_CLEAN" "" "TOOL_NAMES" ${ARGN})
+  say(tools ${ASKED_TOOL_NAMES})
+endfunction()
+
+function(vcpkg_install_copyright)
+  cmake_parse_arguments(ASKED "" "" "FILE_LIST" ${ARGN})
+  say(licence ${ASKED_FILE_LIST})
+endfunction()
+
+include(${PORT}/portfile.cmake)
