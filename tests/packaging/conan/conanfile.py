@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Recipe of swept for Conan 2, of the tree that this file is in: conan create tests/packaging/conan.
 
-The component pages is left out, and so is the Python package: three.js, which pages contain, is no package of Conan.
+The component pages is left out, and so is the Python package: pages contain three.js, which is no library of C++.
 """
 from pathlib import Path
 

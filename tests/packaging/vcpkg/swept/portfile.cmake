@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Port of swept for vcpkg, of the tree that this file is in:
 #   vcpkg install swept --overlay-ports=tests/packaging/vcpkg
-# The component pages is left out, and so is the Python package: three.js, which pages contain, is no port.
+# The component pages is left out, and so is the Python package: pages contain three.js, which is no library of C++.
 get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../../../.." ABSOLUTE)
 
 vcpkg_check_features(OUT_FEATURE_OPTIONS features
