@@ -124,7 +124,7 @@ void addGraph(pybind11::class_<Handle>& type) {
            "constraints differ, all are, and\nthose are left out that are no longer free in a "
            "world without bodies. Arguments as Checker.check_states. Raises ArgumentError for\n"
            "another robot or group and for moving obstacles, and Cancelled: then nothing has "
-           "changed.")
+           "changed, unless all was done by then, as `checker` tells.")
       .def(
           "save",
           [](const Handle& self, const std::filesystem::path& file) {
