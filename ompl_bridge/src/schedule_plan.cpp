@@ -112,7 +112,9 @@ class WaySearch {
         knots.size() == 1 ? resting(knots.front().q)
                           : detail::blended(knots, 0.0, own_.space.bounds);
     if (!curve) return {};
-    return {.status = Status::Found, .trajectory = controllerTrajectory(*curve, own_.names)};
+    std::optional<JointTrajectory> trajectory = controllerTrajectory(*curve, own_.names);
+    if (!trajectory) return {};
+    return {.status = Status::Found, .trajectory = std::move(trajectory)};
   }
 
   const ScheduleChecker& checker_;

@@ -131,6 +131,16 @@ TEST(ScheduleChecker, DelaysAreProvenUpToTheTruth) {
   }
 }
 
+TEST(ScheduleChecker, AClockOfYearsLeavesRangesThatAreTooWide) {
+  // Rounding alone is then wider than what ranges are divided to.
+  const std::vector<ScheduledCurve> others{
+      {.variables = {"north"}, .curve = pass(), .start = 1e12}};
+  const ScheduleChecker beside(checkerOf(crossing()), {"east"}, others, kAway, {}, 0.5);
+  Workspace workspace(beside.checker());
+  EXPECT_NE(beside.certify(pass(1e12), workspace).verdict, Verdict::Free);
+  EXPECT_NE(beside.certify(pass(1e12 + 50.0), workspace).verdict, Verdict::Collision);
+}
+
 TEST(ScheduleChecker, CurvesThatItsTubeHasNoRoomForAreUndecided) {
   const ScheduleChecker beside(checkerOf(crossing()), {"east"}, {}, kAway);
   Workspace workspace(beside.checker());

@@ -65,6 +65,8 @@ constexpr double kLongest = 600.0;     // s, beyond the end of all others
 /// divided.
 constexpr double kWidest = 0.2;
 constexpr double kNarrowest = 0.02;
+/// Of the whole delay: no shorter range is asked about, however wide its tube is.
+constexpr double kLeastShare = 1.0 / 1024.0;
 
 }  // namespace
 
@@ -97,8 +99,9 @@ struct ScheduleChecker::Data {
     for (double half = delay;; half *= 0.5) {
       const std::vector<double> off = offBy(half);
       const double widest = std::ranges::max(off);
-      if (widest <= kWidest) tubes.push_back({half, detail::inTube(pairs, off)});
-      if (widest <= kNarrowest) break;
+      const bool isLast = widest <= kNarrowest || half <= kLeastShare * delay;
+      if (isLast || widest <= kWidest) tubes.push_back({half, detail::inTube(pairs, off)});
+      if (isLast) break;
     }
   }
   Data(const Data&) = delete;
