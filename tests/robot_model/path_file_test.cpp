@@ -256,7 +256,8 @@ INSTANTIATE_TEST_SUITE_P(
                "p.json: error: the path has the unknown key 'points'; allowed are robot, group, "
                "planner, tool, deviation, deviation_angle, seed, margin, margin_self, "
                "margin_world, tolerance, clouds, joint_names, constraints, "
-               "states, trajectory, segments, nothing_checked, links_without_geometry, warnings, "
+               "lines, states, trajectory, segments, nothing_checked, links_without_geometry, "
+               "warnings, "
                "inputs, model and proof"}));
 
 INSTANTIATE_TEST_SUITE_P(
