@@ -257,8 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
                "planner, tool, deviation, deviation_angle, seed, margin, margin_self, "
                "margin_world, tolerance, clouds, joint_names, constraints, "
                "lines, states, trajectory, segments, nothing_checked, links_without_geometry, "
-               "warnings, "
-               "inputs, model and proof"}));
+               "warnings, inputs, model and proof"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Yaml, BrokenPath,
