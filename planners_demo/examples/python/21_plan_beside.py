@@ -36,7 +36,7 @@ if not plan:
 trajectory = plan.trajectories[0]
 for time, q in zip(trajectory.times, trajectory.positions):
     print(f"  {time:.3f} s: {np.round(q, 3)}")
-print(f"both together: {plan.certificate.verdict}")
+print(f"both together: {plan.certificate}")
 for name, delay in zip(("left", "right"), plan.delays):
     print(f"the {name} one may be late by {delay.proven} s")
 
