@@ -100,6 +100,18 @@ TEST(ScheduleChecker, IgnoredVariablesAreLeftOut) {
   EXPECT_EQ(verdict({"north", "up"}), Verdict::Free);
 }
 
+TEST(ScheduleChecker, NamesLikePatternsLeaveOutNoOtherPair) {
+  // To a rule, `east*` is also the cube that is planned.
+  const Checker checker = checkerOf(crossing())
+                              .withBody("east*", makeBox({0.1, 0.1, 0.1}),
+                                        Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -5.0)));
+  const ScheduleChecker beside(checker, {"east"}, {{.variables = {"north"}, .curve = pass()}},
+                               kAway);
+  Workspace workspace(beside.checker());
+  EXPECT_EQ(beside.certify(pass(0.2), workspace).verdict, Verdict::Collision);
+  EXPECT_EQ(beside.certify(pass(0.5), workspace).verdict, Verdict::Free);
+}
+
 TEST(ScheduleChecker, ObstaclesAreOnTheSameClock) {
   const auto at = [](double y) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 0.0)); };
   const Checker checker =

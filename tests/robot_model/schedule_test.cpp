@@ -117,6 +117,18 @@ TEST(Schedule, SlowdownsAreProvenWithDelays) {
   EXPECT_LE(*both.proven, 0.2);
 }
 
+TEST(Schedule, NamesLikePatternsLeaveOutNoOtherPair) {
+  // To a rule, `north*` is also the cube that the late one meets.
+  const Checker checker =
+      checkerOf(crossing())
+          .withAttached("north*", "base", makeBox({0.1, 0.1, 0.1}),
+                        Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -5.0)));
+  const DelayCertificate late = certifyDelays(checker, passes(1.0), {.curve = 0, .latest = 2.0});
+  EXPECT_EQ(late.verdict, Verdict::Collision);
+  ASSERT_TRUE(late.proven);
+  EXPECT_NEAR(*late.proven, 0.6, 4e-3);
+}
+
 TEST(Schedule, ObstaclesMoveOnWhileACurveIsLate) {
   // Both have come to rest at 3 s, and the one at (0, 1, 0) is hit after 3.81 s, unless all has
   // ended.

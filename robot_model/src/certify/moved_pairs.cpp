@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "rules/name_pattern.hpp"
 
 namespace swept::detail {
 
@@ -86,6 +89,11 @@ class MovedBodies {
   std::vector<Body> bodies_;
 };
 
+/// A pair with a name like a pattern stays: a rule would leave out others that fit it.
+void allow(CollisionRules& rules, const std::string& a, const std::string& b, const char* reason) {
+  if (!isPattern(a) && !isPattern(b)) rules.allow(a, b, reason);
+}
+
 }  // namespace
 
 Checker delayedPairs(const Checker& checker, std::span<const std::string> delayed,
@@ -97,8 +105,8 @@ Checker delayedPairs(const Checker& checker, std::span<const std::string> delaye
     worldMatters = worldMatters || bodies.toWorld(a).both();
     for (std::size_t b = a + 1; b < bodies.size(); ++b)
       if (!bodies.between(a, b).both())
-        rules.allow(bodies.name(a), bodies.name(b),
-                    "a delay does not move them against each other");
+        allow(rules, bodies.name(a), bodies.name(b),
+              "a delay does not move them against each other");
   }
   Checker left = checker;
   if (!worldMatters)
@@ -113,12 +121,12 @@ Checker pairsMovedBy(const Checker& checker, std::span<const std::string> own,
   CollisionRules rules;
   for (std::size_t a = 0; a < bodies.size(); ++a) {
     for (std::size_t b = a + 1; b < bodies.size(); ++b)
-      if (!bodies.between(a, b).firstAlone()) rules.allow(bodies.name(a), bodies.name(b), kReason);
+      if (!bodies.between(a, b).firstAlone()) allow(rules, bodies.name(a), bodies.name(b), kReason);
     if (bodies.toWorld(a).firstAlone()) continue;
     for (const WorldBody& body : checker.world().bodies())
-      rules.allow(bodies.name(a), body.name, kReason);
+      allow(rules, bodies.name(a), body.name, kReason);
     for (const MovingObstacle& obstacle : checker.world().obstacles())
-      rules.allow(bodies.name(a), obstacle.name, kReason);
+      allow(rules, bodies.name(a), obstacle.name, kReason);
   }
   return checker.withRules(rules.over(checker.options().rules));
 }
