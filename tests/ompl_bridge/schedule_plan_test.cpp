@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "crossing_robot.hpp"
 #include "message_of.hpp"
 #include "models_dir.hpp"
 #include "swept/robot_model/named_states.hpp"
@@ -50,10 +51,7 @@ std::string group(const std::string& name, const std::vector<std::string>& joint
 
 /// Cubes of 0.2 m: `east` slides along x, `north` along y, through one another at the origin.
 std::shared_ptr<const Robot> crossing() {
-  return Robot::parse("<robot name='crossing'><link name='base'/>" + cube("e") + cube("n") +
-                          slide("east", "base", "e", "1 0 0") +
-                          slide("north", "base", "n", "0 1 0") + "</robot>",
-                      "crossing.urdf",
+  return Robot::parse(test::crossingUrdf({{"east", "1 0 0"}, {"north", "0 1 0"}}), "crossing.urdf",
                       "<robot name='crossing'>" + group("east", {"east"}) +
                           group("north", {"north"}) + group("both", {"east", "north"}) + "</robot>",
                       "crossing.srdf");

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "crossing_robot.hpp"
 #include "message_of.hpp"
 #include "models_dir.hpp"
 #include "swept/robot_model/joint_trajectory.hpp"
@@ -25,16 +26,7 @@ using test::messageOf;
 /// Cubes of 0.2 m that slide: `east` along x, `north` along y, `up` along z, all through the
 /// origin.
 std::shared_ptr<const Robot> crossing() {
-  const auto slide = [](const std::string& name, const std::string& axis) {
-    return "<link name='" + name +
-           "_cube'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>"
-           "<joint name='" +
-           name + "' type='prismatic'><parent link='base'/><child link='" + name +
-           "_cube'/><axis xyz='" + axis +
-           "'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>";
-  };
-  return Robot::parse("<robot name='crossing'><link name='base'/>" + slide("east", "1 0 0") +
-                          slide("north", "0 1 0") + slide("up", "0 0 1") + "</robot>",
+  return Robot::parse(test::crossingUrdf({{"east", "1 0 0"}, {"north", "0 1 0"}, {"up", "0 0 1"}}),
                       "crossing.urdf");
 }
 

@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "crossing_robot.hpp"
 #include "message_of.hpp"
 #include "models_dir.hpp"
 #include "swept/robot_model/work_cell.hpp"
@@ -29,17 +30,7 @@ using test::messageOf;
 
 /// Cubes of 0.2 m: `east` slides along x, `north` along y, through one another at the origin.
 std::shared_ptr<const Robot> crossing() {
-  const auto slide = [](const std::string& name, const std::string& axis) {
-    return "<link name='" + name +
-           "_cube'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>"
-           "<joint name='" +
-           name + "' type='prismatic'><parent link='base'/><child link='" + name +
-           "_cube'/><axis xyz='" + axis +
-           "'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>";
-  };
-  return Robot::parse("<robot name='crossing'><link name='base'/>" + slide("east", "1 0 0") +
-                          slide("north", "0 1 0") + "</robot>",
-                      "crossing.urdf");
+  return Robot::parse(test::crossingUrdf({{"east", "1 0 0"}, {"north", "0 1 0"}}), "crossing.urdf");
 }
 
 /// From -1 m to 1 m at 1 m/s. The cube is within 0.2 m of the origin from 0.8 s to 1.2 s.
