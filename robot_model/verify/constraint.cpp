@@ -305,11 +305,10 @@ class Interval {
   double middle_, half_;
 };
 
-class Search {
+class Halving {
  public:
-  Search(const Model& model, const Motion& motion, const Constraint& constraint,
-         const std::string& place)
-      : model_(model), motion_(motion), constraint_(constraint), place_(place) {}
+  Halving(const std::function<bool(double, double)>& holds, const std::string& place)
+      : holds_(holds), place_(place) {}
 
   std::size_t run() {
     show(0.0, 1.0, 0);
@@ -317,18 +316,13 @@ class Search {
   }
 
  private:
-  bool holds(double middle, double half) const {
-    const Interval interval(model_, motion_, middle, half);
-    return std::visit([&](const auto& own) { return interval.holds(own); }, constraint_.what);
-  }
-
   void show(double begin, double end, int halvings) {
     const double middle = 0.5 * (begin + end);
-    if (holds(middle, 0.5 * (end - begin))) {
+    if (holds_(middle, 0.5 * (end - begin))) {
       ++intervals_;
       return;
     }
-    if (!holds(middle, 0.0))
+    if (!holds_(middle, 0.0))
       throw Refusal(place_ + ": not shown at " + numberText(middle, 6) + " of the segment");
     if (halvings == kMostHalvings || intervals_ == kMostIntervals)
       throw Refusal(place_ + ": not shown around " + numberText(middle, 6) + " of the segment");
@@ -336,18 +330,25 @@ class Search {
     show(middle, end, halvings + 1);
   }
 
-  const Model& model_;
-  const Motion& motion_;
-  const Constraint& constraint_;
+  const std::function<bool(double, double)>& holds_;
   const std::string& place_;
   std::size_t intervals_ = 0;
 };
 
 }  // namespace
 
+std::size_t showByHalving(const std::function<bool(double, double)>& holds,
+                          const std::string& place) {
+  return Halving(holds, place).run();
+}
+
 std::size_t checkConstraint(const Model& model, const Motion& motion, const Constraint& constraint,
                             const std::string& place) {
-  return Search(model, motion, constraint, place).run();
+  const auto holds = [&](double middle, double half) {
+    const Interval interval(model, motion, middle, half);
+    return std::visit([&](const auto& own) { return interval.holds(own); }, constraint.what);
+  };
+  return showByHalving(holds, place);
 }
 
 }  // namespace swept::verify

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -86,10 +87,15 @@ std::string listText(const Eigen::Vector3d& numbers);
 std::string nameOf(const Frame& frame, const Model& model);
 ///@}
 
+/// Shows something at all times of a segment, from 0 to 1, and counts the intervals that it took.
+/// `holds`: whether it is shown from middle - half to middle + half. The file has no planes for it:
+/// intervals are halved until each is shown. Throws Refusal, which starts with `place`, where it
+/// does not hold in the middle of an interval, or is not shown with a million of them.
+std::size_t showByHalving(const std::function<bool(double middle, double half)>& holds,
+                          const std::string& place);
+
 /// Shows that a constraint holds at all times of a motion and wherever tolerances let the joints
-/// be, and counts the intervals that it took. The file has no planes for it: intervals are halved
-/// until each is shown. Throws Refusal, which starts with `place`, where it does not hold in the
-/// middle of an interval, or is not shown with a million of them.
+/// be, as showByHalving() does.
 std::size_t checkConstraint(const Model& model, const Motion& motion, const Constraint& constraint,
                             const std::string& place);
 

@@ -25,8 +25,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kHalfTurn = std::numbers::pi;
-constexpr int kMostLineHalvings = 40;
-constexpr std::size_t kMostLineIntervals = 1'000'000;
 
 double distanceFrom(const Vector3d& begin, const Vector3d& way, const Vector3d& point) {
   const double squared = way.squaredNorm();
@@ -45,23 +43,17 @@ double lineRounding(const Bounds& of, double turn, double spin, double size) {
 
 class ChordCheck {
  public:
-  ChordCheck(const Motion& motion, const Line& line, std::size_t segment, const std::string& place)
+  ChordCheck(const Motion& motion, const Line& line, std::size_t segment)
       : motion_(motion),
         line_(line),
-        place_(place),
         from_(line.shares[segment - line.first]),
         to_(line.shares[segment - line.first + 1]) {}
 
-  std::size_t run() {
-    show(0.0, 1.0, 0);
-    return intervals_;
-  }
-
- private:
   bool holds(double middle, double half) const {
     return keepsPlace(middle, half) && (line_.angle >= kHalfTurn || keepsTurn(middle, half));
   }
 
+ private:
   bool keepsPlace(double middle, double half) const {
     const Vector3d& local = line_.tool.link_from_frame.translation();
     const Placed at = motion_.at(line_.tool.link, -1, middle, half);
@@ -116,25 +108,9 @@ class ChordCheck {
     return Eigen::AngleAxisd(share * angle, line_.turn / angle).toRotationMatrix();
   }
 
-  void show(double begin, double end, int halvings) {
-    const double middle = 0.5 * (begin + end);
-    if (holds(middle, 0.5 * (end - begin))) {
-      ++intervals_;
-      return;
-    }
-    if (!holds(middle, 0.0))
-      throw Refusal(place_ + ": not shown at " + numberText(middle, 6) + " of the segment");
-    if (halvings == kMostLineHalvings || intervals_ == kMostLineIntervals)
-      throw Refusal(place_ + ": not shown around " + numberText(middle, 6) + " of the segment");
-    show(begin, middle, halvings + 1);
-    show(middle, end, halvings + 1);
-  }
-
   const Motion& motion_;
   const Line& line_;
-  const std::string& place_;
   double from_, to_;
-  std::size_t intervals_ = 0;
 };
 
 }  // namespace
@@ -147,7 +123,9 @@ Model withoutTolerances(const Model& model) {
 
 std::size_t checkLine(const Motion& motion, const Line& line, std::size_t segment,
                       const std::string& place) {
-  return ChordCheck(motion, line, segment, place).run();
+  const ChordCheck chord(motion, line, segment);
+  return showByHalving([&](double middle, double half) { return chord.holds(middle, half); },
+                       place);
 }
 
 }  // namespace swept::verify
