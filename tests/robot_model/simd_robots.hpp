@@ -146,6 +146,7 @@ class StraightSimdMotion {
 
   bool compile() {
     if (!motion_.compile()) return false;
+    motion_.bound();
     motion_.boundLinks();
     return true;
   }

@@ -19,11 +19,12 @@ bool PairOracle::keep(std::optional<Witness> witness) {
 }
 
 bool PairOracle::isContact(const SimdContact& contact, double t) {
-  if (model_.pair(contact.pair).self) {
+  const GeometryPair pair = model_.pair(contact.pair);
+  if (pair.self) {
     if (!start()) return false;
     query_.moveTo(t, 0.0);
   }
-  return keep(simdWitness(model_, query_, contact, t));
+  return keep(simdWitness(model_, query_, pair, contact, t));
 }
 
 bool PairOracle::isInside(std::uint32_t pair, std::int32_t point, double t) {

@@ -67,8 +67,7 @@ std::optional<ContactPoints> pointsOfLinks(const CheckerModel& model, PairQuery&
 }  // namespace
 
 std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery& query,
-                                           const SimdContact& contact) {
-  const GeometryPair& pair = model.pair(contact.pair);
+                                           const GeometryPair& pair, const SimdContact& contact) {
   const Vector3d point(contact.point[0], contact.point[1], contact.point[2]);
   if (pair.self) return pointsOfLinks(model, query, pair, point);
   // The link holds everything within `inside` of the point, whatever rounding there was.
@@ -106,10 +105,9 @@ std::optional<Witness> pointWitness(const CheckerModel& model, std::uint32_t ind
 }
 
 std::optional<Witness> simdWitness(const CheckerModel& model, PairQuery& query,
-                                   const SimdContact& contact, double t) {
-  const std::optional<ContactPoints> points = contactPoints(model, query, contact);
+                                   const GeometryPair& pair, const SimdContact& contact, double t) {
+  const std::optional<ContactPoints> points = contactPoints(model, query, pair, contact);
   if (!points) return std::nullopt;
-  const GeometryPair& pair = model.pair(contact.pair);
   Witness witness;
   witness.t = t;
   witness.bodyA = model.nameOfA(pair);

@@ -17,13 +17,13 @@ struct ContactPoints {
 
 /// The points of a contact that the SIMD tier found, confirmed on exact geometry in double
 /// precision: of two links, both are examined at the query's t; of a link and an obstacle, the
-/// obstacle. Empty if it is not confirmed.
+/// obstacle. `pair`: the contact's. Empty if it is not confirmed.
 std::optional<ContactPoints> contactPoints(const CheckerModel& model, PairQuery& query,
-                                           const SimdContact& contact);
+                                           const GeometryPair& pair, const SimdContact& contact);
 
 /// The same, as a witness.
 std::optional<Witness> simdWitness(const CheckerModel& model, PairQuery& query,
-                                   const SimdContact& contact, double t);
+                                   const GeometryPair& pair, const SimdContact& contact, double t);
 
 /// A witness for a point (m, model frame) of the pair's link that is in the world geometry or
 /// within the margin of it. Empty if it is not.

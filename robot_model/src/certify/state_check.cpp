@@ -55,8 +55,9 @@ Verdict checkAllPairs(const CheckerModel& model, std::span<const double> q,
 bool isContact(const CheckerModel& model, std::span<const double> q, const SimdContact& contact,
                WorkspaceData& workspace) {
   PairQuery query(model, workspace);
-  if (model.pair(contact.pair).self && !query.startAt(q)) return false;
-  return contactPoints(model, query, contact).has_value();
+  const GeometryPair pair = model.pair(contact.pair);
+  if (pair.self && !query.startAt(q)) return false;
+  return contactPoints(model, query, pair, contact).has_value();
 }
 
 /// The verdict on the state in one lane: by the SIMD tier, and by exact geometry for what it left

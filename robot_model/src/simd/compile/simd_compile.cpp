@@ -87,8 +87,20 @@ class SimdCompiler {
       }
       simd_.sources.push_back({pair.a, -1, pair.b, at});
     }
-    for (std::size_t body = simd_.bodies.size(); body-- > 1;)
-      if (meetsWorld[body]) simd_.worldBodies.push_back(static_cast<int>(body));
+    addWorldBodies(meetsWorld);
+  }
+
+  void addWorldBodies(const std::vector<char>& meetsWorld) {
+    std::vector<char> carries(simd_.bodies.size(), 0);
+    for (std::size_t body = simd_.bodies.size(); body-- > 1;) {
+      if (!meetsWorld[body]) continue;
+      simd_.worldBodies.push_back(static_cast<int>(body));
+      for (int at = simd_.bodies[body].parent; at > 0; at = simd_.bodies[at].parent)
+        carries[at] = 1;
+    }
+    const auto others = std::ranges::stable_partition(
+        simd_.worldBodies, [&carries](int body) { return carries[body] == 0; });
+    simd_.worldTips = simd_.worldBodies.size() - others.size();
   }
 
   int referenceOf(int body) {

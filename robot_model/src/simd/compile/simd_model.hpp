@@ -188,7 +188,10 @@ struct SimdModel {
   SharedArray<InnerBalls> meetingRowsOf;  ///< `first` is the row of balls around the others
   std::shared_ptr<const SimdHulls> hulls;
   SharedArray<int> geometryBody;
-  std::vector<int> worldBodies;           ///< those with pairs against the world, deepest first
+  /// Those with pairs against the world: first `worldTips` that carry none of the others; of both
+  /// kinds the deepest first.
+  std::vector<int> worldBodies;
+  std::size_t worldTips = 0;
   SharedArray<SimdReference> references;  ///< [0]: the model frame
   SharedArray<SimdCarried> carried;       ///< per body, of its joint; empty but for many bodies
   std::vector<SimdBodyPair> bodyPairs;

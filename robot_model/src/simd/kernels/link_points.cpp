@@ -28,7 +28,7 @@ PointsInside Points(const SimdModel& model, const LikelyContact& likelyContact,
   const SimdBodyState& state = scratch.block.states[model.geometryBody[source.geometry]];
   for (std::int32_t i = hull.first; kLanes * (i - hull.first) < hull.count; ++i) {
     const V3 x = placedAt(state, likelyContact.lane, model.hulls->points[i]);
-    const F8 away = squaredDistance(model.obstacles, obstacle, {x, set3({0.0F, 0.0F, 0.0F})});
+    const F8 away = squaredDistance(model.obstacles, obstacle, x);
     const Lanes found = below(away, set(1e-30F));
     if (found == 0) continue;
     for (Lanes left = found; left != 0; left &= left - 1)

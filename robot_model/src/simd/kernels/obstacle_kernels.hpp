@@ -39,6 +39,16 @@ HWY_INLINE F8 squaredDistance(const SimdBox& box, const Segment& segment) {
   return sum;
 }
 
+HWY_INLINE F8 squaredDistance(const SimdBox& box, const V3& point) {
+  F8 sum = set(0.0F);
+  for (int i = 0; i < 3; ++i) {
+    const F8 at = absolute(dot(set3(box.axes[i]), point) + set(box.offset[i]));
+    const F8 gap = positive(at - set(box.half[i]));
+    sum = multiplyAdd(gap, gap, sum);
+  }
+  return sum;
+}
+
 HWY_INLINE F8 ballSquared(const SimdRound& ball, const Segment& segment) {
   const F8 squared = nearestSquared(segment.x - set3(ball.center), segment.g);
   return square(positive(root(squared) - set(ball.radius)));
@@ -286,6 +296,14 @@ HWY_INLINE F8 squaredDistance(const SimdObstacles& world, const SimdObstacle& ob
       break;
   }
   return set(0.0F);
+}
+
+/// The same for a point.
+HWY_INLINE F8 squaredDistance(const SimdObstacles& world, const SimdObstacle& obstacle,
+                              const V3& point) {
+  if (obstacle.kind == ObstacleKind::Box)
+    return squaredDistance(world.boxes[obstacle.first], point);
+  return squaredDistance(world, obstacle, Segment{point, set3({0.0F, 0.0F, 0.0F})});
 }
 
 }  // namespace swept::detail::HWY_NAMESPACE

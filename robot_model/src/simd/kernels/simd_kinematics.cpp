@@ -80,25 +80,26 @@ HWY_INLINE void turnAfter(const float (&after)[9], SimdBodyState& state) {
   }
 }
 
-/// The joint's axis in the model frame; its own rotation does not change it.
-HWY_INLINE V3 placeFrame(const SimdBody& body, const SimdJointMotion& motion, const Row& angle,
-                         const Row* slide, const SimdBodyState& parent, SimdBodyState& state) {
+/// The joint's axis is the frame's z axis, except for a floating joint: its axis is left in
+/// `angular`.
+HWY_INLINE void placeFrame(const SimdBody& body, const SimdJointMotion& motion, const Row& angle,
+                           const Row* slide, const SimdBodyState& parent, SimdBodyState& state) {
   V3 offset = set3(body.translation);
   if (slides(body.kind)) offset = offset + V3{load(slide[0]), load(slide[1]), load(slide[2])};
   store3(addRotated(load3(parent.origin), parent.rotation, offset), state.origin);
   F8 sine = set(0.0F);
   F8 cosine = set(1.0F);
   if (turns(body.kind)) sineCosine(load(angle), sine, cosine);
-  const M3 turned = setMatrix(floats(body.kind) ? motion.rotation : body.rotation);
-  F8 axis[3];
+  const bool floating = floats(body.kind);
+  const M3 turned = setMatrix(floating ? motion.rotation : body.rotation);
   for (std::size_t i = 0; i < 3; ++i) {
     const V3 row = rowTimes(parent.rotation + 3 * i, turned);
     store(multiplyAdd(cosine, row.x, sine * row.y), state.rotation[3 * i]);
     store(subtractProduct(cosine * row.y, sine, row.x), state.rotation[3 * i + 1]);
     store(row.z, state.rotation[3 * i + 2]);
-    axis[i] = row.z;
+    if (floating) store(row.z, state.angular[i]);
   }
-  return {axis[0], axis[1], axis[2]};
+  if (floating) turnAfter(motion.after, state);
 }
 
 /// The rates of the joints in the lanes.
@@ -114,12 +115,15 @@ HWY_INLINE Rates ratesOf(const SimdJointMotion& motion, const SimdBlock& block, 
   return {load(block.angleRate[body]), {load(slide[0]), load(slide[1]), load(slide[2])}};
 }
 
-HWY_INLINE void placeVelocity(const SimdBody& body, const Rates& rates, const V3& axis,
-                              const SimdBodyState& parent, SimdBodyState& state) {
+HWY_INLINE void placeVelocity(const SimdBody& body, const Rates& rates, const SimdBodyState& parent,
+                              SimdBodyState& state) {
   V3 linear = load3(parent.linear);
   V3 angular = load3(parent.angular);
   if (slides(body.kind)) linear = addRotated(linear, parent.rotation, rates.slide);
   if (turns(body.kind)) {
+    const auto& r = state.rotation;
+    const V3 axis =
+        floats(body.kind) ? load3(state.angular) : V3{load(r[2]), load(r[5]), load(r[8])};
     const V3 spin = rates.turn * axis;
     angular = angular + spin;
     linear = addCross(linear, load3(state.origin), spin);  // - spin x origin
@@ -128,19 +132,10 @@ HWY_INLINE void placeVelocity(const SimdBody& body, const Rates& rates, const V3
   store3(linear, state.linear);
 }
 
-HWY_INLINE void placeRoot(const SimdNode& root, bool moving, const F8& half,
-                          const SimdBodyState& state, SimdRoot& ball) {
-  const V3 x = addRotated(load3(state.origin), state.rotation, set3(root.center));
-  store3(x, ball.at);
-  if (moving) store3(half * addCross(load3(state.linear), load3(state.angular), x), ball.by);
-}
-
 template <bool kGiven>
-HWY_INLINE void placeAll(const SimdModel& model, const SimdJointMotion* motion,
-                         std::span<const int> bodies, SimdBlock& block) {
+HWY_INLINE void placeFrames(const SimdModel& model, const SimdJointMotion* motion,
+                            std::span<const int> bodies, SimdBlock& block) {
   const F8 time = load(block.time);
-  const F8 half = load(block.half);
-  const bool moving = block.mode == SimdMode::Motion;
   for (const int b : bodies) {
     const SimdBody& body = model.bodies[b];
     const SimdJointMotion& joint = motion[b];
@@ -151,20 +146,39 @@ HWY_INLINE void placeAll(const SimdModel& model, const SimdJointMotion* motion,
         for (int i = 0; i < 3; ++i)
           store(multiplyAdd(time, set(joint.slideRate[i]), set(joint.slide[i])), slide[i]);
     }
-    const SimdBodyState& parent = block.states[body.parent];
     SimdBodyState& state = block.states[b];
-    const V3 axis = placeFrame(body, joint, block.angle[b], slide, parent, state);
-    if (moving) placeVelocity(body, ratesOf<kGiven>(joint, block, b), axis, parent, state);
-    if (floats(body.kind)) turnAfter(joint.after, state);
-    if (model.rootOfBody[b] >= 0)
-      placeRoot(model.nodes[model.rootOfBody[b]], moving, half, state, block.roots[b]);
+    placeFrame(body, joint, block.angle[b], slide, block.states[body.parent], state);
+    if (model.rootOfBody[b] < 0) continue;
+    const SimdNode& root = model.nodes[model.rootOfBody[b]];
+    store3(addRotated(load3(state.origin), state.rotation, set3(root.center)), block.roots[b].at);
   }
 }
 
-void Place(const SimdModel& model, const SimdJointMotion* motion, std::span<const int> bodies,
-           SimdBlock& block) {
-  block.given ? placeAll<true>(model, motion, bodies, block)
-              : placeAll<false>(model, motion, bodies, block);
+template <bool kGiven>
+HWY_INLINE void placeVelocities(const SimdModel& model, const SimdJointMotion* motion,
+                                std::span<const int> bodies, SimdBlock& block) {
+  const F8 half = load(block.half);
+  for (const int b : bodies) {
+    const SimdBody& body = model.bodies[b];
+    SimdBodyState& state = block.states[b];
+    placeVelocity(body, ratesOf<kGiven>(motion[b], block, b), block.states[body.parent], state);
+    if (model.rootOfBody[b] < 0) continue;
+    SimdRoot& root = block.roots[b];
+    const V3 velocity = addCross(load3(state.linear), load3(state.angular), load3(root.at));
+    store3(half * velocity, root.by);
+  }
+}
+
+void Frames(const SimdModel& model, const SimdJointMotion* motion, std::span<const int> bodies,
+            SimdBlock& block) {
+  block.given ? placeFrames<true>(model, motion, bodies, block)
+              : placeFrames<false>(model, motion, bodies, block);
+}
+
+void Velocities(const SimdModel& model, const SimdJointMotion* motion, std::span<const int> bodies,
+                SimdBlock& block) {
+  block.given ? placeVelocities<true>(model, motion, bodies, block)
+              : placeVelocities<false>(model, motion, bodies, block);
 }
 
 /// Of each body and its parent, where both only turn about axes at a constant angle.
@@ -226,13 +240,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
-SWEPT_DISPATCH_TABLE(Place);
+SWEPT_DISPATCH_TABLE(Frames);
+SWEPT_DISPATCH_TABLE(Velocities);
 SWEPT_DISPATCH_TABLE(Bound);
 SWEPT_DISPATCH_TABLE(BoundLinks);
 
+void placeFrames(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
+                 std::span<const int> bodies, SimdBlock& block) {
+  SWEPT_DISPATCH(Frames)(model, motion.data(), bodies, block);
+}
+
+void placeVelocities(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
+                     std::span<const int> bodies, SimdBlock& block) {
+  SWEPT_DISPATCH(Velocities)(model, motion.data(), bodies, block);
+}
+
 void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
                  std::span<const int> bodies, SimdBlock& block) {
-  SWEPT_DISPATCH(Place)(model, motion.data(), bodies, block);
+  placeFrames(model, motion, bodies, block);
+  if (block.mode == SimdMode::Motion) placeVelocities(model, motion, bodies, block);
 }
 
 void boundMotion(const SimdModel& model, SimdScratch& scratch) {

@@ -9,8 +9,15 @@
 
 namespace swept::detail {
 
-/// Frames and root balls of `bodies` (parents first) in all lanes, with velocities under
-/// SimdMode::Motion. Values and rates that the block does not give are those of `motion`.
+/// Frames and centres of the root balls of `bodies` (parents first) in all lanes. Values that the
+/// block does not give are those of `motion`.
+void placeFrames(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
+                 std::span<const int> bodies, SimdBlock& block);
+/// Velocities of the same, after placeFrames(). Rates that the block does not give are those of
+/// `motion`.
+void placeVelocities(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
+                     std::span<const int> bodies, SimdBlock& block);
+/// Frames, with velocities under SimdMode::Motion.
 void placeBodies(const SimdModel& model, const std::vector<SimdJointMotion>& motion,
                  std::span<const int> bodies, SimdBlock& block);
 

@@ -195,8 +195,16 @@ bool SimdMotion::compile() {
                                      : addStraight(model_, kinematics_, straight->from(),
                                                    straight->to(), scratch_, extent);
   if (!added) return false;
-  boundMotion(model_, scratch_);
+  // Lanes of a curve have bounds of their own.
+  if (scratch_.curved) bound();
   return setRounding(model_, extent, scratch_);
+}
+
+void SimdMotion::bound() {
+  boundMotion(model_, scratch_);
+  acceleration_ = 0.0F;
+  for (const Row& row : scratch_.bounds[0].acceleration)
+    for (const float value : row.lane) acceleration_ = std::max(acceleration_, value);
 }
 
 /// Values and rates of the joints at the middle of each lane, and bounds that hold in all.

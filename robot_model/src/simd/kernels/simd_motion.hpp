@@ -20,10 +20,26 @@ class SimdMotion {
              std::span<JointMotion> joints, SimdScratch& scratch)
       : model_(model), kinematics_(kinematics), path_(path), joints_(joints), scratch_(scratch) {}
 
-  /// The whole motion, with the bounds on its error and on its accelerations relative to the model
-  /// frame. False: the path gives no bounds (see JointPath::linearize), or it turns so far that
-  /// single precision is not enough.
+  /// The whole motion, with the bound on its error. False: the path gives no bounds (see
+  /// JointPath::linearize), or it turns so far that single precision is not enough.
   bool compile();
+
+  /// Frames alone of all bodies, at the sub-intervals of the scratch's block: enough to find a
+  /// contact. What a proof needs besides is added by setMoving().
+  void placeFrames() {
+    if (scratch_.curved) linearizeLanes();
+    detail::placeFrames(model_, scratch_.motion, model_.allBodies, scratch_.block);
+  }
+
+  /// Velocities, and bound().
+  void setMoving() {
+    placeVelocities(model_, scratch_.motion, model_.allBodies, scratch_.block);
+    if (!scratch_.curved) bound();
+  }
+
+  /// The bounds on accelerations relative to the model frame. Of a curve, compile() has made them,
+  /// and each placement renews them.
+  void bound();
 
   /// The bounds relative to links, which a motion that hits the world does without.
   void boundLinks() {
@@ -39,6 +55,9 @@ class SimdMotion {
 
   const SimdModel& model() const { return model_; }
 
+  /// m per unit t squared, bounds that of all ball centres during the motion; after setMoving().
+  float acceleration() const { return acceleration_; }
+
  private:
   void linearizeLanes();
   SimdJointMotion localMotion(std::size_t body) const;
@@ -48,6 +67,7 @@ class SimdMotion {
   const JointPath& path_;
   std::span<JointMotion> joints_;
   SimdScratch& scratch_;
+  float acceleration_ = 0.0F;
 };
 
 /// A single state, without bounds on accelerations. False: a value is not finite, outside its

@@ -23,6 +23,9 @@ namespace {
 /// inside.
 constexpr float kProbeShare = 0.6F;
 
+/// m^2. Square of a distance that is nothing but rounding.
+constexpr float kZeroSquared = 1e-30F;
+
 class WorldWalk {
  public:
   WorldWalk(const SimdModel& model, SimdScratch& scratch)
@@ -35,14 +38,23 @@ class WorldWalk {
         padded_(!model.extras.empty()),
         inTube_(!model.worldTube.empty()) {}
 
+  /// Balls inside the outermost links.
+  bool look() {
+    for (std::size_t i = 0; i < model_.worldTips; ++i)
+      if (lookAt(model_.worldBodies[i])) return true;
+    return false;
+  }
+
   /// The root balls of all links, and balls inside these, before the rest of their covers: most
   /// contacts show there.
   bool bodies() {
     fields_.clear();
     scratch_.hits.clear();
     scratch_.worldVisits.clear();
-    for (const int body : model_.worldBodies)
-      if (first(body)) return true;
+    for (std::size_t i = 0; i < model_.worldBodies.size(); ++i) {
+      probes_ = !moving_ || i >= model_.worldTips;  // look() has done so
+      if (first(model_.worldBodies[i])) return true;
+    }
     for (const SimdScratch::WorldVisit& visit : scratch_.worldVisits) {
       start(visit.body);
       if (descend(model_.nodes[visit.node], visit.first, visit.last)) return true;
@@ -66,6 +78,32 @@ class WorldWalk {
       scratch_.hits.assign(1, hit);
       return descend(node, 0, 1);
     });
+  }
+
+  bool lookAt(int body) {
+    state_ = &block_.states[body];
+    const SimdNode& root = model_.nodes[model_.rootOfBody[body]];
+    const V3 middle = load3(block_.roots[body].at);
+    const float reach = root.geometry >= 0 ? kProbeShare * root.radius : root.radius;
+    scratch_.hits.clear();
+    cull({middle, set3({0.0F, 0.0F, 0.0F})}, set(reach * kBallOutward));
+    if (scratch_.hits.empty()) return false;
+    if (root.geometry >= 0) return lookAt(root, middle);
+    for (int i = 0; i < root.childCount; ++i) {
+      const SimdNode& child = model_.nodes[root.firstChild + i];
+      if (lookAt(child, place(child, *state_))) return true;
+    }
+    return false;
+  }
+
+  bool lookAt(const SimdNode& node, const V3& middle) {
+    for (SimdHit hit : scratch_.hits) {
+      const std::int32_t pair =
+          model_.pairOf[node.geometry * model_.obstacles.obstacles.size() + hit.index];
+      hit.lanes &= ~block_.contactLanes;
+      if (pair >= 0 && probe(node, middle, hit, static_cast<std::uint32_t>(pair))) return true;
+    }
+    return false;
   }
 
   bool first(int body) {
@@ -196,8 +234,8 @@ class WorldWalk {
       }
       hit.lanes &= ~above(squaredDistance(model_.obstacles, obstacle, segment), squared);
       if (hit.lanes == 0) continue;
-      if (isRoot && block_.stopAtContact &&
-          probe(node, segment, hit, static_cast<std::uint32_t>(pair)))
+      if (isRoot && probes_ && block_.stopAtContact &&
+          probe(node, segment.x, hit, static_cast<std::uint32_t>(pair)))
         return true;
       if (node.inside > 0.0F && touches(node, segment, hit, static_cast<std::uint32_t>(pair)))
         return true;
@@ -206,8 +244,7 @@ class WorldWalk {
       if (divides) {
         scratch_.hits.push_back(hit);
       } else {
-        const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
-        const F8 away = root(squaredDistance(model_.obstacles, obstacle, middle));
+        const F8 away = root(squaredDistance(model_.obstacles, obstacle, segment.x));
         markUnresolved(block_, static_cast<std::uint32_t>(pair), hit.lanes, node.beyond > enough_,
                        set(node.radius - 0.5F * node.beyond) - away);
       }
@@ -223,23 +260,27 @@ class WorldWalk {
   }
 
   /// Tests balls inside the link, in the lane in which it is deepest in the obstacle.
-  bool probe(const SimdNode& node, const Segment& segment, const SimdHit& hit, std::uint32_t pair) {
+  bool probe(const SimdNode& node, const V3& middle, const SimdHit& hit, std::uint32_t pair) {
     const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
     if (obstacle.near != NearProof::Inside && obstacle.near != NearProof::Distance) return false;
-    const V3 still = set3({0.0F, 0.0F, 0.0F});
-    const F8 squared = squaredDistance(model_.obstacles, obstacle, {segment.x, still});
+    const F8 squared = squaredDistance(model_.obstacles, obstacle, middle);
     const float near = kProbeShare * node.radius;
     const Lanes lanes = hit.lanes & below(squared, set(near * near));
     if (lanes == 0) return false;
+    const float within = node.inside - scratch_.rounding;
+    if (within > 0.0F) {
+      const Lanes touching = lanes & below(squared, set(nearSquared(obstacle, within)));
+      if (touching != 0) return claim(block_, pair, touching, middle, within);
+    }
     const int best = lowestLane(squared, lanes);
     const SimdModel::InnerBalls& probes = model_.probesOf[node.geometry];
     for (std::int32_t i = probes.first; i < probes.first + probes.count; ++i) {
       const SimdModel::Probes& eight = model_.probes[i];
       const V3 x = placedAt(*state_, best, eight);
       const F8 inside = load(eight.inside) - set(scratch_.rounding);
-      const F8 away = squaredDistance(model_.obstacles, obstacle, {x, still});
+      const F8 away = squaredDistance(model_.obstacles, obstacle, x);
       const Lanes found = obstacle.near == NearProof::Inside
-                              ? below(away, set(1e-30F))
+                              ? below(away, set(kZeroSquared))
                               : below(away, set(kMeeting) * inside * inside);
       if (found == 0) continue;
       const int which = std::countr_zero(found);
@@ -260,18 +301,15 @@ class WorldWalk {
     if (!block_.stopAtContact) return false;
     const SimdObstacle& obstacle = model_.obstacles.obstacles[hit.index];
     const float within = node.inside - scratch_.rounding;
-    if (!(within > 0.0F)) return false;
-    const Lanes lanes = lanesNear(obstacle, segment, within, hit.lanes);
+    if (!(within > 0.0F) || obstacle.near == NearProof::None) return false;
+    const F8 squared = squaredDistance(model_.obstacles, obstacle, segment.x);
+    const Lanes lanes = hit.lanes & below(squared, set(nearSquared(obstacle, within)));
     return lanes != 0 && claim(block_, pair, lanes, segment.x, within);
   }
 
-  /// Lanes in which the obstacle is known to reach within that distance of the middle.
-  Lanes lanesNear(const SimdObstacle& obstacle, const Segment& segment, float within,
-                  Lanes lanes) const {
-    const Segment middle = {segment.x, set3({0.0F, 0.0F, 0.0F})};
-    const float most = obstacle.near == NearProof::Distance ? kMeeting * within * within : 1e-30F;
-    if (obstacle.near == NearProof::None) return 0;
-    return lanes & below(squaredDistance(model_.obstacles, obstacle, middle), set(most));
+  /// m^2. A point whose squared distance is below is known to be that near to the obstacle.
+  static float nearSquared(const SimdObstacle& obstacle, float within) {
+    return obstacle.near == NearProof::Distance ? kMeeting * within * within : kZeroSquared;
   }
 
   /// Enough for trees of 8^9 boxes: each level leaves at most seven siblings to visit.
@@ -283,12 +321,17 @@ class WorldWalk {
   FieldWalk fields_;
   const F8 half_;
   const bool moving_;
-  const bool padded_;  ///< margins differ
+  const bool padded_;   ///< margins differ
+  bool probes_ = true;  ///< balls inside the links are tested on the way
   const bool inTube_;
   const SimdBodyState* state_ = nullptr;
   F8 extra_;
   float enough_ = 0.0F;
 };
+
+bool Look(const SimdModel& model, SimdScratch& scratch) {
+  return WorldWalk(model, scratch).look();
+}
 
 bool Bodies(const SimdModel& model, SimdScratch& scratch) {
   return WorldWalk(model, scratch).bodies();
@@ -306,8 +349,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace swept::detail {
 
+SWEPT_DISPATCH_TABLE(Look);
 SWEPT_DISPATCH_TABLE(Bodies);
 SWEPT_DISPATCH_TABLE(Pairs);
+
+bool lookAtWorld(const SimdModel& model, SimdScratch& scratch) {
+  return SWEPT_DISPATCH(Look)(model, scratch);
+}
 
 bool walkWorld(const SimdModel& model, SimdScratch& scratch) {
   return SWEPT_DISPATCH(Bodies)(model, scratch);

@@ -16,7 +16,11 @@ namespace swept::detail {
 /// stays within r + h^2 A / 2 of that segment. The balls of a cut of a cover contain the link; if
 /// all of them are apart from an obstacle, the link is.
 ///
-/// All bodies, from the outermost in.
+/// Only the contacts that balls inside the outermost links show at the middles, which are most of
+/// all. Needs nothing but frames. True: a contact.
+bool lookAtWorld(const SimdModel& model, SimdScratch& scratch);
+/// All bodies, the outermost first. For a motion after lookAtWorld(), whose contacts are not sought
+/// again.
 bool walkWorld(const SimdModel& model, SimdScratch& scratch);
 /// Only these pairs of geometry `geometry` with obstacles, in these lanes.
 bool walkPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,

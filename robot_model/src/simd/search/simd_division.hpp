@@ -13,13 +13,12 @@ struct SimdSearch {
   const ConfirmedContacts& contacts;
   ProofWork& work;
   SimdScratch& scratch;
-  int mostIntervals = 0;      ///< to examine
-  int examined = 0;           ///< sub-intervals
-  float acceleration = 0.0F;  ///< m per unit t squared, bounds that of all ball centres
+  int mostIntervals = 0;  ///< to examine
+  int examined = 0;       ///< sub-intervals
 
   bool isSpent() const { return examined >= mostIntervals; }
   /// m. Inflation of the balls in a sub-interval of this half width.
-  float inflation(float half) const { return 0.5F * half * half * acceleration; }
+  float inflation(float half) const { return 0.5F * half * half * motion.acceleration(); }
 };
 
 /// Takes from `work.open` what planes between the hulls of two bodies prove. Exact geometry at one

@@ -132,8 +132,12 @@ class MotionSearch {
       block.half.lane[lane] = 1.0F / (2.0F * kLanes);
     }
     search_.examined += kLanes;
-    search_.motion.place(model_.allBodies);
+    search_.motion.placeFrames();
+    bool moving = false;
     return walk([&] {
+      if (block.stopAtContact && lookAtWorld(model_, scratch_)) return true;
+      if (!moving) search_.motion.setMoving();
+      moving = true;
       if (walkWorld(model_, scratch_)) return true;
       search_.motion.boundLinks();
       return walkSelf(model_, scratch_);
@@ -268,8 +272,6 @@ void SimdTier::prove(ProofWork& work) {
                     .work = work,
                     .scratch = scratch_,
                     .mostIntervals = mostIntervals_};
-  for (const Row& row : scratch_.bounds[0].acceleration)
-    for (const float value : row.lane) search.acceleration = std::max(search.acceleration, value);
   scratch_.oracle = &oracle_;
   MotionSearch(search).run();
   scratch_.oracle = nullptr;
