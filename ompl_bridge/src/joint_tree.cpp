@@ -51,7 +51,11 @@ class JointTree::Cells::Walk {
  protected:
   ~Walk() = default;
 
-  void run() { visit(0, squaredToBox(tree_.cells_[0].box, point_.data())); }
+  void run() {
+    const Cell& root = tree_.cells_[0];
+    if (root.children == 0) return lookInto(root);
+    visit(0, squaredToBox(root.box, point_.data()));
+  }
 
   /// No point nearer than `distance` has a squared distance above this.
   float limitOf(double distance) const {
@@ -68,8 +72,9 @@ class JointTree::Cells::Walk {
   float limit_ = kMost;
 
  private:
-  /// For points of a leaf. `least`: the least of the squared distances.
-  virtual void look(const std::uint32_t* indices, std::span<const float> squared, float least) = 0;
+  /// For points of a leaf, with their squared distances in whole blocks. `least`: the least of
+  /// them.
+  virtual void look(std::span<const std::uint32_t> indices, const float* squared, float least) = 0;
 
   void visit(std::size_t index, float squared) {
     if (!(squared <= limit_)) return;
@@ -92,7 +97,7 @@ class JointTree::Cells::Walk {
       const float least = squaredDistances(leaf.blocks.data() + first * point_.size(), count,
                                            point_.data(), point_.size(), squared_.data());
       if (least <= limit_) {
-        look(leaf.indices.data() + first, std::span(squared_).first(count), least);
+        look(std::span(leaf.indices).subspan(first, count), squared_.data(), least);
       }
     }
   }
@@ -114,8 +119,10 @@ class JointTree::Cells::Search final : Walk {
   }
 
  private:
-  void look(const std::uint32_t* indices, std::span<const float> squared, float) override {
-    for (std::size_t i = 0; i < squared.size(); ++i) {
+  void look(std::span<const std::uint32_t> indices, const float* squared, float) override {
+    std::array<std::uint32_t, kLeaf> places;
+    const std::size_t count = placesNotAbove(limit_, squared, indices.size(), places.data());
+    for (const std::uint32_t i : std::span(places).first(count)) {
       if (squared[i] <= limit_) limit_ = limitOf(candidates_.consider(indices[i]));
     }
   }
@@ -127,21 +134,26 @@ class JointTree::Cells::NearestSearch final : Walk {
  public:
   NearestSearch(const Cells& tree, const double* values) : Walk(tree, values) {}
 
-  void run(std::vector<std::uint32_t>& nearest) {
+  std::size_t run(std::span<std::uint32_t> nearest) {
     Walk::run();
+    std::size_t count = 0;
     for (const auto& [squared, index] : found_) {
-      if (squared <= limit_) nearest.push_back(index);
+      if (!(squared <= limit_)) continue;
+      if (count == nearest.size()) return 0;
+      nearest[count++] = index;
     }
+    return count;
   }
 
  private:
   static constexpr std::size_t kUsual = 16;
 
-  void look(const std::uint32_t* indices, std::span<const float> squared, float least) override {
+  void look(std::span<const std::uint32_t> indices, const float* squared, float least) override {
     limit_ = std::min(limit_, limitOfNearest(least));
-    for (std::size_t i = 0; i < squared.size(); ++i) {
-      if (squared[i] <= limit_) found_.emplace_back(squared[i], indices[i]);
-    }
+    std::array<std::uint32_t, kLeaf> places;
+    const std::size_t count = placesNotAbove(limit_, squared, indices.size(), places.data());
+    for (const std::uint32_t i : std::span(places).first(count))
+      found_.emplace_back(squared[i], indices[i]);
   }
 
   boost::container::small_vector<std::pair<float, std::uint32_t>, kUsual> found_;
@@ -151,11 +163,13 @@ JointTree::Cells::Cells(const JointSpace& space)
     : space_(&space), dimension_(space.getDimension()), cells_{leaf()} {}
 
 JointTree::Cells::Point JointTree::Cells::weighted(const double* values) const {
-  Point point(dimension_);
+  Point point(dimension_, boost::container::default_init);
+  const double* const weights = space_->weights().data();
   for (std::size_t d = 0; d < dimension_; ++d) {
-    const double value = space_->weights()[d] * values[d];
-    const bool finite = std::isfinite(value);
-    point[d] = static_cast<float>(finite ? std::clamp(value, -kFarthest, kFarthest) : kFarthest);
+    double value = weights[d] * values[d];
+    if (!(std::abs(value) <= kFarthest))
+      value = std::isfinite(value) && value < 0.0 ? -kFarthest : kFarthest;
+    point[d] = static_cast<float>(value);
   }
   return point;
 }
@@ -261,8 +275,9 @@ void JointTree::Cells::search(const double* values, double within, Candidates& c
   Search(*this, values, candidates).run(within);
 }
 
-void JointTree::Cells::nearest(const double* values, std::vector<std::uint32_t>& nearest) const {
-  NearestSearch(*this, values).run(nearest);
+std::size_t JointTree::Cells::nearest(const double* values,
+                                      std::span<std::uint32_t> nearest) const {
+  return NearestSearch(*this, values).run(nearest);
 }
 
 JointTree::JointTree() = default;
@@ -297,10 +312,9 @@ bool JointTree::search(const ompl::base::State* state, double within,
   return true;
 }
 
-bool JointTree::nearest(const ompl::base::State* state, std::vector<std::uint32_t>& nearest) const {
-  if (!holds(state)) return false;
-  cells_->nearest(valuesOf(state), nearest);
-  return true;
+std::size_t JointTree::nearest(const ompl::base::State* state,
+                               std::span<std::uint32_t> nearest) const {
+  return holds(state) ? cells_->nearest(valuesOf(state), nearest) : 0;
 }
 
 }  // namespace swept::detail

@@ -4,6 +4,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "joint_space.hpp"
@@ -21,7 +22,7 @@ class JointTree::Cells {
   void add(const double* values, std::uint32_t index);
   void remove(const double* values, std::uint32_t index);
   void search(const double* values, double within, Candidates& candidates) const;
-  void nearest(const double* values, std::vector<std::uint32_t>& nearest) const;
+  std::size_t nearest(const double* values, std::span<std::uint32_t> nearest) const;
 
  private:
   struct Cell {

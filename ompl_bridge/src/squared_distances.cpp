@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "squared_distances.hpp"
 
+#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -41,6 +42,24 @@ float squaredDistances(const float* blocks, std::size_t count, const float* poin
   return hn::GetLane(hn::MinOfLanes(tag, least));
 }
 
+std::size_t placesNotAbove(float limit, const float* values, std::size_t count,
+                           std::uint32_t* places) {
+  const Tag tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  const auto most = hn::Set(tag, limit);
+  std::size_t found = 0;
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const auto near = hn::Le(hn::LoadU(tag, values + first), most);
+    if (hn::AllFalse(tag, near)) continue;
+    std::uint8_t bits[8] = {};  // StoreMaskBits may write as many
+    hn::StoreMaskBits(tag, near, bits);
+    for (std::uint32_t left = bits[0] | (std::uint32_t{bits[1]} << 8U); left != 0; left &= left - 1)
+      places[found++] =
+          static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(left));
+  }
+  return found;
+}
+
 }  // namespace
 }  // namespace swept::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -49,10 +68,16 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 SWEPT_DISPATCH_TABLE(squaredDistances);
+SWEPT_DISPATCH_TABLE(placesNotAbove);
 
 float squaredDistances(const float* blocks, std::size_t count, const float* point,
                        std::size_t dimension, float* squared) {
   return SWEPT_DISPATCH(squaredDistances)(blocks, count, point, dimension, squared);
+}
+
+std::size_t placesNotAbove(float limit, const float* values, std::size_t count,
+                           std::uint32_t* places) {
+  return SWEPT_DISPATCH(placesNotAbove)(limit, values, count, places);
 }
 
 }  // namespace swept::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace swept::detail {
 
@@ -12,5 +13,10 @@ constexpr std::size_t kBlock = 16;
 /// room for whole blocks; the rest after the points becomes +infinity. Returns the least.
 float squaredDistances(const float* blocks, std::size_t count, const float* point,
                        std::size_t dimension, float* squared);
+
+/// Writes the places of the values that are not above `limit`, which is finite, to `places`, which
+/// has room for all. Returns how many. The values are in whole blocks, filled up with +infinity.
+std::size_t placesNotAbove(float limit, const float* values, std::size_t count,
+                           std::uint32_t* places);
 
 }  // namespace swept::detail

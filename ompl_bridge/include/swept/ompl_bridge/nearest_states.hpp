@@ -7,11 +7,13 @@
 #include <ompl/util/Exception.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -51,9 +53,9 @@ class JointTree {
   /// Offers all states nearer than the last return value of `consider`, at first `within`, and a
   /// few more. Returns false, and offers nothing, for a state of another space.
   bool search(const ompl::base::State* state, double within, Candidates& candidates) const;
-  /// Adds the states that may be the nearest, in single precision: usually one. Returns false, and
-  /// adds nothing, for a state of another space.
-  bool nearest(const ompl::base::State* state, std::vector<std::uint32_t>& nearest) const;
+  /// Writes the states that may be the nearest, in single precision: usually one. Returns their
+  /// number, 0 for a state of another space and if there are more than fit.
+  std::size_t nearest(const ompl::base::State* state, std::span<std::uint32_t> nearest) const;
 
  private:
   class Cells;
@@ -135,8 +137,9 @@ class NearestStates : public ompl::NearestNeighbors<T> {
     if (others_) return others_->nearest(data);
     if (size() == 0) throw ompl::Exception("No elements found in nearest neighbors data structure");
     if constexpr (kHasState) {
-      std::vector<std::uint32_t> nearest;
-      if (tree_.nearest(data->state, nearest)) return *items_[nearestOf(nearest, data)];
+      std::array<std::uint32_t, kUsual> nearest;
+      const std::size_t count = tree_.nearest(data->state, nearest);
+      if (count > 0) return *items_[nearestOf(std::span(nearest).first(count), data)];
     }
     return *items_[closest(data, 1, kAnywhere).front().second];
   }
@@ -177,6 +180,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   }
 
  private:
+  static constexpr std::size_t kUsual = 16;  ///< most states that may be the nearest
   static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   static constexpr bool kHasState = requires(const T& data) {
     static_cast<const ompl::base::State*>(data->state);
@@ -215,7 +219,7 @@ class NearestStates : public ompl::NearestNeighbors<T> {
   };
 
   /// The nearest of the candidates. Does not call the distance function if there is only one.
-  std::uint32_t nearestOf(const std::vector<std::uint32_t>& candidates, const T& data) const {
+  std::uint32_t nearestOf(std::span<const std::uint32_t> candidates, const T& data) const {
     std::uint32_t nearest = candidates.front();
     if (candidates.size() == 1) return nearest;
     double least = kAnywhere;
