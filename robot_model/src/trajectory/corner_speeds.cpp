@@ -60,15 +60,15 @@ bool CornerSpeeds::solve(std::size_t first, std::size_t last, std::vector<double
   return speedIn(last, rates) <= reachable(last, speedOut(last, rates)) * kRounded;
 }
 
-double CornerSpeeds::duration(std::size_t first, std::size_t last,
-                              const std::vector<double>& rates) const {
+double CornerSpeeds::duration(std::size_t first, std::size_t last, const std::vector<double>& rates,
+                              double most) const {
   double sum = 0.0;
-  for (std::size_t part = first - 1; part <= last; ++part)
+  for (std::size_t i = first; i <= last; ++i)
+    if (rates[i] > 0.0) sum += 1.0 / rates[i];
+  for (std::size_t part = first - 1; part <= last && sum < most; ++part)
     sum += fastestProfile(speedOut(part, rates), speedIn(part, rates), straightLength(part),
                           path_->straight[part])
                .duration();
-  for (std::size_t i = first; i <= last; ++i)
-    if (rates[i] > 0.0) sum += 1.0 / rates[i];
   return sum;
 }
 
@@ -80,7 +80,7 @@ bool CornerSpeeds::improve(std::size_t corner, const CornerBlend& blend, double&
   trial_[window.first - 1] = rates_[window.first - 1];
   trial_[window.last + 1] = rates_[window.last + 1];
   if (solve(window.first, window.last, trial_)) {
-    const double time = duration(window.first, window.last, trial_);
+    const double time = duration(window.first, window.last, trial_, most);
     if (time < most) {
       most = time;
       std::copy(trial_.begin() + static_cast<std::ptrdiff_t>(window.first),

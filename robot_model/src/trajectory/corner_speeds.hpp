@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "trajectory/corner_blend.hpp"
@@ -38,7 +39,7 @@ class CornerSpeeds {
   /// s, from the begin of the blend at `first` to the end of that at `last`, and of the straight
   /// parts beside them.
   double duration(std::size_t first, std::size_t last) const {
-    return duration(first, last, rates_);
+    return duration(first, last, rates_, std::numeric_limits<double>::infinity());
   }
 
   /// Replaces the blend at an inner corner. The rates are right after the next solve().
@@ -59,7 +60,9 @@ class CornerSpeeds {
   }
   double capOf(std::size_t corner) const;
   bool solve(std::size_t first, std::size_t last, std::vector<double>& rates) const;
-  double duration(std::size_t first, std::size_t last, const std::vector<double>& rates) const;
+  /// `most` (s): a duration that is no less need not be the whole.
+  double duration(std::size_t first, std::size_t last, const std::vector<double>& rates,
+                  double most) const;
 
   const WayPointPath* path_;
   double leastStep_;

@@ -20,29 +20,38 @@ namespace {
 /// Of the larger of 1 and the value.
 constexpr double kJoinTolerance = 1e-9;
 
-void requireCurve(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument("PiecewisePolynomial: " + message);
+/// `message`: makes the text, which takes longer than to test a curve that is right.
+template <typename Message>
+void requireCurve(bool holds, const Message& message) {
+  if (!holds) throw std::invalid_argument("PiecewisePolynomial: " + std::string(message()));
 }
 
 void requireKnots(const std::vector<double>& knots) {
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    requireCurve(std::isfinite(knots[i]), "knot " + std::to_string(i) + " is not finite");
-    requireCurve(i == 0 || knots[i] > knots[i - 1],
-                 "knots must increase, but knot " + std::to_string(i) + " is " +
-                     detail::formatNumber(knots[i]) + " s, not above " +
-                     detail::formatNumber(knots[i - 1]) + " s");
+    requireCurve(std::isfinite(knots[i]),
+                 [&] { return "knot " + std::to_string(i) + " is not finite"; });
+    requireCurve(i == 0 || knots[i] > knots[i - 1], [&] {
+      return "knots must increase, but knot " + std::to_string(i) + " is " +
+             detail::formatNumber(knots[i]) + " s, not above " +
+             detail::formatNumber(knots[i - 1]) + " s";
+    });
   }
 }
 
 void requirePiece(const Eigen::MatrixXd& piece, std::size_t index, Eigen::Index dimension) {
-  const std::string name = "piece " + std::to_string(index);
-  requireCurve(piece.rows() == dimension, name + " has " + std::to_string(piece.rows()) +
-                                              " values, but the first piece has " +
-                                              std::to_string(dimension));
-  requireCurve(piece.cols() >= 2 && piece.cols() <= PiecewisePolynomial::kMaxDegree + 1,
-               name + " has degree " + std::to_string(piece.cols() - 1) + ", allowed is 1 to " +
-                   std::to_string(PiecewisePolynomial::kMaxDegree));
-  requireCurve(piece.allFinite(), name + " has a coefficient that is not finite");
+  const auto require = [index](bool holds, const auto& message) {
+    requireCurve(
+        holds, [&] { return "piece " + std::to_string(index) + " has " + std::string(message()); });
+  };
+  require(piece.rows() == dimension, [&] {
+    return std::to_string(piece.rows()) + " values, but the first piece has " +
+           std::to_string(dimension);
+  });
+  require(piece.cols() >= 2 && piece.cols() <= PiecewisePolynomial::kMaxDegree + 1, [&] {
+    return "degree " + std::to_string(piece.cols() - 1) + ", allowed is 1 to " +
+           std::to_string(PiecewisePolynomial::kMaxDegree);
+  });
+  require(piece.allFinite(), [] { return "a coefficient that is not finite"; });
 }
 
 void requireJoin(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, std::size_t knot) {
@@ -51,9 +60,10 @@ void requireJoin(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after, st
     const double from = before(i, last);
     const double to = after(i, 0);
     const double size = std::max({1.0, std::abs(from), std::abs(to)});
-    requireCurve(std::abs(to - from) <= kJoinTolerance * size,
-                 "value " + std::to_string(i) + " jumps from " + detail::formatNumber(from) +
-                     " to " + detail::formatNumber(to) + " at knot " + std::to_string(knot));
+    requireCurve(std::abs(to - from) <= kJoinTolerance * size, [&] {
+      return "value " + std::to_string(i) + " jumps from " + detail::formatNumber(from) + " to " +
+             detail::formatNumber(to) + " at knot " + std::to_string(knot);
+    });
   }
 }
 
@@ -83,10 +93,11 @@ PiecewisePolynomial::PiecewisePolynomial(std::vector<double> knots,
 }
 
 void PiecewisePolynomial::requireCurves() const {
-  requireCurve(!coefficients_.empty(), "no piece");
-  requireCurve(knots_.size() == coefficients_.size() + 1,
-               std::to_string(knots_.size()) + " knots for " +
-                   std::to_string(coefficients_.size()) + " pieces, expected one more than pieces");
+  requireCurve(!coefficients_.empty(), [] { return "no piece"; });
+  requireCurve(knots_.size() == coefficients_.size() + 1, [this] {
+    return std::to_string(knots_.size()) + " knots for " + std::to_string(coefficients_.size()) +
+           " pieces, expected one more than pieces";
+  });
   requireKnots(knots_);
   for (std::size_t i = 0; i < coefficients_.size(); ++i) {
     requirePiece(coefficients_[i], i, coefficients_.front().rows());
@@ -178,18 +189,21 @@ PiecewisePolynomial PiecewisePolynomial::bSpline(int degree, const std::vector<d
   if (detail::inForeignEnvironment()) {
     return inDefaultEnvironment([&, degree] { return bSpline(degree, knots, controlPoints); });
   }
-  requireCurve(
-      degree >= 1 && degree <= kMaxDegree,
-      "degree " + std::to_string(degree) + ", allowed is 1 to " + std::to_string(kMaxDegree));
+  requireCurve(degree >= 1 && degree <= kMaxDegree, [degree] {
+    return "degree " + std::to_string(degree) + ", allowed is 1 to " + std::to_string(kMaxDegree);
+  });
   const auto d = static_cast<std::size_t>(degree);
   const auto count = static_cast<std::size_t>(controlPoints.cols());
-  requireCurve(count > d, std::to_string(count) + " control points, needed are at least " +
-                              std::to_string(degree + 1));
-  requireCurve(knots.size() == count + d + 1,
-               std::to_string(knots.size()) + " knots, expected " + std::to_string(count + d + 1));
+  requireCurve(count > d, [&] {
+    return std::to_string(count) + " control points, needed are at least " +
+           std::to_string(degree + 1);
+  });
+  requireCurve(knots.size() == count + d + 1, [&] {
+    return std::to_string(knots.size()) + " knots, expected " + std::to_string(count + d + 1);
+  });
   requireCurve(std::ranges::is_sorted(knots) &&
                    std::ranges::all_of(knots, [](double knot) { return std::isfinite(knot); }),
-               "the knots descend or are not finite");
+               [] { return "the knots descend or are not finite"; });
   std::vector<double> breaks;
   std::vector<Eigen::MatrixXd> pieces;
   std::size_t repeated = 1;
@@ -197,9 +211,10 @@ PiecewisePolynomial PiecewisePolynomial::bSpline(int degree, const std::vector<d
     const double low = knots[span];
     const double high = knots[span + 1];
     repeated = span > d && low == knots[span - 1] ? repeated + 1 : 1;
-    requireCurve(repeated <= d || breaks.empty(),
-                 "knot " + detail::formatNumber(low) + " s repeats more often than the degree " +
-                     std::to_string(degree) + ": the curve would jump");
+    requireCurve(repeated <= d || breaks.empty(), [low, degree] {
+      return "knot " + detail::formatNumber(low) + " s repeats more often than the degree " +
+             std::to_string(degree) + ": the curve would jump";
+    });
     if (low == high) continue;
     if (breaks.empty()) breaks.push_back(low);
     breaks.push_back(high);

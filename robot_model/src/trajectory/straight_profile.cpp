@@ -8,6 +8,10 @@ namespace swept::detail {
 
 namespace {
 
+/// A step of Newton's method that is no larger than this share of the value is the last: errors
+/// fall with their squares, so it leaves none but roundings.
+constexpr double kLastStep = 1e-9;
+
 /// The way of a change of speed.
 double changeLength(double from, double to, const StraightLimits& limits) {
   return 0.5 * (from + to) * changeTime(std::abs(to - from), limits);
@@ -21,7 +25,9 @@ double cubicRoot(double p, double q) {
   for (int i = 0; i < kSteps; ++i) {
     const double next = (2.0 * x * x * x + q) / (3.0 * x * x + p);
     if (!(next < x)) break;
+    const bool last = x - next <= kLastStep * x;
     x = next;
+    if (last) break;
   }
   return x;
 }
@@ -85,7 +91,9 @@ double peakByRamps(double from, double to, double length, const StraightLimits& 
     const RampWay at = excess();
     const double next = x - at.length / at.slope;
     if (!(next < x)) break;
+    const bool last = x - next <= kLastStep * x;
     x = next;
+    if (last) break;
   }
   return most + x * x;
 }
