@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -119,8 +120,8 @@ Eigen::Vector3d readVector(const Json& json, const std::string& where);
 Eigen::Vector3d readUnit(const Json& json, const char* key, const std::string& where);
 double readNumber(const Json& json, const std::string& where);
 /// `json[key]`. Throws Refusal if it is missing.
-const Json& at(const Json& json, const char* key, const std::string& where);
+const Json& at(const Json& json, const char* key, std::string_view where);
 /// The same, of a list.
-const Json& readList(const Json& json, const char* key, const std::string& where);
+const Json& readList(const Json& json, const char* key, std::string_view where);
 
 }  // namespace swept::verify

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "model.hpp"
@@ -194,14 +195,15 @@ std::size_t valuesOf(JointKind kind) {
   return 0;
 }
 
-const Json& at(const Json& json, const char* key, const std::string& where) {
-  if (!json.is_object() || !json.contains(key)) throw Refusal(where + ": there is no " + key);
+const Json& at(const Json& json, const char* key, std::string_view where) {
+  if (!json.is_object() || !json.contains(key))
+    throw Refusal(std::string(where) + ": there is no " + key);
   return json[key];
 }
 
-const Json& readList(const Json& json, const char* key, const std::string& where) {
+const Json& readList(const Json& json, const char* key, std::string_view where) {
   const Json& value = at(json, key, where);
-  if (!value.is_array()) throw Refusal(where + ": " + key + " is not a list");
+  if (!value.is_array()) throw Refusal(std::string(where) + ": " + key + " is not a list");
   return value;
 }
 

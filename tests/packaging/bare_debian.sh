@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What the README promises of a bare Debian 12, done in one: a clean clone of HEAD, its two commands,
+# What the README promises of a bare Debian, done in one: a clean clone of HEAD, its two commands,
 # installing, programs against what is installed; the .deb packages, each in a Debian of its own.
 # Needs root, debootstrap and git. Prints a line for each step, and a table at the end. Exit code 1: a
 # step failed, whose log is in FOLDER/logs.
@@ -8,9 +8,13 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 root="$(cd "$here/../.." && pwd)"
 source "$here/bare_steps.sh"
+# Suites of Debian, and their releases.
+suites=(bookworm trixie)
+declare -A releases=([bookworm]=12 [trixie]=13)
 
 usage() {
-  echo "usage: tests/packaging/bare_debian.sh FOLDER [--keep] [--only STEP ...]"
+  echo "usage: tests/packaging/bare_debian.sh FOLDER [--suite SUITE] [--keep] [--only STEP ...]"
+  echo "SUITE is one of: ${suites[*]}; without it, that of an earlier run in FOLDER, or bookworm."
   echo "Steps: ${steps[*]}"
   echo "FOLDER is made, and removed at the end unless --keep is given or a step failed; it takes more than 7 GB."
   echo "--only takes the FOLDER that an earlier run with --keep left, and keeps it too; the steps that"
@@ -18,10 +22,11 @@ usage() {
   echo "Packages come from \$DEBIAN_MIRROR, or else from where this system's own do."
 }
 
-# Of this system's own packages of Debian 12, or nothing: debootstrap has a default.
+# Of this system's own packages if it is a Debian, or nothing: debootstrap has a default.
 system_mirror() {
   if command -v apt-get >/dev/null; then
-    apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Codename: bookworm' \
+    apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' \
+      "Codename: $(. /etc/os-release && echo "${VERSION_CODENAME:-}")" \
       'Component: main' 'Created-By: Packages' | head -n 1
   fi
 }
@@ -90,11 +95,23 @@ clean_up() {
 }
 
 keep=
+suite=
 only=()
 folder=
 while (($# > 0)); do
   case "$1" in
     --keep) keep=yes && shift ;;
+    --suite)
+      if (($# < 2)); then
+        echo "error: --suite needs a value, one of: ${suites[*]}" >&2
+        exit 3
+      fi
+      if [[ " ${suites[*]} " != *" $2 "* ]]; then
+        echo "error: no suite '$2'; there are: ${suites[*]}" >&2
+        exit 3
+      fi
+      suite="$2" && shift 2
+      ;;
     --only)
       shift
       while (($# > 0)) && [[ "$1" != --* ]]; do
@@ -112,7 +129,7 @@ while (($# > 0)); do
       ;;
     -h | --help) usage && exit 0 ;;
     -*)
-      echo "error: no option '$1'; there are: --keep --only --help" >&2
+      echo "error: no option '$1'; there are: --suite --keep --only --help" >&2
       exit 3
       ;;
     *)
@@ -126,6 +143,12 @@ while (($# > 0)); do
 done
 if [[ -z "$folder" ]]; then
   usage >&2
+  exit 3
+fi
+earlier="$(cat "$folder/suite" 2>/dev/null || true)"
+suite="${suite:-${earlier:-bookworm}}"
+if [[ -n "$earlier" && "$suite" != "$earlier" ]]; then
+  echo "error: $folder is of the suite '$earlier', not '$suite'" >&2
   exit 3
 fi
 if ((EUID != 0)); then
@@ -145,6 +168,7 @@ fi
 mkdir -p "$folder/logs"
 folder="$(cd "$folder" && pwd)"
 touch "$folder/times"
+echo "$suite" >"$folder/suite"
 mirror="${DEBIAN_MIRROR:-$(system_mirror)}"
 failed=
 trap clean_up EXIT

@@ -10,7 +10,7 @@ slot=/root/models/scenes/narrow_slot.yaml
 
 step_says() {
   case "$1" in
-    debian) echo "a bare Debian 12 (\`debootstrap --variant=minbase\`), and a clone in it" ;;
+    debian) echo "a bare Debian ${releases[$suite]} (\`debootstrap --variant=minbase\`), and a clone in it" ;;
     demo) echo "\`./planners_demo/demo.sh\`: packages, the program, a plan" ;;
     tests) echo "\`./tests/run.sh\`: $(tail -n 1 "$folder/logs/tests.log")" ;;
     install) echo "\`cmake --install build/release --prefix $prefix\`" ;;
@@ -47,7 +47,7 @@ copy_into() {
 
 step_debian() {
   rm -rf --one-file-system "$folder/bare"
-  debootstrap --variant=minbase bookworm "$folder/bare" ${mirror:+"$mirror"}
+  debootstrap --variant=minbase "$suite" "$folder/bare" ${mirror:+"$mirror"}
   # As installers and images have it; debootstrap alone leaves nobody who knows localhost.
   printf '127.0.0.1\tlocalhost\n::1\tlocalhost\n' >"$folder/bare/etc/hosts"
   copy_of_bare build

@@ -262,7 +262,12 @@ case_bare_options() {
   local bare="$here/bare_debian.sh"
   refuses 'error: no step '"'tets'"'; there are: debian demo tests' "$bare" "$temporary/bare" --only tets
   refuses 'error: --only names no step; there are: debian' "$bare" "$temporary/bare" --only --keep
-  refuses "error: no option '--kep'; there are: --keep --only --help" "$bare" "$temporary/bare" --kep
+  refuses "error: no option '--kep'; there are: --suite --keep --only --help" "$bare" "$temporary/bare" --kep
+  refuses "error: no suite 'sid'; there are: bookworm trixie" "$bare" "$temporary/bare" --suite sid
+  refuses 'error: --suite needs a value, one of: bookworm trixie' "$bare" "$temporary/bare" --suite
+  mkdir "$temporary/of_trixie"
+  echo trixie >"$temporary/of_trixie/suite"
+  refuses "of_trixie is of the suite 'trixie', not 'bookworm'" "$bare" "$temporary/of_trixie" --suite bookworm --only demo
   refuses "error: a second folder, '/tmp'; one is taken" "$bare" "$temporary/bare" /tmp
   refuses 'usage: tests/packaging/bare_debian.sh FOLDER' "$bare"
   [[ ! -e "$temporary/bare" ]] || fail "bare_debian.sh makes a folder for what it refuses"

@@ -29,10 +29,10 @@ class PickAndPlace : public testing::Test {
     delete run_;
     delete folder_;
   }
-  static json& bodyOf(json& phase, const std::string& name) {
+  static json& bodyOf(json& phase, const char* name) {
     for (json& body : phase["path"]["model"]["bodies"])
       if (body["name"] == name) return body;
-    throw std::runtime_error("no body " + name);
+    throw std::runtime_error("no body " + std::string(name));
   }
 
   static inline TemporaryFolder* folder_ = nullptr;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "swept/core/bv/aabb.hpp"
 
@@ -49,6 +50,12 @@ struct Support {
   std::size_t count = 0;
 
   void add(const Vector3d& point) { points[count++] = point; }
+  /// Keeps those whose bits are set.
+  void keep(unsigned subset) {
+    const std::size_t held = std::exchange(count, 0);
+    for (std::size_t i = 0; i < held; ++i)
+      if ((subset >> i & 1U) != 0) add(points[i]);
+  }
   Points all() const { return {points.data(), count}; }
 };
 
@@ -77,7 +84,7 @@ class GrowingBall {
   /// rounding hides which ball that is.
   bool growTo(const Vector3d& point) {
     Ball least{Vector3d::Zero(), kInfinity};
-    Support kept;
+    unsigned kept = 0;
     for (unsigned subset = 0; subset < (1U << support_.count); ++subset) {
       if (std::popcount(subset) > 3) continue;
       Support others;
@@ -89,11 +96,11 @@ class GrowingBall {
       });
       if (!holds || !(ball.squared < least.squared)) continue;
       least = ball;
-      kept = others;
+      kept = subset;
     }
     if (!(least.squared > ball_.squared && least.squared < kInfinity)) return false;
     ball_ = least;
-    support_ = kept;
+    support_.keep(kept);
     support_.add(point);
     return true;
   }

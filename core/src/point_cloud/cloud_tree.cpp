@@ -178,9 +178,11 @@ void CloudTree::search(const Vector3d& d, std::size_t level, std::size_t index, 
   const std::size_t count = childrenOf(level, index);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t child = kLanes * index + i;
-    open[i] = {supportOf(levels_[level - 1][child], d), child};
+    const std::pair box{supportOf(levels_[level - 1][child], d), child};
+    std::size_t place = i;
+    for (; place > 0 && open[place - 1] < box; --place) open[place] = open[place - 1];
+    open[place] = box;
   }
-  std::sort(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count), std::greater<>());
   for (std::size_t i = 0; i < count && open[i].first > best.value; ++i) {
     search(d, level - 1, open[i].second, best);
   }

@@ -32,7 +32,8 @@ std::optional<Eigen::VectorXd> withStanding(const Arguments& args, const Robot& 
     const auto at = text.find('=');
     if (at == std::string::npos || at == 0)
       throw UsageError("--stand '" + text + "': must be GROUP=STATE");
-    const Group& group = chooseGroup(robot, text.substr(0, at));
+    const std::string name = text.substr(0, at);
+    const Group& group = chooseGroup(robot, name);
     const std::string state = text.substr(at + 1);
     // Files that keep the command line have no unit.
     if (args.degrees && state != "default" && robot.findNamedState(state, group.name) == nullptr)

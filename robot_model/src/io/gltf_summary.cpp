@@ -136,7 +136,7 @@ Number GltfReader::readAccessor(const JsonValue& accessor, const std::string& ty
   const auto known = std::ranges::find(kinds, kind, [](const auto& each) { return each.first; });
   if (known == kinds.end()) accessor.at("componentType").refuse("of a kind that is read there");
   const Number count = accessor.at("count").whole(0, kMostBytes);
-  const JsonValue& view = pick(accessor.at("bufferView"), views_);
+  const JsonValue view = pick(accessor.at("bufferView"), views_);
   const Number start = orElse(view, "byteOffset", 0),
                length = view.at("byteLength").whole(0, kMostBytes);
   const Number size = width * known->second, step = orElse(view, "byteStride", size);
@@ -154,7 +154,7 @@ void GltfReader::readPrimitive(const JsonValue& primitive, Mesh& mesh) const {
   const Number mode = primitive.has("mode") ? primitive.at("mode").whole(0, kFan) : kTriangles;
   if (mode < kTriangles) return;  // points and lines
   if (primitive.has("targets")) primitive.fail("has targets to change into, which are not read");
-  const JsonValue& positions = pick(primitive.at("attributes").at("POSITION"), accessors_);
+  const JsonValue positions = pick(primitive.at("attributes").at("POSITION"), accessors_);
   Number corners = readAccessor(positions, "VEC3", 3, {{5126, 4}});
   if (primitive.has("indices")) {
     corners = readAccessor(pick(primitive.at("indices"), accessors_), "SCALAR", 1,
