@@ -289,6 +289,20 @@ case_arm_options() {
   refuses "error: no $temporary/tests/answers/swept_answers_record; build the targets" "$same" "$temporary" "$temporary" "$temporary/said_of"
 }
 
+# The same of wasm.sh.
+case_wasm_options() {
+  local wasm="$here/wasm.sh" none="$temporary/none"
+  refuses 'usage: tests/packaging/wasm.sh FOLDER' "$wasm"
+  refuses "error: no option '--tests'; there are: --check --help" "$wasm" "$none" --tests core
+  refuses 'error: --check needs a value' "$wasm" "$none" --check
+  refuses "error: --check: '$temporary/swept' is no program" "$wasm" "$none" --check "$temporary/swept"
+  refuses "error: a second folder, '/tmp'; one is taken" "$wasm" "$none" /tmp
+  mkdir "$temporary/programs"
+  ln -s "$(command -v bash)" "$(command -v dirname)" "$temporary/programs"
+  refuses 'error: these programs are missing: emcc node cmake' env PATH="$temporary/programs" bash "$wasm" "$none"
+  [[ ! -e "$none" ]] || fail "wasm.sh makes a folder for what it refuses"
+}
+
 # What .ci/nightly refuses before it installs anything, and what it would install where.
 case_ci_options() {
   local all='error: usage: .ci/nightly WHAT, where WHAT is one of: asan clang fuzz tsan'

@@ -28,7 +28,7 @@ void push(std::vector<Candidate>& heap, Candidate candidate) {
 }
 
 std::uint64_t blockOrder(std::size_t tree, std::size_t level, std::size_t block) {
-  return tree << 40 | level << 32 | block;
+  return std::uint64_t{tree} << 40 | std::uint64_t{level} << 32 | block;
 }
 
 Aabb wide(const detail::FloatBox& box) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -22,11 +23,11 @@ using Cell = std::array<double, 3>;
 
 struct CellHash {
   std::size_t operator()(const Cell& cell) const {
-    std::size_t hash = 0;
+    std::uint64_t hash = 0;
     // Adding zero turns -0.0 into 0.0, which has another hash in some libraries.
     for (const double at : cell)
-      hash = (hash ^ std::hash<double>{}(at + 0.0)) * std::size_t{0x9e3779b97f4a7c15u};
-    return hash ^ hash >> 32;
+      hash = (hash ^ std::hash<double>{}(at + 0.0)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(hash ^ hash >> 32);
   }
 };
 

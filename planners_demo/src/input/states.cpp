@@ -2,7 +2,6 @@
 #include "input/states.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +11,7 @@
 #include "output/text_output.hpp"
 #include "swept/robot_model/limits.hpp"
 #include "swept/robot_model/named_states.hpp"
+#include "text/double_from.hpp"
 
 namespace swept {
 namespace {
@@ -30,7 +30,7 @@ struct Number {
 Number readNumber(const std::string& text) {
   Number number;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number.value);
+  const auto [stop, error] = detail::doubleFrom(text.data(), end, number.value);
   if (error == std::errc::result_out_of_range) number.value = HUGE_VAL;
   number.readable = stop == end && error != std::errc::invalid_argument;
   return number;

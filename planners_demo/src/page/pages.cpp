@@ -13,6 +13,7 @@
 #include "output/progress.hpp"
 #include "output/terminal_text.hpp"
 #include "output/whole_file.hpp"
+#include "page/live_part.hpp"
 #include "page/page_content.hpp"
 #include "page/path_page.hpp"
 #include "page/program_page.hpp"
@@ -35,6 +36,15 @@ VisualModel visualsOf(const Model& model) {
   return VisualModel::parse(model.urdf->text, model.urdf->name, model.options);
 }
 
+/// The configuration that the page begins with.
+std::vector<double> firstOf(const PageContent& content) {
+  if (!content.motions.empty()) return content.motions.front().from;
+  if (!content.states.empty()) return content.states.front().q;
+  const PiecewisePolynomial& curve = content.trajectories.front().curve;
+  const Eigen::VectorXd begin = curve.position(curve.begin());
+  return {begin.begin(), begin.end()};
+}
+
 }  // namespace
 
 void addHtmlOption(CLI::App& app, Arguments& args) {
@@ -49,6 +59,7 @@ std::span<const Command* const> pageCommands() {
 }
 
 void requirePageFile(const Arguments& args) {
+  requireLive(args);
   if (args.page.file.empty()) return;
   const std::filesystem::path file = args.page.file;
   if (file.extension() != ".html" && file.extension() != ".htm")
@@ -70,8 +81,9 @@ void writePage(const Arguments& args, const Model& model, const Checker* checker
     Progress progress("making the page", args.quiet);
     const World& world = checker == nullptr ? *model.world : checker->world();
     const VisualModel visuals = visualsOf(model);
-    writeWholeFile(args.page.file,
-                   htmlOf(pageJson(*model.robot, world, checker, content, visuals)));
+    Json json = pageJson(*model.robot, world, checker, content, visuals);
+    if (isLive(args)) json["live"] = liveJson(args, *checker, firstOf(content));
+    writeWholeFile(args.page.file, htmlOf(json));
   }
   if (!args.json) printText("page written to " + escapedLine(args.page.file) + "\n");
 }

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <utility>
-#include <vector>
 
 #include "swept/robot_model/checker.hpp"
 
 #include "swept/core/floating_point_environment.hpp"
+#include "threads/share_ranges.hpp"
 
 namespace swept {
 
@@ -27,78 +18,19 @@ constexpr std::size_t kTogether = 8;
 constexpr std::size_t kBlocksPerTask = 16;
 constexpr std::size_t kMotionsPerTask = 8;
 
-/// Arenas by their number of threads, kept from call to call: oneTBB 2021.8 leaks 7 KB of an arena
-/// that is destroyed after two or more threads worked in it. There are as many as were ever used at
-/// once.
-class Arenas {
- public:
-  using Arena = std::unique_ptr<oneapi::tbb::task_arena>;
-
-  Arena take(unsigned threads) {
-    {
-      const std::lock_guard lock(mutex_);
-      std::vector<Arena>& idle = idle_[threads];
-      if (!idle.empty()) {
-        Arena arena = std::move(idle.back());
-        idle.pop_back();
-        return arena;
-      }
-    }
-    using oneapi::tbb::task_arena;
-    return std::make_unique<task_arena>(threads == 0 ? task_arena::automatic
-                                                     : static_cast<int>(threads));
-  }
-  void giveBack(unsigned threads, Arena arena) {
-    const std::lock_guard lock(mutex_);
-    idle_[threads].push_back(std::move(arena));
-  }
-
- private:
-  std::mutex mutex_;  ///< guards what follows
-  std::map<unsigned, std::vector<Arena>> idle_;
-};
-
-/// Never destroyed: oneTBB may be destroyed first at the end of the program.
-Arenas& arenas() {
-  static Arenas& all = *new Arenas;
-  return all;
-}
-
-/// This many threads, but no more than the program allows oneTBB: it warns about an arena that asks
-/// for more.
-unsigned allowed(unsigned threads) {
-  using oneapi::tbb::global_control;
-  const std::size_t most = global_control::active_value(global_control::max_allowed_parallelism);
-  return static_cast<unsigned>(std::min<std::size_t>(threads, most));
-}
-
-/// Calls `work(begin, end, workspace)` for ranges of up to `grain` of [0, count). Leaves the
-/// program's other limits on oneTBB as they are.
+/// Calls `work(begin, end, workspace)` for ranges of up to `grain` of [0, count), on threads as
+/// shareRanges() does.
 template <typename Work>
 void forRanges(const Checker& checker, std::size_t count, std::size_t grain, unsigned threads,
                const Work& work) {
-  const std::size_t ranges = (count + grain - 1) / grain;
-  const auto run = [&](std::size_t first, std::size_t last, Workspace& workspace) {
-    for (std::size_t i = first; i != last; ++i)
-      work(i * grain, std::min(count, (i + 1) * grain), workspace);
+  const auto makeWork = [&]() -> detail::RangeWork {
+    return
+        [&, workspace = std::make_shared<Workspace>(checker)](std::size_t first, std::size_t last) {
+          for (std::size_t i = first; i != last; ++i)
+            work(i * grain, std::min(count, (i + 1) * grain), *workspace);
+        };
   };
-  threads = allowed(threads);
-  if (threads == 1 || ranges <= 1) {
-    if (ranges == 0) return;
-    Workspace workspace(checker);
-    return run(0, ranges, workspace);
-  }
-  using oneapi::tbb::blocked_range;
-  oneapi::tbb::enumerable_thread_specific<Workspace> workspaces(
-      [&checker] { return Workspace(checker); });
-  Arenas::Arena arena = arenas().take(threads);
-  arena->execute([&] {
-    oneapi::tbb::parallel_for(blocked_range<std::size_t>(0, ranges),
-                              [&](const blocked_range<std::size_t>& some) {
-                                run(some.begin(), some.end(), workspaces.local());
-                              });
-  });
-  arenas().giveBack(threads, std::move(arena));
+  detail::shareRanges((count + grain - 1) / grain, threads, makeWork);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "io/mesh_import.hpp"
 #include "io/point_file.hpp"
+#include "io/read_files.hpp"
 #include "text/numbers.hpp"
 
 namespace swept::detail {
@@ -37,6 +38,7 @@ std::vector<std::uint8_t> readBytes(const std::filesystem::path& file) {
     throw MeshFileError("has " + std::to_string(size) + " bytes; at most " +
                         std::to_string(kMaxBytes) + " are allowed");
   }
+  ReadFiles::note(file);
   std::vector<std::uint8_t> bytes(size);
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));

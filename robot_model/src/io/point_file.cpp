@@ -6,6 +6,7 @@
 #include <fstream>
 #include <utility>
 
+#include "io/read_files.hpp"
 #include "io/regular_file.hpp"
 
 namespace swept::detail {
@@ -38,6 +39,7 @@ PointFile::PointFile(const std::filesystem::path& file, const LoadOptions& optio
   // With one byte more, the read meets the end without another buffer.
   std::size_t room = std::max(statedSize(file, source_) + 1, kLeastRoom);
   bytes_ = std::make_unique_for_overwrite<char[]>(room);
+  ReadFiles::note(file);
   std::ifstream stream(file, std::ios::binary);
   const auto readOn = [&] {
     stream.read(bytes_.get() + size_, static_cast<std::streamsize>(room - size_));

@@ -2,8 +2,9 @@
 #include "io/row.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
+
+#include "text/double_from.hpp"
 
 namespace swept::detail {
 
@@ -59,7 +60,7 @@ double readNumber(const char*& at, const char* end, std::string_view separators,
   // from_chars knows no plus sign, people do.
   if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
   double value = 0.0;
-  const auto result = std::from_chars(begin, end, value);
+  const auto result = doubleFrom(begin, end, value);
   const auto isSeparator = [&](char c) { return separators.find(c) != std::string_view::npos; };
   if (result.ec != std::errc{} || (result.ptr != end && !isSeparator(*result.ptr))) {
     const std::string_view word(at,

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "io/read_files.hpp"
 #include "io/regular_file.hpp"
 #include "swept/robot_model/input.hpp"
 
@@ -13,6 +14,7 @@ namespace swept {
 std::string readTextFile(const std::filesystem::path& file) {
   const std::string reason = detail::whyNoBytes(file);
   if (!reason.empty()) throw InputError(file.string(), 0, reason);
+  detail::ReadFiles::note(file);
   // Read, not asked for: the file may grow meanwhile.
   std::ifstream stream(file, std::ios::binary);
   std::string text;

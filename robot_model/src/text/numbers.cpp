@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "text/double_from.hpp"
+
 namespace swept::detail {
 
 namespace {
@@ -19,7 +21,7 @@ std::optional<double> parseNumber(std::string_view text) {
   // from_chars accepts no plus sign, but people write it.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto result = doubleFrom(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) return std::nullopt;
   if (!std::isfinite(value)) return std::nullopt;
   return value;

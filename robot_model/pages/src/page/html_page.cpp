@@ -35,16 +35,24 @@ std::string harmless(const Json& data) {
   return text;
 }
 
+/// Browsers compile WebAssembly only where the page's policy says so.
+void allowModule(std::string& page) {
+  const std::string scripts = "script-src 'unsafe-inline'";
+  const std::size_t at = page.find(scripts);
+  if (at == std::string::npos) throw std::logic_error("page.html has no " + scripts);
+  page.insert(at + scripts.size(), " 'wasm-unsafe-eval'");
+}
+
 bool isOfTask(const PageFile& file) {
   return file.name.starts_with("task.");
 }
 
 /// The page without its data, whose place the comment `data` keeps. `ofTask`: that around the pages
-/// of phases.
-std::string templateOf(bool ofTask) {
+/// of phases. `isLive`: it has a module that proves.
+std::string templateOf(bool ofTask, bool isLive = false) {
   std::string page, styles, licences, scripts;
   for (const PageFile& file : pageFiles()) {
-    if (isOfTask(file) != ofTask) continue;
+    if (isOfTask(file) != ofTask || (file.name == "live.js" && !isLive)) continue;
     const std::string text(file.text);
     if (file.name.ends_with(".html"))
       page = text;
@@ -55,6 +63,7 @@ std::string templateOf(bool ofTask) {
     else
       scripts += "<script>\n" + text + "\n</script>\n";
   }
+  if (isLive) allowModule(page);
   fill(page, "styles", styles);
   if (!licences.empty()) scripts = "<script>\n" + licences + "</script>\n" + scripts;
   fill(page, "scripts", scripts);
@@ -67,7 +76,7 @@ const std::string kDataEnds = "</script>\n";
 }  // namespace
 
 std::string htmlOf(const Json& data) {
-  std::string page = templateOf(false);
+  std::string page = templateOf(false, data.contains("live"));
   // The data goes in last, so that its text is not searched for marks.
   fill(page, "data", kDataBegins + harmless(data) + kDataEnds);
   return page;
