@@ -53,6 +53,7 @@ if [[ -n "$program" && ! -x "$program" ]]; then
   echo "error: --check: '$program' is no program" >&2
   exit 3
 fi
+if [[ -n "$program" ]]; then program="$(cd "$(dirname "$program")" && pwd)/$(basename "$program")"; fi
 missing=()
 for name in emcc node cmake ninja python3 apt-get dpkg-deb dpkg-source xz; do
   if ! command -v "$name" >/dev/null; then missing+=("$name"); fi
