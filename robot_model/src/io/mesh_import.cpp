@@ -45,13 +45,13 @@ Eigen::Matrix4d toEigen(const aiMatrix4x4& matrix) {
 
 /// The transform of one of assimp's nodes, with those above it: how it places its meshes, and a
 /// bound on the error of single precision in what it places.
-class Place {
+class NodePlacement {
  public:
   /// The transform of `node`, a child of this node.
-  Place of(const aiNode& node) const {
+  NodePlacement of(const aiNode& node) const {
     // Each entry is made of a unit quaternion, a scale and a translation in some 30 roundings, all
     // of them together as one matrix.
-    Place own = *this;
+    NodePlacement own = *this;
     const Eigen::Matrix4d matrix = toEigen(node.mTransformation);
     if (matrix.isIdentity(0.0)) return own;
     own.file_from_node_ = file_from_node_ * matrix;
@@ -74,7 +74,7 @@ class Place {
   double steps_ = kSingle;  ///< of that; at first for the coordinates themselves
 };
 
-void appendMesh(const aiMesh& mesh, const Place& place, MeshFileContent& content) {
+void appendMesh(const aiMesh& mesh, const NodePlacement& place, MeshFileContent& content) {
   const int first = static_cast<int>(content.vertices.size());
   double farthest = 0.0;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
@@ -93,9 +93,9 @@ void appendMesh(const aiMesh& mesh, const Place& place, MeshFileContent& content
   requireFewTriangles(content.triangles.size());
 }
 
-void appendNode(const aiScene& scene, const aiNode& node, const Place& parent,
+void appendNode(const aiScene& scene, const aiNode& node, const NodePlacement& parent,
                 MeshFileContent& content) {
-  const Place place = parent.of(node);
+  const NodePlacement place = parent.of(node);
   for (unsigned i = 0; i < node.mNumMeshes; ++i)
     appendMesh(*scene.mMeshes[node.mMeshes[i]], place, content);
   for (unsigned i = 0; i < node.mNumChildren; ++i)
@@ -124,7 +124,7 @@ MeshFileContent importMesh(const std::string& name, std::span<const std::uint8_t
     throw MeshFileError("cannot be read: " + foreignText(importer.GetErrorString()));
   }
   MeshFileContent content;
-  appendNode(*scene, *scene->mRootNode, Place(), content);
+  appendNode(*scene, *scene->mRootNode, NodePlacement(), content);
   if (content.triangles.empty()) throw MeshFileError("has no triangles");
   keepUsedVertices(content);
   return content;
