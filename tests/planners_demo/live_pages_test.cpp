@@ -86,7 +86,7 @@ TEST_F(LivePages, OfProblemsHaveTheirFile) {
 }
 
 TEST_F(LivePages, AreNoOthersWithoutIt) {
-  const std::string page = html(kCheck);
+  const std::string page = html("SWEPT_LIVE= " + kCheck);
   EXPECT_THAT(page, Not(HasSubstr("makeSweptLive")));
   EXPECT_FALSE(pageData(page).contains("live"));
   EXPECT_THAT(html(withModule() + kCheck), HasSubstr("makeSweptLive"));
