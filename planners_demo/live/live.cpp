@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Verdicts in a browser: what `swept check` says of a state, as a WebAssembly module. JavaScript
-/// calls the two functions below; each answers with JSON, whose text is there until the next call.
-/// Files are those of Emscripten's file system, in memory.
+/// calls the three functions below; each answers with JSON, whose text is there until the next
+/// call. Files are those of Emscripten's file system, in memory.
 #include <algorithm>
 #include <cstddef>
 #include <exception>

@@ -8,6 +8,10 @@
 
 namespace swept::detail {
 
+/// Seeks contacts of the block's middles alone, which balls inside the outermost links show: most
+/// of all contacts. Needs nothing but frames. Returns true if it found one.
+bool lookAtWorld(const SimdModel& model, SimdScratch& scratch);
+
 /// Proves balls of the covers apart from the world on all sub-intervals of a block, and adds the
 /// other pairs to its open ones. Returns true if it stopped at a contact.
 ///
@@ -16,9 +20,6 @@ namespace swept::detail {
 /// stays within r + h^2 A / 2 of that segment. The balls of a cut of a cover contain the link; if
 /// all of them are apart from an obstacle, the link is.
 ///
-/// Only the contacts that balls inside the outermost links show at the middles, which are most of
-/// all. Needs nothing but frames. True: a contact.
-bool lookAtWorld(const SimdModel& model, SimdScratch& scratch);
 /// All bodies, the outermost first. For a motion after lookAtWorld(), whose contacts are not sought
 /// again.
 bool walkWorld(const SimdModel& model, SimdScratch& scratch);
