@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "page_data.hpp"
 
@@ -36,29 +39,14 @@ class LivePages : public testing::Test {
   TemporaryFolder module_, folder_;
 };
 
-std::string bytesOf(const std::string& base64) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char digit : base64) {
-    if (digit == '=') break;
-    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(digit));
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 255U);
-  }
-  return bytes;
-}
-
 TEST_F(LivePages, HaveAllThatTheAnswersDependOn) {
   const json live = pageData(html(withModule() + kCheck))["live"];
   for (const auto& [name, content] : live["files"].items()) {
     const std::filesystem::path file = folder_.path("given/" + name);
     ASSERT_EQ(file.lexically_normal(), file);
     std::filesystem::create_directories(file.parent_path());
-    folder_.write("given/" + name, bytesOf(content));
+    const std::vector<std::uint8_t> bytes = bytesOf(content);
+    folder_.write("given/" + name, std::string(bytes.begin(), bytes.end()));
   }
   // The same answer from these files alone.
   const json& inputs = live["inputs"];

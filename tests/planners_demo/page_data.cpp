@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 namespace swept::test {
-namespace {
 
 std::vector<std::uint8_t> bytesOf(const std::string& base64) {
   static const std::string kDigits =
@@ -28,6 +27,8 @@ std::vector<std::uint8_t> bytesOf(const std::string& base64) {
   }
   return bytes;
 }
+
+namespace {
 
 template <typename Number>
 std::vector<Number> numbersOf(const std::string& base64) {

@@ -17,6 +17,7 @@ std::string between(const std::string& text, const std::string& begin, const std
 /// The data of a page; fails the test when there is none.
 nlohmann::json pageData(const std::string& html);
 
+std::vector<std::uint8_t> bytesOf(const std::string& base64);
 std::vector<float> floats(const std::string& base64);
 std::vector<std::int32_t> integers(const std::string& base64);
 std::vector<std::uint16_t> uint16s(const std::string& base64);
