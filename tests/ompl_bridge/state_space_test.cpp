@@ -103,6 +103,40 @@ TEST(StateSpace, HasADefaultProjectionAfterSetup) {
   }
 }
 
+/// OMPL's planners of the KPIECE family want some 20 cells along each axis of what states reach.
+TEST(StateSpace, HasCellsOfASmallPartOfWhatStatesReach) {
+  const auto robot = everyJoint();
+  int axes = 0;
+  for (const Group& group : robot->groups()) {
+    const auto space = makeStateSpace(*robot, group);
+    space->setup();
+    space->setup();  // planners set the projection up once more
+    const auto projection = space->getDefaultProjection();
+    const unsigned int size = projection->getDimension();
+    ASSERT_EQ(projection->getCellSizes().size(), size);
+    EXPECT_FALSE(projection->userConfigured());
+    Eigen::VectorXd low = Eigen::VectorXd::Constant(size, 1e9), high = -low, projected = low;
+    ob::ScopedState<> state(space);
+    for (int i = 0; i < 1000; ++i) {
+      state.random();
+      projection->project(state.get(), projected);
+      low = low.cwiseMin(projected);
+      high = high.cwiseMax(projected);
+    }
+    for (unsigned int i = 0; i < size; ++i) {
+      const double extent = high[i] - low[i];
+      if (extent == 0.0) {
+        EXPECT_EQ(projection->getCellSizes(i), 1.0) << group.name;
+        continue;
+      }
+      ++axes;
+      EXPECT_GT(extent / projection->getCellSizes(i), 10.0) << group.name;
+      EXPECT_LT(extent / projection->getCellSizes(i), 80.0) << group.name;
+    }
+  }
+  EXPECT_GT(axes, 5);
+}
+
 /// The position of the group's tip by the library's other way to place a link.
 TEST(StateSpace, ProjectsOntoThePlaceOfTheTip) {
   const auto robot = everyJoint();
