@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Verdicts in a browser: what `swept check` says of a state, as a WebAssembly module. JavaScript
-/// calls the three functions below; each answers with JSON, whose text is there until the next
+/// calls the functions below; each answers with JSON, whose text is there until the next
 /// call. Files are those of Emscripten's file system, in memory.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <exception>
@@ -22,11 +23,13 @@
 #include "io/json_value.hpp"
 #include "output/text_output.hpp"
 #include "swept/robot_model/problems.hpp"
+#include "swept/robot_model/world.hpp"
 
 namespace swept {
 namespace {
 
 struct Live {
+  World given;  ///< the bodies where the files have them
   std::shared_ptr<const Checker> checker;
   std::unique_ptr<Workspace> workspace;
   std::string answer;
@@ -72,6 +75,37 @@ std::shared_ptr<const Checker> checkerOf(const Arguments& args, std::vector<std:
   return start.empty() ? checker : withConstraintsOf(args, std::move(checker), start);
 }
 
+void use(std::shared_ptr<const Checker> checker) {
+  live().workspace = std::make_unique<Workspace>(*checker);
+  live().checker = std::move(checker);
+}
+
+const Checker& opened() {
+  if (live().checker == nullptr) throw UsageError("no robot is open");
+  return *live().checker;
+}
+
+/// From a position (m) and a quaternion (x, y, z, w), seven numbers.
+Eigen::Isometry3d poseFrom(const double* numbers) {
+  const Eigen::Quaterniond turn(numbers[6], numbers[3], numbers[4], numbers[5]);
+  return Eigen::Translation3d(numbers[0], numbers[1], numbers[2]) * turn.normalized();
+}
+
+Json poseJson(const Eigen::Isometry3d& pose) {
+  const Eigen::Vector3d position = pose.translation();
+  const Eigen::Quaterniond turn(pose.linear());
+  return {{"position", {position.x(), position.y(), position.z()}},
+          {"orientation", {turn.x(), turn.y(), turn.z(), turn.w()}}};
+}
+
+/// The body with each of its parts moved by the same.
+WorldBody movedBy(const Eigen::Isometry3d& motion, WorldBody body) {
+  for (WorldBody::Part& part : body.parts) {
+    part.world_from_shape = motion * part.world_from_shape;
+  }
+  return body;
+}
+
 }  // namespace
 }  // namespace swept
 
@@ -89,10 +123,10 @@ const char* swept_live_open(const char* file) {
     Arguments args = inputsOf(JsonValue(inputs, "inputs", name));
     args.quiet = true;  // no line that tells how far it is: nobody sees one
     auto checker = checkerOf(args, remarks);
-    live().workspace = std::make_unique<Workspace>(*checker);
-    live().checker = std::move(checker);
-    const Checker& opened = *live().checker;
-    return {{"variables", variableNames(opened.robot(), opened.group())}, {"remarks", remarks}};
+    use(std::move(checker));
+    const Checker& now = opened();
+    live().given = now.world();
+    return {{"variables", variableNames(now.robot(), now.group())}, {"remarks", remarks}};
   });
 }
 
@@ -101,10 +135,10 @@ const char* swept_live_open(const char* file) {
 const char* swept_live_report(const double* values, int count) {
   using namespace swept;
   return answerOrError([&]() -> Json {
-    if (live().checker == nullptr) throw UsageError("no robot is open");
+    const Checker& now = opened();
     const LabelledState state{.label = "state", .q = {values, values + count}};
-    return reportJson(state, live().checker->reportState(state.q, *live().workspace),
-                      live().checker->options().constraints);
+    return reportJson(state, now.reportState(state.q, *live().workspace),
+                      now.options().constraints);
   });
 }
 
@@ -112,9 +146,29 @@ const char* swept_live_report(const double* values, int count) {
 const char* swept_live_verdict(const double* values, int count) {
   using namespace swept;
   return answerOrError([&]() -> Json {
-    if (live().checker == nullptr) throw UsageError("no robot is open");
+    const Checker& now = opened();
     const std::span<const double> q(values, static_cast<std::size_t>(count));
-    return {{"verdict", toString(live().checker->checkState(q, *live().workspace))}};
+    return {{"verdict", toString(now.checkState(q, *live().workspace))}};
+  });
+}
+
+/// Moves a body of the world away from where its file has it: by a position (m) and a quaternion
+/// (x, y, z, w), the seven numbers of `motion`, in the model frame. Answers with where its parts
+/// then are, `{"parts": [{"position": [x, y, z], "orientation": [x, y, z, w]}]}`. After an
+/// `{"error": text}` it is where it was.
+const char* swept_live_move(const char* body, const double* motion) {
+  using namespace swept;
+  return answerOrError([&]() -> Json {
+    const Checker& now = opened();
+    const WorldBody* const given = live().given.find(body);
+    if (given == nullptr) throw UsageError("the world has no body '" + std::string(body) + "'");
+    WorldBody moved = movedBy(poseFrom(motion), *given);
+    Json parts = Json::array();
+    for (const WorldBody::Part& part : moved.parts) {
+      parts.push_back(poseJson(part.world_from_shape));
+    }
+    use(std::make_shared<const Checker>(now.withReplaced(std::move(moved))));
+    return {{"parts", std::move(parts)}};
   });
 }
 

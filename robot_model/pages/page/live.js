@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves where the robot was moved to by hand: a WebAssembly module answers as `swept check` does,
+// Proves where robot or bodies were moved to by hand: a WebAssembly module answers as `swept check` does,
 // about the files that the page has inside. Only in pages that have the module.
 'use strict';
 
@@ -33,7 +33,7 @@ swept.live = (function () {
         module.ccall('swept_live_open', 'string', ['string'], ['/given/inputs.json']));
     if (opened.error) throw new Error(opened.error);
     state.module = module;
-    state.room = module._malloc(8 * tree.group.length);
+    state.room = module._malloc(8 * Math.max(7, tree.group.length));
   }
 
   // What `swept check --json` says of a configuration of the group.
@@ -42,6 +42,15 @@ swept.live = (function () {
     module.HEAPF64.set(values, state.room / 8);
     return JSON.parse(module.ccall('swept_live_report', 'string', ['number', 'number'],
                                    [state.room, values.length]));
+  }
+
+  // Moves a body of the world by seven numbers from where its file has it; where its parts are then.
+  function moveBody(name, numbers) {
+    const module = state.module;
+    module.HEAPF64.set(numbers, state.room / 8);
+    const answer = JSON.parse(module.ccall('swept_live_move', 'string', ['string', 'number'], [name, state.room]));
+    if (answer.error) throw new Error(answer.error);
+    return answer.parts;
   }
 
   // A variable that the group does not have, and that is not where the checker has it.
@@ -81,17 +90,17 @@ swept.live = (function () {
 
   // After those of the page itself: what these say is that nothing is known.
   function show(now) {
-    if (now.values === null) {
+    if (now.values === null && !swept.scene.isMoved()) {
       if (state.answer !== null) swept.panel.pick(swept.panel.picked());
       state.answer = null;
       return;
     }
     if (state.problem) return say('not checked: ' + state.problem, 'plain');
     if (state.module === null) return say('the checker is being loaded', 'plain');
-    const other = elsewhere(now.values);
+    const values = now.values || swept.kinematics.valuesAt(now.time), other = elsewhere(values);
     if (other) return say('not checked: ' + other.name + ' is not of the group', 'plain');
     const begin = performance.now();
-    state.answer = ask(tree.group.map((i) => now.values[i]));
+    state.answer = ask(tree.group.map((i) => values[i]));
     say(verdictText(state.answer), tones[state.answer.verdict] || 'plain');
     state.took = performance.now() - begin;
     return mark(state.answer);
@@ -103,5 +112,5 @@ swept.live = (function () {
     if (playback.state.values) playback.tell();
   });
 
-  return {state, ask};
+  return {state, ask, moveBody};
 })();

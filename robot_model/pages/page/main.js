@@ -52,6 +52,7 @@
     '/': () => { byId('bodies-box').open = true; byId('bodies-filter').focus(); },
     Escape: () => {
       if (!byId('help').hidden) byId('help').hidden = true;
+      else if (swept.liveBodies && swept.scene.isMoved()) swept.liveBodies.putBack();
       else if (playback.state.values) playback.setTime(playback.state.time);
       else {
         swept.panel.pick(-1);
@@ -116,7 +117,8 @@
       swept.scene.poseLinks(swept.kinematics.poses(state.values || swept.kinematics.valuesAt(state.time)));
     else swept.scene.pose(at.frame);
     // Contacts are of what was checked.
-    const entry = state.values ? null : (data.isPath ? data.motions : data.states)[at.index];
+    const known = state.values === null && !swept.scene.isMoved();
+    const entry = !known ? null : (data.isPath ? data.motions : data.states)[at.index];
     if (entry !== showMoment.entry) swept.overlays.showContacts(entry ? entry.contacts : []);
     showMoment.entry = entry;
     swept.overlays.showBeside(touchesBeside(entry, at.t) ? entry : null);

@@ -5,6 +5,7 @@
 swept.panel = (function () {
   const data = swept.data, playback = swept.playback;
   const byId = (id) => document.getElementById(id);
+  const picks = []; // called when another body is picked
   let picked = -1;
 
   function make(tag, className, parent, text) {
@@ -119,10 +120,10 @@ swept.panel = (function () {
     const list = byId('picked-facts'), body = data.bodies[picked];
     list.textContent = '';
     const frame = data.locate(playback.state.time).frame;
-    const byHand = playback.state.values !== null; // of which no distance is known
+    const byHand = playback.state.values !== null || swept.scene.isMoved(); // of which no distance is known
     const near = byHand ? null : data.nearest(picked, frame);
-    if (byHand) addFact(list, 'nearest now', 'moved by hand: not checked');
-    else if (data.clearances && data.hasRow(frame))
+    if (byHand && !data.live) addFact(list, 'nearest now', 'moved by hand: not checked');
+    else if (!byHand && data.clearances && data.hasRow(frame))
       addFact(list, 'nearest now', near ? withPartner(near) : 'no pair to check');
     if (near && data.isPath) {
       const all = course(picked, data.clearances);
@@ -142,10 +143,12 @@ swept.panel = (function () {
   function pick(body) {
     picked = body;
     byId('picked').hidden = body < 0;
-    if (body < 0) {
-      swept.scene.highlight(-1, -1);
-      return;
-    }
+    if (body < 0) swept.scene.highlight(-1, -1);
+    else fillCard(body);
+    picks.forEach((listener) => listener());
+  }
+
+  function fillCard(body) {
     const shapes = data.bodies[body].parts.map((part) => part.shape);
     byId('picked-name').textContent = data.bodies[body].name;
     byId('picked-kind').textContent =
@@ -203,5 +206,5 @@ swept.panel = (function () {
     addContacts();
   }
 
-  return {build, rebuild, pick, picked: () => picked};
+  return {build, rebuild, pick, picked: () => picked, onPick: (listener) => picks.push(listener)};
 })();

@@ -13,6 +13,7 @@ swept.scene = (function () {
   // Per body of the data: {group, meshes: of what is proven, visuals: of what it looks like, shown:
   // of these two, materials, own: its colour, name: of the theme's colour where it has none}.
   const bodies = [];
+  const moved = new Set(); // indices of bodies of the world that are not where the data has them
   const loose = []; // {mesh, body}: visuals of links without a body, which follow this one
   let looks = false; // visuals are shown
   const bounds = new THREE.Box3();
@@ -209,6 +210,17 @@ swept.scene = (function () {
     changed();
   }
 
+  // A body of the world by a motion of the model frame from where the data has it; null: back there.
+  function moveBody(body, motion) {
+    const group = bodies[body].group;
+    group.position.copy(motion ? motion.position : new THREE.Vector3());
+    group.quaternion.copy(motion ? motion.quaternion : new THREE.Quaternion());
+    if (motion) moved.add(body);
+    else moved.delete(body);
+    renderer.shadowMap.needsUpdate = true;
+    changed();
+  }
+
   function setShadows(on) {
     light.sun.castShadow = on;
     renderer.shadowMap.needsUpdate = true;
@@ -254,11 +266,11 @@ swept.scene = (function () {
     const meshes = loose.filter((mesh) => mesh.visible)
         .concat(...bodies.filter((b) => b.group.visible).map((b) => b.shown));
     const hits = caster.intersectObjects(meshes).sort((a, b) => a.distance - b.distance);
-    return hits.length > 0 ? hits[0].object.userData : {body: -1};
+    return hits.length > 0 ? {...hits[0].object.userData, point: hits[0].point} : {body: -1};
   }
 
   // What is at a pixel of the canvas: {body: its index; -1: none, or a link that is not checked,
-  // whose name is `link`}.
+  // whose name is `link`; point: where, in the model frame}.
   function hitAt(x, y) {
     return firstHit(
         new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight));
@@ -312,7 +324,7 @@ swept.scene = (function () {
   }
 
   return {build, draw, pose, poseLinks, paint, highlight, seeThrough, setVisible, setShadows, addVisual,
-          showVisuals, hitAt, bodyAt: (x, y) => hitAt(x, y).body, isSeen, project, fit, place, colour, changed, scene, links, bodies, canvas, camera,
+          showVisuals, moveBody, isMoved: () => moved.size > 0, hitAt, bodyAt: (x, y) => hitAt(x, y).body, isSeen, project, fit, place, colour, changed, scene, links, bodies, canvas, camera,
           controls: () => controls, wholeBounds: () => bounds, shownBounds: measure,
           size: () => bounds.getSize(new THREE.Vector3()).length()};
 })();

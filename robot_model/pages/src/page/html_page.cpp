@@ -52,7 +52,7 @@ bool isOfTask(const PageFile& file) {
 std::string templateOf(bool ofTask, bool isLive = false) {
   std::string page, styles, licences, scripts;
   for (const PageFile& file : pageFiles()) {
-    if (isOfTask(file) != ofTask || (file.name == "live.js" && !isLive)) continue;
+    if (isOfTask(file) != ofTask || (file.name.starts_with("live") && !isLive)) continue;
     const std::string text(file.text);
     if (file.name.ends_with(".html"))
       page = text;
