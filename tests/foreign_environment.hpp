@@ -55,24 +55,41 @@ inline const std::vector<Environment>& foreignEnvironments() {
 #endif
 }
 
+/// The environment that a thread has when this begins.
+class OwnEnvironment {
+ public:
+  OwnEnvironment() { std::fegetenv(&whole_); }
+  void comeBack() const {
+    std::fesetenv(&whole_);
+#if defined(__SSE2__)
+    _mm_setcsr(control_);  // MinGW's fesetenv leaves it
+#endif
+  }
+
+ private:
+  std::fenv_t whole_{};
+#if defined(__SSE2__)
+  unsigned control_ = _mm_getcsr();
+#endif
+};
+
 /// Calls `act` in an environment. Returns whether that was still there afterwards, however `act`
 /// ended; then this thread has its own again.
 [[gnu::noinline]] inline bool leavesAlone(const Environment& environment,
                                           const std::function<void()>& act) {
-  std::fenv_t own;
-  std::fegetenv(&own);
+  const OwnEnvironment own;
   enter(environment);
   const std::uint32_t before = environmentBits();
   try {
     act();
   } catch (...) {
     const bool same = environmentBits() == before;
-    std::fesetenv(&own);
+    own.comeBack();
     if (!same) return false;
     throw;
   }
   const bool same = environmentBits() == before;
-  std::fesetenv(&own);
+  own.comeBack();
   return same;
 }
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "geometry/product_error.hpp"
+
 namespace swept::detail {
 namespace {
 
@@ -50,6 +52,29 @@ class Random {
  private:
   std::mt19937 engine_;
 };
+
+/// Factors of all sizes whose product and its error are doubles, with many and with few bits.
+TEST(ProductError, IsWhatTheProductHasLost) {
+  Random random(7);
+  int exact = 0, all = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const bool few = random.integer(1) == 0;
+    const auto factor = [&] {
+      const double mantissa = few ? random.integer(1 << 20) : random.within(1.0);
+      return std::ldexp(mantissa, random.integer(450));
+    };
+    const double x = factor(), y = factor(), product = x * y;
+    const Rational lost = Rational(x) * Rational(y) - Rational(product);
+    ASSERT_EQ(Rational(productError(x, y, product)), lost) << x << " * " << y;
+    ASSERT_EQ(Rational(dekkerProductError(x, y, product)), lost) << x << " * " << y;
+    exact += lost == 0 ? 1 : 0;
+    ++all;
+  }
+  EXPECT_GT(exact, all / 10);
+  EXPECT_LT(exact, all * 9 / 10);
+  // Not finite, so that a filter does not decide.
+  EXPECT_FALSE(std::isfinite(dekkerProductError(0x1p1000, 0x1p-1000, 1.0)));
+}
 
 /// Counts of what a suite has met, so that it can show that it met everything.
 struct Tally {

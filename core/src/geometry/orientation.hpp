@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cmath>
 
 #include "geometry/error_model.hpp"
+#include "geometry/product_error.hpp"
 
 /// On which side of a plane through three points a fourth one lies, exactly (Shewchuk 1997,
 /// "Adaptive precision floating-point arithmetic and fast robust geometric predicates": expansions,
@@ -31,7 +31,7 @@ class ExactSum {
   }
   void addProduct(double x, double y, double z) {
     const double high = x * y;
-    const double low = std::fma(x, y, -high);
+    const double low = productError(x, y, high);
     addProduct(high, z);
     if (low != 0.0) addProduct(low, z);
   }
@@ -44,7 +44,7 @@ class ExactSum {
  private:
   void addProduct(double x, double y) {
     const double high = x * y;
-    const double low = std::fma(x, y, -high);
+    const double low = productError(x, y, high);
     if (low != 0.0) add(low);
     if (high != 0.0) add(high);
   }

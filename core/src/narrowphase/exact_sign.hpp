@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "geometry/orientation.hpp"
+#include "geometry/product_error.hpp"
 
 /// Signs of determinants of points: first a floating-point filter, then an exact sum where nothing
 /// cheaper decides (following the idea of Shewchuk 1997, "Adaptive precision floating-point
@@ -90,7 +91,7 @@ inline TwoDoubles operator+(const TwoDoubles& x, const TwoDoubles& y) {
 
 inline TwoDoubles operator*(const TwoDoubles& x, const TwoDoubles& y) {
   const double high = x.high * y.high;
-  const double low = std::fma(x.high, y.high, -high);
+  const double low = productError(x.high, y.high, high);
   return exactSumOf(high, low + (x.high * y.low + x.low * y.high));
 }
 
