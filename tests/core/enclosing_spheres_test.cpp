@@ -4,14 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <stop_token>
+#include <thread>
 #include <vector>
 
 #include "mesh_samples.hpp"
 #include "swept/core/distance.hpp"
+#include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/triangle_mesh.hpp"
 
 namespace {
@@ -255,6 +259,68 @@ TEST(SphereExcess, BoundsHoldForSamples) {
     ASSERT_GT(points, 100);
     EXPECT_LT(found.largestSeen, 1.0);
     EXPECT_NEAR(sum / points, found.mean, 0.5 * found.mean + 1e-3);
+  }
+}
+
+/// Requested from another thread, at different moments of the work, until it is done before.
+template <typename Work>
+int stoppedTimes(const Work& work) {
+  int stopped = 0;
+  for (int wait = 0; wait < 40; wait += 2) {
+    std::stop_source stop;
+    std::jthread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+      stop.request_stop();
+    });
+    try {
+      work(stop.get_token());
+    } catch (const SearchStopped& error) {
+      EXPECT_STREQ(error.what(), "stopped before it was done");
+      ++stopped;
+    }
+  }
+  return stopped;
+}
+
+TEST(EnclosingSpheres, AreNoLongerSearchedForOnceStopped) {
+  std::mt19937 random(3);
+  const auto body = bodies(random).front();
+  EXPECT_GT(stoppedTimes([&](const std::stop_token& stop) {
+              EnclosingSpheresSearch search(body, {}, stop);
+              try {
+                search.atMost(12, stop);
+              } catch (const SearchStopped&) {
+                // Pieces may be missing: nothing more is found.
+                EXPECT_THROW(search.atMost(12), SearchStopped);
+                EXPECT_THROW(search.within(0.1), SearchStopped);
+                EXPECT_THROW(search.countFor(0.1), SearchStopped);
+                throw;
+              }
+            }),
+            5);
+  std::stop_source stop;
+  stop.request_stop();
+  EnclosingSpheresSearch search(body, quick());
+  EXPECT_THROW(search.within(0.1, stop.get_token()), SearchStopped);
+  const std::vector<EnclosingSphere> one{{Vector3d::Zero(), 0.1}};
+  EXPECT_THROW(outsideSpheres(body, one, {.stop = stop.get_token()}), SearchStopped);
+  EXPECT_THROW(sphereExcess(body, one, {.stop = stop.get_token()}), SearchStopped);
+}
+
+TEST(EnclosingShapes, AreNoLongerSearchedForOnceStopped) {
+  std::mt19937 random(3);
+  const auto body = bodies(random).front();
+  for (const EnclosingKind kind :
+       {EnclosingKind::Capsule, EnclosingKind::Box, EnclosingKind::Convex}) {
+    std::stop_source stop;
+    EnclosingShapesSearch search(body, kind, {.pieces = 30}, stop.get_token());
+    EXPECT_GT(search.atMost(4, stop.get_token()).shapes.size(), 0u);
+    stop.request_stop();
+    EXPECT_THROW(search.atMost(4, stop.get_token()), SearchStopped);
+    EXPECT_THROW(search.reachFor(4), SearchStopped);
+    EXPECT_THROW(search.countFor(0.1), SearchStopped);
+    EXPECT_THROW(search.within(0.1), SearchStopped);
+    EXPECT_THROW(EnclosingShapesSearch(body, kind, {}, stop.get_token()), SearchStopped);
   }
 }
 

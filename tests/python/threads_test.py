@@ -75,7 +75,11 @@ work = {"plan": lambda: swept.plan(checker, home, ready, planner="RRTstar", seco
         "roadmap": lambda: swept.CertifiedRoadmap(checker, states=500_000, neighbours=40, threads=1),
         "line": lambda: swept.ToolLinePlanner(swept.Checker(robot, "arm"), "hand").plan_by(
             ready, [0.0, 0.3, -0.3], position=1e-12, angle=4.0, least_step=1e-9, max_way_points=10**9),
-        "delays": late}[sys.argv[1]]
+        "delays": late,
+        "spheres": lambda: swept.SphereModel.search(robot, spheres=300, restarts=200, threads=1),
+        "boxes": lambda: swept.ShapeModel.search(robot, swept.EnclosingKind.BOX, shapes=200, pieces=1200, threads=1),
+        "judge": lambda: swept.SphereModel.search(robot, spheres=40, pieces=200, restarts=1, rounds=0).judge(
+            robot, tolerance=1e-12, most_splits=10**9, samples=10**9)}[sys.argv[1]]
 sent = []
 def send():
     sent.append(time.monotonic())
@@ -88,7 +92,8 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "line", "delays"])
+@pytest.mark.parametrize("work", ["plan", "states", "motions", "path", "roadmap", "line", "delays",
+                                  "spheres", "boxes", "judge"])
 def test_ctrl_c_ends_work(work):
     result = subprocess.run([sys.executable, "-c", INTERRUPTED, work], capture_output=True, text=True, timeout=300)
     assert result.stdout.startswith("ended"), result.stdout + result.stderr

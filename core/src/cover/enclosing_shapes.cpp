@@ -11,14 +11,28 @@ namespace swept {
 
 struct EnclosingShapesSearch::Data {
   detail::ShapeFit fit;
+  bool isOver = false;  ///< a call ended by an exception, with pieces here and there
+
+  template <typename Question>
+  auto ask(const Question& question) {
+    requireWhole();
+    isOver = true;
+    auto answer = question(fit);
+    isOver = false;
+    return answer;
+  }
+  void requireWhole() const {
+    if (isOver) throw SearchStopped();
+  }
 };
 
 EnclosingShapesSearch::EnclosingShapesSearch(std::span<const PosedShape> body, EnclosingKind kind,
-                                             const EnclosingShapesOptions& options) {
+                                             const EnclosingShapesOptions& options,
+                                             const std::stop_token& stop) {
   data_ = inDefaultEnvironment([&] {
     detail::requireSphereOption("pieces", options.pieces, 1.0);
     if (body.empty()) throw std::invalid_argument("a body without shapes needs none around it");
-    return std::make_unique<Data>(detail::ShapeFit(body, kind, options));
+    return std::make_unique<Data>(detail::ShapeFit(body, kind, options, stop));
   });
 }
 
@@ -27,27 +41,31 @@ EnclosingShapesSearch::EnclosingShapesSearch(EnclosingShapesSearch&&) noexcept =
 EnclosingShapesSearch& EnclosingShapesSearch::operator=(EnclosingShapesSearch&&) noexcept = default;
 
 int EnclosingShapesSearch::countFor(double reach) const {
-  return inDefaultEnvironment([&] { return data_->fit.countFor(reach); });
+  return inDefaultEnvironment([&] {
+    data_->requireWhole();
+    return data_->fit.countFor(reach);
+  });
 }
 
 double EnclosingShapesSearch::reachFor(int count) const {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("count", count, 1.0);
+    data_->requireWhole();
     return data_->fit.reachFor(count);
   });
 }
 
-EnclosingShapes EnclosingShapesSearch::atMost(int count) {
+EnclosingShapes EnclosingShapesSearch::atMost(int count, const std::stop_token& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("count", count, 1.0);
-    return data_->fit.atMost(count);
+    return data_->ask([&](auto& fit) { return fit.atMost(count, stop); });
   });
 }
 
-EnclosingShapes EnclosingShapesSearch::within(double reach) {
+EnclosingShapes EnclosingShapesSearch::within(double reach, const std::stop_token& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("reach", reach, 0.0, true);
-    return data_->fit.within(reach);
+    return data_->ask([&](auto& fit) { return fit.within(reach, stop); });
   });
 }
 

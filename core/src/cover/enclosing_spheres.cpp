@@ -9,18 +9,34 @@
 
 namespace swept {
 
+SearchStopped::SearchStopped() : std::runtime_error("stopped before it was done") {}
+
 struct EnclosingSpheresSearch::Data {
   detail::SphereFit fit;
+  bool isOver = false;  ///< a call ended by an exception, with pieces here and there
+
+  template <typename Question>
+  auto ask(const Question& question) {
+    requireWhole();
+    isOver = true;
+    auto answer = question(fit);
+    isOver = false;
+    return answer;
+  }
+  void requireWhole() const {
+    if (isOver) throw SearchStopped();
+  }
 };
 
 EnclosingSpheresSearch::EnclosingSpheresSearch(std::span<const PosedShape> body,
-                                               const EnclosingSpheresOptions& options) {
+                                               const EnclosingSpheresOptions& options,
+                                               const std::stop_token& stop) {
   data_ = inDefaultEnvironment([&] {
     detail::requireSphereOption("pieces", options.pieces, 1.0);
     detail::requireSphereOption("restarts", options.restarts, 1.0);
     detail::requireSphereOption("rounds", options.rounds, 0.0);
     if (body.empty()) throw std::invalid_argument("a body without shapes needs no spheres");
-    return std::make_unique<Data>(detail::SphereFit(body, options));
+    return std::make_unique<Data>(detail::SphereFit(body, options, stop));
   });
 }
 
@@ -30,20 +46,23 @@ EnclosingSpheresSearch& EnclosingSpheresSearch::operator=(EnclosingSpheresSearch
     default;
 
 int EnclosingSpheresSearch::countFor(double reach) const {
-  return inDefaultEnvironment([&] { return data_->fit.countFor(reach); });
-}
-
-EnclosingSpheres EnclosingSpheresSearch::atMost(int count) {
   return inDefaultEnvironment([&] {
-    detail::requireSphereOption("count", count, 1.0);
-    return data_->fit.atMost(count);
+    data_->requireWhole();
+    return data_->fit.countFor(reach);
   });
 }
 
-EnclosingSpheres EnclosingSpheresSearch::within(double reach) {
+EnclosingSpheres EnclosingSpheresSearch::atMost(int count, const std::stop_token& stop) {
+  return inDefaultEnvironment([&] {
+    detail::requireSphereOption("count", count, 1.0);
+    return data_->ask([&](auto& fit) { return fit.atMost(count, stop); });
+  });
+}
+
+EnclosingSpheres EnclosingSpheresSearch::within(double reach, const std::stop_token& stop) {
   return inDefaultEnvironment([&] {
     detail::requireSphereOption("reach", reach, 0.0, true);
-    return data_->fit.within(reach);
+    return data_->ask([&](auto& fit) { return fit.within(reach, stop); });
   });
 }
 

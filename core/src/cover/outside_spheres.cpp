@@ -10,6 +10,7 @@
 #include "cover/convex_field.hpp"
 #include "cover/posed_body.hpp"
 #include "cover/sphere_checks.hpp"
+#include "cover/stopping.hpp"
 #include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
@@ -55,6 +56,7 @@ class OutsideSearch {
   void run(const OutsideSpheresOptions& options) {
     std::vector<BodyPiece> halves;
     for (int splits = 0; splits < options.mostSplits && !open_.empty(); ++splits) {
+      detail::throwIfStopped(options.stop);
       // Whether anything is outside is not left open for the tolerance's sake.
       const double upper = open_.front().upper;
       const bool isDecided = lower_ > 0.0 || !(upper > 0.0);
@@ -74,7 +76,7 @@ class OutsideSearch {
   double upper() const { return open_.empty() ? lower_ : std::max(lower_, open_.front().upper); }
   const Vector3d& point() const { return point_; }
 
-  double surfaceShare(int samples) const;
+  double surfaceShare(int samples, const std::stop_token& stop) const;
 
  private:
   struct Open {
@@ -131,7 +133,7 @@ class OutsideSearch {
 };
 
 /// Of points spread over the triangles by area; of clouds, over their points.
-double OutsideSearch::surfaceShare(int samples) const {
+double OutsideSearch::surfaceShare(int samples, const std::stop_token& stop) const {
   double out = 0.0;
   double all = 0.0;
   std::mt19937 random(1);
@@ -157,6 +159,7 @@ double OutsideSearch::surfaceShare(int samples) const {
       const double own = areaOf(vertices, t);
       const auto points = static_cast<int>(std::ceil(samples * own / area));
       for (int i = 0; i < points; ++i) {
+        detail::throwIfStopped(stop);
         const double u = std::sqrt(uniform(random));
         const double v = uniform(random);
         count((1.0 - u) * vertices[t[0]] + u * (1.0 - v) * vertices[t[1]] + u * v * vertices[t[2]],
@@ -183,7 +186,8 @@ OutsideSpheres detail::outsideFields(std::span<const PosedShape> body,
   }
   OutsideSearch search(body, fields);
   search.run(options);
-  return {search.lower(), search.upper(), search.point(), search.surfaceShare(options.samples)};
+  return {search.lower(), search.upper(), search.point(),
+          search.surfaceShare(options.samples, options.stop)};
 }
 
 OutsideSpheres outsideSpheres(std::span<const PosedShape> body,

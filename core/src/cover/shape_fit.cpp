@@ -11,6 +11,7 @@
 
 #include "bv/principal_axes.hpp"
 #include "cover/convex_field.hpp"
+#include "cover/stopping.hpp"
 #include "geometry/small_ball.hpp"
 #include "swept/core/distance.hpp"
 
@@ -301,8 +302,8 @@ PosedShape hullAround(std::span<const Vector3d> points, double pad, double toler
 }  // namespace
 
 ShapeFit::ShapeFit(std::span<const PosedShape> body, EnclosingKind kind,
-                   const EnclosingShapesOptions& options)
-    : source_(body.begin(), body.end()), kind_(kind), body_(body) {
+                   const EnclosingShapesOptions& options, const std::stop_token& stop)
+    : source_(body.begin(), body.end()), kind_(kind), stop_(stop), body_(body) {
   divide(options.pieces);
   findFrames(body);
   agglomerate();
@@ -317,6 +318,7 @@ void ShapeFit::divide(int count) {
   std::ranges::make_heap(open, less);
   std::vector<BodyPiece> halves;
   while (!open.empty() && static_cast<int>(open.size() + pieces_.size()) < count) {
+    throwIfStopped(stop_);
     std::ranges::pop_heap(open, less);
     BodyPiece top = std::move(open.back());
     open.pop_back();
@@ -358,6 +360,7 @@ double ShapeFit::addPoints(const BodyPiece& piece, std::vector<Vector3d>& points
 }
 
 ShapeFit::Node ShapeFit::leafOf(const BodyPiece& piece) const {
+  throwIfStopped(stop_);
   Node node;
   node.pieces = {&piece};
   node.blur = addPoints(piece, node.points);
@@ -367,6 +370,7 @@ ShapeFit::Node ShapeFit::leafOf(const BodyPiece& piece) const {
 }
 
 ShapeFit::Node ShapeFit::joinOf(int a, int b) const {
+  throwIfStopped(stop_);
   const Node& left = nodes_[static_cast<std::size_t>(a)];
   const Node& right = nodes_[static_cast<std::size_t>(b)];
   Node node;
@@ -487,12 +491,14 @@ double ShapeFit::reachFor(int count) const {
   return found == reaches.end() ? reaches.back() : *found;
 }
 
-EnclosingShapes ShapeFit::atMost(int count) {
+EnclosingShapes ShapeFit::atMost(int count, const std::stop_token& stop) {
+  stop_ = stop;
   return finished(cut(reachFor(count)));
 }
 
 /// Samples miss some of what reaches farthest, so less is aimed at until the proven bound is met.
-EnclosingShapes ShapeFit::within(double reach) {
+EnclosingShapes ShapeFit::within(double reach, const std::stop_token& stop) {
+  stop_ = stop;
   constexpr int kMostTries = 8;
   EnclosingShapes found;
   double aim = reach;
@@ -510,7 +516,7 @@ EnclosingShapes ShapeFit::within(double reach) {
     before = nodes.size();
     found = finished(nodes);
     const SphereExcess excess =
-        shapesExcess(source_, found.shapes, 0.0, {.samples = 1, .tolerance = 0.01});
+        shapesExcess(source_, found.shapes, 0.0, {.samples = 1, .tolerance = 0.01, .stop = stop});
     if (excess.largest <= reach) break;
   }
   return found;
@@ -528,6 +534,7 @@ bool ShapeFit::divideFurther() {
 
 /// Measured by all points of all pieces, and a little larger.
 ShapeFit::Shaped ShapeFit::measured(const Matrix3d& axes, Pieces pieces) const {
+  throwIfStopped(stop_);
   constexpr int kMostTries = 4;
   std::vector<Vector3d> points;
   double blur = 0.0;
@@ -594,6 +601,7 @@ bool ShapeFit::shrink(Shaped& shaped, std::vector<Shaped>& all, std::deque<BodyP
   std::vector<std::pair<const Shaped*, const BodyPiece*>> given;
   std::vector<BodyPiece> halves;
   while (!pending.empty()) {
+    throwIfStopped(stop_);
     const BodyPiece& piece = *pending.back();
     pending.pop_back();
     const auto contains = [&](const auto& other) { return other.second.over(piece) <= 0.0; };

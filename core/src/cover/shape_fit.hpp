@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <deque>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "cover/posed_body.hpp"
@@ -15,12 +16,12 @@ namespace swept::detail {
 class ShapeFit {
  public:
   ShapeFit(std::span<const PosedShape> body, EnclosingKind kind,
-           const EnclosingShapesOptions& options);
+           const EnclosingShapesOptions& options, const std::stop_token& stop);
 
   int countFor(double reach) const { return static_cast<int>(cut(reach).size()); }
   double reachFor(int count) const;
-  EnclosingShapes atMost(int count);
-  EnclosingShapes within(double reach);
+  EnclosingShapes atMost(int count, const std::stop_token& stop);
+  EnclosingShapes within(double reach, const std::stop_token& stop);
 
  private:
   using Pieces = std::vector<const BodyPiece*>;
@@ -61,6 +62,7 @@ class ShapeFit {
 
   std::vector<PosedShape> source_;
   EnclosingKind kind_;
+  std::stop_token stop_;  ///< of the present call
   PosedBody body_;
   double size_ = 0.0;  ///< m
   std::deque<BodyPiece> pieces_;

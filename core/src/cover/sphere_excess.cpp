@@ -11,6 +11,7 @@
 #include "cover/convex_field.hpp"
 #include "cover/posed_body.hpp"
 #include "cover/sphere_checks.hpp"
+#include "cover/stopping.hpp"
 #include "swept/core/enclosing_shapes.hpp"
 #include "swept/core/floating_point_environment.hpp"
 
@@ -36,10 +37,11 @@ class ExcessSearch {
     }
   }
 
-  void run(double tolerance, int mostDistances) {
+  void run(const SphereExcessOptions& options) {
     int distances = 0;
-    while (!cubes_.empty() && distances + 8 <= mostDistances) {
-      if (!(cubes_.front().bound > (1.0 + tolerance) * seen_ + 1e-7)) return;
+    while (!cubes_.empty() && distances + 8 <= options.mostDistances) {
+      detail::throwIfStopped(options.stop);
+      if (!(cubes_.front().bound > (1.0 + options.tolerance) * seen_ + 1e-7)) return;
       std::pop_heap(cubes_.begin(), cubes_.end(), less);
       const Cube top = cubes_.back();
       cubes_.pop_back();
@@ -103,15 +105,16 @@ class ExcessSearch {
   double seen_ = 0.0;        ///< m
 };
 
-double meanExcess(const PosedBody& body, std::span<const ConvexField> fields, int samples,
-                  std::mt19937& random) {
+double meanExcess(const PosedBody& body, std::span<const ConvexField> fields,
+                  const SphereExcessOptions& options, std::mt19937& random) {
   double area = 0.0;
   for (const ConvexField& field : fields) area += field.area();
   double sum = 0.0;
   double all = 0.0;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const auto points = static_cast<int>(std::ceil(samples * fields[i].area() / area));
+    const auto points = static_cast<int>(std::ceil(options.samples * fields[i].area() / area));
     for (int k = 0; k < points; ++k) {
+      detail::throwIfStopped(options.stop);
       const Vector3d point = fields[i].pointOfSurface(random);
       bool isInner = false;
       for (std::size_t j = 0; j < fields.size() && !isInner; ++j)
@@ -125,15 +128,16 @@ double meanExcess(const PosedBody& body, std::span<const ConvexField> fields, in
   return all > 0.0 ? sum / all : 0.0;
 }
 
-double volumeRatio(const PosedBody& body, std::span<const ConvexField> fields, int samples,
-                   std::mt19937& random) {
+double volumeRatio(const PosedBody& body, std::span<const ConvexField> fields,
+                   const SphereExcessOptions& options, std::mt19937& random) {
   if (!body.hasInside()) return std::numeric_limits<double>::quiet_NaN();
   Eigen::AlignedBox3d box;
   for (const ConvexField& field : fields) box.extend(field.box());
   std::uniform_real_distribution<double> uniform;
   int inUnion = 0;
   int inBody = 0;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < options.samples; ++k) {
+    detail::throwIfStopped(options.stop);
     Vector3d point;
     for (int axis = 0; axis < 3; ++axis)
       point[axis] = box.min()[axis] + uniform(random) * box.sizes()[axis];
@@ -156,10 +160,10 @@ SphereExcess detail::fieldsExcess(std::span<const PosedShape> body,
   if (fields.empty()) return {0.0, 0.0, 0.0, 0.0};
   const PosedBody shapes(body);
   ExcessSearch search(shapes, fields);
-  search.run(options.tolerance, options.mostDistances);
+  search.run(options);
   std::mt19937 random(options.seed);
-  const double mean = meanExcess(shapes, fields, options.samples, random);
-  const double ratio = volumeRatio(shapes, fields, options.samples, random);
+  const double mean = meanExcess(shapes, fields, options, random);
+  const double ratio = volumeRatio(shapes, fields, options, random);
   return {search.seen(), search.largest(), mean, ratio};
 }
 

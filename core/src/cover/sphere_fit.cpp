@@ -9,6 +9,7 @@
 
 #include "cover/rounded.hpp"
 #include "cover/set_cover.hpp"
+#include "cover/stopping.hpp"
 #include "geometry/single_precision.hpp"
 
 namespace swept::detail {
@@ -43,8 +44,9 @@ bool isBetter(const auto& balls, const auto& than, double gain) {
 
 }  // namespace
 
-SphereFit::SphereFit(std::span<const PosedShape> body, const EnclosingSpheresOptions& options)
-    : options_(options), body_(body) {
+SphereFit::SphereFit(std::span<const PosedShape> body, const EnclosingSpheresOptions& options,
+                     const std::stop_token& stop)
+    : options_(options), stop_(stop), body_(body) {
   divide(options.pieces, std::numeric_limits<double>::infinity());
   findPlaces();
 }
@@ -66,6 +68,7 @@ void SphereFit::divide(int count, double largest) {
   while (!pieces_.empty() && static_cast<int>(pieces_.size() + whole.size()) < kMostPieces) {
     const bool enough = static_cast<int>(pieces_.size() + whole.size()) >= count;
     if (enough && sizeOf(pieces_.front()) <= largest) break;
+    throwIfStopped(stop_);
     std::ranges::pop_heap(pieces_, less);
     BodyPiece top = std::move(pieces_.back());
     pieces_.pop_back();
@@ -85,6 +88,7 @@ void SphereFit::divide(int count, double largest) {
 }
 
 void SphereFit::addPlace(const Place& place) {
+  throwIfStopped(stop_);
   std::vector<float> needs;
   needs.reserve(pieces_.size());
   for (const BodyPiece& piece : pieces_)
@@ -100,6 +104,7 @@ void SphereFit::findPlaces() {
   std::vector<Place> found;
   std::vector<Contacts> contacts(body_.shapeCount());
   for (const BodyPiece& piece : pieces_) {
+    throwIfStopped(stop_);
     if (piece.cell.isSolid() || piece.cell.patches.front().triangle < 0) continue;
     Vector3d foot = Vector3d::Zero();
     const Cell::Patch& patch = piece.cell.patches.front();
@@ -125,6 +130,7 @@ SphereFit::Balls SphereFit::greedy(double reach, double noise, std::mt19937& ran
   std::vector<std::vector<int>> sets(places_.size());
   std::vector<bool> covered(pieces_.size(), false);
   for (std::size_t i = 0; i < places_.size(); ++i) {
+    throwIfStopped(stop_);
     const auto most = static_cast<float>(noise > 0.0 ? reach * uniform(random) : reach);
     for (std::size_t j = 0; j < pieces_.size(); ++j)
       if (needs_[i][j] <= most) {
@@ -198,6 +204,7 @@ void SphereFit::recenter(Ball& ball) const {
   double step = 0.5 * std::max(ball.reach(), 0.05 * ball.radius);
   const double last = std::max(0.02 * ball.reach(), 1e-5 * size_);
   for (int tries = 0; step > last && tries < kMostTries;) {
+    throwIfStopped(stop_);
     Vector3d farthest = ball.place.center;
     double most = -1.0;
     for (const BodyPiece* piece : ball.pieces)
@@ -256,6 +263,7 @@ SphereFit::Balls SphereFit::settled(const Balls& places, int steps) const {
 std::pair<std::size_t, double> SphereFit::leastUseful(const Balls& balls) const {
   std::pair<std::size_t, double> least{0, std::numeric_limits<double>::infinity()};
   for (std::size_t b = 0; b < balls.size(); ++b) {
+    throwIfStopped(stop_);
     double most = -std::numeric_limits<double>::infinity();
     for (const BodyPiece* piece : balls[b].pieces) {
       double need = std::numeric_limits<double>::infinity();
@@ -362,7 +370,8 @@ SphereFit::Balls SphereFit::changed(Balls balls, int count) const {
   return balls;
 }
 
-EnclosingSpheres SphereFit::atMost(int count) {
+EnclosingSpheres SphereFit::atMost(int count, const std::stop_token& stop) {
+  stop_ = stop;
   auto found = found_.find(count);
   if (found == found_.end()) {
     auto near = found_.find(count - 1);
@@ -381,7 +390,8 @@ EnclosingSpheres SphereFit::atMost(int count) {
   return finished(found->second.balls);
 }
 
-EnclosingSpheres SphereFit::within(double reach) {
+EnclosingSpheres SphereFit::within(double reach, const std::stop_token& stop) {
+  stop_ = stop;
   // Dividing them also puts them in another order.
   found_.clear();
   divide(options_.pieces, 0.5 * reach);
@@ -441,6 +451,7 @@ void SphereFit::shrink(Ball& ball, Balls& balls, std::deque<BodyPiece>& divided)
   std::vector<const BodyPiece*> kept;
   std::vector<BodyPiece> halves;
   while (!pending.empty()) {
+    throwIfStopped(stop_);
     const BodyPiece& piece = *pending.back();
     pending.pop_back();
     const auto contains = [&](const Ball& other) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "cover/posed_body.hpp"
@@ -16,12 +17,13 @@ namespace swept::detail {
 /// Spheres around a body while they are searched for. Each piece is owned by one of them.
 class SphereFit {
  public:
-  SphereFit(std::span<const PosedShape> body, const EnclosingSpheresOptions& options);
+  SphereFit(std::span<const PosedShape> body, const EnclosingSpheresOptions& options,
+            const std::stop_token& stop);
 
   /// Of the greedy choice.
   int countFor(double reach) const;
-  EnclosingSpheres atMost(int count);
-  EnclosingSpheres within(double reach);
+  EnclosingSpheres atMost(int count, const std::stop_token& stop);
+  EnclosingSpheres within(double reach, const std::stop_token& stop);
 
  private:
   struct Place {
@@ -60,6 +62,7 @@ class SphereFit {
   EnclosingSpheres finished(Balls balls);
 
   EnclosingSpheresOptions options_;
+  std::stop_token stop_;  ///< of the present call
   PosedBody body_;
   double size_ = 0.0;  ///< m
   std::vector<BodyPiece> pieces_;

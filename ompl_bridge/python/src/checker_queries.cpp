@@ -20,8 +20,6 @@ namespace py = pybind11;
 namespace swept::python {
 namespace {
 
-using Token = std::shared_ptr<CancellationToken>;
-
 /// The checker behind `self`, which Python has checked to be a swept.Checker.
 CheckerHandle& handleOf(PyObject* self) {
   // What pybind11's cast ends in, without its search for a type that is known here.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "binding.hpp"
 #include "shapes.hpp"
 #include "spheres.hpp"
+#include "watch.hpp"
 
 namespace py = pybind11;
 
@@ -21,14 +23,23 @@ namespace {
 /// swept.EnclosingSpheresSearch.
 class SearchHandle {
  public:
-  SearchHandle(const std::vector<PosedShape>& body, const EnclosingSpheresOptions& options)
-      : search_(body, options) {}
+  SearchHandle(const std::vector<PosedShape>& body, const EnclosingSpheresOptions& options,
+               const std::stop_token& stop)
+      : search_(body, options, stop) {}
   /// question(search), without the GIL, one thread at a time.
   template <typename Question>
   auto ask(Question&& question) {
     const py::gil_scoped_release others;
     const std::lock_guard lock(mutex_);
     return question(search_);
+  }
+  /// The same for question(search, stop), which Ctrl-C and the token end.
+  template <typename Question>
+  auto askWatched(std::shared_ptr<const CancellationToken> token, Question&& question) {
+    return watched(std::move(token), [&](const std::stop_token& stop) {
+      const std::lock_guard lock(mutex_);
+      return question(search_, stop);
+    });
   }
 
  private:
@@ -75,14 +86,16 @@ void bindOutside(py::module_& module) {
   module.def(
       "outside_spheres",
       [](const py::object& shape, const py::object& spheres, double tolerance, int mostSplits,
-         int samples) {
+         int samples, const Token& cancel) {
         const std::vector<PosedShape> body = posedOf(shape);
         const std::vector<EnclosingSphere> all = spheresOf(spheres, "spheres");
-        const py::gil_scoped_release others;
-        return outsideSpheres(body, all, {tolerance, mostSplits, samples});
+        return watched(cancel, [&](const std::stop_token& stop) {
+          return outsideSpheres(body, all, {tolerance, mostSplits, samples, stop});
+        });
       },
       py::arg("shape"), py::arg("spheres"), py::kw_only(), py::arg("tolerance") = usual.tolerance,
       py::arg("most_splits") = usual.mostSplits, py::arg("samples") = usual.samples,
+      py::arg("cancel") = py::none(),
       "OutsideSpheres: judges spheres (k, 4) of any origin, x, y, z and radius (m) in the body's "
       "frame. `shape`: a Shape, or a list of pairs of\na Shape and its pose, see also "
       "Robot.link_shapes. `tolerance`: m, how closely the bounds must agree; `most_splits`: of "
@@ -92,15 +105,16 @@ void bindOutside(py::module_& module) {
   module.def(
       "sphere_excess",
       [](const py::object& shape, const py::object& spheres, int samples, double tolerance,
-         int mostDistances, std::uint32_t seed) {
+         int mostDistances, std::uint32_t seed, const Token& cancel) {
         const std::vector<PosedShape> body = posedOf(shape);
         const std::vector<EnclosingSphere> all = spheresOf(spheres, "spheres");
-        const py::gil_scoped_release others;
-        return sphereExcess(body, all, {samples, tolerance, mostDistances, seed});
+        return watched(cancel, [&](const std::stop_token& stop) {
+          return sphereExcess(body, all, {samples, tolerance, mostDistances, seed, stop});
+        });
       },
       py::arg("shape"), py::arg("spheres"), py::kw_only(), py::arg("samples") = measured.samples,
       py::arg("tolerance") = measured.tolerance, py::arg("most_distances") = measured.mostDistances,
-      py::arg("seed") = measured.seed,
+      py::arg("seed") = measured.seed, py::arg("cancel") = py::none(),
       "SphereExcess of spheres (k, 4) around a body; arguments as outside_spheres. `samples`: of "
       "the surface, and as many of the volume.\n`tolerance`: of `largest`, relative; "
       "`most_distances`: then it stays as it is. Raises ArgumentError for a body without shapes, "
@@ -165,19 +179,22 @@ void bindCovers(py::module_& module) {
       "result is proven, rounding included.\nIf several threads use it, one works and the others "
       "wait.")
       .def(py::init([](const py::object& shape, int pieces, int restarts, int rounds,
-                       std::uint32_t seed) {
+                       std::uint32_t seed, const Token& cancel) {
              const std::vector<PosedShape> body = posedOf(shape);
-             const py::gil_scoped_release others;
-             return std::make_unique<SearchHandle>(
-                 body, EnclosingSpheresOptions{pieces, restarts, rounds, seed});
+             const EnclosingSpheresOptions options{pieces, restarts, rounds, seed};
+             return watched(cancel, [&](const std::stop_token& stop) {
+               return std::make_unique<SearchHandle>(body, options, stop);
+             });
            }),
            py::arg("shape"), py::kw_only(), py::arg("pieces") = usual.pieces,
            py::arg("restarts") = usual.restarts, py::arg("rounds") = usual.rounds,
-           py::arg("seed") = usual.seed,
+           py::arg("seed") = usual.seed, py::arg("cancel") = py::none(),
            "`shape`: a Shape, or a list of pairs of a Shape and its pose; Robot.link_shapes has "
            "those of a link. `pieces`: that the body is divided\ninto. The same `seed` gives the "
            "same spheres. Raises ArgumentError for a body without shapes, planes and half-spaces, "
-           "and values below 1\n(`rounds`: 0).")
+           "and values below 1\n(`rounds`: 0). Ctrl-C and `cancel` end it and each search: "
+           "KeyboardInterrupt, "
+           "Cancelled. Then the search is over: further calls raise swept.Error.")
       .def(
           "count_for",
           [](SearchHandle& self, double reach) {
@@ -188,18 +205,24 @@ void bindCovers(py::module_& module) {
           "the body.")
       .def(
           "at_most",
-          [](SearchHandle& self, int count) {
-            return self.ask([&](EnclosingSpheresSearch& search) { return search.atMost(count); });
+          [](SearchHandle& self, int count, const Token& cancel) {
+            return self.askWatched(
+                cancel, [&](EnclosingSpheresSearch& search, const std::stop_token& stop) {
+                  return search.atMost(count, stop);
+                });
           },
-          py::arg("count"),
+          py::arg("count"), py::kw_only(), py::arg("cancel") = py::none(),
           "EnclosingSpheres: at most so many, with a small reach. Raises ArgumentError for less "
           "than one.")
       .def(
           "within",
-          [](SearchHandle& self, double reach) {
-            return self.ask([&](EnclosingSpheresSearch& search) { return search.within(reach); });
+          [](SearchHandle& self, double reach, const Token& cancel) {
+            return self.askWatched(
+                cancel, [&](EnclosingSpheresSearch& search, const std::stop_token& stop) {
+                  return search.within(reach, stop);
+                });
           },
-          py::arg("reach"),
+          py::arg("reach"), py::kw_only(), py::arg("cancel") = py::none(),
           "EnclosingSpheres: few that reach at most this (m) beyond the body, if the pieces are "
           "small enough for it. Raises ArgumentError\nunless it is above 0.");
 }

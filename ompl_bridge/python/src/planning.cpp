@@ -41,8 +41,6 @@ namespace swept::python {
 namespace {
 
 using States = std::vector<std::vector<double>>;
-using Token = std::shared_ptr<CancellationToken>;
-
 /// swept.Plan.
 struct Plan {
   std::string planner, status;

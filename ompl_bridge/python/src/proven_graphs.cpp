@@ -22,8 +22,6 @@ namespace py = pybind11;
 namespace swept::python {
 namespace {
 
-using Token = std::shared_ptr<CancellationToken>;
-
 std::unique_ptr<ProvenGraphHandle> loadGraph(const std::filesystem::path& file,
                                              const CheckerHandle& checker, unsigned threads) {
   const py::gil_scoped_release others;

@@ -23,8 +23,6 @@ namespace {
 
 using Limits = std::map<std::string, std::pair<double, double>>;
 using Weights = std::map<std::string, double>;
-using Token = std::shared_ptr<CancellationToken>;
-
 std::unique_ptr<RoadmapHandle> build(const CheckerHandle& checker, std::size_t states,
                                      std::size_t neighbours, std::uint32_t seed,
                                      const Limits& limits, const Weights& weights, unsigned threads,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "spheres.hpp"
 #include "swept/robot_model/text_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
+#include "watch.hpp"
 
 namespace py = pybind11;
 
@@ -38,14 +40,19 @@ py::list shapesOf(const ShapeModel& model, const std::string& name) {
 }
 
 ShapeModel searchShapes(const RobotHandle& robot, const py::object& kind, std::optional<int> shapes,
-                        std::optional<double> excess, int pieces, unsigned threads) {
+                        std::optional<double> excess, int pieces, unsigned threads,
+                        const Token& cancel) {
   if (shapes.has_value() == excess.has_value())
     throw std::invalid_argument("expected one of shapes and excess");
   const EnclosingKind of = enclosingKindOf(kind, "kind");
-  const py::gil_scoped_release others;
-  return enclosingShapeModel(
-      *robot.robot,
-      {.kind = of, .shapes = shapes, .excess = excess, .search = {pieces}, .threads = threads});
+  return watched(cancel, [&](const std::stop_token& stop) {
+    return enclosingShapeModel(*robot.robot, {.kind = of,
+                                              .shapes = shapes,
+                                              .excess = excess,
+                                              .search = {pieces},
+                                              .threads = threads,
+                                              .stop = stop});
+  });
 }
 
 ShapeModel loadShapes(const std::filesystem::path& file, const RobotHandle& robot) {
@@ -75,12 +82,19 @@ void saveUrdf(const ShapeModel& self, const std::filesystem::path& file, const R
 
 void saveShapes(const ShapeModel& self, const std::filesystem::path& file,
                 const RobotHandle& robot) {
-  const py::gil_scoped_release others;
   const std::string ending = endingOf(file);
-  if (ending == ".urdf") return saveUrdf(self, file, robot);
+  if (ending == ".urdf") {
+    const py::gil_scoped_release others;
+    return saveUrdf(self, file, robot);
+  }
   if (ending != ".json")
     throw UsageError("'" + file.string() + "' ends in '" + ending + "'; allowed: .urdf, .json");
-  writeText(file, shapeModelJson(self, robot.robot->name(), judgeShapeModel(*robot.robot, self)));
+  const std::string text = watched(nullptr, [&](const std::stop_token& stop) {
+    return shapeModelJson(self, robot.robot->name(),
+                          judgeShapeModel(*robot.robot, self, {.stop = stop}));
+  });
+  const py::gil_scoped_release others;
+  writeText(file, text);
 }
 
 }  // namespace
@@ -98,14 +112,15 @@ void bindShapeModels(py::module_& module) {
       .def_static(
           "search", &searchShapes, py::arg("robot"), py::arg("kind"), py::kw_only(),
           py::arg("shapes") = py::none(), py::arg("excess") = py::none(),
-          py::arg("pieces") = usual.pieces, py::arg("threads") = 0,
+          py::arg("pieces") = usual.pieces, py::arg("threads") = 0, py::arg("cancel") = py::none(),
           "Shapes of one EnclosingKind which together contain all collision geometry of the robot, "
           "proven; closed meshes with their inside. Either `shapes`:\ntheir number, divided so "
           "that "
           "the largest reach beyond a link is small; or `excess`: m, each link gets as many as "
           "this "
           "reach needs. `pieces`: as in\nEnclosingShapesSearch; the result does not depend on "
-          "`threads`. Raises ArgumentError, and UsageError for fewer shapes than links with "
+          "`threads`. Ctrl-C and `cancel` end it. Raises ArgumentError, and UsageError for fewer "
+          "shapes than links with "
           "geometry.")
       .def_static("load", &loadShapes, py::arg("file"), py::arg("robot"),
                   "Reads shapes for a Robot: of `save`; .urdf with any collision geometry that "
@@ -118,18 +133,15 @@ void bindShapeModels(py::module_& module) {
       .def(
           "judge",
           [](const ShapeModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
-             int samples, unsigned threads) {
-            std::vector<LinkSphereReport> reports;
-            {
-              const py::gil_scoped_release others;
-              reports =
-                  judgeShapeModel(*robot.robot, self, {tolerance, mostSplits, samples}, threads);
-            }
-            return py::tuple(py::cast(reports));
+             int samples, unsigned threads, const Token& cancel) {
+            return py::tuple(py::cast(watched(cancel, [&](const std::stop_token& stop) {
+              return judgeShapeModel(*robot.robot, self, {tolerance, mostSplits, samples, stop},
+                                     threads);
+            })));
           },
           py::arg("robot"), py::kw_only(), py::arg("tolerance") = judged.tolerance,
           py::arg("most_splits") = judged.mostSplits, py::arg("samples") = judged.samples,
-          py::arg("threads") = 0,
+          py::arg("threads") = 0, py::arg("cancel") = py::none(),
           "A LinkSphereReport for each link of a Robot with collision geometry: of shapes in place "
           "of spheres. Arguments as outside_shapes.")
       .def_property_readonly(

@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "swept/robot_model/shape_model.hpp"
 #include "swept/robot_model/text_file.hpp"
 #include "swept/robot_model/usage_error.hpp"
+#include "watch.hpp"
 
 namespace py = pybind11;
 
@@ -42,14 +44,16 @@ const LinkSpheres& linkOf(const SphereModel& model, const std::string& name) {
 
 SphereModel search(const RobotHandle& robot, std::optional<int> spheres,
                    std::optional<double> excess, int pieces, int restarts, int rounds,
-                   std::uint32_t seed, unsigned threads) {
+                   std::uint32_t seed, unsigned threads, const Token& cancel) {
   if (spheres.has_value() == excess.has_value())
     throw std::invalid_argument("expected one of spheres and excess");
-  const py::gil_scoped_release others;
-  return enclosingSphereModel(*robot.robot, {.spheres = spheres,
-                                             .excess = excess,
-                                             .search = {pieces, restarts, rounds, seed},
-                                             .threads = threads});
+  return watched(cancel, [&](const std::stop_token& stop) {
+    return enclosingSphereModel(*robot.robot, {.spheres = spheres,
+                                               .excess = excess,
+                                               .search = {pieces, restarts, rounds, seed},
+                                               .threads = threads,
+                                               .stop = stop});
+  });
 }
 
 SphereModel load(const std::filesystem::path& file, const RobotHandle& robot) {
@@ -65,16 +69,18 @@ SphereModel load(const std::filesystem::path& file, const RobotHandle& robot) {
 }
 
 Reports judge(const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
-              int samples, unsigned threads) {
-  const py::gil_scoped_release others;
-  return judgeSphereModel(*robot.robot, self, {tolerance, mostSplits, samples}, threads);
+              int samples, unsigned threads, const Token& cancel) {
+  return watched(cancel, [&](const std::stop_token& stop) {
+    return judgeSphereModel(*robot.robot, self, {tolerance, mostSplits, samples, stop}, threads);
+  });
 }
 
 std::string textOf(const SphereModel& self, const std::filesystem::path& file,
-                   const RobotHandle& robot) {
+                   const RobotHandle& robot, const std::stop_token& stop) {
   const std::string& name = robot.robot->name();
   const std::string ending = endingOf(file);
-  if (ending == ".json") return sphereModelJson(self, name, judgeSphereModel(*robot.robot, self));
+  if (ending == ".json")
+    return sphereModelJson(self, name, judgeSphereModel(*robot.robot, self, {.stop = stop}));
   if (ending == ".yaml" || ending == ".yml") return curoboSpheres(self, name);
   if (ending == ".xrdf") return xrdfSpheres(self);
   const Source& source = robot.source;
@@ -90,8 +96,10 @@ std::string textOf(const SphereModel& self, const std::filesystem::path& file,
 }
 
 void save(const SphereModel& self, const std::filesystem::path& file, const RobotHandle& robot) {
+  const std::string text = watched(
+      nullptr, [&](const std::stop_token& stop) { return textOf(self, file, robot, stop); });
   const py::gil_scoped_release others;
-  writeText(file, textOf(self, file, robot));
+  writeText(file, text);
 }
 
 void bindReport(py::module_& module) {
@@ -125,12 +133,13 @@ void bindSphereModels(py::module_& module) {
           "search", &search, py::arg("robot"), py::kw_only(), py::arg("spheres") = py::none(),
           py::arg("excess") = py::none(), py::arg("pieces") = usual.pieces,
           py::arg("restarts") = usual.restarts, py::arg("rounds") = usual.rounds,
-          py::arg("seed") = usual.seed, py::arg("threads") = 0,
+          py::arg("seed") = usual.seed, py::arg("threads") = 0, py::arg("cancel") = py::none(),
           "Spheres which together contain all collision geometry of the robot, proven; closed "
           "meshes with their inside. Either `spheres`: their number,\ndivided so that the largest "
           "reach beyond a link is small; or `excess`: m, each link gets as many as this reach "
           "needs. Others as in\nEnclosingSpheresSearch; the result does not depend on `threads`. "
-          "Takes seconds to minutes. Raises ArgumentError, and UsageError for fewer\nspheres than "
+          "Takes seconds to minutes; Ctrl-C and `cancel` end it. Raises ArgumentError, and "
+          "UsageError for fewer\nspheres than "
           "links with geometry.")
       .def_static("load", &load, py::arg("file"), py::arg("robot"),
                   "Reads spheres for a Robot: of `save`; .yaml of cuRobo; .xrdf of cuMotion; .srdf "
@@ -144,12 +153,13 @@ void bindSphereModels(py::module_& module) {
       .def(
           "judge",
           [](const SphereModel& self, const RobotHandle& robot, double tolerance, int mostSplits,
-             int samples, unsigned threads) {
-            return py::tuple(py::cast(judge(self, robot, tolerance, mostSplits, samples, threads)));
+             int samples, unsigned threads, const Token& cancel) {
+            return py::tuple(
+                py::cast(judge(self, robot, tolerance, mostSplits, samples, threads, cancel)));
           },
           py::arg("robot"), py::kw_only(), py::arg("tolerance") = judged.tolerance,
           py::arg("most_splits") = judged.mostSplits, py::arg("samples") = judged.samples,
-          py::arg("threads") = 0,
+          py::arg("threads") = 0, py::arg("cancel") = py::none(),
           "A LinkSphereReport for each link of a Robot with collision geometry; arguments as "
           "outside_spheres.")
       .def_property_readonly(

@@ -18,8 +18,6 @@ namespace py = pybind11;
 namespace swept::python {
 namespace {
 
-using Token = std::shared_ptr<CancellationToken>;
-
 /// swept.ToolLineStop.
 struct StopHandle {
   ToolLineStop stop;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <type_traits>
 #include <utility>
 
 /// How work ends before it is done: by Ctrl-C, by a token, or by a deadline.
@@ -25,6 +26,9 @@ class CancellationToken {
  private:
   std::atomic<bool> cancelled_ = false;
 };
+
+/// As arguments of Python: null for None.
+using Token = std::shared_ptr<CancellationToken>;
 
 /// What may end a piece of work.
 class Watch {
@@ -75,6 +79,15 @@ void runInRanges(std::size_t count, const Watch& watch, Pace& pace, Work&& work)
 /// asks `watch`, every 20 ms; when that throws, `stop` is requested, work ends, and the exception
 /// is thrown again. Exceptions of work are thrown, too.
 void runWatched(const Watch& watch, const std::function<void(const std::stop_token&)>& work);
+
+/// What work(stop) returns, by runWatched() without a deadline. `token` may be null.
+template <typename Work>
+auto watched(std::shared_ptr<const CancellationToken> token, Work&& work) {
+  std::optional<std::invoke_result_t<Work, const std::stop_token&>> result;
+  runWatched(Watch(std::nullopt, std::move(token)),
+             [&](const std::stop_token& stop) { result.emplace(work(stop)); });
+  return std::move(*result);
+}
 
 /// Calls work(stop) for all of `count` pieces at once, without the GIL: as runWatched(), but on
 /// this thread where `pace` says that they take less than 2 ms, of which a thread would be 2 %.

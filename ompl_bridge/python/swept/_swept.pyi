@@ -701,7 +701,13 @@ class SphereExcess:
     def volume_ratio(self) -> float: ...
 
 def outside_spheres(
-    shape: _Body, spheres: _Table, *, tolerance: float = ..., most_splits: int = ..., samples: int = ...
+    shape: _Body,
+    spheres: _Table,
+    *,
+    tolerance: float = ...,
+    most_splits: int = ...,
+    samples: int = ...,
+    cancel: Optional[CancellationToken] = ...,
 ) -> OutsideSpheres: ...
 def sphere_excess(
     shape: _Body,
@@ -711,6 +717,7 @@ def sphere_excess(
     tolerance: float = ...,
     most_distances: int = ...,
     seed: int = ...,
+    cancel: Optional[CancellationToken] = ...,
 ) -> SphereExcess: ...
 
 class EnclosingSpheres:
@@ -722,14 +729,27 @@ class EnclosingSpheres:
 
 class EnclosingSpheresSearch:
     def __init__(
-        self, shape: _Body, *, pieces: int = ..., restarts: int = ..., rounds: int = ..., seed: int = ...
+        self,
+        shape: _Body,
+        *,
+        pieces: int = ...,
+        restarts: int = ...,
+        rounds: int = ...,
+        seed: int = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> None: ...
     def count_for(self, reach: float) -> int: ...
-    def at_most(self, count: int) -> EnclosingSpheres: ...
-    def within(self, reach: float) -> EnclosingSpheres: ...
+    def at_most(self, count: int, *, cancel: Optional[CancellationToken] = ...) -> EnclosingSpheres: ...
+    def within(self, reach: float, *, cancel: Optional[CancellationToken] = ...) -> EnclosingSpheres: ...
 
 def outside_shapes(
-    shape: _Body, shapes: _Body, *, tolerance: float = ..., most_splits: int = ..., samples: int = ...
+    shape: _Body,
+    shapes: _Body,
+    *,
+    tolerance: float = ...,
+    most_splits: int = ...,
+    samples: int = ...,
+    cancel: Optional[CancellationToken] = ...,
 ) -> OutsideSpheres: ...
 def shapes_excess(
     shape: _Body,
@@ -740,6 +760,7 @@ def shapes_excess(
     tolerance: float = ...,
     most_distances: int = ...,
     seed: int = ...,
+    cancel: Optional[CancellationToken] = ...,
 ) -> SphereExcess: ...
 
 class EnclosingShapes:
@@ -750,11 +771,13 @@ class EnclosingShapes:
     def reach(self) -> float: ...
 
 class EnclosingShapesSearch:
-    def __init__(self, shape: _Body, kind: EnclosingKind, *, pieces: int = ...) -> None: ...
+    def __init__(
+        self, shape: _Body, kind: EnclosingKind, *, pieces: int = ..., cancel: Optional[CancellationToken] = ...
+    ) -> None: ...
     def count_for(self, reach: float) -> int: ...
     def reach_for(self, count: int) -> float: ...
-    def at_most(self, count: int) -> EnclosingShapes: ...
-    def within(self, reach: float) -> EnclosingShapes: ...
+    def at_most(self, count: int, *, cancel: Optional[CancellationToken] = ...) -> EnclosingShapes: ...
+    def within(self, reach: float, *, cancel: Optional[CancellationToken] = ...) -> EnclosingShapes: ...
 
 class ShapeModel:
     def __init__(self, links: Mapping[str, _Body]) -> None: ...
@@ -767,12 +790,20 @@ class ShapeModel:
         excess: Optional[float] = ...,
         pieces: int = ...,
         threads: int = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> ShapeModel: ...
     @staticmethod
     def load(file: _Path, robot: Robot) -> ShapeModel: ...
     def save(self, file: _Path, robot: Robot) -> None: ...
     def judge(
-        self, robot: Robot, *, tolerance: float = ..., most_splits: int = ..., samples: int = ..., threads: int = ...
+        self,
+        robot: Robot,
+        *,
+        tolerance: float = ...,
+        most_splits: int = ...,
+        samples: int = ...,
+        threads: int = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> Tuple[LinkSphereReport, ...]: ...
     @property
     def links(self) -> Tuple[str, ...]: ...
@@ -803,12 +834,20 @@ class SphereModel:
         rounds: int = ...,
         seed: int = ...,
         threads: int = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> SphereModel: ...
     @staticmethod
     def load(file: _Path, robot: Robot) -> SphereModel: ...
     def save(self, file: _Path, robot: Robot) -> None: ...
     def judge(
-        self, robot: Robot, *, tolerance: float = ..., most_splits: int = ..., samples: int = ..., threads: int = ...
+        self,
+        robot: Robot,
+        *,
+        tolerance: float = ...,
+        most_splits: int = ...,
+        samples: int = ...,
+        threads: int = ...,
+        cancel: Optional[CancellationToken] = ...,
     ) -> Tuple[LinkSphereReport, ...]: ...
     @property
     def links(self) -> Tuple[str, ...]: ...

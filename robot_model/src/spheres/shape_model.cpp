@@ -26,19 +26,19 @@ class ShapeShares {
     found_.resize(links_.size());
     forLinks([&](std::size_t i) {
       searches_[i] = std::make_unique<EnclosingShapesSearch>(bodyOf(*links_[i]), options_.kind,
-                                                             options_.search);
+                                                             options_.search, options_.stop);
     });
   }
 
   std::size_t linkCount() const { return links_.size(); }
 
   void findWithin(double excess) {
-    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess); });
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->within(excess, options_.stop); });
   }
 
   void findAtMost(int shapes) {
     const std::vector<int> counts = countsFor(shapes);
-    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i]); });
+    forLinks([&](std::size_t i) { found_[i] = searches_[i]->atMost(counts[i], options_.stop); });
   }
 
   ShapeModel model() && {
@@ -50,7 +50,10 @@ class ShapeShares {
 
  private:
   void forLinks(const std::function<void(std::size_t)>& work) {
-    detail::forEachIndex(links_.size(), options_.threads, work);
+    detail::forEachIndex(links_.size(), options_.threads, [&](std::size_t i) {
+      if (options_.stop.stop_requested()) throw SearchStopped();
+      work(i);
+    });
   }
 
   /// One more at a time, for the link that reaches farthest, unless that does not bring it nearer
@@ -162,6 +165,7 @@ std::vector<LinkSphereReport> judgeShapeModel(const Robot& robot, const ShapeMod
     if (!link.collision.empty()) links.push_back(&link);
   std::vector<LinkSphereReport> reports(links.size());
   detail::forEachIndex(links.size(), threads, [&](std::size_t i) {
+    if (options.stop.stop_requested()) throw SearchStopped();
     LinkSphereReport& report = reports[i];
     report.link = links[i]->name;
     const std::vector<PosedShape> body = bodyOf(*links[i]);
@@ -171,8 +175,9 @@ std::vector<LinkSphereReport> judgeShapeModel(const Robot& robot, const ShapeMod
     report.outside = outsideShapes(body, shapes, options);
     const double growth = shapes.empty() ? 0.0 : std::max(0.0, report.outside.upper);
     // Shapes without an inside grow to no size that contains anything.
-    report.excess = std::isfinite(growth) ? shapesExcess(body, shapes, growth)
-                                          : SphereExcess{growth, growth, growth, growth};
+    report.excess = std::isfinite(growth)
+                        ? shapesExcess(body, shapes, growth, {.stop = options.stop})
+                        : SphereExcess{growth, growth, growth, growth};
   });
   return reports;
 }

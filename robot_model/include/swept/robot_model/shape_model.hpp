@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +48,7 @@ struct ShapeModelOptions {
   std::optional<double> excess;   ///< m; each link gets as many as this reach needs
   EnclosingShapesOptions search;  ///< for each link
   unsigned threads = 0;           ///< 0: as many as processors. The result does not depend on it
+  std::stop_token stop = {};      ///< ends the search soon: SearchStopped
 };
 
 /// Shapes for each link with collision geometry, which together contain all of it: proven, rounding

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct SphereModelOptions {
   std::optional<double> excess;    ///< m; each link gets as many as this reach needs
   EnclosingSpheresOptions search;  ///< for each link
   unsigned threads = 0;            ///< 0: as many as processors. The result does not depend on it
+  std::stop_token stop = {};       ///< ends the search soon: SearchStopped
 };
 
 /// Spheres for each link with collision geometry, which together contain all of it: proven,
