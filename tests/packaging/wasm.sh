@@ -9,6 +9,7 @@
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 root="$(cd "$here/../.." && pwd)"
+source "$here/source_packages.sh"
 emscripten=/usr/share/emscripten
 sources=(libccd console-bridge tinyxml tinyxml2 urdfdom urdfdom-headers yaml-cpp llvm-toolchain-19)
 headers=(libeigen3-dev libhwy-dev nlohmann-json3-dev)
@@ -83,39 +84,14 @@ FROZEN_CACHE = True
 END
 export EM_FROZEN_CACHE=1
 
-# An apt of its own, which knows source packages.
-own_apt() {
-  apt-get -q -o Dir::State="$folder/apt" -o Dir::State::status=/var/lib/dpkg/status \
-    -o Dir::Cache="$folder/apt/cache" -o Dir::Etc::sourceparts="$folder/apt/none" \
-    -o Dir::Etc::sourcelist="$folder/apt/sources.list" -o Debug::NoLocking=true "$@"
-}
-
 unpack() {
   if [[ -e "$folder/source/complete" ]]; then return; fi
   rm -rf "$folder/source" "$sysroot"
-  mkdir -p "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial" "$folder/apt/none" "$folder/source" "$sysroot"
-  local mirror="${DEBIAN_MIRROR:-http://deb.debian.org/debian}" name
-  printf '%s %s bookworm main\n' deb "$mirror" deb-src "$mirror" >"$folder/apt/sources.list"
-  cd "$folder/source"
-  if ! own_apt update || ! own_apt source --download-only "${sources[@]}" || ! own_apt download "${headers[@]}"; then
-    echo "error: the packages cannot be had; DEBIAN_MIRROR names another mirror" >&2
-    exit 2
-  fi
-  for name in "${headers[@]}"; do dpkg-deb -x "$name"_*.deb "$sysroot"; done
-  for name in "${sources[@]}"; do
-    if [[ "$name" != llvm-* ]]; then dpkg-source --no-check -x "$name"_*.dsc "$name"; fi
-  done
+  unpack_packages
   # Of LLVM only what its standard library is built with.
   mkdir "$llvm"
   tar -xJf llvm-toolchain-19_*.orig.tar.xz -C "$llvm" --strip-components=1 --wildcards \
     '*/libcxx/*' '*/libcxxabi/*' '*/libunwind/*' '*/libc/*' '*/runtimes/*' '*/cmake/*' '*/llvm/utils/llvm-lit/*'
-  # Highway's headers alone are used; its library is that of this processor.
-  rm -rf "$sysroot"/usr/lib
-  mkdir -p "$sysroot/usr/lib/cmake/hwy"
-  cat >"$sysroot/usr/lib/cmake/hwy/hwy-config.cmake" <<END
-add_library(hwy::hwy INTERFACE IMPORTED)
-set_target_properties(hwy::hwy PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "$sysroot/usr/include")
-END
   touch "$folder/source/complete"
 }
 
