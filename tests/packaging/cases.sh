@@ -303,6 +303,20 @@ case_wasm_options() {
   [[ ! -e "$none" ]] || fail "wasm.sh makes a folder for what it refuses"
 }
 
+# The same of windows.sh.
+case_windows_options() {
+  local windows="$here/windows.sh" none="$temporary/none"
+  refuses 'usage: tests/packaging/windows.sh FOLDER' "$windows"
+  refuses "error: no option '--check'; there are: --tests --help" "$windows" "$none" --check swept
+  refuses 'error: --tests needs a value' "$windows" "$none" --tests
+  refuses "error: a second folder, '/tmp'; one is taken" "$windows" "$none" /tmp
+  mkdir "$temporary/programs"
+  ln -s "$(command -v bash)" "$(command -v dirname)" "$temporary/programs"
+  # Wine may be there, outside the path.
+  refuses 'x86_64-w64-mingw32-g++-posix cmake ninja apt-get' env PATH="$temporary/programs" bash "$windows" "$none"
+  [[ ! -e "$none" ]] || fail "windows.sh makes a folder for what it refuses"
+}
+
 # What .ci/nightly refuses before it installs anything, and what it would install where.
 case_ci_options() {
   local all='error: usage: .ci/nightly WHAT, where WHAT is one of: asan clang fuzz tsan'
