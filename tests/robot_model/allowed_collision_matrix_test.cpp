@@ -120,7 +120,7 @@ TEST(CollisionMatrix, KnownByConstruction) {
   const auto reports = computeAllowedCollisionMatrix(*robot);
   EXPECT_EQ(reports.size(), 15u);  // of 6 links; the turret has nothing to collide with
   const auto expect = [&](const char* a, const char* b, PairStatus status) {
-    const LinkPairReport& report = reportOf(*robot, reports, a, b);
+    const LinkPairReport report = reportOf(*robot, reports, a, b);
     EXPECT_EQ(report.status, status) << a << " - " << b << ": " << toString(report.status);
     const bool touches = status != PairStatus::Adjacent && status != PairStatus::Never;
     EXPECT_EQ(report.witness.has_value(), touches);
