@@ -147,16 +147,40 @@ TEST_F(CertifiedRoadmapTest, OfEveryKindOfJoint) {
     expectProven(*path, *checker);
   }
   EXPECT_GT(found, 3U);
-  const auto moved = std::make_shared<const Checker>(checker->withReplaced(
-      "post", makeBox({0.2, 0.2, 3.0}), Eigen::Isometry3d(Eigen::Translation3d(-0.4, 0.2, 0))));
-  roadmap.update(moved);
-  Workspace anew(*moved);
-  for (std::size_t i = 0; i < roadmap.graph().motions(); ++i) {
-    const auto [from, to] = roadmap.graph().motion(i);
-    const Verdict verdict =
-        moved->certifyMotion(roadmap.graph().state(from), roadmap.graph().state(to), anew).verdict;
-    EXPECT_NE(verdict, roadmap.graph().isFree(i) ? Verdict::Collision : Verdict::Free);
+  // A post, one that few motions pass, a sheet, a ball, points, and a tool that is carried.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(-0.7, 0.7);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 3000; ++i)
+    points.emplace_back(0.2 * place(random), 0.02, 0.5 * place(random));
+  const std::vector<Shape> shapes{makeBox({0.2, 0.2, 3.0}), makeBox({0.05, 0.05, 0.05}),
+                                  makeBox({2.0, 0.01, 1.0}), makeSphere(0.15),
+                                  PointCloud::build(points, 0.004)};
+  auto now = std::make_shared<const Checker>(
+      checker->withAttached("tool", "l6", makeBox({0.1, 0.02, 0.3}),
+                            Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.1, 0.1))));
+  EXPECT_TRUE(roadmap.update(now).everything);
+  std::size_t free = 0, compared = 0, asked = 0;
+  for (int round = 0; round < 20; ++round) {
+    Eigen::Isometry3d pose(Eigen::Translation3d(place(random), place(random), place(random)));
+    pose.rotate(Eigen::AngleAxisd(3.0 * place(random), Eigen::Vector3d(1, 1, 2).normalized()));
+    now = std::make_shared<const Checker>(
+        now->withReplaced("post", shapes[static_cast<std::size_t>(round) % shapes.size()], pose));
+    asked += roadmap.update(now).asked;
+    Workspace anew(*now);
+    for (std::size_t i = 0; i < roadmap.graph().motions(); ++i) {
+      const auto [from, to] = roadmap.graph().motion(i);
+      const Verdict verdict =
+          now->certifyMotion(roadmap.graph().state(from), roadmap.graph().state(to), anew).verdict;
+      ASSERT_NE(verdict, roadmap.graph().isFree(i) ? Verdict::Collision : Verdict::Free)
+          << "motion " << i << " in round " << round;
+      ++compared;
+      free += roadmap.graph().isFree(i) ? 1 : 0;
+    }
   }
+  EXPECT_GT(10 * free, compared);
+  EXPECT_LT(free, compared);
+  EXPECT_GT(10 * asked, compared);
 }
 
 TEST_F(CertifiedRoadmapTest, AnswersProblemsOfOmpl) {

@@ -72,7 +72,7 @@ void expectContained(const std::shared_ptr<const Robot>& robot, const std::strin
     pieces.push_back({body.link, body.parts[0].link_from_shape, pointsOf(body.parts[0].shape)});
   ASSERT_EQ(pieces.size(), boxesOf.pieces());
   MotionBoxes::Scratch scratch;
-  std::vector<SingleBox> coarse(boxesOf.coarseBoxes()), fine(boxesOf.fineBoxes());
+  std::vector<SingleBox> boxes(boxesOf.boxes());
   std::uniform_real_distribution<double> share(0.0, 1.0), error(-1.0, 1.0);
   std::size_t tested = 0, near = 0;
   for (int i = 0; i < 30; ++i) {
@@ -80,7 +80,7 @@ void expectContained(const std::shared_ptr<const Robot>& robot, const std::strin
     std::vector<double> to = test::randomConfiguration(checker, random);
     const double way = i % 3 == 0 ? 1.0 : 0.2;
     for (std::size_t k = 0; k < to.size(); ++k) to[k] = from[k] + way * (to[k] - from[k]);
-    boxesOf.find(from, to, coarse, fine, scratch);
+    boxesOf.find(from, to, boxes, scratch);
     for (std::size_t part = 0; part < MotionBoxes::kParts; ++part)
       for (int sample = 0; sample < 4; ++sample) {
         const double within = sample == 0 ? 0.0 : sample == 1 ? 1.0 : share(random);
@@ -91,12 +91,10 @@ void expectContained(const std::shared_ptr<const Robot>& robot, const std::strin
         for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
           const Eigen::Isometry3d pose =
               linkPose(*robot, group, pieces[piece].link, beside) * pieces[piece].link_from_shape;
-          const SingleBox& box = fine[part * pieces.size() + piece];
+          const SingleBox& box = boxes[part * pieces.size() + piece];
           for (const Eigen::Vector3d& point : pieces[piece].points) {
             const Eigen::Vector3d placed = pose * point;
             ASSERT_TRUE(contains(box, placed)) << pieces[piece].link << " at " << t;
-            ASSERT_TRUE(contains(coarse[part], placed));
-            ASSERT_TRUE(contains(coarse[MotionBoxes::kParts + piece], placed));
             ++tested;
             near += contains(box, placed, -0.03) ? 0 : 1;
           }
@@ -128,11 +126,11 @@ TEST(MotionBoxes, AreUnboundedWhereNothingIsKnown) {
   const auto arm = test::parseArm(test::armUrdf({}));
   const MotionBoxes boxesOf(Checker(arm, "all", std::make_shared<const World>()));
   MotionBoxes::Scratch scratch;
-  std::vector<SingleBox> coarse(boxesOf.coarseBoxes()), fine(boxesOf.fineBoxes());
+  std::vector<SingleBox> boxes(boxesOf.boxes());
   const std::vector<double> from{0.0, 0.0}, to{0.0, 1e300};
-  boxesOf.find(from, to, coarse, fine, scratch);
+  boxesOf.find(from, to, boxes, scratch);
   const BodySpace far({"far", {{Sphere{0.1}, at(1e20, 0, 0)}}}, 1.0, 0.0, 1e-13);
-  EXPECT_TRUE(far.touches(fine.back()));
+  EXPECT_TRUE(far.touches(boxes.back()));
 }
 
 TEST(BodySpace, HasAllOfItsBody) {

@@ -18,9 +18,10 @@ namespace swept::detail {
 
 namespace {
 
-/// The certificate of one part. Both queries take the same steps until the first contact; see
-/// ConfirmedContacts. `spent`: effort of earlier parts, which counts against the limits.
-MotionCertificate provePart(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
+/// The certificate of what is open in the workspace's ProofWork, of one part. Both queries take the
+/// same steps until the first contact; see ConfirmedContacts. `spent`: effort of earlier parts,
+/// which counts against the limits.
+MotionCertificate proveOpen(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
                             const Effort& spent, WorkspaceData& workspace) {
   MotionCertificate certificate;
   Effort& effort = certificate.effort;
@@ -33,7 +34,6 @@ MotionCertificate provePart(const CheckerModel& model, const JointPath& path, Mo
   ExactTier exact(model, query, oracle, contacts, workspace, effort);
 
   ProofWork& work = workspace.work;
-  work.begin();
   for (ProofTier* tier : std::initializer_list<ProofTier*>{&simd, &exact}) {
     tier->prove(work);
     if (work.isProven() || contacts.settle()) break;
@@ -54,6 +54,13 @@ MotionCertificate provePart(const CheckerModel& model, const JointPath& path, Mo
   if (wanted == MotionQuery::VerdictOnly && certificate.verdict != Verdict::Free)
     certificate.freeUntil = 0.0;
   return certificate;
+}
+
+/// All pairs, on all of the part.
+MotionCertificate provePart(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
+                            const Effort& spent, WorkspaceData& workspace) {
+  workspace.work.begin();
+  return proveOpen(model, path, wanted, spent, workspace);
 }
 
 /// Adds a part's certificate to that of the parts before it. Its effort includes theirs.
@@ -122,6 +129,15 @@ MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path
   if (task.verdict == Verdict::Violation && wanted == MotionQuery::VerdictOnly)
     return together(task, wanted, {});
   return together(task, wanted, certifyPairs(model, path, wanted, workspace));
+}
+
+Verdict certifyOpen(const CheckerModel& model, std::span<const double> from,
+                    std::span<const double> to, WorkspaceData& workspace) {
+  workspace.work.everything = false;
+  workspace.work.provenUntil = 0.0;
+  return proveOpen(model, StraightPath(model.kinematics, from, to), MotionQuery::VerdictOnly, {},
+                   workspace)
+      .verdict;
 }
 
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,

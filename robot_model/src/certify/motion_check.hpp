@@ -17,6 +17,13 @@ MotionCertificate certifyMotion(const CheckerModel& model, std::span<const doubl
                                 std::span<const double> to, MotionQuery wanted,
                                 WorkspaceData& workspace);
 
+/// Whether the straight motion keeps apart those pairs with the world that the workspace's
+/// ProofWork::open lists, on the intervals that it lists: no others are asked about, nor are
+/// constraints. The intervals begin at multiples of their lengths, which are powers of two, at
+/// least 2^-8. Not for a world with moving obstacles.
+Verdict certifyOpen(const CheckerModel& model, std::span<const double> from,
+                    std::span<const double> to, WorkspaceData& workspace);
+
 /// m. Clearances of other motions.
 struct OtherClearances {
   double world = std::numeric_limits<double>::infinity();  ///< of all pairs, unless by kind

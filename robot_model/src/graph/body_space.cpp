@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "rounding/error_model.hpp"
@@ -64,17 +63,10 @@ int BodySpace::cellOf(int k, double x) const {
                   cells_[static_cast<std::size_t>(k)] - 1);
 }
 
-/// Twice through the boxes, which are too many to keep.
 template <typename BoxOf>
-void BodySpace::fillGrid(std::size_t count, const BoxOf& boxOf) {
-  std::tie(gridLower_, gridUpper_) = boxOf(0);
-  for (std::size_t i = 1; i < count; ++i) {
-    const auto [lower, upper] = boxOf(i);
-    gridLower_ = gridLower_.cwiseMin(lower);
-    gridUpper_ = gridUpper_.cwiseMax(upper);
-  }
-  const SingleBox all = singleBox(gridLower_, gridUpper_);
-  box_.extend(all);
+void BodySpace::fillGrid(const SingleBox& all, std::size_t count, const BoxOf& boxOf) {
+  gridLower_ = lowerOf(all);
+  gridUpper_ = upperOf(all);
   const Vector3d sides = gridUpper_ - gridLower_;
   const double longest = sides.maxCoeff();
   if (!std::isfinite(all.upper(0)) || !std::isfinite(longest)) {
@@ -140,7 +132,7 @@ BodySpace::BodySpace(const WorldBody& body, double scale, double margin, double 
       const auto* cloud = std::get_if<PointCloud>(&shape);
       if (cloud == nullptr || body.parts.size() > 1) continue;
       const double reach = grown + roundingOf(size);
-      fillGrid(cloud->points().size(), [&](std::size_t i) {
+      fillGrid(box_, cloud->points().size(), [&](std::size_t i) {
         const Vector3d at = pose * cloud->points()[i];
         const Vector3d all = Vector3d::Constant(cloud->radius(i) + reach);
         return std::pair<Vector3d, Vector3d>(at - all, at + all);
@@ -149,7 +141,9 @@ BodySpace::BodySpace(const WorldBody& body, double scale, double margin, double 
     }
   }
   if (parts_.size() <= kFewParts) return;
-  fillGrid(parts_.size(), [this](std::size_t i) {
+  SingleBox all = emptyBox();
+  for (const Part& part : parts_) all.extend(part.box);
+  fillGrid(all, parts_.size(), [this](std::size_t i) {
     return std::pair<Vector3d, Vector3d>(lowerOf(parts_[i].box), upperOf(parts_[i].box));
   });
   parts_.clear();

@@ -44,9 +44,9 @@ class BodySpace {
   void add(const Aabb& local, const Eigen::Isometry3d& world_from_shape, double grown);
   void addFlat(const Eigen::Isometry3d& world_from_shape, const Eigen::Vector3d& normal,
                double offset, double grown, bool solid);
-  /// Fills the grid with `count` boxes, the i-th of which is boxOf(i).
+  /// Fills a grid over `all`, which holds them, with `count` boxes, the i-th of which is boxOf(i).
   template <typename BoxOf>
-  void fillGrid(std::size_t count, const BoxOf& boxOf);
+  void fillGrid(const SingleBox& all, std::size_t count, const BoxOf& boxOf);
   int cellOf(int k, double x) const;
   void sumUp();
   /// Of a corner, in occupied_.

@@ -111,16 +111,14 @@ SingleBox MotionBoxes::partBox(const Moving& moving, double half, const PointMot
 }
 
 void MotionBoxes::find(std::span<const double> from, std::span<const double> to,
-                       std::span<SingleBox> coarse, std::span<SingleBox> fine,
-                       Scratch& scratch) const {
+                       std::span<SingleBox> boxes, Scratch& scratch) const {
   const KinematicModel& kinematics = model_.kinematics;
   scratch.motion.resize(kinematics.bodies.size());
   scratch.carried.resize(kinematics.bodies.size());
   scratch.states.resize(kinematics.bodies.size());
   scratch.bounds.resize(moving_.size());
   if (!StraightPath(kinematics, from, to).linearize(0.5, 0.5, scratch.motion)) {
-    std::ranges::fill(coarse, unboundedBox());
-    std::ranges::fill(fine, unboundedBox());
+    std::ranges::fill(boxes, unboundedBox());
     return;
   }
   if (!model_.tube.empty()) widenRanges(kinematics, model_.tube, scratch.motion);
@@ -139,18 +137,13 @@ void MotionBoxes::find(std::span<const double> from, std::span<const double> to,
     }
     scratch.bounds[i] = pointMotionBound(kinematics, geometry.levers.path, arms, 0, scratch.motion);
   }
-  std::ranges::fill(coarse, emptyBox());
   constexpr double kHalf = 0.5 / static_cast<double>(kParts);
   for (std::size_t part = 0; part < kParts; ++part) {
     const double middle = static_cast<double>(2 * part + 1) * kHalf;
     for (std::size_t body = 1; body < kinematics.bodies.size(); ++body)
       evaluateBody(kinematics, scratch.motion, middle, static_cast<int>(body), scratch.states);
-    for (std::size_t i = 0; i < moving_.size(); ++i) {
-      const SingleBox box = partBox(moving_[i], kHalf, scratch.bounds[i], scratch);
-      fine[pieces() * part + i] = box;
-      coarse[part].extend(box);
-      coarse[kParts + i].extend(box);
-    }
+    for (std::size_t i = 0; i < moving_.size(); ++i)
+      boxes[pieces() * part + i] = partBox(moving_[i], kHalf, scratch.bounds[i], scratch);
   }
 }
 

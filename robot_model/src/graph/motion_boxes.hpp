@@ -62,6 +62,10 @@ class MotionBoxes {
   explicit MotionBoxes(const Checker& checker);
 
   std::size_t pieces() const { return moving_.size(); }
+  /// Of the checker's robot, attached bodies behind: index into PairModel::robotGeometry.
+  std::size_t geometryOf(std::size_t piece) const {
+    return static_cast<std::size_t>(moving_[piece].geometry);
+  }
   /// Multiplied to place a point of any of them, at most.
   double transforms() const { return transforms_; }
 
@@ -73,13 +77,11 @@ class MotionBoxes {
     std::vector<double> arms;
     std::vector<PointMotionBound> bounds;
   };
-  /// Boxes of all pieces in a part, and of a piece in all parts.
-  std::size_t coarseBoxes() const { return kParts + pieces(); }
-  /// Boxes of each piece in each part.
-  std::size_t fineBoxes() const { return kParts * pieces(); }
-  /// Of a motion. `coarse`: of each part, then of each piece; `fine`: by part, then by piece.
-  void find(std::span<const double> from, std::span<const double> to, std::span<SingleBox> coarse,
-            std::span<SingleBox> fine, Scratch& scratch) const;
+  /// Of each piece in each part.
+  std::size_t boxes() const { return kParts * pieces(); }
+  /// Boxes of a motion, by part, then by piece.
+  void find(std::span<const double> from, std::span<const double> to, std::span<SingleBox> boxes,
+            Scratch& scratch) const;
 
  private:
   struct Moving {

@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/body_questions.hpp"
 #include "graph/body_space.hpp"
+#include "graph/box_table.hpp"
 #include "graph/lone_checker.hpp"
 #include "graph/model_digest.hpp"
 #include "graph/proven_graph_data.hpp"
@@ -42,50 +44,44 @@ BodySpace spaceOf(const MotionBoxes& boxes, const LoneChecker& lone, const Check
   return BodySpace(body, checker.options().rules.scale(body.name), lone.margin(body), perMetre);
 }
 
-/// Whether the boxes of a motion touch the space of a body. Most are far away, or in another part.
-bool touches(const ProvenGraphData& graph, std::size_t motion, const BodySpace& space) {
-  const MotionBoxes& boxesOf = *graph.boxesOf;
-  const std::size_t pieces = boxesOf.pieces();
-  const SingleBox* const parts = graph.coarse.data() + motion * boxesOf.coarseBoxes();
-  const SingleBox* const whole = parts + MotionBoxes::kParts;
-  const BoxProbe probe(space.box());
-  const SingleBox* fine = graph.fine.data() + motion * boxesOf.fineBoxes();
-  for (std::size_t part = 0; part < MotionBoxes::kParts; ++part, fine += pieces) {
-    if (!probe.overlaps(parts[part])) continue;
-    for (std::size_t piece = 0; piece < pieces; ++piece)
-      if (probe.overlaps(whole[piece]) && probe.overlaps(fine[piece]) && space.touches(fine[piece]))
-        return true;
-  }
-  return false;
-}
-
 /// How questions are asked: on how many threads, and until when.
 struct Asking {
   unsigned threads = 1;
   std::stop_token stop;
 };
 
-/// The verdicts of one checker on some motions of a graph. Those that are left when it is stopped
-/// stay as they are.
-void ask(const ProvenGraphData& graph, const Checker& checker,
-         std::span<const std::uint32_t> motions, const Asking& how, std::span<Verdict> verdicts) {
-  const std::size_t batches = (motions.size() + kBatch - 1) / kBatch;
+/// Calls `prove(i, workspace)` for each i below `count`, with a workspace of each thread. Returns
+/// early when it is stopped.
+template <typename MakeWorkspace, typename Prove>
+void forEachQuestion(std::size_t count, const Asking& how, const MakeWorkspace& makeWorkspace,
+                     const Prove& prove) {
+  const std::size_t batches = (count + kBatch - 1) / kBatch;
   if (batches == 0) return;
   const std::size_t most = how.threads > 0 ? how.threads : 256;
   const std::size_t shares = std::min<std::size_t>(batches, most);
   forEachIndex(shares, how.threads, [&](std::size_t share) {
-    Workspace workspace(checker);
+    auto workspace = makeWorkspace();
     for (std::size_t batch = share; batch < batches; batch += shares)
-      for (std::size_t i = batch * kBatch; i < std::min((batch + 1) * kBatch, motions.size());
-           ++i) {
+      for (std::size_t i = batch * kBatch; i < std::min((batch + 1) * kBatch, count); ++i) {
         if (how.stop.stop_requested()) return;
+        prove(i, workspace);
+      }
+  });
+}
+
+/// The verdicts of one checker on some motions of a graph. Those that are left when it is stopped
+/// stay as they are.
+void ask(const ProvenGraphData& graph, const Checker& checker,
+         std::span<const std::uint32_t> motions, const Asking& how, std::span<Verdict> verdicts) {
+  forEachQuestion(
+      motions.size(), how, [&] { return Workspace(checker); },
+      [&](std::size_t i, Workspace& workspace) {
         const ProvenGraph::Motion& motion = graph.motions[motions[i]];
         verdicts[i] = checker
                           .certifyMotion(graph.state(motion.from), graph.state(motion.to),
                                          workspace, MotionQuery::VerdictOnly)
                           .verdict;
-      }
-  });
+      });
 }
 
 }  // namespace
@@ -101,31 +97,54 @@ std::uint32_t ProvenGraphData::numberOf(const std::string& name) {
 namespace {
 
 using detail::Asking;
+using detail::BodyQuestions;
 using detail::BodySpace;
 using detail::LoneChecker;
 using detail::MotionBlock;
 using detail::MotionBoxes;
 using detail::ProvenGraphData;
-using detail::SingleBox;
+using detail::TouchedPiece;
 
-/// Adds the blocks of a body to those motions whose boxes touch it.
+/// A body of more parts is asked about by a checker that has a tree of them.
+constexpr std::size_t kMostParts = 24;
+
+/// What is known of some motions and one body.
 struct BodyAnswer {
-  std::size_t byArithmetic = 0;
   std::vector<std::uint32_t> asked;
   std::vector<Verdict> verdicts;
 };
 
+/// Of the motions that are wanted, behind the first `first`.
 BodyAnswer askBody(const ProvenGraphData& graph, const Checker& checker, const LoneChecker& lone,
-                   const WorldBody& body, std::span<const std::uint32_t> motions,
+                   const WorldBody& body, std::size_t first, std::span<const char> isWanted,
                    const Asking& how) {
-  BodyAnswer answer;
   const BodySpace space = detail::spaceOf(*graph.boxesOf, lone, checker, body);
-  for (const std::uint32_t motion : motions)
-    if (detail::touches(graph, motion, space)) answer.asked.push_back(motion);
-  answer.byArithmetic = motions.size() - answer.asked.size();
+  std::vector<TouchedPiece> touched = graph.table.touching(space, first);
+  if (!isWanted.empty())
+    std::erase_if(touched, [&](const TouchedPiece& piece) { return isWanted[piece.motion] == 0; });
+  BodyAnswer answer;
+  std::vector<std::size_t> firstOf;  // of each motion that is asked about, and one more
+  for (std::size_t i = 0; i < touched.size(); ++i)
+    if (i == 0 || touched[i].motion != touched[i - 1].motion) {
+      answer.asked.push_back(touched[i].motion);
+      firstOf.push_back(i);
+    }
+  firstOf.push_back(touched.size());
   answer.verdicts.resize(answer.asked.size());
-  if (!answer.asked.empty())
+  if (answer.asked.empty()) return answer;
+  if (body.parts.size() > kMostParts) {
     detail::ask(graph, lone.with(body), answer.asked, how, answer.verdicts);
+    return answer;
+  }
+  const BodyQuestions questions(checker, *graph.boxesOf, body.name);
+  detail::forEachQuestion(
+      answer.asked.size(), how, [&] { return questions.workspace(); },
+      [&](std::size_t i, detail::WorkspaceData& workspace) {
+        const ProvenGraph::Motion& motion = graph.motions[answer.asked[i]];
+        answer.verdicts[i] = questions.ask(
+            graph.state(motion.from), graph.state(motion.to),
+            std::span(touched).subspan(firstOf[i], firstOf[i + 1] - firstOf[i]), workspace);
+      });
   return answer;
 }
 
@@ -155,11 +174,10 @@ std::vector<std::uint32_t> firstNumbers(std::size_t first, std::size_t last) {
 
 }  // namespace
 
-ProvenGraph::ProvenGraph(std::shared_ptr<const Checker> checker)
-    : data_(std::make_unique<ProvenGraphData>()) {
+ProvenGraph::ProvenGraph(std::shared_ptr<const Checker> checker) {
   detail::requireStaticWorld(checker);
-  data_->boxesOf = inDefaultEnvironment([&] { return std::make_shared<MotionBoxes>(*checker); });
-  data_->checker = std::move(checker);
+  auto boxes = inDefaultEnvironment([&] { return std::make_shared<const MotionBoxes>(*checker); });
+  data_ = std::make_unique<ProvenGraphData>(std::move(checker), std::move(boxes));
 }
 
 ProvenGraph::ProvenGraph(const ProvenGraph& other)
@@ -262,8 +280,11 @@ std::size_t ProvenGraph::addMotions(std::span<const Motion> motions, unsigned th
   graph.blocks.resize(kept);
 
   graph.findBoxes(before, threads);
+  std::vector<char> wanted(kept, 0);
+  for (const std::uint32_t motion : open) wanted[motion] = 1;
   for (const WorldBody& body : checker.world().bodies())
-    takeBlocks(askBody(graph, checker, lone, body, open, how), graph.numberOf(body.name), graph);
+    takeBlocks(askBody(graph, checker, lone, body, before, wanted, how), graph.numberOf(body.name),
+               graph);
   return kept - before;
 }
 
@@ -309,17 +330,16 @@ ProvenGraph::Change ProvenGraph::update(std::shared_ptr<const Checker> changed, 
 }
 
 void detail::ProvenGraphData::findBoxes(std::size_t first, unsigned threads) {
-  const std::size_t ofCoarse = boxesOf->coarseBoxes(), ofFine = boxesOf->fineBoxes();
   const std::size_t count = motions.size();
-  coarse.resize(count * ofCoarse);
-  fine.resize(count * ofFine);
+  table.resize(count);
   forEachIndex((count - first + kBatch - 1) / kBatch, threads, [&](std::size_t batch) {
     MotionBoxes::Scratch scratch;
+    std::vector<SingleBox> boxes(boxesOf->boxes());
     const std::size_t begin = first + batch * kBatch;
-    for (std::size_t i = begin; i < std::min(begin + kBatch, count); ++i)
-      boxesOf->find(state(motions[i].from), state(motions[i].to),
-                    {coarse.data() + i * ofCoarse, ofCoarse}, {fine.data() + i * ofFine, ofFine},
-                    scratch);
+    for (std::size_t i = begin; i < std::min(begin + kBatch, count); ++i) {
+      boxesOf->find(state(motions[i].from), state(motions[i].to), boxes, scratch);
+      table.put(i, boxes);
+    }
   });
 }
 
@@ -330,9 +350,8 @@ ProvenGraph::Change detail::ProvenGraphData::change(std::shared_ptr<const Checke
   std::vector<BodyAnswer> answers;
   if (!added.empty()) {
     const LoneChecker lone(*changed);
-    const std::vector<std::uint32_t> all = firstNumbers(0, motions.size());
     for (const WorldBody* body : added)
-      answers.push_back(askBody(*this, *changed, lone, *body, all, {threads, stop}));
+      answers.push_back(askBody(*this, *changed, lone, *body, 0, {}, {threads, stop}));
   }
   if (stop.stop_requested()) return {.stopped = true};
 
@@ -348,7 +367,7 @@ ProvenGraph::Change detail::ProvenGraphData::change(std::shared_ptr<const Checke
   }
   for (std::size_t i = 0; i < answers.size(); ++i) {
     takeBlocks(answers[i], numberOf(added[i]->name), *this);
-    change.byArithmetic += answers[i].byArithmetic;
+    change.byArithmetic += motions.size() - answers[i].asked.size();
     change.asked += answers[i].asked.size();
     for (const std::uint32_t motion : answers[i].asked) wasAsked[motion] = 1;
   }

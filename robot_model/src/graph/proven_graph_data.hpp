@@ -6,8 +6,10 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "graph/box_table.hpp"
 #include "graph/motion_boxes.hpp"
 #include "swept/robot_model/proven_graph.hpp"
 
@@ -20,17 +22,17 @@ struct MotionBlock {
 };
 
 struct ProvenGraphData {
+  ProvenGraphData(std::shared_ptr<const Checker> own, std::shared_ptr<const MotionBoxes> boxes)
+      : checker(std::move(own)), boxesOf(std::move(boxes)), table(boxesOf->pieces()) {}
+
   std::shared_ptr<const Checker> checker;
   std::shared_ptr<const MotionBoxes> boxesOf;
   std::size_t stateCount = 0;
   std::vector<double> values;  ///< of all states, one after the other
   std::vector<ProvenGraph::Motion> motions;
   std::vector<std::vector<MotionBlock>> blocks;  ///< per motion
-  ///@{
-  /// Per motion, as MotionBoxes::find() gives them.
-  std::vector<SingleBox> coarse, fine;
-  ///@}
-  std::vector<std::string> names;  ///< of bodies that ever blocked a motion
+  BoxTable table;                                ///< of all motions
+  std::vector<std::string> names;                ///< of bodies that ever blocked a motion
 
   std::span<const double> state(std::size_t index) const {
     const auto dimension = static_cast<std::size_t>(checker->dimension());

@@ -29,7 +29,7 @@ struct ProvenGraphData;
 /// * a body that is gone blocks nothing any more, and proves nothing wrong;
 /// * a new body changes nothing where it touches no box of a motion, grown by the margin and by
 ///   all roundings: they are proven to stay apart by comparing numbers;
-/// * every other motion is asked about this body alone, by a Checker that has no other pairs.
+/// * every other motion is asked about this body alone: its pieces and parts whose boxes touch it.
 ///
 /// A motion in contact with the robot itself, or not keeping the constraints, does not depend on
 /// the world. It is never added.

@@ -130,6 +130,34 @@ F8 reachOf(const SimdObstacles& obstacles, const SimdObstacle& obstacle, const V
   return reachOf(obstacles.rounds[obstacle.first], obstacle.kind, n);
 }
 
+/// From a point to the nearest one of a box, or of a round obstacle's axis, less the radius.
+V3 towardsObstacle(const SimdBox& box, const V3& x) {
+  V3 towards = set3({0.0F, 0.0F, 0.0F});
+  for (int i = 0; i < 3; ++i) {
+    const V3 axis = set3(box.axes[i]);
+    const F8 at = dot(axis, x) + set(box.offset[i]);
+    const F8 half = set(box.half[i]);
+    towards = along(towards, smaller(larger(at, -half), half) - at, axis);
+  }
+  return towards;
+}
+
+V3 towardsObstacle(const SimdRound& round, const V3& x) {
+  const V3 axis = set3(round.axis);
+  const V3 away = x - set3(round.center);
+  const F8 half = set(round.halfLength);
+  const F8 nearest = smaller(larger(dot(axis, away), -half), half);
+  const V3 towards = along(set(-1.0F) * away, nearest, axis);
+  const F8 length = root(larger(dot(towards, towards), set(1e-20F)));
+  return (larger(length - set(round.radius), set(0.0F)) / length) * towards;
+}
+
+V3 towardsObstacle(const SimdObstacles& obstacles, const SimdObstacle& obstacle, const V3& x) {
+  if (obstacle.kind == ObstacleKind::Box)
+    return towardsObstacle(obstacles.boxes[obstacle.first], x);
+  return towardsObstacle(obstacles.rounds[obstacle.first], x);
+}
+
 /// A pair in the lanes of the block.
 class DividedPair {
  public:
@@ -160,7 +188,53 @@ class DividedPair {
     return apart;
   }
 
+  /// Planes across the ways from points of the hull to the obstacle.
+  Lanes divideOutward(Lanes lanes) const {
+    const SimdObstacle& obstacle = model_.obstacles.obstacles[source_.obstacle];
+    const SimdBodyState& state = block_.states[bodyA_];
+    V3 x = place(model_.nodes[model_.rootOfGeometry[source_.geometry]], state);
+    Lanes apart = 0;
+    for (int step = 0; step < kSteps; ++step) {
+      const V3 way = towardsObstacle(model_.obstacles, obstacle, x);
+      const V3 nearest = farthestAlong(way, state);
+      // A plane through the hull's point leaves the obstacle on its other side, at rest.
+      const Lanes seen = above(dot(way, x + way - nearest), set(0.0F)) & lanes & ~apart;
+      if (seen != 0) apart |= divideAcross(way, seen);
+      if (apart == lanes || step + 1 == kSteps) break;
+      const V3 back = nearest - x;
+      const F8 share = dot(way, back) / larger(dot(back, back), set(1e-20F));
+      x = along(x, smaller(larger(share, set(0.0F)), set(1.0F)), back);
+    }
+    return apart;
+  }
+
  private:
+  /// Most planes to try.
+  static constexpr int kSteps = 6;
+
+  /// Of the hull's points, the one that is farthest along a direction at the middle.
+  V3 farthestAlong(const V3& direction, const SimdBodyState& state) const {
+    const SimdHulls& hulls = *model_.hulls;
+    const SimdHull& hull = hulls.of[source_.geometry];
+    const V3 n = turnedBack(state.rotation, direction);
+    F8 most = set(-1e30F);
+    V3 farthest = set3({0.0F, 0.0F, 0.0F});
+    for (int i = 0; i < hull.count; ++i) {
+      const SimdHulls::Points& eight = hulls.points[hull.first + i / kLanes];
+      const V3 p = {set(eight.x.lane[i % kLanes]), set(eight.y.lane[i % kLanes]),
+                    set(eight.z.lane[i % kLanes])};
+      const F8 at = dot(n, p);
+      for (int k = 0; k < kParts; ++k) {
+        const auto more = hn::Gt(at.part[k], most.part[k]);
+        most.part[k] = hn::IfThenElse(more, at.part[k], most.part[k]);
+        farthest.x.part[k] = hn::IfThenElse(more, p.x.part[k], farthest.x.part[k]);
+        farthest.y.part[k] = hn::IfThenElse(more, p.y.part[k], farthest.y.part[k]);
+        farthest.z.part[k] = hn::IfThenElse(more, p.z.part[k], farthest.z.part[k]);
+      }
+    }
+    return addRotated(load3(state.origin), state.rotation, farthest);
+  }
+
   Lanes divideAcross(const V3& direction, Lanes lanes) const {
     const V3 n = (set(1.0F) / root(larger(dot(direction, direction), set(1e-20F)))) * direction;
     JointErrors none;  // count alone is set
@@ -267,6 +341,11 @@ std::uint32_t Divide(const SimdModel& model, std::uint32_t pair, const SimdDirec
   return DividedPair(model, pair, scratch).divide(direction.towards, direction.lane, lanes);
 }
 
+std::uint32_t Outward(const SimdModel& model, std::uint32_t pair, std::uint32_t lanes,
+                      SimdScratch& scratch) {
+  return DividedPair(model, pair, scratch).divideOutward(lanes);
+}
+
 }  // namespace
 }  // namespace swept::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -275,6 +354,7 @@ HWY_AFTER_NAMESPACE();
 namespace swept::detail {
 
 SWEPT_DISPATCH_TABLE(Divide);
+SWEPT_DISPATCH_TABLE(Outward);
 
 bool canDivide(const SimdModel& model, std::uint32_t pair) {
   const SimdPairSource& source = model.sources[pair];
@@ -289,6 +369,11 @@ std::uint32_t lanesDivided(const SimdModel& model, std::uint32_t pair,
                            const SimdDirection& direction, std::uint32_t lanes,
                            SimdScratch& scratch) {
   return SWEPT_DISPATCH(Divide)(model, pair, direction, lanes, scratch);
+}
+
+std::uint32_t lanesOutward(const SimdModel& model, std::uint32_t pair, std::uint32_t lanes,
+                           SimdScratch& scratch) {
+  return SWEPT_DISPATCH(Outward)(model, pair, lanes, scratch);
 }
 
 }  // namespace swept::detail

@@ -24,5 +24,10 @@ bool canDivide(const SimdModel& model, std::uint32_t pair);
 std::uint32_t lanesDivided(const SimdModel& model, std::uint32_t pair,
                            const SimdDirection& direction, std::uint32_t lanes,
                            SimdScratch& scratch);
+/// The same for planes that it finds itself, of a pair with an obstacle: steps towards the point of
+/// the hull that is nearest to the obstacle at each lane's middle (E. Gilbert, 1966; M. Frank and
+/// P. Wolfe, 1956). The obstacle's nearest point, and so the plane, is known in closed form.
+std::uint32_t lanesOutward(const SimdModel& model, std::uint32_t pair, std::uint32_t lanes,
+                           SimdScratch& scratch);
 
 }  // namespace swept::detail

@@ -26,9 +26,15 @@ class SimdMotion {
 
   /// Frames alone of all bodies, at the sub-intervals of the scratch's block: enough to find a
   /// contact. What a proof needs besides is added by setMoving().
-  void placeFrames() {
+  void placeFrames() { placeFrames(model_.allBodies); }
+  /// The same of some bodies, whose ancestors must be among them.
+  void placeFrames(std::span<const int> bodies) {
     if (scratch_.curved) linearizeLanes();
-    detail::placeFrames(model_, scratch_.motion, model_.allBodies, scratch_.block);
+    detail::placeFrames(model_, scratch_.motion, bodies, scratch_.block);
+  }
+  /// Velocities of bodies whose frames are placed.
+  void setVelocities(std::span<const int> bodies) {
+    placeVelocities(model_, scratch_.motion, bodies, scratch_.block);
   }
 
   /// Velocities, and bound().

@@ -62,7 +62,15 @@ class WorldWalk {
     return settleFields();
   }
 
-  bool pairs(int geometry, std::span<const SimdHit> obstacles) {
+  bool lookAtPairs(int geometry, std::span<const SimdHit> obstacles) {
+    state_ = &block_.states[model_.geometryBody[geometry]];
+    const SimdNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
+    scratch_.hits.assign(obstacles.begin(), obstacles.end());
+    return lookAt(root, place(root, *state_));
+  }
+
+  bool pairs(int geometry, std::span<const SimdHit> obstacles, bool looked) {
+    probes_ = !looked;
     fields_.clear();
     start(model_.geometryBody[geometry]);
     const SimdNode& root = model_.nodes[model_.rootOfGeometry[geometry]];
@@ -337,9 +345,14 @@ bool Bodies(const SimdModel& model, SimdScratch& scratch) {
   return WorldWalk(model, scratch).bodies();
 }
 
-bool Pairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
+bool Pairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles, bool looked,
            SimdScratch& scratch) {
-  return WorldWalk(model, scratch).pairs(geometry, obstacles);
+  return WorldWalk(model, scratch).pairs(geometry, obstacles, looked);
+}
+
+bool LookAtPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
+                 SimdScratch& scratch) {
+  return WorldWalk(model, scratch).lookAtPairs(geometry, obstacles);
 }
 
 }  // namespace
@@ -352,6 +365,7 @@ namespace swept::detail {
 SWEPT_DISPATCH_TABLE(Look);
 SWEPT_DISPATCH_TABLE(Bodies);
 SWEPT_DISPATCH_TABLE(Pairs);
+SWEPT_DISPATCH_TABLE(LookAtPairs);
 
 bool lookAtWorld(const SimdModel& model, SimdScratch& scratch) {
   return SWEPT_DISPATCH(Look)(model, scratch);
@@ -362,8 +376,13 @@ bool walkWorld(const SimdModel& model, SimdScratch& scratch) {
 }
 
 bool walkPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
-               SimdScratch& scratch) {
-  return SWEPT_DISPATCH(Pairs)(model, geometry, obstacles, scratch);
+               SimdScratch& scratch, bool looked) {
+  return SWEPT_DISPATCH(Pairs)(model, geometry, obstacles, looked, scratch);
+}
+
+bool lookAtPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
+                 SimdScratch& scratch) {
+  return SWEPT_DISPATCH(LookAtPairs)(model, geometry, obstacles, scratch);
 }
 
 }  // namespace swept::detail

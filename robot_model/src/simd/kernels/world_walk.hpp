@@ -23,8 +23,12 @@ bool lookAtWorld(const SimdModel& model, SimdScratch& scratch);
 /// All bodies, the outermost first. For a motion after lookAtWorld(), whose contacts are not sought
 /// again.
 bool walkWorld(const SimdModel& model, SimdScratch& scratch);
-/// Only these pairs of geometry `geometry` with obstacles, in these lanes.
+/// Only these pairs of geometry `geometry` with obstacles, in these lanes. `looked`: after
+/// lookAtPairs(), likewise.
 bool walkPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
-               SimdScratch& scratch);
+               SimdScratch& scratch, bool looked = false);
+/// Seeks contacts of these pairs alone, as lookAtWorld().
+bool lookAtPairs(const SimdModel& model, int geometry, std::span<const SimdHit> obstacles,
+                 SimdScratch& scratch);
 
 }  // namespace swept::detail

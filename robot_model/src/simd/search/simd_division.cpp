@@ -149,6 +149,7 @@ class Division {
 
   /// True: a contact settles the search. Leaves in `open` what is not proven.
   bool examine(std::uint32_t pair, std::uint32_t& open) {
+    if (search_.ofChange) open &= ~lanesOutward(model_, pair, open, scratch_);
     while (open != 0 && looks_ < kMostLooks) {
       const Look at = nextLook(open);
       ++looks_;

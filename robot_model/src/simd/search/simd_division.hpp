@@ -15,6 +15,9 @@ struct SimdSearch {
   SimdScratch& scratch;
   int mostIntervals = 0;  ///< to examine
   int examined = 0;       ///< sub-intervals
+  /// A body of the world has changed, and some pairs with it are asked about. Most are clearly
+  /// apart or in contact: planes are sought between the hulls before exact geometry is asked.
+  bool ofChange = false;
 
   bool isSpent() const { return examined >= mostIntervals; }
   /// m. Inflation of the balls in a sub-interval of this half width.

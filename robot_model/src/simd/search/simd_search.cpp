@@ -43,11 +43,18 @@ class MotionSearch {
   void run() {
     SimdBlock& block = scratch_.block;
     block.mode = SimdMode::Motion;
-    work_.open.clear();
+    search_.ofChange = !work_.everything;
     work_.next.clear();
+    if (search_.ofChange) std::swap(work_.next, work_.open);
+    work_.open.clear();
+    work_.everything = true;
     forgetOpen(block);
-    if (first()) return;
-    collect();
+    if (!search_.ofChange) {
+      if (first()) return;
+      collect();
+    } else if (!scratch_.curved) {
+      search_.motion.bound();
+    }
     for (int level = 0; !work_.next.intervals.empty() && !tooMany(); ++level) {
       std::swap(work_.now, work_.next);
       work_.next.clear();
@@ -201,21 +208,47 @@ class MotionSearch {
     }
     search_.examined += static_cast<int>(count);
     std::ranges::sort(scratch_.wanted);
-    place();
-    const bool contact = walk([&] { return askAll(); });
+    wantBodies();
+    const bool looks = search_.ofChange && seeksContacts_;
+    if (looks) {
+      search_.motion.placeFrames(scratch_.bodies);
+    } else {
+      search_.motion.place(scratch_.bodies);
+    }
+    bool moving = !looks;
+    const bool contact = walk([&] {
+      if (looks && block.stopAtContact && lookAtAll()) return true;
+      if (!moving) search_.motion.setVelocities(scratch_.bodies);
+      moving = true;
+      return askAll(looks);
+    });
     for (const std::uint32_t pair : scratch_.wanted) scratch_.wantedLanes[pair] = 0;
     return contact;
   }
 
-  bool askAll() {
+  bool askAll(bool looked) {
     for (std::size_t i = 0; i < scratch_.wanted.size();)
-      if (askAt(i)) return true;
+      if (askAt(i, looked)) return true;
+    return false;
+  }
+
+  /// The outermost links first, where most contacts are. All pairs are with the world.
+  bool lookAtAll() {
+    for (std::size_t last = scratch_.wanted.size(); last > 0;) {
+      const int geometry = model_.sources[scratch_.wanted[last - 1]].geometry;
+      scratch_.asked.clear();
+      for (; last > 0 && model_.sources[scratch_.wanted[last - 1]].geometry == geometry; --last) {
+        const std::uint32_t pair = scratch_.wanted[last - 1];
+        scratch_.asked.push_back({model_.sources[pair].obstacle, scratch_.wantedLanes[pair]});
+      }
+      if (lookAtPairs(model_, geometry, scratch_.asked, scratch_)) return true;
+    }
     return false;
   }
 
   /// Asks about the pair at `i` and those after it that have the same geometry and are with the
   /// world.
-  bool askAt(std::size_t& i) {
+  bool askAt(std::size_t& i, bool looked) {
     const std::uint32_t pair = scratch_.wanted[i];
     const SimdPairSource& source = model_.sources[pair];
     if (source.obstacle < 0) {
@@ -228,11 +261,11 @@ class MotionSearch {
       if (next.obstacle < 0 || next.geometry != source.geometry) break;
       scratch_.asked.push_back({next.obstacle, scratch_.wantedLanes[scratch_.wanted[i]]});
     }
-    return walkPairs(model_, source.geometry, scratch_.asked, scratch_);
+    return walkPairs(model_, source.geometry, scratch_.asked, scratch_, looked);
   }
 
-  /// Places only the bodies that carry the wanted pairs.
-  void place() {
+  /// Only the bodies that carry the wanted pairs.
+  void wantBodies() {
     scratch_.bodyWanted.assign(model_.bodies.size(), 0);
     const auto want = [&](int body) {
       // From the body upwards: the ancestors of a wanted body are wanted already.
@@ -248,7 +281,6 @@ class MotionSearch {
     scratch_.bodies.clear();
     for (const int body : model_.allBodies)
       if (scratch_.bodyWanted[body] != 0) scratch_.bodies.push_back(body);
-    search_.motion.place(scratch_.bodies);
   }
 
   SimdSearch& search_;

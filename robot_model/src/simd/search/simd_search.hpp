@@ -27,8 +27,9 @@ class SimdTier final : public ProofTier {
         scratch_(scratch),
         effort_(effort) {}
 
-  /// Expects all pairs to be open. Leaves `work` as it is if the motion does not fit single
-  /// precision, or if too many pairs would have to wait.
+  /// Where not all pairs are open, those that are must be pairs with the world, on intervals of
+  /// float-exact middles. Leaves `work` as it is if the motion does not fit single precision; all
+  /// of it stays open if too many pairs would have to wait.
   void prove(ProofWork& work) override;
 
  private:
