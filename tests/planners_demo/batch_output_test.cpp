@@ -238,7 +238,7 @@ void expectRun(const LogReader& log, const LogReader::Planner& planner,
     const auto& [name, type] = planner.properties[i];
     if (name == "status") {
       EXPECT_EQ(type, "ENUM");
-      EXPECT_EQ(log.statuses.at(std::stoul(values[i])), run["status"]);
+      EXPECT_EQ(log.statuses.at(std::stoul(values[i])), run["status"].get<std::string>());
       continue;
     }
     ASSERT_TRUE(expected.contains(name)) << name;

@@ -27,9 +27,12 @@
 
 namespace swept {
 
+class Checker;
+
 namespace detail {
 struct CheckerModel;
 struct WorkspaceData;
+const CheckerModel& modelOf(const Checker& checker);
 }  // namespace detail
 
 /// What is checked, the margins and tolerances, and the work allowed.
@@ -80,8 +83,6 @@ struct CheckerOptions {
     return (selfPair ? selfMargin : worldMargin).value_or(margin);
   }
 };
-
-class Checker;
 
 /// Scratch memory for one thread. No result depends on its content. It grows when it is used with
 /// another checker than before. Used with one checker, queries allocate memory only for results of
@@ -298,6 +299,7 @@ class Checker {
 
  private:
   friend class Workspace;
+  friend const detail::CheckerModel& detail::modelOf(const Checker& checker);
   friend PathClearance pathClearance(const Checker&, const ConfigurationList&, double, Workspace&,
                                      ClearanceQuery);
   explicit Checker(std::shared_ptr<const detail::CheckerModel> model);
