@@ -690,10 +690,22 @@ class ConstraintSearch {
  private:
   /// Which of the constraints are not proven to hold.
   std::uint64_t examine(double t, double half, std::uint64_t asked, bool& stops) {
+    const std::uint64_t kept = asked & keptIn(t - half, t + half);
+    if (kept == asked) return 0;
     query_.moveTo(t, half);
     ++proof_.intervals;
-    std::uint64_t open = 0;
     bool allStop = true;
+    std::uint64_t open = look(t, asked & ~kept, allStop);
+    // What is known to hold divides an interval as if it were not: so the intervals are the same,
+    // and no constraint is left open that would be decided in a shorter one.
+    if (open != 0 && allStop) look(t, kept, allStop);
+    if (open != 0) open |= kept;
+    stops = stops || allStop;
+    return open;
+  }
+
+  std::uint64_t look(double t, std::uint64_t asked, bool& allStop) {
+    std::uint64_t open = 0;
     for (std::uint64_t rest = asked; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       const CompiledConstraint& constraint =
@@ -706,8 +718,19 @@ class ConstraintSearch {
       open |= std::uint64_t{1} << i;
       allStop = allStop && found.stops;
     }
-    stops = stops || allStop;
     return open;
+  }
+
+  /// The constraints that are known to hold in all of an interval, whose ends are those of halving.
+  std::uint64_t keptIn(double begin, double end) const {
+    if (asked_.kept.empty()) return 0;
+    const int first = std::min(static_cast<int>(8.0 * begin), 7);
+    const int last = std::max(first, static_cast<int>(std::ceil(8.0 * end)) - 1);
+    const unsigned eighths = (2U << last) - (1U << first);
+    std::uint64_t kept = 0;
+    for (std::size_t i = 0; i < asked_.kept.size(); ++i)
+      if ((asked_.kept[i] & eighths) == eighths) kept |= std::uint64_t{1} << i;
+    return kept;
   }
 
   /// Intervals come in order, so the first call has the least.
