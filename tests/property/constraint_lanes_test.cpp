@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -120,6 +123,40 @@ TEST(ConstraintLanes, KeepWhatTheySay) {
     for (int kind = static_cast<int>(Kind::Box); kind < kKinds; ++kind)
       EXPECT_GT(tally.kinds[kind], 200) << kind;
   });
+}
+
+/// A link of 1 m along x that turns about y: the bound on its acceleration is no larger than that.
+/// The ends of a motion are off by far less than what its sub-intervals' curvature is.
+TEST(ConstraintLanes, CountAllOfACurvature) {
+  const auto robot = swept::Robot::parse(
+      "<robot name='one'><link name='base'/><link name='arm'/>"
+      "<joint name='turn' type='revolute'><parent link='base'/><child link='arm'/>"
+      "<axis xyz='0 1 0'/><limit lower='-3' upper='3' velocity='1' effort='1'/></joint></robot>",
+      "one.urdf");
+  const auto verdict = [&robot](const swept::TaskConstraint& constraint, double angle) {
+    swept::CheckerOptions options;
+    options.constraints = constraint;
+    const swept::Checker checker(robot, "all", std::make_shared<const swept::World>(), options);
+    swept::Workspace workspace(checker);
+    return checker.certifyMotion(std::vector{-angle}, std::vector{angle}, workspace).verdict;
+  };
+  const auto boxFrom = [](double lowest) {
+    Eigen::Isometry3d center = Eigen::Isometry3d::Identity();
+    center.translation().x() = lowest + 1.0;
+    return swept::TaskConstraint::inside("arm", {2, 4, 4}, center, {1, 0, 0});
+  };
+  for (const std::int64_t target : swept::simd_test::simdTargets()) {
+    const swept::simd_test::OnTarget on(target);
+    for (const double angle : {0.2, 0.4, 0.8}) {
+      const double off = 0.05 * (angle / 8) * (angle / 8);
+      EXPECT_EQ(verdict(boxFrom(std::cos(angle) + off), angle), swept::Verdict::Violation);
+      EXPECT_EQ(verdict(boxFrom(std::cos(angle) - off), angle), swept::Verdict::Free);
+      EXPECT_EQ(verdict(swept::TaskConstraint::upright("arm", angle - off), angle),
+                swept::Verdict::Violation);
+      EXPECT_EQ(verdict(swept::TaskConstraint::upright("arm", angle + off), angle),
+                swept::Verdict::Free);
+    }
+  }
 }
 
 }  // namespace
