@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plans that keep an axis of the hand within an angle of a direction: CertifiedConnect and
-// shortenPath beside OMPL's RRTConnect in its ProjectedStateSpace and AtlasStateSpace, over FCL
-// where it is installed, else over our own states. The axis is the one that has the same direction
+// shortenPath beside OMPL's RRTConnect in its ProjectedStateSpace and AtlasStateSpace, with our
+// validator (makeConstrainedSetup), and with OMPL's over FCL where it is installed, else over our
+// own states. The axis is the one that has the same direction
 // at both ends of a problem of MotionBenchMaker: that of the rotation between them.
 //   SWEPT_DATA=DATA constrained_benchmark [--sets N] [--seed N] [--degrees D]... [--seconds S]
 #include <ompl/base/ConstrainedSpaceInformation.h>
@@ -154,6 +155,28 @@ void planOurs(const Task& task, const Options& options, Outcome& outcome) {
   outcome.proven += isProven(configurationsOf(setup->getSolutionPath(), *task.kept), *task.kept);
 }
 
+/// OMPL's planner and space, with motions that CertifiedGeodesicValidator proves.
+void planProven(const Task& task, const Options& options, ConstrainedSpace space,
+                Outcome& outcome) {
+  ompl::RNG::setSeed(options.seed);
+  const auto setup = makeConstrainedSetup(task.kept, space);
+  setConstrainedStartAndGoal(*setup, task.problem.start, task.problem.goal);
+  setup->setPlanner(std::make_shared<og::RRTConnect>(setup->getSpaceInformation()));
+  setup->setup();
+  ++outcome.asked;
+  const double begin = cpuSeconds();
+  const bool solved = setup->solve(options.seconds) == ob::PlannerStatus::EXACT_SOLUTION;
+  outcome.plan.push_back(solved ? cpuSeconds() - begin : options.seconds);
+  if (!solved) return;
+  ++outcome.solved;
+  const double planned = cpuSeconds();
+  setup->simplifySolution();
+  outcome.shorten.push_back(cpuSeconds() - planned);
+  outcome.length.push_back(setup->getSolutionPath().length());
+  const std::vector<std::vector<double>> executed = provenWayPoints(setup->getSolutionPath());
+  outcome.proven += !executed.empty() && isProven(executed, *task.kept) ? 1 : 0;
+}
+
 /// What the exact checkers say of the path that OMPL would execute: its states every `delta`.
 void judge(const std::vector<std::vector<double>>& path, const Task& task, Outcome& outcome) {
   Workspace workspace(*task.free), keeping(*task.kept);
@@ -254,6 +277,8 @@ bool run(const Options& options, const std::filesystem::path& data) {
   for (const double degrees : options.degrees) {
     Outcome ours{.name = "CertifiedConnect, shortenPath"};
     Outcome projected{.name = "OMPL, ProjectedStateSpace"}, atlas{.name = "OMPL, AtlasStateSpace"};
+    Outcome provenProjected{.name = "the first, our validator"};
+    Outcome provenAtlas{.name = "the second, our validator"};
     for (const PlanningCase& problem : problems.cases()) {
       const auto free = std::make_shared<const Checker>(empty.withWorld(problem.world));
       const auto kept = std::make_shared<const Checker>(free->withConstraints(
@@ -262,10 +287,13 @@ bool run(const Options& options, const std::filesystem::path& data) {
       planOurs(task, options, ours);
       planTheirs<ob::ProjectedStateSpace>(task, options, 1.0, projected);
       planTheirs<ob::AtlasStateSpace>(task, options, 1.0, atlas);
+      planProven(task, options, ConstrainedSpace::Projected, provenProjected);
+      planProven(task, options, ConstrainedSpace::Atlas, provenAtlas);
       if (ours.asked % 20 == 0)
         std::cerr << degrees << ": " << ours.asked << " of " << problems.cases().size() << "\n";
     }
-    for (const Outcome& outcome : {ours, projected, atlas}) print(table, degrees, outcome);
+    for (const Outcome& outcome : {ours, projected, atlas, provenProjected, provenAtlas})
+      print(table, degrees, outcome);
     std::fflush(stdout);
     proven = proven && ours.proven == ours.solved;
   }

@@ -371,20 +371,47 @@ TEST(TaskConstraint, RefusesWhatIsNone) {
   EXPECT_EQ(Asked(twoJoints(), many).state({0.0, 0.0}), Verdict::Free);
 }
 
+/// Single precision proves all eighths of a motion that keeps some distance; beside a tolerance the
+/// rest is left to double precision, as is all of a motion in a tube.
+TEST(TaskConstraint, PartsOfAMotionInSinglePrecision) {
+  Asked asked(oneJoint(), TaskConstraint::upright("arm", 0.25));
+  const MotionCertificate clear = asked.motion({-0.24}, {0.24});
+  EXPECT_EQ(clear.verdict, Verdict::Free);
+  EXPECT_EQ(clear.freeUntil, 1.0);
+  EXPECT_EQ(clear.effort.constrained, 8);
+  const MotionCertificate near = asked.motion({-0.24}, {0.2499999});
+  EXPECT_EQ(near.verdict, Verdict::Free);
+  EXPECT_GT(near.effort.constrained, 8);
+  EXPECT_EQ(asked.motion({-0.24}, {0.2500001}).verdict, Verdict::Violation);
+  Asked tube(oneJoint(), TaskConstraint::upright("arm", 0.25),
+             {{.rotation = 0.01, .translation = 0.0}, {}});
+  EXPECT_EQ(tube.motion({0.0}, {0.0}).effort.constrained, 1);
+  // A joint's own value is left to double precision, too; so what is beside it is as it was.
+  TaskConstraint both = TaskConstraint::upright("arm", 0.25);
+  both.joints.push_back({.joint = "turn", .above = 0.2, .below = 0.3});
+  Asked two(oneJoint(), both);
+  EXPECT_EQ(two.motion({-0.24}, {0.19}).verdict, Verdict::Free);
+  const MotionCertificate left = two.motion({-0.24}, {0.24});
+  ASSERT_EQ(left.verdict, Verdict::Violation);
+  EXPECT_EQ(left.violation->kind, ConstraintViolation::Kind::Joint);
+}
+
 TEST(TaskConstraint, QueriesAllocateNothing) {
   TaskConstraint task = orientation({0.3, 0.6, 0.3});
   task.add(TaskConstraint::inside("tip", {3, 3, 3}, Eigen::Isometry3d::Identity()));
-  Asked asked(oneJoint(), task, {{.rotation = 0.01, .translation = 0.0}, {}});
-  const std::vector<double> left{-0.5}, middle{0.0}, right{0.5}, beyond{1.0};
-  const auto ask = [&] {
-    return asked.motion(left, right).verdict == Verdict::Free &&
-           asked.motion(middle, beyond).verdict == Verdict::Violation &&
-           asked.state(middle) == Verdict::Free;
-  };
-  EXPECT_TRUE(ask());
-  const long before = test::allocations;
-  EXPECT_TRUE(ask());
-  EXPECT_EQ(test::allocations - before, 0);
+  for (const double rotation : {0.0, 0.01}) {
+    Asked asked(oneJoint(), task, {{.rotation = rotation, .translation = 0.0}, {}});
+    const std::vector<double> left{-0.5}, middle{0.0}, right{0.5}, beyond{1.0};
+    const auto ask = [&] {
+      return asked.motion(left, right).verdict == Verdict::Free &&
+             asked.motion(middle, beyond).verdict == Verdict::Violation &&
+             asked.state(middle) == Verdict::Free;
+    };
+    EXPECT_TRUE(ask());
+    const long before = test::allocations;
+    EXPECT_TRUE(ask());
+    EXPECT_EQ(test::allocations - before, 0);
+  }
 }
 
 }  // namespace

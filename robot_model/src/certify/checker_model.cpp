@@ -42,6 +42,7 @@ std::shared_ptr<const CheckerModel> compileChecker(std::shared_ptr<const Robot> 
   const SimdModel* const likeSimd = like == nullptr ? nullptr : &like->simd;
   model->simd = compileSimdModel(*model, like, likeSimd);
   addTables(*model, likeSimd, model->simd);
+  model->laneConstraints = compileLaneConstraints(*model, model->constraints, model->simd);
   return model;
 }
 

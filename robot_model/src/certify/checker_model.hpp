@@ -5,6 +5,7 @@
 
 #include "constraints/constraint_model.hpp"
 #include "model/pair_model.hpp"
+#include "simd/compile/lane_constraints.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "swept/core/broadphase/sweep_and_prune.hpp"
 
@@ -17,6 +18,7 @@ struct CheckerModel : PairModel {
   std::shared_ptr<const SweepAndPrune> boxes;
   SimdModel simd;
   ConstraintModel constraints;
+  LaneConstraints laneConstraints;
 };
 
 /// `like`: null, or an earlier version for the same robot, group and reference.

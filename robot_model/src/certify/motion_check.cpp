@@ -2,8 +2,11 @@
 #include "certify/motion_check.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include "certify/exact_tier.hpp"
 #include "certify/nearest_points.hpp"
@@ -11,6 +14,7 @@
 #include "certify/waypoint_segments.hpp"
 #include "certify/work_limits.hpp"
 #include "constraints/constraint_proof.hpp"
+#include "simd/kernels/constraint_lanes.hpp"
 #include "simd/kernels/simd_motion.hpp"
 #include "simd/search/simd_search.hpp"
 
@@ -19,17 +23,16 @@ namespace swept::detail {
 namespace {
 
 /// The certificate of what is open in the workspace's ProofWork, of one part. Both queries take the
-/// same steps until the first contact; see ConfirmedContacts. `spent`: effort of earlier parts,
-/// which counts against the limits.
-MotionCertificate proveOpen(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
-                            const Effort& spent, WorkspaceData& workspace) {
+/// same steps until the first contact; see ConfirmedContacts. `motion`: in single precision, of the
+/// path. `spent`: effort of earlier parts, which counts against the limits.
+MotionCertificate proveOpen(const CheckerModel& model, const JointPath& path, SimdMotion& motion,
+                            MotionQuery wanted, const Effort& spent, WorkspaceData& workspace) {
   MotionCertificate certificate;
   Effort& effort = certificate.effort;
   effort = spent;
   ConfirmedContacts contacts(wanted);
   PairQuery query(model, workspace);
   PairOracle oracle(model, path, query, contacts, effort);
-  SimdMotion motion(model.simd, model.kinematics, path, workspace.motion, workspace.simd);
   SimdTier simd(motion, oracle, contacts, subIntervalsLeft(model, effort), workspace.simd, effort);
   ExactTier exact(model, query, oracle, contacts, workspace, effort);
 
@@ -57,10 +60,10 @@ MotionCertificate proveOpen(const CheckerModel& model, const JointPath& path, Mo
 }
 
 /// All pairs, on all of the part.
-MotionCertificate provePart(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
-                            const Effort& spent, WorkspaceData& workspace) {
+MotionCertificate provePart(const CheckerModel& model, const JointPath& path, SimdMotion& motion,
+                            MotionQuery wanted, const Effort& spent, WorkspaceData& workspace) {
   workspace.work.begin();
-  return proveOpen(model, path, wanted, spent, workspace);
+  return proveOpen(model, path, motion, wanted, spent, workspace);
 }
 
 /// Adds a part's certificate to that of the parts before it. Its effort includes theirs.
@@ -79,13 +82,21 @@ void addPart(const WaypointSegment& part, MotionCertificate&& own, MotionCertifi
   }
 }
 
-MotionCertificate certifyPairs(const CheckerModel& model, const JointPath& path, MotionQuery wanted,
-                               WorkspaceData& workspace) {
-  if (model.world->obstacles().empty()) return provePart(model, path, wanted, {}, workspace);
+SimdMotion motionOf(const CheckerModel& model, const JointPath& path, WorkspaceData& workspace) {
+  return {model.simd, model.kinematics, path, workspace.motion, workspace.simd};
+}
+
+/// `motion`: in single precision, of the path.
+MotionCertificate certifyPairs(const CheckerModel& model, const JointPath& path, SimdMotion& motion,
+                               MotionQuery wanted, WorkspaceData& workspace) {
+  if (model.world->obstacles().empty())
+    return provePart(model, path, motion, wanted, {}, workspace);
   MotionCertificate certificate;
   certificate.verdict = Verdict::Free;
   WaypointSegments(model, path, workspace).forEach([&](const WaypointSegment& part) {
-    addPart(part, provePart(model, part.path, wanted, certificate.effort, workspace), certificate);
+    SimdMotion own = motionOf(model, part.path, workspace);
+    addPart(part, provePart(model, part.path, own, wanted, certificate.effort, workspace),
+            certificate);
     const bool settled = certificate.verdict == Verdict::Free;
     if (!settled && !workLeft(model, certificate.effort)) return false;
     return certificate.verdict != Verdict::Collision;
@@ -93,6 +104,28 @@ MotionCertificate certifyPairs(const CheckerModel& model, const JointPath& path,
   if (wanted == MotionQuery::VerdictOnly && certificate.verdict != Verdict::Free)
     certificate.freeUntil = 0.0;
   return certificate;
+}
+
+/// Constraints in the eighths of a motion first, where the pairs need them anyway; then exactly,
+/// where they are not known to hold.
+ConstraintProof certifyConstraints(const CheckerModel& model, const JointPath& path,
+                                   SimdMotion& motion, MotionQuery wanted,
+                                   WorkspaceData& workspace) {
+  ConstraintQuestion question = constraintsOf(model, workspace);
+  std::vector<std::uint8_t>& kept = workspace.constraints.kept;
+  const std::size_t count = model.laneConstraints.constraints.size();
+  if (count == 0 || model.options.maxIntervals < kLanes || !motion.compile())
+    return proveConstraints(question, path, wanted);
+  motion.placeEighths();
+  motion.setMoving();
+  kept.resize(count);
+  findKeptLanes(model.laneConstraints, model.simd, motion.extent(), workspace.simd, kept);
+  if (std::ranges::all_of(kept, [](std::uint8_t lanes) { return lanes == kAllLanes; }))
+    return {.intervals = kLanes};
+  question.kept = kept;
+  ConstraintProof proof = proveConstraints(question, path, wanted);
+  proof.intervals += kLanes;
+  return proof;
 }
 
 /// Adds what is known about the constraints to what is known about the pairs.
@@ -123,21 +156,22 @@ MotionCertificate together(const ConstraintProof& task, MotionQuery wanted,
 
 MotionCertificate certifyMotion(const CheckerModel& model, const JointPath& path,
                                 MotionQuery wanted, WorkspaceData& workspace) {
-  if (model.constraints.empty()) return certifyPairs(model, path, wanted, workspace);
+  SimdMotion motion = motionOf(model, path, workspace);
+  if (model.constraints.empty()) return certifyPairs(model, path, motion, wanted, workspace);
   // First, for they take less time than pairs do.
-  const ConstraintProof task = proveConstraints(constraintsOf(model, workspace), path, wanted);
+  const ConstraintProof task = certifyConstraints(model, path, motion, wanted, workspace);
   if (task.verdict == Verdict::Violation && wanted == MotionQuery::VerdictOnly)
     return together(task, wanted, {});
-  return together(task, wanted, certifyPairs(model, path, wanted, workspace));
+  return together(task, wanted, certifyPairs(model, path, motion, wanted, workspace));
 }
 
 Verdict certifyOpen(const CheckerModel& model, std::span<const double> from,
                     std::span<const double> to, WorkspaceData& workspace) {
   workspace.work.everything = false;
   workspace.work.provenUntil = 0.0;
-  return proveOpen(model, StraightPath(model.kinematics, from, to), MotionQuery::VerdictOnly, {},
-                   workspace)
-      .verdict;
+  const StraightPath path(model.kinematics, from, to);
+  SimdMotion motion = motionOf(model, path, workspace);
+  return proveOpen(model, path, motion, MotionQuery::VerdictOnly, {}, workspace).verdict;
 }
 
 MotionCertificate certifyMotion(const CheckerModel& model, std::span<const double> from,

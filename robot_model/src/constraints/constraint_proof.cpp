@@ -58,6 +58,7 @@ constexpr double kLeastTolerance = 1e-6;  // rad or m
 constexpr double kShareOfOwn = 0.1;
 /// So many intervals are left open before a search ends.
 constexpr int kMostOpen = 8;
+constexpr double kEighths = 8.0;
 
 /// Of the coordinates: changes of frames, and what conditions make of them, 24 kDouble.
 constexpr double kSeenRoundings = 32.0 * kDouble;
@@ -672,7 +673,10 @@ class ConstraintSearch {
       if (open == 0) continue;
       if (stops) {
         leaveOpen(interval.begin);
-        if (++left_ == kMostOpen) break;
+        // Eighths and more may be parts of one that would be left as a whole.
+        const bool whole = interval.end - interval.begin >= 1.0 / kEighths;
+        left_ += whole && !asked_.kept.empty() ? 0 : 1;
+        if (left_ == kMostOpen) break;
         continue;
       }
       if (!proof_.violation || middle < proof_.violation->t)
@@ -690,10 +694,25 @@ class ConstraintSearch {
  private:
   /// Which of the constraints are not proven to hold.
   std::uint64_t examine(double t, double half, std::uint64_t asked, bool& stops) {
+    const std::uint64_t kept = asked & keptIn(t - half, t + half);
+    if (kept == asked) return 0;
+    // Where lanes fail, so does a look at more than an eighth nearly always. It would show no
+    // violation either, if the constraints are known to hold on one side of the middle.
+    if (half > 0.5 / kEighths && ((asked & ~kept) & ~keptBeside(t)) == 0) return asked;
     query_.moveTo(t, half);
     ++proof_.intervals;
-    std::uint64_t open = 0;
     bool allStop = true;
+    std::uint64_t open = look(t, asked & ~kept, allStop);
+    // What is known to hold divides an interval as if it were not: so the intervals are the same,
+    // and no constraint is left open that would be decided in a shorter one.
+    if (open != 0 && allStop) look(t, kept, allStop);
+    if (open != 0) open |= kept;
+    stops = stops || allStop;
+    return open;
+  }
+
+  std::uint64_t look(double t, std::uint64_t asked, bool& allStop) {
+    std::uint64_t open = 0;
     for (std::uint64_t rest = asked; rest != 0; rest &= rest - 1) {
       const int i = std::countr_zero(rest);
       const CompiledConstraint& constraint =
@@ -706,8 +725,25 @@ class ConstraintSearch {
       open |= std::uint64_t{1} << i;
       allStop = allStop && found.stops;
     }
-    stops = stops || allStop;
     return open;
+  }
+
+  /// The constraints that are known to hold in all of an interval, whose ends are those of halving.
+  std::uint64_t keptIn(double begin, double end) const {
+    if (asked_.kept.empty()) return 0;
+    const int first = std::min(static_cast<int>(kEighths * begin), 7);
+    const int last = std::max(first, static_cast<int>(std::ceil(kEighths * end)) - 1);
+    const unsigned eighths = (2U << last) - (1U << first);
+    std::uint64_t kept = 0;
+    for (std::size_t i = 0; i < asked_.kept.size(); ++i)
+      if ((asked_.kept[i] & eighths) == eighths) kept |= std::uint64_t{1} << i;
+    return kept;
+  }
+
+  /// The constraints that are known to hold in the eighth that ends at t, or in that which begins
+  /// there.
+  std::uint64_t keptBeside(double t) const {
+    return keptIn(t - 1.0 / kEighths, t) | keptIn(t, t + 1.0 / kEighths);
   }
 
   /// Intervals come in order, so the first call has the least.

@@ -43,6 +43,7 @@ struct ConstraintScratch {
     std::uint64_t open;  ///< a bit for each constraint
   };
   std::vector<Interval> stack;
+  std::vector<std::uint8_t> kept;  ///< see ConstraintQuestion::kept
 };
 
 /// What is known about the constraints over a path, t in [0, 1].
@@ -62,6 +63,9 @@ struct ConstraintQuestion {
   std::span<const JointTolerance> tube;  ///< per body; empty: none
   double tolerance = 0.0;                ///< m, CheckerOptions::tolerance
   int maxIntervals = 0;
+  /// Per constraint, a bit for each eighth of the path in which it is known to hold; empty: nothing
+  /// is known.
+  std::span<const std::uint8_t> kept = {};
   ///@{
   /// Room, whose content does not matter.
   ConstraintScratch& scratch;

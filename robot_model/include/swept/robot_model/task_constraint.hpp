@@ -125,7 +125,8 @@ struct TaskConstraint {
 
 /// A constraint does not hold at an instant, proven with all rounding.
 struct ConstraintViolation {
-  enum class Kind : std::uint8_t { Joint, Position, Orientation, Axis };  ///< lists of TaskConstraint
+  /// Lists of TaskConstraint.
+  enum class Kind : std::uint8_t { Joint, Position, Orientation, Axis };
   double t = 0.0;           ///< in [0, 1]; 0 for a state
   Kind kind = Kind::Joint;  ///< in which list of TaskConstraint the constraint is
   std::size_t index = 0;    ///< into that list

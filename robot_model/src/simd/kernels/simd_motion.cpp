@@ -186,7 +186,7 @@ void widen(const SimdJointMotion& other, SimdJointMotion& motion) {
 
 }  // namespace
 
-bool SimdMotion::compile() {
+bool SimdMotion::compileAll() {
   Extent extent;
   const StraightPath* const straight = path_.asStraight();
   scratch_.curved = scratch_.block.given = straight == nullptr;
@@ -197,7 +197,20 @@ bool SimdMotion::compile() {
   if (!added) return false;
   // Lanes of a curve have bounds of their own.
   if (scratch_.curved) bound();
+  extent_ = extent.motion;
   return setRounding(model_, extent, scratch_);
+}
+
+void SimdMotion::placeEighths() {
+  if (placed_) return;
+  placed_ = true;
+  SimdBlock& block = scratch_.block;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    block.time.lane[lane] = (2.0F * static_cast<float>(lane) + 1.0F) / (2.0F * kLanes);
+    block.half.lane[lane] = 1.0F / (2.0F * kLanes);
+  }
+  if (scratch_.curved) linearizeLanes();
+  placeFrames(model_, scratch_.motion, model_.allBodies, block);
 }
 
 void SimdMotion::bound() {

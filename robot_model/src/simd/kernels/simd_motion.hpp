@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kinematics/joint_path.hpp"
+#include "rounding/error_model.hpp"
 #include "simd/compile/simd_model.hpp"
 #include "simd/kernels/simd_kinematics.hpp"
 #include "simd/kernels/simd_scratch.hpp"
@@ -21,13 +22,16 @@ class SimdMotion {
       : model_(model), kinematics_(kinematics), path_(path), joints_(joints), scratch_(scratch) {}
 
   /// The whole motion, with the bound on its error. False: the path gives no bounds (see
-  /// JointPath::linearize), or it turns so far that single precision is not enough.
-  bool compile();
+  /// JointPath::linearize), or it turns so far that single precision is not enough. Later calls
+  /// give the same answer.
+  bool compile() {
+    if (!asked_) compiled_ = compileAll();
+    asked_ = true;
+    return compiled_;
+  }
 
-  /// Frames alone of all bodies, at the sub-intervals of the scratch's block: enough to find a
-  /// contact. What a proof needs besides is added by setMoving().
-  void placeFrames() { placeFrames(model_.allBodies); }
-  /// The same of some bodies, whose ancestors must be among them.
+  /// Frames alone of some bodies, whose ancestors must be among them, at the sub-intervals of the
+  /// scratch's block: enough to find a contact.
   void placeFrames(std::span<const int> bodies) {
     if (scratch_.curved) linearizeLanes();
     detail::placeFrames(model_, scratch_.motion, bodies, scratch_.block);
@@ -37,8 +41,14 @@ class SimdMotion {
     placeVelocities(model_, scratch_.motion, bodies, scratch_.block);
   }
 
-  /// Velocities, and bound().
+  /// Frames alone of all bodies, at the middles of eight equal sub-intervals. Called again before
+  /// place(), it does nothing.
+  void placeEighths();
+
+  /// Velocities, and bound(). Called again before place(), it does nothing.
   void setMoving() {
+    if (moving_) return;
+    moving_ = true;
     placeVelocities(model_, scratch_.motion, model_.allBodies, scratch_.block);
     if (!scratch_.curved) bound();
   }
@@ -64,7 +74,11 @@ class SimdMotion {
   /// m per unit t squared, bounds that of all ball centres during the motion; after setMoving().
   float acceleration() const { return acceleration_; }
 
+  /// What its rounding depends on, but for the reach; after compile().
+  const MotionExtent& extent() const { return extent_; }
+
  private:
+  bool compileAll();
   void linearizeLanes();
   SimdJointMotion localMotion(std::size_t body) const;
 
@@ -73,7 +87,10 @@ class SimdMotion {
   const JointPath& path_;
   std::span<JointMotion> joints_;
   SimdScratch& scratch_;
+  MotionExtent extent_;
   float acceleration_ = 0.0F;
+  bool asked_ = false, compiled_ = false;  ///< by compile()
+  bool placed_ = false, moving_ = false;   ///< the eighths
 };
 
 /// A single state, without bounds on accelerations. False: a value is not finite, outside its

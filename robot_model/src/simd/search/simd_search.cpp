@@ -133,18 +133,11 @@ class MotionSearch {
 
   /// Examines all pairs on eight sub-intervals.
   bool first() {
-    SimdBlock& block = scratch_.block;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      block.time.lane[lane] = (2.0F * static_cast<float>(lane) + 1.0F) / (2.0F * kLanes);
-      block.half.lane[lane] = 1.0F / (2.0F * kLanes);
-    }
     search_.examined += kLanes;
-    search_.motion.placeFrames();
-    bool moving = false;
+    search_.motion.placeEighths();
     return walk([&] {
-      if (block.stopAtContact && lookAtWorld(model_, scratch_)) return true;
-      if (!moving) search_.motion.setMoving();
-      moving = true;
+      if (scratch_.block.stopAtContact && lookAtWorld(model_, scratch_)) return true;
+      search_.motion.setMoving();
       if (walkWorld(model_, scratch_)) return true;
       search_.motion.boundLinks();
       return walkSelf(model_, scratch_);
