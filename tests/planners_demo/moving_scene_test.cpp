@@ -8,6 +8,7 @@
 
 #include "gantry.hpp"
 #include "page_data.hpp"
+#include "printed_text.hpp"
 
 namespace swept::test {
 namespace {
@@ -101,6 +102,31 @@ TEST_F(MovingScene, ARobotIsPlannedBesideIt) {
   const Outcome schedule = runSwept(words);
   EXPECT_EQ(schedule.exitCode, 0) << schedule.out << schedule.err;
   EXPECT_THAT(schedule.out, HasSubstr("schedule: free\n"));
+}
+
+TEST_F(MovingScene, ATrajectoryBesideItHasAProof) {
+  const std::string file = csv("time,slide,lift\n0,0,0\n1,1,0\n2,0,0\n");
+  const std::string proof = gantry_.folder().path() + "/proof.json";
+  const Outcome written = run("trajectory", {file, "--clock", "3.1", "-o", proof});
+  EXPECT_EQ(written.exitCode, 0) << written.err << written.out;
+  EXPECT_THAT(written.out, HasSubstr("written to " + proof));
+  const Outcome verified = runSwept({"verify", proof});
+  EXPECT_EQ(verified.exitCode, 0) << verified.err << verified.out;
+  EXPECT_THAT(verified.out, HasSubstr("verified: trajectory of 2 s, 2 pieces"));
+  EXPECT_THAT(verified.out, HasSubstr("beside what moves, from 3.1 to 5.1 s of its clock: cart\n"));
+  const auto json = jsonOf(runSwept({"verify", proof, "--json"}));
+  EXPECT_EQ(json["moving"][0], "cart");
+  EXPECT_EQ(json["clock"][0], 3.1);
+  // When the cart starts elsewhere, it is another world.
+  gantry_.folder().write("cart.yaml", replaced(kScene, "[1, -2, 0]", "[1, -2.5, 0]"));
+  const Outcome moved = runSwept({"verify", proof});
+  EXPECT_EQ(moved.exitCode, 1) << moved.err;
+  EXPECT_EQ(moved.out, "refused: body cart: is not as it was when the path was certified\n");
+  // What collides has none.
+  gantry_.folder().write("cart.yaml", kScene);
+  const Outcome met = run("trajectory", {file, "--clock", "2", "-o", proof});
+  EXPECT_EQ(met.exitCode, 1);
+  EXPECT_THAT(met.out, HasSubstr("not written to " + proof + ": it is not free"));
 }
 
 TEST_F(MovingScene, RulesMayNameIt) {

@@ -190,7 +190,7 @@ class TrajectoryRun {
   std::string writeProven(const JointTrajectory& trajectory, const TrajectoryCertificate& found) {
     PathProof proof;
     if (file_->holdsProof()) {
-      proof = proofOf(*checker_, trajectory, found);
+      proof = proofOf(*checker_, trajectory, found, query_.clock);
       if (!proof.certificate.missing.empty())
         return "none was found for " + proof.certificate.missing;
     }
@@ -199,7 +199,8 @@ class TrajectoryRun {
                   .segments = proof.path.segments,
                   .inputs = inputsOf(trajectory),
                   .warnings = warnings_.unchecked(),
-                  .trajectory = &trajectory},
+                  .trajectory = &trajectory,
+                  .clock = query_.clock},
                  proof.certificate, args_.embed);
     return {};
   }
