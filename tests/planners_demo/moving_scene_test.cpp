@@ -144,7 +144,9 @@ TEST_F(MovingScene, CommandsWithoutAClockRefuseIt) {
   if (programHasPages()) {
     EXPECT_EQ(run("view", {}).err, moves + "view" + clocks);
     EXPECT_EQ(run("check", {"1,0", "--time", "3", "--html", "p.html"}).err,
-              kError + "--html: object 'cart' of the scene moves, which pages do not show\n");
+              kError +
+                  "--html: object 'cart' of the scene moves, which only the pages of swept "
+                  "trajectory and schedule show\n");
   }
 }
 

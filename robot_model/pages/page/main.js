@@ -115,6 +115,7 @@
     if (state.values || data.isTimed)
       swept.scene.poseLinks(swept.kinematics.poses(state.values || swept.kinematics.valuesAt(state.time)));
     else swept.scene.pose(at.frame);
+    if (data.moving.length > 0 && data.isTimed) swept.scene.poseMoving(data.clockAt(state.time));
     // Contacts are of what was checked.
     const entry = state.values ? null : (data.isPath ? data.motions : data.states)[at.index];
     if (entry !== showMoment.entry) swept.overlays.showContacts(entry ? entry.contacts : []);
